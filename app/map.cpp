@@ -1,0 +1,10 @@
+#include "app/commands.hpp"
+
+namespace sweepscope::app {
+
+void add_map(CLI::App& app, ExitCode& exit_code) {
+  (void)app;
+  (void)exit_code;
+}
+
+}  // namespace sweepscope::app

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+#include <tl/expected.hpp>
+#include <utility>
+
+namespace sweepscope {
+
+/// The program's exit codes.
+enum class ExitCode : int {
+  kDone = 0,
+  kWrongUsage = 2,
+  kUnreadableInput = 3,
+  kNotIdentifiable = 4,
+  kImageDiffers = 5,
+  kInterrupted = 130,
+};
+
+/// An expected failure: what the program exits with, and one sentence for a person that names the file and the
+/// place in it. Programming errors are exceptions instead.
+struct Error {
+  ExitCode code = ExitCode::kUnreadableInput;
+  std::string message;
+};
+
+/// A value, or the reason why there is none.
+template <typename T>
+using Result = tl::expected<T, Error>;
+
+inline tl::unexpected<Error> failure(ExitCode code, std::string message) {
+  return tl::unexpected<Error>(Error{code, std::move(message)});
+}
+
+inline tl::unexpected<Error> unreadable(std::string message) {
+  return failure(ExitCode::kUnreadableInput, std::move(message));
+}
+
+}  // namespace sweepscope

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <pcl/point_cloud.h>
+#include <pcl/register_point_struct.h>
+#include <pcl/point_types.h>
+
+#include <cstdint>
+
+namespace sweepscope {
+
+/// A point of a map: place in the map frame (m), the laser's intensity (0 where it has none), the beam's instant
+/// (laser clock, seconds since Recording::epoch_ns) and the number of the sweep that it belongs to. Neighbouring
+/// sweeps turn in opposite directions.
+struct EIGEN_ALIGN16 MapPoint {
+  PCL_ADD_POINT4D;
+  float intensity;
+  std::uint32_t sweep;
+  double time_s;
+};
+
+/// Points in the order of their time.
+using MapCloud = pcl::PointCloud<MapPoint>;
+
+}  // namespace sweepscope
+
+POINT_CLOUD_REGISTER_POINT_STRUCT(sweepscope::MapPoint,
+                                  (float, x, x)(float, y, y)(float, z, z)(float, intensity, intensity)(
+                                      std::uint32_t, sweep, sweep)(double, time_s, time_s))

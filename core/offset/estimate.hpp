@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sweepscope {
+
+/// What was computed at one candidate offset. A value is absent where the method has no such criterion or where
+/// the registration failed; a candidate that failed never wins.
+struct CurvePoint {
+  double offset_s = 0;
+  std::optional<double> d;                     // equation 3, mean over the pairs of sweeps
+  std::optional<double> translation_m;         // equation 1, likewise
+  std::optional<double> rotation_rad;          // equation 2, likewise
+  std::optional<double> signed_rotation_rad;   // about the motor's axis, alternating in sign; 0 at the offset
+  std::optional<double> n;                     // equation 6, matches
+  std::optional<double> e_m;                   // equation 7, mean distance per match
+};
+
+/// Where one criterion has its extremum, and its value there.
+struct CriterionOptimum {
+  std::string name;  // "d", "n" or "e"
+  double offset_s = 0;
+  double value = 0;
+};
+
+/// The answer to "what is the offset?", with its evidence. t_motor = t_laser + offset.
+struct Estimate {
+  std::string recording;
+  std::string method;  // "stationary" or "moving"
+  bool identifiable = false;
+  std::optional<double> offset_s;
+  std::optional<double> sigma_s;
+  std::vector<std::string> warnings;
+  std::vector<std::string> reasons;  // why it is not identifiable, whole sentences
+  std::vector<CriterionOptimum> criteria;
+  std::vector<CurvePoint> curve;  // offsets ascend
+  std::size_t sweeps = 0;
+  std::size_t scans = 0;
+  double cpu_s = 0;
+  double wall_s = 0;
+};
+
+}  // namespace sweepscope

@@ -1,0 +1,55 @@
+#include "core/recording/recording.hpp"
+
+#include <algorithm>
+
+namespace sweepscope {
+
+double MotorTrack::angle_at(double t_s) const {
+  const auto upper = std::upper_bound(time_s.begin(), time_s.end(), t_s);
+  const std::size_t i = std::clamp<std::ptrdiff_t>(upper - time_s.begin(), 1, std::ssize(time_s) - 1);
+  const double u = (t_s - time_s[i - 1]) / (time_s[i] - time_s[i - 1]);
+  return angle_rad[i - 1] + u * (angle_rad[i] - angle_rad[i - 1]);
+}
+
+bool MotorTrack::covers(double from_s, double to_s, double max_gap_s) const {
+  if (time_s.size() < 2 || from_s < time_s.front() || to_s > time_s.back()) return false;
+  auto sample = std::upper_bound(time_s.begin(), time_s.end(), from_s);
+  for (; sample != time_s.end(); ++sample) {
+    if (*sample - *(sample - 1) > max_gap_s) return false;
+    if (*sample >= to_s) break;
+  }
+  return true;
+}
+
+Recording window(const Recording& recording, double from_s, double to_s) {
+  Recording part;
+  part.name = recording.name;
+  part.epoch_ns = recording.epoch_ns;
+  part.rig = recording.rig;
+  part.report = recording.report;
+  if (recording.scans.empty()) return part;
+  const double start_s = recording.scans.front().first_beam_s;
+  for (LaserScan scan : recording.scans) {
+    const double since_s = scan.first_beam_s - start_s;
+    if (since_s < from_s || since_s > to_s) continue;
+    const std::size_t source = scan.first_range;
+    scan.first_range = part.ranges_m.size();
+    const auto copy = [&](const std::vector<float>& from, std::vector<float>& to) {
+      to.insert(to.end(), from.begin() + std::ptrdiff_t(source), from.begin() + std::ptrdiff_t(source + scan.beams));
+    };
+    copy(recording.ranges_m, part.ranges_m);
+    if (!recording.intensities.empty()) copy(recording.intensities, part.intensities);
+    part.scans.push_back(scan);
+  }
+  if (part.scans.empty()) return part;
+  constexpr double kMargin_s = 1.0;
+  for (std::size_t i = 0; i < recording.motor.time_s.size(); ++i) {
+    const double t_s = recording.motor.time_s[i];
+    if (t_s < part.scans.front().first_beam_s - kMargin_s || t_s > part.scans.back().last_beam_s() + kMargin_s) continue;
+    part.motor.time_s.push_back(t_s);
+    part.motor.angle_rad.push_back(recording.motor.angle_rad[i]);
+  }
+  return part;
+}
+
+}  // namespace sweepscope

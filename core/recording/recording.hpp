@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/recording/rig.hpp"
+
+namespace sweepscope {
+
+/// One scan line of the laser. Beam i was fired at `first_beam_s + i * time_increment_s`, in the direction
+/// `angle_min_rad + i * angle_increment_rad` about the laser's z axis, 0 along its x axis.
+struct LaserScan {
+  double first_beam_s = 0;      // laser clock, seconds since Recording::epoch_ns
+  double time_increment_s = 0;  // > 0
+  double angle_min_rad = 0;
+  double angle_increment_rad = 0;
+  std::size_t first_range = 0;  // index of beam 0 in Recording::ranges_m
+  std::uint32_t beams = 0;
+
+  double beam_s(double beam) const { return first_beam_s + beam * time_increment_s; }
+  double beam_angle_rad(double beam) const { return angle_min_rad + beam * angle_increment_rad; }
+  double last_beam_s() const { return beam_s(beams - 1.0); }
+};
+
+/// The motor's angle over its own clock, linear between samples. Times ascend strictly.
+struct MotorTrack {
+  std::vector<double> time_s;  // motor clock, seconds since Recording::epoch_ns
+  std::vector<double> angle_rad;
+
+  /// The angle at a time, which must lie within [time_s.front(), time_s.back()].
+  double angle_at(double t_s) const;
+  /// True where both ends lie inside the track and no gap between neighbouring samples inside is longer
+  /// than max_gap_s.
+  bool covers(double from_s, double to_s, double max_gap_s) const;
+};
+
+/// What reading met and what it did about it.
+struct ReadReport {
+  std::size_t nan_ranges = 0, infinite_ranges = 0, zero_ranges = 0, out_of_range_ranges = 0;
+  std::size_t scans_out_of_order = 0, scans_doubled = 0, scan_gaps = 0, scans_dropped = 0;
+  std::size_t motor_out_of_order = 0, motor_doubled = 0, motor_gaps = 0;
+  std::size_t scans_without_motor = 0;  // scans that the motor track does not cover at offset 0
+  double longest_scan_gap_s = 0, longest_motor_gap_s = 0;
+  std::vector<std::string> warnings;  // whole sentences for a person
+};
+
+/// An actuated scanner's recording: scans ascending in time, ranges in one flat array, NaN where a beam
+/// returned nothing usable, and the motor's track. Offsets are defined by t_motor = t_laser + offset.
+struct Recording {
+  std::string name;           // of the file without its folder, or of the simulated scene
+  std::int64_t epoch_ns = 0;  // what all times are relative to, ns since 1970 (or of the source's own clock)
+  Rig rig;                    // as read and completed by what was detected
+  std::vector<LaserScan> scans;
+  std::vector<float> ranges_m;     // of all scans, one after the other
+  std::vector<float> intensities;  // like ranges_m, or empty
+  MotorTrack motor;
+  ReadReport report;
+
+  std::span<const float> ranges(const LaserScan& scan) const {
+    return {ranges_m.data() + scan.first_range, scan.beams};
+  }
+};
+
+/// The scans with first beams in [from_s, to_s] after the first scan's, and the motor samples from 1 s before to
+/// 1 s after them.
+Recording window(const Recording& recording, double from_s, double to_s);
+
+}  // namespace sweepscope

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "core/error.hpp"
+
+namespace sweepscope {
+
+enum class StampSource { kHeader, kReceive };
+/// Which instant of a scan its stamp names.
+enum class StampAt { kFirstBeam, kLastBeam, kArrival };
+
+/// What a recording was made with: the rig file. Members that are empty are detected in the recording.
+struct Rig {
+  struct Laser {
+    std::optional<std::string> topic;
+    std::optional<StampSource> stamp;
+    StampAt stamp_at = StampAt::kFirstBeam;
+    std::optional<double> time_increment_s;  // where the recording says 0
+  };
+  struct Motor {
+    std::optional<std::string> topic;
+    std::optional<std::string> joint;
+    std::optional<StampSource> stamp;
+    double scale = 1.0;  // angle_rad = scale * raw - zero_deg * pi / 180
+    double zero_deg = 0.0;
+  };
+  struct Mount {
+    Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  // the motor's axis in the base frame, unit length
+    // The laser's pose in the frame that turns with the motor: p_in_motor = R(rpy) * p_in_laser + xyz,
+    // R = Rz(yaw) Ry(pitch) Rx(roll).
+    Eigen::Vector3d laser_in_motor_xyz_m = Eigen::Vector3d::Zero();
+    Eigen::Vector3d laser_in_motor_rpy_deg = Eigen::Vector3d::Zero();
+  };
+  Laser laser;
+  Motor motor;
+  Mount mount;
+};
+
+/// Reads a rig file (YAML; see assets/rigs). Unknown keys and impossible values are refused with line and column.
+Result<Rig> read_rig(const std::filesystem::path& path);
+
+}  // namespace sweepscope
