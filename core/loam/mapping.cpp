@@ -178,12 +178,13 @@ Vector6d difference(const Pose& to, const Pose& from) {  // in the map frame
 
 class Tracker {
  public:
-  Tracker(const MappingOptions& options, const Vector6d& first_twist_per_s)
-      : options_(options), first_twist_per_s_(first_twist_per_s) {}
+  Tracker(const MappingOptions& options, const Eigen::Vector3d& motor_axis, const Vector6d& first_twist_per_s)
+      : options_(options), motor_axis_(motor_axis), first_twist_per_s_(first_twist_per_s) {}
 
   void add(const PlacedSweep& sweep) {
     SweepPose pose = predict(sweep);
     if (!walk_.sweeps.empty()) solve(sweep, pose);
+    if (!walk_.sweeps.empty()) learn_jump(pose);
     maps_.insert(sweep, pose);
     walk_.sweeps.push_back(pose);
   }
@@ -204,16 +205,25 @@ class Tracker {
     }
     const SweepPose& last = walk_.sweeps.back();
     const double ratio = duration_s / (last.end_s - last.begin_s);
-    pose.begin = last.end;
-    if (walk_.sweeps.size() >= 2) {
-      // A wrong offset makes the pose jump at every reversal, to and fro.
-      const SweepPose& earlier = walk_.sweeps[walk_.sweeps.size() - 2];
-      const Eigen::Quaterniond jump = earlier.end.rotation.conjugate() * last.begin.rotation;
-      pose.begin.rotation = (pose.begin.rotation * jump.conjugate()).normalized();
-    }
+    pose.begin = joined_to(last, pose.direction);
     const Pose gone = last.begin.inverse() * last.end;
     pose.end = pose.begin * interpolate(Pose{}, gone, ratio);
     return pose;
+  }
+
+  // Where a sweep is expected to begin. A wrong offset makes the pose jump at every reversal, to and fro about the
+  // motor's axis; by how much is learned on the way.
+  Pose joined_to(const SweepPose& last, int direction) const {
+    Pose begin = last.end;
+    begin.rotation = (begin.rotation * rotation_from_vector(direction * jump_rad_ * motor_axis_)).normalized();
+    return begin;
+  }
+
+  void learn_jump(const SweepPose& pose) {
+    const Eigen::Quaterniond jump = walk_.sweeps.back().end.rotation.conjugate() * pose.begin.rotation;
+    const double jump_rad = pose.direction * motor_axis_.dot(vector_from_rotation(jump));
+    ++jumps_;
+    jump_rad_ += std::max(options_.jump_gain, 1.0 / jumps_) * (jump_rad - jump_rad_);
   }
 
   void solve(const PlacedSweep& sweep, SweepPose& pose) {
@@ -241,8 +251,8 @@ class Tracker {
     Vector12d g = equations.gradient();
     Tie joint;
     joint.moves(0, pose.begin, pivot_m, 1);
-    joint.residual = difference(pose.begin, last.end);
-    joint.add_to(a, g, options_.tie_sigma);
+    joint.residual = difference(pose.begin, joined_to(last, pose.direction));
+    joint.add_to(a, g, jumps_ < 4 ? options_.first_tie_sigma : options_.tie_sigma);
     Tie steady;
     steady.moves(1, pose.end, pivot_m, 1);
     steady.moves(0, pose.begin, pivot_m, -1);
@@ -253,19 +263,23 @@ class Tracker {
   }
 
   const MappingOptions& options_;
+  Eigen::Vector3d motor_axis_;
   Vector6d first_twist_per_s_;
+  double jump_rad_ = 0;
+  int jumps_ = 0;
   SweepMaps maps_;
   TrackedWalk walk_;
 };
 
 // The first sweep has no map to be matched to, so the velocity within it is guessed, tried and averaged: taken at its
 // word the new estimate would swing to and fro for ever.
-Vector6d find_first_twist_per_s(const std::vector<PlacedSweep>& sweeps, const MappingOptions& options) {
+Vector6d find_first_twist_per_s(const std::vector<PlacedSweep>& sweeps, const Eigen::Vector3d& motor_axis,
+                                const MappingOptions& options) {
   Vector6d twist_per_s = Vector6d::Zero();
   const std::size_t tried = std::min<std::size_t>(std::size_t(options.velocity_sweeps), sweeps.size());
   if (tried < 2) return twist_per_s;
   for (int round = 0; round < options.velocity_rounds; ++round) {
-    Tracker tracker(options, twist_per_s);
+    Tracker tracker(options, motor_axis, twist_per_s);
     for (std::size_t i = 0; i < tried; ++i) tracker.add(sweeps[i]);
     Vector6d found = Vector6d::Zero();
     for (std::size_t i = 1; i < tried; ++i) {
@@ -291,8 +305,9 @@ bool lost_track(const TrackedWalk& walk, const MappingOptions& options) {
 
 }  // namespace
 
-Result<TrackedWalk> track(const std::vector<PlacedSweep>& sweeps, const MappingOptions& options, const Job& job) {
-  Tracker tracker(options, find_first_twist_per_s(sweeps, options));
+Result<TrackedWalk> track(const std::vector<PlacedSweep>& sweeps, const Eigen::Vector3d& motor_axis,
+                          const MappingOptions& options, const Job& job) {
+  Tracker tracker(options, motor_axis, find_first_twist_per_s(sweeps, motor_axis, options));
   for (std::size_t i = 0; i < sweeps.size(); ++i) {
     if (job.cancelled()) return failure(ExitCode::kInterrupted, "Interrupted while tracking.");
     tracker.add(sweeps[i]);

@@ -17,8 +17,10 @@ struct MappingOptions {
   double search_radius_slope = 0.12;   // of the range
   double loss_width_m = 0.08;          // Cauchy
   double match_sigma_m = 0.02;         // of a match's distance, against the ties below
-  double tie_sigma = 0.03;             // rad and m: a sweep's begin to the previous sweep's end
-  double twist_change_sigma = 0.15;    // rad and m per sweep: how freely the motion changes
+  double tie_sigma = 0.03;             // rad and m: a sweep's begin to the previous sweep's end ...
+  double first_tie_sigma = 0.3;        // ... and at first, when the jump at a reversal is not known yet
+  double jump_gain = 0.05;             // of a new jump in the mean of all
+  double twist_change_sigma = 0.05;    // rad and m per sweep: how freely the motion changes
   int most_iterations = 6;
   double step_tolerance = 5e-4;        // m and rad
   double reuse_within_m = 0.03;        // a match is searched anew once its point moved by more
@@ -69,7 +71,8 @@ struct TrackedWalk {
 /// Tracks the sweeps on the map that they build (LOAM's odometry and mapping in one): each sweep has a pose at its
 /// begin and one at its end, tied softly to the previous sweep's end, since a wrong offset makes the sweeps seem to roll
 /// to and fro and strict continuity would lose track of it.
-Result<TrackedWalk> track(const std::vector<PlacedSweep>& sweeps, const MappingOptions& options, const Job& job);
+Result<TrackedWalk> track(const std::vector<PlacedSweep>& sweeps, const Eigen::Vector3d& motor_axis,
+                          const MappingOptions& options, const Job& job);
 
 /// The roll about the motor's axis that alternates from sweep to sweep, and the walk without it.
 struct AlternatingRoll {

@@ -8,7 +8,7 @@ namespace sweepscope {
 
 /// How two sweeps are registered. The search radius grows with range, since scan lines spread.
 struct OdometryOptions {
-  PatchOptions patch{.plane_neighbours = 9, .edge_neighbours = 6, .per_line = 3, .least_lines = 3};
+  PatchOptions patch{.plane_neighbours = 9, .edge_neighbours = 6, .per_line = 3, .least_lines = 3, .thickness_m = 0.02, .thickness_slope = 0.01};
   double search_radius_m = 0.5;
   double search_radius_slope = 0.25;  // of the range
   double loss_width_m = 0.1;          // Cauchy
