@@ -16,6 +16,15 @@ Vector3d on_circle(double radius_m, int corner, int sides, double z_m) {
   return {radius_m * turn.cos, radius_m * turn.sin, z_m};
 }
 
+/// What lies between two polygons of equally many corners, closed at both ends.
+Mesh tube(const std::vector<Vector3d>& begin, const std::vector<Vector3d>& end, double albedo) {
+  Mesh mesh;
+  mesh.add_polygon(begin, albedo).add_polygon(end, albedo);
+  for (std::size_t i = 0, j = begin.size() - 1; i < begin.size(); j = i++)
+    mesh.add_polygon(std::array{begin[j], begin[i], end[i], end[j]}, albedo);
+  return mesh;
+}
+
 /// An icosahedron's faces, once divided into four, on the unit sphere.
 struct Sphere {
   std::vector<Vector3d> corners;
@@ -92,17 +101,12 @@ Mesh box(const Vector3d& low, const Vector3d& high, double albedo) {
 }
 
 Mesh frustum(int sides, double bottom_m, double top_m, double height_m, double albedo) {
-  Mesh mesh;
   std::vector<Vector3d> below, above;
   for (int i = 0; i < sides; ++i) {
     below.push_back(on_circle(bottom_m, i, sides, 0));
     above.push_back(on_circle(top_m, i, sides, height_m));
   }
-  mesh.add_polygon(below, albedo);
-  if (top_m > 0) mesh.add_polygon(above, albedo);
-  for (std::size_t i = 0, j = below.size() - 1; i < below.size(); j = i++)
-    mesh.add_polygon(std::array{below[j], below[i], above[i], above[j]}, albedo);
-  return mesh;
+  return tube(below, above, albedo);
 }
 
 Mesh prism(int sides, double radius_m, double height_m, double albedo) {
@@ -114,13 +118,13 @@ Mesh rod(const Vector3d& from, const Vector3d& to, double radius_m, double albed
   const Vector3d side =
       along.cross(std::abs(along.z()) < 0.9 ? Vector3d::UnitZ() : Vector3d::UnitX()).normalized();
   const Vector3d up = along.cross(side);
-  Mesh mesh;
+  std::vector<Vector3d> begin, end;
   for (int i = 0; i < sides; ++i) {
-    const Vector3d u = on_circle(radius_m, i, sides, 0), v = on_circle(radius_m, i + 1, sides, 0);
-    const Vector3d p = u.x() * side + u.y() * up, q = v.x() * side + v.y() * up;
-    mesh.add_polygon(std::array<Vector3d, 4>{from + p, from + q, to + q, to + p}, albedo);
+    const Vector3d on_rim = on_circle(radius_m, i, sides, 0);
+    begin.emplace_back(from + on_rim.x() * side + on_rim.y() * up);
+    end.emplace_back(to + on_rim.x() * side + on_rim.y() * up);
   }
-  return mesh;
+  return tube(begin, end, albedo);
 }
 
 Mesh extrusion(std::span<const Vector2d> profile_xz, double depth_m, double albedo) {
@@ -129,11 +133,7 @@ Mesh extrusion(std::span<const Vector2d> profile_xz, double depth_m, double albe
     front.emplace_back(p.x(), 0, p.y());
     back.emplace_back(p.x(), depth_m, p.y());
   }
-  Mesh mesh;
-  mesh.add_polygon(front, albedo).add_polygon(back, albedo);
-  for (std::size_t i = 0, j = front.size() - 1; i < front.size(); j = i++)
-    mesh.add_polygon(std::array{front[j], front[i], back[i], back[j]}, albedo);
-  return mesh;
+  return tube(front, back, albedo);
 }
 
 Mesh boulder(const Vector3d& half_axes_m, double roughness, std::uint64_t seed, double albedo) {

@@ -12,6 +12,9 @@ const std::vector<std::pair<std::string, Maker>>& makers() {
   static const std::vector<std::pair<std::string, Maker>> all = [] {
     std::vector<std::pair<std::string, Maker>> list = {
         {"metro-station", metro_station},
+        {"parking-area", parking_area},
+        {"cemetery", cemetery},
+        {"lecture-room", lecture_room},
     };
     for (int position = 1; position <= 6; ++position)
       list.emplace_back("room-" + std::to_string(position), [position] { return room(position); });

@@ -24,6 +24,9 @@ const std::vector<std::string>& scene_names();
 std::optional<Scene> make_scene(std::string_view name);
 
 Scene metro_station();
+Scene parking_area();
+Scene cemetery();
+Scene lecture_room();
 /// `position` in [1, 6]: where in the one furnished room the rig stands.
 Scene room(int position);
 

@@ -83,17 +83,17 @@ void add_ceiling(Mesh& hall) {
 void add_furniture(Mesh& hall) {
   hall.add(prism(6, 0.65, kCeiling_m, 0.7));
   hall.add(frustum(6, 0.65, 0.95, 0.5, 0.7), {0, 0, kCeiling_m - 0.5, 0}).add(prism(6, 0.75, 0.25, 0.4));
-  for (const double x : {-13.2, 13.2})
-    for (const double y : {-4.9, 4.9})
+  for (const double x : {-13.6, 13.6})
+    for (const double y : {-6.4, 6.4})
       hall.add_box({x - 0.25, y - 0.25, 0}, {x + 0.25, y + 0.25, kCeiling_m}, 0.7);
-  hall.add(bench(), {-3.4, -7.3, 0, 0}).add(bench(), {5.5, 7.2, 0, 180}).add(bench(), {-7.5, 7.2, 0, 180});
-  hall.add(bench(), {2.4, -1.6, 0, 35}).add(frustum(10, 0.22, 0.28, 0.9, 0.4), {-2.6, 1.1, 0, 0});
+  hall.add(bench(), {-3.4, -7.5, 0, 0}).add(bench(), {5.5, 7.4, 0, 180}).add(bench(), {-7.5, 7.4, 0, 180});
+  hall.add(bench(), {0.2, -1.6, 0, 30}).add(frustum(10, 0.22, 0.28, 0.9, 0.4), {-1.8, 1.1, 0, 0});
   hall.add(hanging_sign(), {-6, 0, 0, 0}).add(hanging_sign(), {6, 0, 0, 0});
   // Ticket machines, a kiosk and a timetable's board.
-  hall.add_box({-13.0, 1.9, 0}, {-12.3, 2.7, 1.85}, 0.6).add_box({-13.0, -2.9, 0}, {-12.3, -2.1, 1.85}, 0.6);
-  hall.add_box({12.2, 2.2, 0}, {13.6, 4.4, 2.6}, 0.5).add_box({11.9, 2.0, 2.6}, {13.7, 4.6, 2.75}, 0.5);
-  for (const double y : {-3.9, -2.4}) hall.add(rod({12.6, y, 0}, {12.6, y, 2.1}, 0.035, 0.5));
-  hall.add_box({12.57, -3.9, 0.9}, {12.63, -2.4, 2.1}, 0.9);
+  for (const double y : {-3.2, 2.4}) hall.add_box({-14.3, y, 0}, {-13.6, y + 0.8, 1.85}, 0.6);
+  hall.add_box({14.2, 2.6, 0}, {15.6, 4.8, 2.6}, 0.5).add_box({13.9, 2.4, 2.6}, {15.7, 5.0, 2.75}, 0.5);
+  for (const double x : {7.9, 9.4}) hall.add(rod({x, -7.4, 0}, {x, -7.4, 2.1}, 0.035, 0.5));
+  hall.add_box({7.9, -7.43, 0.9}, {9.4, -7.37, 2.1}, 0.9);
 }
 
 }  // namespace
@@ -105,12 +105,13 @@ Scene metro_station() {
   add_furniture(scene.mesh);
   scene.mesh.add(flight(), {kStairFoot_m, -kStairWidth_m / 2, 0, 0});
   scene.mesh.add(flight(), {-kStairFoot_m, kStairWidth_m / 2, 0, 180});
-  // Twice around the pillar, with a look at either flight of stairs.
+  // Three times around the pillar, ever closer, with a look at either flight of stairs.
   WalkSpec walk;
-  walk.waypoints_m = {{-6, -5.2},  {0, -5.6},    {6, -5.2},     {10.6, -2.6}, {11.4, 0.6},  {9.6, 3.4},
-                      {5, 5.0},    {-0.5, 5.3},  {-6, 5.0},     {-10, 3.2},   {-11.6, 0.4}, {-9.6, -1.9},
-                      {-6, -3.4},  {-0.5, -3.9}, {4.2, -3.6},   {6.6, -0.6},  {4.6, 3.0},   {0.2, 4.0},
-                      {-4.2, 3.0}, {-7.0, 0.4},  {-10.8, -1.2}, {-11.2, -4.4}};
+  walk.waypoints_m = {{-6, -5.2},   {0, -5.6},    {6, -5.2},    {9.6, -2.8},  {10.3, 0.4},  {8.8, 3.4},
+                      {4.6, 5.0},   {-0.5, 5.3},  {-5.4, 5.0},  {-9, 3.2},    {-10.4, 0.4}, {-8.6, -1.9},
+                      {-5.4, -3.6}, {-0.5, -4.4}, {4.4, -3.9},  {6.4, -0.6},  {4.6, 3.2},   {0.2, 4.2},
+                      {-3.2, 2.6},  {-3.9, -0.6}, {-2.0, -3.0}, {1.6, -3.1},  {3.5, -0.8},  {2.9, 2.1},
+                      {0, 3.2},     {-3.8, 3.1},  {-7.0, 0.9},  {-9.8, -1.6}, {-9.6, -4.3}};
   walk.duration_s = 159;
   walk.length_m = 117;
   walk.top_speed_mps = 1.3;

@@ -116,7 +116,7 @@ Trajectory::Trajectory(const WalkSpec& spec, std::uint64_t seed) {
   SpeedProfile::Limits limits{spec.duration_s, spec.top_speed_mps, spec.top_angular_rate_radps};
   double scale = 1;
   walk_ = std::make_unique<Walk>(spec, limits, scale, seed);
-  for (int round = 0; round < 6;
+  for (int round = 0; round < 10;
        ++round) {  // swaying adds to all three; each is corrected by what was measured
     const WalkMeasure measured = simulation::measure([&](double t_s) { return at(t_s); }, 0, spec.duration_s);
     scale *= spec.length_m / measured.length_m;
