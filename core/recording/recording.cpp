@@ -35,7 +35,8 @@ Recording window(const Recording& recording, double from_s, double to_s) {
     const std::size_t source = scan.first_range;
     scan.first_range = part.ranges_m.size();
     const auto copy = [&](const std::vector<float>& from, std::vector<float>& to) {
-      to.insert(to.end(), from.begin() + std::ptrdiff_t(source), from.begin() + std::ptrdiff_t(source + scan.beams));
+      to.insert(to.end(), from.begin() + std::ptrdiff_t(source),
+                from.begin() + std::ptrdiff_t(source + scan.beams));
     };
     copy(recording.ranges_m, part.ranges_m);
     if (!recording.intensities.empty()) copy(recording.intensities, part.intensities);
@@ -45,7 +46,9 @@ Recording window(const Recording& recording, double from_s, double to_s) {
   constexpr double kMargin_s = 1.0;
   for (std::size_t i = 0; i < recording.motor.time_s.size(); ++i) {
     const double t_s = recording.motor.time_s[i];
-    if (t_s < part.scans.front().first_beam_s - kMargin_s || t_s > part.scans.back().last_beam_s() + kMargin_s) continue;
+    if (t_s < part.scans.front().first_beam_s - kMargin_s ||
+        t_s > part.scans.back().last_beam_s() + kMargin_s)
+      continue;
     part.motor.time_s.push_back(t_s);
     part.motor.angle_rad.push_back(recording.motor.angle_rad[i]);
   }

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -37,11 +38,33 @@ struct MotorTrack {
   bool covers(double from_s, double to_s, double max_gap_s) const;
 };
 
-/// What reading met and what it did about it.
+/// A topic of the recording's file, whether it was used or not.
+struct RecordedTopic {
+  std::string name;
+  std::string type;
+  std::size_t messages = 0;
+  std::size_t malformed = 0;  // of those, not decodable and skipped
+};
+
+/// The stamps of one stream, the laser's or the motor's.
+struct StreamStamps {
+  StampSource used = StampSource::kHeader;
+  double median_period_s = 0;
+  /// Receive minus header stamps, where both were recorded: the median, and a robust standard deviation about
+  /// it.
+  std::optional<double> receive_minus_header_s, receive_jitter_s;
+};
+
+/// What reading met and what it did about it. A gap is a spacing of more than 1.5 (scans) or 3 (motor
+/// samples) times the median one.
 struct ReadReport {
+  std::vector<RecordedTopic> topics;
+  StreamStamps laser_stamps, motor_stamps;
   std::size_t nan_ranges = 0, infinite_ranges = 0, zero_ranges = 0, out_of_range_ranges = 0;
   std::size_t scans_out_of_order = 0, scans_doubled = 0, scan_gaps = 0, scans_dropped = 0;
   std::size_t motor_out_of_order = 0, motor_doubled = 0, motor_gaps = 0;
+  std::size_t motor_dropped = 0;        // samples without a stamp or a finite angle
+  std::size_t motor_unwrapped = 0;      // jumps of a whole turn that were taken out
   std::size_t scans_without_motor = 0;  // scans that the motor track does not cover at offset 0
   double longest_scan_gap_s = 0, longest_motor_gap_s = 0;
   std::vector<std::string> warnings;  // whole sentences for a person
@@ -64,8 +87,8 @@ struct Recording {
   }
 };
 
-/// The scans with first beams in [from_s, to_s] after the first scan's, and the motor samples from 1 s before to
-/// 1 s after them.
+/// The scans with first beams in [from_s, to_s] after the first scan's, and the motor samples from 1 s before
+/// to 1 s after them.
 Recording window(const Recording& recording, double from_s, double to_s);
 
 }  // namespace sweepscope

@@ -40,7 +40,8 @@ struct Rig {
   Mount mount;
 };
 
-/// Reads a rig file (YAML; see assets/rigs). Unknown keys and impossible values are refused with line and column.
+/// Reads a rig file (YAML; see assets/rigs). Unknown keys and impossible values are refused with line and
+/// column.
 Result<Rig> read_rig(const std::filesystem::path& path);
 
 }  // namespace sweepscope

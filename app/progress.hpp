@@ -1,0 +1,33 @@
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "core/job.hpp"
+
+namespace sweepscope::app {
+
+/// "reading    [#########           ]  45 %   0:12 left", `width` columns wide at most.
+std::string progress_line(std::string_view phase, double fraction, std::chrono::duration<double> elapsed,
+                          int width);
+
+/// A progress bar on stderr, drawn only where that is a terminal, and wiped away at the end. Its job obeys
+/// ctrl-C.
+class Progress {
+ public:
+  Progress();
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  const Job& job() const { return job_; }
+
+ private:
+  struct Bar;
+  std::unique_ptr<Bar> bar_;
+  Job job_;
+};
+
+}  // namespace sweepscope::app

@@ -1,0 +1,107 @@
+#include "app/recording_options.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <fstream>
+
+namespace sweepscope::app {
+namespace {
+
+std::optional<double> parse_number(const std::string& text) {
+  double number = 0;
+  if (text.empty() || !CLI::detail::lexical_cast(text, number) || !std::isfinite(number)) return std::nullopt;
+  return number;
+}
+
+std::optional<RecordingOptions::Window> parse_window(const std::string& text) {
+  const auto colon = text.find(':');
+  if (colon == std::string::npos) return std::nullopt;
+  const auto from_s = parse_number(text.substr(0, colon)), to_s = parse_number(text.substr(colon + 1));
+  if (!from_s || !to_s || *from_s >= *to_s) return std::nullopt;
+  return RecordingOptions::Window{*from_s, *to_s};
+}
+
+}  // namespace
+
+void RecordingOptions::declare(CLI::App& app) {
+  app.add_option("REC", recording, "The recording: a ROS 1 bag")->required();
+  app.add_option("--rig", rig,
+                 "Rig file: topics, joint, stamps and mount (default: detected, rolling about x)")
+      ->type_name("F");
+  app.add_option_function<std::string>(
+         "--stamps",
+         [this](const std::string& text) {
+           stamps = text == "header" ? StampSource::kHeader : StampSource::kReceive;
+         },
+         "Stamps of both streams: header or receive (default: the rig's, else header)")
+      ->type_name("S")
+      ->check(CLI::IsMember({"header", "receive"}));
+  app.add_option_function<std::string>(
+         "--window", [this](const std::string& text) { window = parse_window(text); },
+         "Use only A to B, in seconds since the first scan")
+      ->type_name("A:B")
+      ->check([](const std::string& text) {
+        return parse_window(text) ? std::string()
+                                  : "--window wants A:B in seconds, A less than B, and got " + text;
+      });
+}
+
+void RecordingOptions::declare_computing(CLI::App& app) {
+  app.add_option("--assume", assume, "Take the rig as stationary or moving (default: the motion test says)")
+      ->type_name("A")
+      ->check(CLI::IsMember({"stationary", "moving"}));
+  app.add_option("--threads", threads, "Threads (default: as many as there are processors)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1024));
+}
+
+Result<Recording> RecordingOptions::read(const Job& job) const {
+  ReadOptions options;
+  options.stamps = stamps;
+  if (rig) {
+    auto from_file = read_rig(*rig);
+    if (!from_file) return tl::unexpected(std::move(from_file.error()));
+    options.rig = std::move(*from_file);
+  }
+  auto whole = read_recording(recording, options, job);
+  if (!whole || !window) return whole;
+  Recording part = sweepscope::window(*whole, window->from_s, window->to_s);
+  if (part.scans.empty()) {
+    return failure(ExitCode::kWrongUsage,
+                   fmt::format("{}: no scan lies within --window {}:{}; the last one is at {:.3f} s",
+                               recording.string(), window->from_s, window->to_s,
+                               whole->scans.back().first_beam_s - whole->scans.front().first_beam_s));
+  }
+  return part;
+}
+
+ExitCode fail(const Error& error) {
+  fmt::print(stderr, "sweepscope: {}\n", error.message);
+  return error.code;
+}
+
+void print_warnings(const Recording& recording) {
+  for (const std::string& warning : recording.report.warnings) {
+    fmt::print(stderr, "warning: {}: {}\n", recording.name, warning);
+  }
+}
+
+Result<void> write_text(const std::string& path, const std::string& text) {
+  if (path == "-") {
+    std::fwrite(text.data(), 1, text.size(), stdout);
+    return {};
+  }
+  const std::string beside = fmt::format("{}.part-{}", path, getpid());
+  std::ofstream out(beside, std::ios::binary);
+  out << text;
+  out.close();
+  std::error_code error;
+  if (out) std::filesystem::rename(beside, path, error);
+  if (out && !error) return {};
+  std::filesystem::remove(beside, error);
+  return failure(ExitCode::kWrongUsage, fmt::format("{}: cannot be written", path));
+}
+
+}  // namespace sweepscope::app

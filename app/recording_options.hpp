@@ -1,0 +1,41 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "core/error.hpp"
+#include "core/job.hpp"
+#include "core/recording/read_recording.hpp"
+
+namespace sweepscope::app {
+
+/// The options of every subcommand that reads a recording, declared once.
+struct RecordingOptions {
+  struct Window {
+    double from_s = 0, to_s = 0;
+  };
+  std::filesystem::path recording;
+  std::optional<std::filesystem::path> rig;
+  std::optional<StampSource> stamps;
+  std::optional<Window> window;       // seconds since the first scan
+  std::optional<std::string> assume;  // "stationary" or "moving"; empty: the motion test says
+  int threads = 0;                    // 0: as many as there are processors
+
+  /// REC, --rig, --stamps and --window. The options write to this object, which must outlive `app`'s parsing.
+  void declare(CLI::App& app);
+  /// --assume and --threads, of the subcommands that compute.
+  void declare_computing(CLI::App& app);
+  /// The recording that they name, cut to the window.
+  Result<Recording> read(const Job& job) const;
+};
+
+/// Prints why a subcommand failed, as every subcommand prints it, and gives the exit code.
+ExitCode fail(const Error& error);
+/// Prints what reading warned of, on stderr.
+void print_warnings(const Recording& recording);
+/// Writes to stdout where `path` is "-", else whole or not at all: beside the file, then renamed.
+Result<void> write_text(const std::string& path, const std::string& text);
+
+}  // namespace sweepscope::app

@@ -1,0 +1,131 @@
+#include "core/recording/choose_streams.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace sweepscope {
+namespace {
+
+constexpr double kLeastMotion_deg = 1.0;
+constexpr std::size_t kMostListed = 40;
+
+double turn_deg(const RawJoint& joint, const Rig& rig) {
+  double least = HUGE_VAL, most = -HUGE_VAL;
+  for (const double position : joint.positions) {
+    if (!std::isfinite(position)) continue;
+    least = std::min(least, position);
+    most = std::max(most, position);
+  }
+  if (most < least) return 0;
+  return (most - least) * std::abs(rig.motor.scale) * 180 / std::numbers::pi;
+}
+
+/// An indented line per choice, the first ones where there are many.
+std::string list_of(const std::vector<std::string>& lines) {
+  std::string list;
+  for (std::size_t i = 0; i < lines.size() && i < kMostListed; ++i) list += "\n    " + lines[i];
+  if (lines.size() > kMostListed) list += fmt::format("\n    and {} more", lines.size() - kMostListed);
+  return list;
+}
+
+std::string list_of_topics(const RawRecording& raw, std::string_view type_end) {
+  std::vector<std::string> lines;
+  for (const RecordedTopic& topic : raw.topics) {
+    if (!topic.type.ends_with(type_end)) continue;
+    lines.push_back(fmt::format("{}   {}   {} messages", topic.name, topic.type, topic.messages));
+  }
+  return lines.empty() ? " nothing" : list_of(lines);
+}
+
+std::string list_of_joints(const RawRecording& raw, const std::vector<std::size_t>& which, const Rig& rig) {
+  std::size_t width = 0;
+  for (const std::size_t i : which) width = std::max(width, raw.joints[i].joint.size());
+  std::vector<std::string> lines;
+  for (const std::size_t i : which) {
+    const RawJoint& joint = raw.joints[i];
+    lines.push_back(fmt::format("{:{}}   turns over {:.1f} deg   {} samples   on {}", joint.joint, width,
+                                turn_deg(joint, rig), joint.positions.size(), joint.topic));
+  }
+  return list_of(lines);
+}
+
+std::size_t malformed_messages(const RawRecording& raw, std::string_view type_end) {
+  std::size_t malformed = 0;
+  for (const RecordedTopic& topic : raw.topics)
+    malformed += topic.type.ends_with(type_end) ? topic.malformed : 0;
+  return malformed;
+}
+
+/// Why nothing is there to choose from: the damage that was met comes first.
+std::string nothing_usable(const RawRecording& raw, std::string_view what, std::string_view type_end) {
+  if (!raw.warnings.empty()) {
+    return fmt::format("{}: nothing in it can be used: {}", raw.file, raw.warnings.front());
+  }
+  if (malformed_messages(raw, type_end) > 0)
+    return fmt::format("{}: none of its {} is whole", raw.file, what);
+  return fmt::format("{}: holds no {}; what it holds is:{}", raw.file, what, list_of_topics(raw, ""));
+}
+
+}  // namespace
+
+Result<std::size_t> choose_laser(const RawRecording& raw, const Rig& rig) {
+  std::vector<std::size_t> usable;
+  for (std::size_t i = 0; i < raw.lasers.size(); ++i) {
+    const RawLaser& laser = raw.lasers[i];
+    if (rig.laser.topic && *rig.laser.topic != laser.topic) continue;
+    if (!laser.scans.empty()) usable.push_back(i);
+  }
+  if (usable.size() == 1) return usable.front();
+  if (usable.size() > 1) {
+    return unreadable(fmt::format(
+        "{}: has {} topics of scans, and which to use is not plain; name one in a rig file "
+        "(laser: {{topic: {}}}, given with --rig):{}",
+        raw.file, usable.size(), raw.lasers[usable.front()].topic, list_of_topics(raw, "/LaserScan")));
+  }
+  const std::string any = list_of_topics(raw, "/LaserScan");
+  if (rig.laser.topic && any != " nothing") {
+    return unreadable(
+        fmt::format("{}: has no usable scans on {}, the rig's laser.topic; its topics of scans are:{}",
+                    raw.file, *rig.laser.topic, any));
+  }
+  return unreadable(nothing_usable(raw, "sensor_msgs/LaserScan", "/LaserScan"));
+}
+
+Result<std::size_t> choose_joint(const RawRecording& raw, const Rig& rig) {
+  std::vector<std::size_t> all, usable, moving;
+  for (std::size_t i = 0; i < raw.joints.size(); ++i) {
+    const RawJoint& joint = raw.joints[i];
+    all.push_back(i);
+    if (rig.motor.topic && *rig.motor.topic != joint.topic) continue;
+    if (rig.motor.joint && *rig.motor.joint != joint.joint) continue;
+    if (joint.positions.empty()) continue;
+    usable.push_back(i);
+    if (turn_deg(joint, rig) > kLeastMotion_deg) moving.push_back(i);
+  }
+  if (moving.size() == 1) return moving.front();
+  if (moving.empty() && usable.size() == 1) return usable.front();
+  if (!usable.empty()) {
+    const auto& choices = moving.empty() ? usable : moving;
+    return unreadable(
+        fmt::format("{}: {} of {} joints move, and which of them turns the scanner is not plain; name it "
+                    "in a rig file (motor: {{topic: {}, joint: {}}}, given with --rig):{}",
+                    raw.file, moving.size(), usable.size(), raw.joints[choices.front()].topic,
+                    raw.joints[choices.front()].joint, list_of_joints(raw, choices, rig)));
+  }
+  if (!all.empty()) {
+    return unreadable(fmt::format(
+        "{}: has no positions of joint {} on topic {}, which the rig asks for; its joints are:{}", raw.file,
+        rig.motor.joint.value_or("(any)"), rig.motor.topic.value_or("(any)"), list_of_joints(raw, all, rig)));
+  }
+  if (rig.motor.topic) {
+    return unreadable(
+        fmt::format("{}: has no usable joint states on {}, the rig's motor.topic; what it holds is:{}",
+                    raw.file, *rig.motor.topic, list_of_topics(raw, "")));
+  }
+  return unreadable(nothing_usable(raw, "sensor_msgs/JointState", "/JointState"));
+}
+
+}  // namespace sweepscope

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sweepscope {
+
+/// How a chunk of a recording is compressed.
+enum class Compression { kNone, kBz2, kLz4 };
+
+/// "none", "bz2" or "lz4"; empty for any other name.
+std::optional<Compression> compression_named(std::string_view name);
+
+/// The bytes that came out of a compressed block, and what was wrong with it (empty where it was whole). The
+/// bytes before the damage are there in either case.
+struct Decompressed {
+  std::span<const std::byte> bytes;
+  std::string problem;
+};
+
+/// Decompresses `block` (bz2, or the LZ4 frame format) into `buffer`, which grows with what really comes out
+/// and never beyond `most_bytes`. The result points into `buffer`, or into `block` where that is not
+/// compressed.
+Decompressed decompress(Compression compression, std::span<const std::byte> block, std::size_t most_bytes,
+                        std::vector<std::byte>& buffer);
+
+}  // namespace sweepscope

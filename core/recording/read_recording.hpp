@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "core/error.hpp"
+#include "core/job.hpp"
+#include "core/recording/recording.hpp"
+
+namespace sweepscope {
+
+struct ReadOptions {
+  std::optional<Rig> rig;             // else all is detected, and the motor rolls the laser about x
+  std::optional<StampSource> stamps;  // for both streams, whatever the rig says
+};
+
+/// Reads a recording: a ROS 1 bag of format 2.0, told by its content and not by its name. Fails with one
+/// sentence that names the file and the place where nothing in it can be used, or where what to use is not
+/// plain.
+Result<Recording> read_recording(const std::filesystem::path& path, const ReadOptions& options,
+                                 const Job& job);
+
+}  // namespace sweepscope

@@ -1,0 +1,164 @@
+#include "core/recording/rig.hpp"
+
+#include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
+
+#include <cmath>
+#include <functional>
+#include <map>
+#include <set>
+
+#include "core/recording/input_file.hpp"
+
+namespace sweepscope {
+namespace {
+
+constexpr std::uint64_t kMostRigFile_bytes = std::uint64_t{1} << 20;
+
+/// A value that a rig file must not have. Caught in read_rig, which adds the file's name.
+struct RigError {
+  YAML::Mark mark;
+  std::string what;
+};
+
+[[noreturn]] void refuse(const YAML::Node& node, std::string what) {
+  throw RigError{node.Mark(), std::move(what)};
+}
+
+using Members = std::map<std::string, std::function<void(const YAML::Node&)>>;
+
+/// Calls the reader of every key in `node`; an unknown or doubled key is refused.
+void read_members(const YAML::Node& node, const std::string& name, const Members& members) {
+  if (!node.IsMap()) refuse(node, fmt::format("{} must be a map of keys to values", name));
+  std::set<std::string> seen;
+  for (const auto& entry : node) {
+    const auto key = entry.first.IsScalar() ? entry.first.Scalar() : std::string();
+    const auto member = members.find(key);
+    if (member == members.end()) {
+      std::string known;
+      for (const auto& [known_key, reader] : members) known += (known.empty() ? "" : ", ") + known_key;
+      refuse(entry.first, fmt::format("unknown key \"{}\" in {}; known are: {}", key, name, known));
+    }
+    if (!seen.insert(key).second) refuse(entry.first, fmt::format("key \"{}\" comes twice in {}", key, name));
+    member->second(entry.second);
+  }
+}
+
+double read_number(const YAML::Node& node, const std::string& name) {
+  double number = NAN;
+  if (!node.IsScalar() || !YAML::convert<double>::decode(node, number) || !std::isfinite(number)) {
+    refuse(node, fmt::format("{} must be a finite number", name));
+  }
+  return number;
+}
+
+std::string read_name(const YAML::Node& node, const std::string& name) {
+  if (!node.IsScalar() || node.Scalar().empty()) refuse(node, fmt::format("{} must be a name", name));
+  return node.Scalar();
+}
+
+Eigen::Vector3d read_vector(const YAML::Node& node, const std::string& name) {
+  if (!node.IsSequence() || node.size() != 3) refuse(node, fmt::format("{} must be three numbers", name));
+  return {read_number(node[0], name), read_number(node[1], name), read_number(node[2], name)};
+}
+
+template <typename T>
+T read_choice(const YAML::Node& node, const std::string& name, const std::map<std::string, T>& choices) {
+  const auto choice = node.IsScalar() ? choices.find(node.Scalar()) : choices.end();
+  if (choice != choices.end()) return choice->second;
+  std::string known;
+  for (const auto& [text, value] : choices) known += (known.empty() ? "" : ", ") + text;
+  refuse(node, fmt::format("{} must be one of: {}", name, known));
+}
+
+StampSource read_stamp(const YAML::Node& node, const std::string& name) {
+  return read_choice<StampSource>(node, name,
+                                  {{"header", StampSource::kHeader}, {"receive", StampSource::kReceive}});
+}
+
+void read_laser(const YAML::Node& node, Rig::Laser& laser) {
+  read_members(node, "laser",
+               {{"topic", [&](const YAML::Node& value) { laser.topic = read_name(value, "laser.topic"); }},
+                {"stamp", [&](const YAML::Node& value) { laser.stamp = read_stamp(value, "laser.stamp"); }},
+                {"stamp_at",
+                 [&](const YAML::Node& value) {
+                   laser.stamp_at = read_choice<StampAt>(value, "laser.stamp_at",
+                                                         {{"first_beam", StampAt::kFirstBeam},
+                                                          {"last_beam", StampAt::kLastBeam},
+                                                          {"arrival", StampAt::kArrival}});
+                 }},
+                {"time_increment_s", [&](const YAML::Node& value) {
+                   const double increment_s = read_number(value, "laser.time_increment_s");
+                   if (increment_s <= 0 || increment_s >= 1) {
+                     refuse(value, "laser.time_increment_s must be more than 0 and less than 1 s");
+                   }
+                   laser.time_increment_s = increment_s;
+                 }}});
+}
+
+void read_motor(const YAML::Node& node, Rig::Motor& motor) {
+  read_members(node, "motor",
+               {{"topic", [&](const YAML::Node& value) { motor.topic = read_name(value, "motor.topic"); }},
+                {"joint", [&](const YAML::Node& value) { motor.joint = read_name(value, "motor.joint"); }},
+                {"stamp", [&](const YAML::Node& value) { motor.stamp = read_stamp(value, "motor.stamp"); }},
+                {"scale",
+                 [&](const YAML::Node& value) {
+                   motor.scale = read_number(value, "motor.scale");
+                   if (motor.scale == 0) refuse(value, "motor.scale must not be 0");
+                 }},
+                {"zero_deg",
+                 [&](const YAML::Node& value) { motor.zero_deg = read_number(value, "motor.zero_deg"); }}});
+}
+
+void read_mount(const YAML::Node& node, Rig::Mount& mount) {
+  const auto read_pose = [&](const YAML::Node& pose) {
+    read_members(pose, "mount.laser_in_motor",
+                 {{"xyz_m",
+                   [&](const YAML::Node& value) {
+                     mount.laser_in_motor_xyz_m = read_vector(value, "mount.laser_in_motor.xyz_m");
+                   }},
+                  {"rpy_deg", [&](const YAML::Node& value) {
+                     mount.laser_in_motor_rpy_deg = read_vector(value, "mount.laser_in_motor.rpy_deg");
+                   }}});
+  };
+  const auto read_axis = [&](const YAML::Node& value) {
+    mount.axis = read_vector(value, "mount.axis");
+    const double length = mount.axis.norm();
+    if (!(length > 1e-6) || !std::isfinite(length)) refuse(value, "mount.axis must have a direction");
+    mount.axis /= length;
+  };
+  read_members(node, "mount", {{"axis", read_axis}, {"laser_in_motor", read_pose}});
+}
+
+Rig read_document(const YAML::Node& document) {
+  Rig rig;
+  read_members(document, "the rig file",
+               {{"laser", [&](const YAML::Node& node) { read_laser(node, rig.laser); }},
+                {"motor", [&](const YAML::Node& node) { read_motor(node, rig.motor); }},
+                {"mount", [&](const YAML::Node& node) { read_mount(node, rig.mount); }}});
+  return rig;
+}
+
+}  // namespace
+
+Result<Rig> read_rig(const std::filesystem::path& path) {
+  auto file = InputFile::open(path);
+  if (!file) return tl::unexpected(file.error());
+  if (file->size() > kMostRigFile_bytes) {
+    return unreadable(fmt::format("{}: has {} bytes, too many for a rig file", path.string(), file->size()));
+  }
+  std::string text(file->size(), '\0');
+  text.resize(file->read(std::as_writable_bytes(std::span(text))));
+  const auto at = [&](const YAML::Mark& mark, const std::string& what) {
+    return unreadable(fmt::format("{}:{}:{}: {}", path.string(), mark.line + 1, mark.column + 1, what));
+  };
+  try {
+    return read_document(YAML::Load(text));
+  } catch (const RigError& error) {
+    return at(error.mark, error.what);
+  } catch (const YAML::Exception& error) {
+    return at(error.mark, error.msg);
+  }
+}
+
+}  // namespace sweepscope

@@ -1,0 +1,124 @@
+#include "core/recording/stream_stamps.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace sweepscope {
+namespace {
+
+constexpr double kSecondsPerNanosecond = 1e-9;
+constexpr double kShortestSpan_s = 1.0;  // over less, the two kinds of stamps are not compared
+constexpr double kSpeedTolerance = 1.25;
+
+double span_s(std::span<const MessageStamps> stamps, StampSource source) {
+  std::int64_t first = INT64_MAX, last = INT64_MIN;
+  for (const MessageStamps& stamp : stamps) {
+    if (stamp.header_ns == 0 || stamp.receive_ns == 0) continue;
+    first = std::min(first, stamp_ns(stamp, source));
+    last = std::max(last, stamp_ns(stamp, source));
+  }
+  return last < first ? 0 : static_cast<double>(last - first) * kSecondsPerNanosecond;
+}
+
+void warn_of_wrong_unit(std::span<const MessageStamps> stamps, const std::string& topic,
+                        std::vector<std::string>& warnings) {
+  const double header_s = span_s(stamps, StampSource::kHeader),
+               receive_s = span_s(stamps, StampSource::kReceive);
+  if (header_s == 0 || receive_s < kShortestSpan_s) return;
+  const double speed = header_s / receive_s;
+  if (speed < kSpeedTolerance && speed > 1 / kSpeedTolerance) return;
+  const double decades = std::log10(speed);
+  const double thousands = 3 * std::round(decades / 3);
+  const bool unit = thousands != 0 && std::abs(decades - thousands) < 0.1;
+  warnings.push_back(
+      fmt::format("the header stamps of {} run {:.4g} times as fast as its receive times{}; "
+                  "consider --stamps receive",
+                  topic, speed, unit ? ", as if they were in another unit" : ""));
+}
+
+void measure_delay(std::span<const MessageStamps> stamps, StreamStamps& stream) {
+  std::vector<double> delays_s;
+  for (const MessageStamps& stamp : stamps) {
+    if (stamp.header_ns == 0 || stamp.receive_ns == 0) continue;
+    delays_s.push_back(static_cast<double>(stamp.receive_ns - stamp.header_ns) * kSecondsPerNanosecond);
+  }
+  if (delays_s.empty()) return;
+  const double middle_s = median(delays_s);
+  for (double& delay_s : delays_s) delay_s = std::abs(delay_s - middle_s);
+  constexpr double kSigmaPerMedianDeviation = 1.4826;
+  stream.receive_minus_header_s = middle_s;
+  stream.receive_jitter_s = kSigmaPerMedianDeviation * median(std::move(delays_s));
+}
+
+}  // namespace
+
+double median(std::vector<double> numbers) {
+  if (numbers.empty()) return 0;
+  const auto middle = numbers.begin() + std::ssize(numbers) / 2;
+  std::nth_element(numbers.begin(), middle, numbers.end());
+  return *middle;
+}
+
+std::int64_t stamp_ns(const MessageStamps& stamps, StampSource source) {
+  return source == StampSource::kHeader ? stamps.header_ns : stamps.receive_ns;
+}
+
+StreamStamps choose_stamps(std::span<const MessageStamps> stamps, StampSource wanted,
+                           const std::string& topic, std::vector<std::string>& warnings) {
+  StreamStamps stream;
+  stream.used = wanted;
+  const auto has = [&](StampSource source) {
+    return std::ranges::any_of(stamps,
+                               [&](const MessageStamps& stamp) { return stamp_ns(stamp, source) != 0; });
+  };
+  if (wanted == StampSource::kHeader && !has(StampSource::kHeader)) {
+    stream.used = StampSource::kReceive;
+    warnings.push_back(fmt::format("no message on {} has a header stamp; its receive times are used", topic));
+  } else if (wanted == StampSource::kReceive && !has(StampSource::kReceive)) {
+    stream.used = StampSource::kHeader;
+    warnings.push_back(fmt::format("no message on {} has a receive time; its header stamps are used", topic));
+  }
+  warn_of_wrong_unit(stamps, topic, warnings);
+  measure_delay(stamps, stream);
+  return stream;
+}
+
+TimeOrder order_by_time(std::span<const double> times_s) {
+  TimeOrder order;
+  std::vector<std::size_t> all(times_s.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  double latest_s = -HUGE_VAL;
+  for (const double t_s : times_s) {
+    if (t_s < latest_s) ++order.out_of_order;
+    latest_s = std::max(latest_s, t_s);
+  }
+  if (order.out_of_order > 0) {
+    std::ranges::stable_sort(all, {}, [&](std::size_t i) { return times_s[i]; });
+  }
+  for (const std::size_t i : all) {
+    if (!order.kept.empty() && times_s[order.kept.back()] == times_s[i]) {
+      ++order.doubled;
+    } else {
+      order.kept.push_back(i);
+    }
+  }
+  return order;
+}
+
+Spacing spacing(std::span<const double> times_s, double factor) {
+  Spacing result;
+  std::vector<double> spacings_s;
+  for (std::size_t i = 1; i < times_s.size(); ++i) spacings_s.push_back(times_s[i] - times_s[i - 1]);
+  result.median_s = median(spacings_s);
+  for (const double spacing_s : spacings_s) {
+    if (spacing_s <= factor * result.median_s) continue;
+    ++result.gaps;
+    result.longest_gap_s = std::max(result.longest_gap_s, spacing_s);
+  }
+  return result;
+}
+
+}  // namespace sweepscope

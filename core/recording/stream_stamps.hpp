@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/recording/raw_recording.hpp"
+
+namespace sweepscope {
+
+/// The middle of some numbers (of two middle ones the upper); 0 of none.
+double median(std::vector<double> numbers);
+
+/// Which of its two stamps a stream goes by: the wanted one, or the other with a warning where no message has
+/// it. Warns too where the two kinds of stamps run at different speeds, as those in a wrong unit do.
+StreamStamps choose_stamps(std::span<const MessageStamps> stamps, StampSource wanted,
+                           const std::string& topic, std::vector<std::string>& warnings);
+
+/// The stamp of that source in ns; 0 where the message has none.
+std::int64_t stamp_ns(const MessageStamps& stamps, StampSource source);
+
+/// An order in which times ascend strictly: of equal times the first is kept.
+struct TimeOrder {
+  std::vector<std::size_t> kept;
+  std::size_t out_of_order = 0;  // times earlier than one before them
+  std::size_t doubled = 0;
+};
+TimeOrder order_by_time(std::span<const double> times_s);
+
+/// The spacing of times that ascend, and the spacings longer than `factor` times the median one.
+struct Spacing {
+  double median_s = 0;
+  std::size_t gaps = 0;
+  double longest_gap_s = 0;  // 0 where there is no gap
+};
+Spacing spacing(std::span<const double> times_s, double factor);
+
+}  // namespace sweepscope
