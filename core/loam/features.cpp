@@ -20,6 +20,7 @@ struct Line {
   std::vector<float> x_m, y_m;       // in the scanner's plane
   std::vector<float> curvature_m;    // distance from the neighbours' mean, along the beam; NaN where there is none
   std::vector<char> occluded;        // beside a nearer surface: the edge is the nearer surface's, not its own
+  std::vector<char> silhouette;      // the last point of a surface before something far behind it, or nothing
 };
 
 class LineFeatures {
@@ -45,6 +46,7 @@ class LineFeatures {
     line_.y_m.resize(beams);
     line_.curvature_m.assign(beams, std::nanf(""));
     line_.occluded.assign(beams, 0);
+    line_.silhouette.assign(beams, 0);
     for (int i = 0; i < beams; ++i) {
       const double angle_rad = scan.beam_angle_rad(i);
       line_.x_m[i] = static_cast<float>(ranges[i] * std::cos(angle_rad));
@@ -52,7 +54,23 @@ class LineFeatures {
     }
     mark_occlusions(scan, ranges);
     for (int i = half; i + half < beams; ++i) line_.curvature_m[i] = curvature(ranges, i);
+    for (int i = half; i + half < beams; ++i)
+      line_.silhouette[i] = ends_surface(ranges, i, 1) || ends_surface(ranges, i, -1);
   }
+
+  // True where beam i and two before it are on one surface, and the three after it see nothing or far behind it.
+  // Three, since a single beam may return nothing by chance.
+  static constexpr int kBehind = 3;
+  bool ends_surface(std::span<const float> ranges, int i, int step) const {
+    if (!std::isfinite(ranges[i])) return false;
+    for (int k = 1; k <= 2; ++k)
+      if (!(std::abs(ranges[i - step * k] - ranges[i]) < k * surface_step_m(ranges[i]))) return false;
+    for (int k = 1; k <= kBehind; ++k)
+      if (ranges[i + step * k] - ranges[i] < jump_m(ranges[i])) return false;
+    return true;
+  }
+
+  double surface_step_m(double range_m) const { return 0.02 * range_m + 4 * noise_m_; }
 
   // On a jump between neighbours the farther side's last points are cut by the nearer surface's shadow.
   void mark_occlusions(const LaserScan& scan, std::span<const float> ranges) {
@@ -95,7 +113,7 @@ class LineFeatures {
       for (int i = from; i < to; ++i)
         if (is_edge(ranges, i)) order_.push_back(i);
       std::sort(order_.begin(), order_.end(), [&](int a, int b) {
-        return line_.curvature_m[a] != line_.curvature_m[b] ? line_.curvature_m[a] > line_.curvature_m[b] : a < b;
+        return sharpness_m(a) != sharpness_m(b) ? sharpness_m(a) > sharpness_m(b) : a < b;
       });
       taken_.assign(beams, 0);
       int count = 0;
@@ -110,7 +128,14 @@ class LineFeatures {
     std::sort(edges.begin(), edges.end(), [](const Feature& a, const Feature& b) { return a.beam < b.beam; });
   }
 
+  // A silhouette has no curvature of its own: it ranks behind sharp corners and before blunt ones.
+  float sharpness_m(int i) const {
+    const float curvature_m = std::isfinite(line_.curvature_m[i]) ? line_.curvature_m[i] : 0.0f;
+    return line_.silhouette[i] ? std::max(curvature_m, 0.1f) : curvature_m;
+  }
+
   bool is_edge(std::span<const float> ranges, int i) const {
+    if (line_.silhouette[i]) return true;
     const double threshold_m = std::max(options_.edge_curvature * noise_m_, options_.edge_curvature_slope * ranges[i]);
     if (!(line_.curvature_m[i] > threshold_m) || line_.occluded[i]) return false;
     for (int k = i - 1; k <= i + 1; ++k)

@@ -62,18 +62,30 @@ SearchRule rule_for(const MappingOptions& options, bool grown, SweepFilter filte
   return rule;
 }
 
+// The finest level that holds enough neighbours: a patch as small as the map allows, since large ones bend round
+// corners. Gives the search radius, or nothing where even the coarsest level allowed is too sparse.
+std::optional<double> nearest_on_finest(const FeatureMap& map, const Eigen::Vector3f& p_m, float range_m,
+                                        const SearchRule& rule, int most, int least, int least_lines, Neighbours& near) {
+  const int coarsest = map.level_for(std::max(rule.radius_m, rule.radius_slope * range_m));
+  for (int level = 0; level <= coarsest; ++level) {
+    map.nearest(p_m, level, rule.filter, most, rule.patch.per_line, near);
+    if (near.count >= least && near.lines >= least_lines) return map.search_radius_m(level);
+  }
+  return std::nullopt;
+}
+
 std::optional<PlanePatch> find_plane(const FeatureMap& map, const Eigen::Vector3d& p_m, float range_m,
                                      const SearchRule& rule, Neighbours& near) {
-  const int level = map.level_for(std::max(rule.radius_m, rule.radius_slope * range_m));
-  map.nearest(p_m.cast<float>(), level, rule.filter, rule.patch.plane_neighbours, rule.patch.per_line, near);
-  return fit_plane(near, rule.patch, map.search_radius_m(level));
+  const auto radius_m = nearest_on_finest(map, p_m.cast<float>(), range_m, rule, rule.patch.plane_neighbours, 6,
+                                          rule.patch.least_lines, near);
+  return radius_m ? fit_plane(near, rule.patch, *radius_m) : std::nullopt;
 }
 
 std::optional<LinePatch> find_line(const FeatureMap& map, const Eigen::Vector3d& p_m, float range_m,
                                    const SearchRule& rule, Neighbours& near) {
-  const int level = map.level_for(std::max(rule.radius_m, rule.radius_slope * range_m));
-  map.nearest(p_m.cast<float>(), level, rule.filter, rule.patch.edge_neighbours, rule.patch.per_line, near);
-  return fit_line(near, rule.patch, map.search_radius_m(level));
+  const auto radius_m = nearest_on_finest(map, p_m.cast<float>(), range_m, rule, rule.patch.edge_neighbours, 4,
+                                          rule.patch.least_edge_lines, near);
+  return radius_m ? fit_line(near, rule.patch, *radius_m) : std::nullopt;
 }
 
 void count_one(bool found, double distance_m, double gate_m, double cap_m, MatchCount& count) {

@@ -16,11 +16,11 @@ struct MappingOptions {
   double search_radius_m = 0.5;
   double search_radius_slope = 0.12;   // of the range
   double loss_width_m = 0.08;          // Cauchy
-  double match_sigma_m = 0.02;         // of a match's distance, against the ties below
+  double match_sigma_m = 0.05;         // of a match, against the ties below: its neighbours err together
   double tie_sigma = 0.03;             // rad and m: a sweep's begin to the previous sweep's end ...
   double first_tie_sigma = 0.3;        // ... and at first, when the jump at a reversal is not known yet
   double jump_gain = 0.05;             // of a new jump in the mean of all
-  double twist_change_sigma = 0.05;    // rad and m per sweep: how freely the motion changes
+  double twist_change_sigma = 0.08;    // rad and m per sweep: how freely the motion changes
   int most_iterations = 6;
   double step_tolerance = 5e-4;        // m and rad
   double reuse_within_m = 0.03;        // a match is searched anew once its point moved by more
