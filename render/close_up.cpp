@@ -95,8 +95,9 @@ Region find_close_up(std::span<const SlabPoints> maps, double height_m, double w
         if (filled.count < least.count) least = filled;
         if (filled.count > most.count) most = filled;
       }
-      const double score = (most.count - least.count) * least.roundness();
-      if (least.count < 30 || score <= best_score) continue;
+      if (least.count < 30) continue;
+      const double score = (1 - least.count / most.count) * std::sqrt(least.count) * least.roundness();
+      if (score <= best_score) continue;
       best_score = score;
       best.centre_m = {x.from + least.x / least.count, y.from + least.y / least.count};
     }

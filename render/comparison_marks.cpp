@@ -12,23 +12,45 @@ namespace {
 
 constexpr double kBodyPx = 14;
 
-/// A bar of a round length at the lower left, on a ground that keeps it legible above points.
-void add_scale_bar(Drawing& drawing, const TopView& view, const Style& style, double scale) {
-  const double length_m = round_length(view.metres_per_px * std::min(180 * scale, view.place.width * 0.3));
-  const double length_px = length_m / view.metres_per_px;
-  const std::string label =
-      length_m >= 1 ? fmt::format("{:.0f} m", length_m) : fmt::format("{:.0f} cm", 100 * length_m);
-  const double size = kBodyPx * scale, pad = 10 * scale;
-  const PixelRect ground{view.place.left + pad, view.place.bottom() - pad - size - 1.6 * pad,
-                         std::max(length_px, text_width_px(label, size)) + 2 * pad, size + 1.6 * pad};
+struct ScaleBar {
+  double length_px = 0;
+  std::string label;
+};
+
+/// A round length, about an eighth of the view.
+ScaleBar scale_bar_of(const TopView& view, double scale) {
+  const double length_m = round_length(view.metres_per_px * std::min(180 * scale, view.place.width * 0.2));
+  return {length_m / view.metres_per_px,
+          length_m >= 1 ? fmt::format("{:.0f} m", length_m) : fmt::format("{:.0f} cm", 100 * length_m)};
+}
+
+void add_bar(Drawing& drawing, PixelPoint left_end, double length_px, Colour colour, double scale) {
+  const double tick = 6 * scale, width = std::max(1.0, std::round(2 * scale));
+  drawing.fill({left_end.x, left_end.y - width, length_px, width}, colour);
+  drawing.fill({left_end.x, left_end.y - tick, width, tick}, colour);
+  drawing.fill({left_end.x + length_px - width, left_end.y - tick, width, tick}, colour);
+}
+
+/// Above the view at its right, where it hides no points.
+void add_scale_bar_above(Drawing& drawing, const TopView& view, const Style& style, double scale) {
+  const ScaleBar bar = scale_bar_of(view, scale);
+  const double y = view.place.top - 12 * scale, left = view.place.right() - bar.length_px;
+  add_bar(drawing, {left, y}, bar.length_px, style.text, scale);
+  drawing.add(TextMark{{left - 9 * scale, y}, bar.label, kBodyPx * scale, style.text, AlignX::kRight});
+}
+
+/// At the view's lower left, on a ground that keeps it legible above points.
+void add_scale_bar_inside(Drawing& drawing, const TopView& view, const Style& style, double scale) {
+  const ScaleBar bar = scale_bar_of(view, scale);
+  const double size = kBodyPx * scale, pad = 10 * scale, text_width = text_width_px(bar.label, size);
+  const PixelRect ground{view.place.left + pad, view.place.bottom() - pad - size - 1.4 * pad,
+                         bar.length_px + text_width + 3 * pad, size + 1.4 * pad};
   Colour veil = style.page;
-  veil.alpha = 205;
+  veil.alpha = 215;
   drawing.fill(ground, veil);
-  const double left = ground.left + pad, y = ground.bottom() - 0.7 * pad, tick = 5 * scale;
-  drawing.add(TextMark{{left, y - 0.7 * pad}, label, size, style.text});
-  drawing.fill({left, y - scale, length_px, 2 * scale}, style.text);
-  drawing.fill({left, y - tick, 2 * scale, tick}, style.text);
-  drawing.fill({left + length_px - 2 * scale, y - tick, 2 * scale, tick}, style.text);
+  const PixelPoint left_end{ground.left + pad, ground.bottom() - pad};
+  add_bar(drawing, left_end, bar.length_px, style.text, scale);
+  drawing.add(TextMark{{left_end.x + bar.length_px + pad, left_end.y}, bar.label, size, style.text});
 }
 
 std::string describe_side(double near_m, double far_m, const char* side) {
@@ -99,7 +121,7 @@ void add_label(Drawing& drawing, PixelPoint baseline, double width_px, const std
   drawing.fill({baseline.x, std::round(baseline.y - chip), chip, chip}, colour);
   const double left = chip + 9 * scale;
   drawing.add(TextMark{{baseline.x + left, baseline.y},
-                       fit_text(label, size, width_px - left, true),
+                       fit_text(label, size, 0.6 * width_px, true),
                        size,
                        style.text,
                        AlignX::kLeft,
@@ -108,15 +130,15 @@ void add_label(Drawing& drawing, PixelPoint baseline, double width_px, const std
 }
 
 void add_overview_marks(Drawing& drawing, const TopView& view, const Style& style, double scale) {
-  add_scale_bar(drawing, view, style, scale);
+  add_scale_bar_above(drawing, view, style, scale);
   drawing.frame(view.place, scale, style.frame);
 }
 
 void add_close_up_marks(Drawing& drawing, const TopView& overview, const TopView& close_up, bool empty,
                         const Style& style, double scale) {
-  drawing.frame(close_up.place, scale, style.frame);
+  drawing.frame(close_up.place, empty ? scale : 1.5 * scale, empty ? style.frame : style.highlight);
   if (empty) return;
-  add_scale_bar(drawing, close_up, style, scale);
+  add_scale_bar_inside(drawing, close_up, style, scale);
   const Eigen::Vector2d half = close_up.half_extent_m();
   const PixelPoint a = overview.to_px(close_up.centre_m.x() - half.x(), close_up.centre_m.y() - half.y());
   const PixelPoint b = overview.to_px(close_up.centre_m.x() + half.x(), close_up.centre_m.y() + half.y());

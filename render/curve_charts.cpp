@@ -86,6 +86,12 @@ std::vector<Chart> criteria_charts(const Estimate& estimate, const Style& style)
   return charts;
 }
 
+std::string found_label(const Estimate& estimate) {
+  std::string label = fmt::format("found {:.2f}", std::round(*estimate.offset_s * 1e5) / 1e2);
+  if (estimate.sigma_s) label += fmt::format(" ± {:.2f}", *estimate.sigma_s * 1e3);
+  return label;
+}
+
 }  // namespace
 
 std::string offset_label_ms(double offset_s) {
@@ -107,9 +113,7 @@ std::vector<Chart> curve_charts(const Estimate& estimate, std::span<const Marked
       chart.verticals.push_back({mark.offset_s * 1e3, offset_label_ms(mark.offset_s), mark.colour});
     }
     if (estimate.identifiable && estimate.offset_s) {
-      const double found_ms = std::round(*estimate.offset_s * 1e5) / 1e2;
-      chart.verticals.push_back(
-          {*estimate.offset_s * 1e3, fmt::format("found {:.2f}", found_ms), style.text, true});
+      chart.verticals.push_back({*estimate.offset_s * 1e3, found_label(estimate), style.text, true});
     }
   }
   return charts;
