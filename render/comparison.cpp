@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "render/comparison_layout.hpp"
 #include "render/comparison_marks.hpp"
@@ -20,12 +21,20 @@ std::string label_of(const ComparedMap& map) {
   return map.offset_s ? fmt::format("offset {} ms", offset_label_ms(*map.offset_s)) : "";
 }
 
+constexpr float kNoLimit_m = -std::numeric_limits<float>::infinity();
+
 /// The maps as they are drawn: what is shown of them, by what camera and in what colours.
 struct Prepared {
   std::vector<HeightRange> slabs;
   std::vector<SlabPoints> maps;
   ColourScale colours;
   std::vector<TopView> overviews, close_ups;
+  float close_up_least_height_m = kNoLimit_m;  // above the path
+
+  bool empty() const {
+    return std::all_of(maps.begin(), maps.end(),
+                       [](const SlabPoints& map) { return map.points.size() == 0; });
+  }
 };
 
 std::vector<TopView> overviews_of(const Prepared& prepared, const ComparisonLayout& layout) {
@@ -73,18 +82,22 @@ Result<Prepared> prepare(std::span<const ComparedMap> maps, const ComparisonLayo
   prepared.colours = {*table, z.from, z.to};
   prepared.overviews = overviews_of(prepared, layout);
   prepared.close_ups = close_ups_of(prepared, layout, options);
+  // A sparse floor behind a thin outline looks like the blur that the close-up is about.
+  if (options.slabs.empty()) prepared.close_up_least_height_m = 0;
   return prepared;
 }
 
-/// The points inside a view, no more of them than its pixels can show.
-std::shared_ptr<const ColouredPoints> points_for(const SlabPoints& map, const TopView& view) {
+/// The points inside a view and above a height over the path, no more of them than its pixels can show.
+std::shared_ptr<const ColouredPoints> points_for(const SlabPoints& map, const TopView& view,
+                                                 float least_height_m) {
   constexpr double kCellsPerPixel = 2;
   const Eigen::Vector2d half = view.half_extent_m();
   ColouredPoints inside;
   for (std::size_t i = 0; i < map.points.size(); ++i) {
     const auto& point = map.points.xyz_m[i];
     if (std::abs(static_cast<double>(point[0]) - view.centre_m.x()) > half.x() ||
-        std::abs(static_cast<double>(point[1]) - view.centre_m.y()) > half.y()) {
+        std::abs(static_cast<double>(point[1]) - view.centre_m.y()) > half.y() ||
+        map.above_path_m[i] < least_height_m) {
       continue;
     }
     inside.add(point, map.points.values[i]);
@@ -92,34 +105,35 @@ std::shared_ptr<const ColouredPoints> points_for(const SlabPoints& map, const To
   return std::make_shared<const ColouredPoints>(thin(inside, view.metres_per_px / kCellsPerPixel));
 }
 
-View to_view(const SlabPoints& map, const TopView& top, const ColourScale& colours, double point_size_px,
-             const Style& style) {
+View to_view(const TopView& top, std::shared_ptr<const ColouredPoints> points, double point_size_px,
+             const ColourScale& colours, const Style& style) {
   View view;
   view.place = top.place;
-  view.scene.background = style.panel;
+  view.scene.background = style.map_panel;
   view.scene.colours = colours;
   view.scene.camera = top.camera();
-  view.scene.clouds.push_back({points_for(map, top), point_size_px});
+  view.scene.clouds.push_back({std::move(points), point_size_px});
   return view;
 }
 
-void add_maps(Picture& picture, std::span<const ComparedMap> maps, const Prepared& prepared,
-              const ComparisonLayout& layout, const Style& style) {
-  for (std::size_t m = 0; m < maps.size(); ++m) {
-    const TopView& overview = prepared.overviews[m];
-    const bool empty = prepared.maps[m].points.size() == 0;
-    picture.views.push_back(to_view(prepared.maps[m], overview, prepared.colours, layout.scale, style));
-    if (!prepared.close_ups.empty()) {
-      const TopView& close_up = prepared.close_ups[m];
-      picture.views.push_back(
-          to_view(prepared.maps[m], close_up, prepared.colours, 1.5 * layout.scale, style));
-      add_close_up_marks(picture.marks, overview, close_up, empty, style, layout.scale);
-    }
-    add_overview_marks(picture.marks, overview, style, layout.scale);
-    add_label(picture.marks, layout.labels[m], overview.place.width, label_of(maps[m]), style.maps[m], style,
-              layout.scale);
-    if (empty) add_no_points(picture.marks, maps[m], overview, prepared.slabs, style, layout.scale);
+void add_map(Picture& picture, const ComparedMap& map, const Prepared& prepared, std::size_t index,
+             const ComparisonLayout& layout, const Style& style) {
+  const SlabPoints& points = prepared.maps[index];
+  const TopView& overview = prepared.overviews[index];
+  const double scale = layout.scale;
+  const bool empty = points.points.size() == 0;
+  picture.views.push_back(
+      to_view(overview, points_for(points, overview, kNoLimit_m), scale, prepared.colours, style));
+  add_overview_marks(picture.marks, overview, map.path, empty, style, scale);
+  if (!prepared.close_ups.empty()) {
+    const TopView& close_up = prepared.close_ups[index];
+    auto near_points = points_for(points, close_up, prepared.close_up_least_height_m);
+    picture.views.push_back(to_view(close_up, std::move(near_points), 1.5 * scale, prepared.colours, style));
+    add_close_up_marks(picture.marks, overview, close_up, empty, style, scale);
   }
+  add_label(picture.marks, layout.labels[index], overview.place.width, label_of(map), style.maps[index],
+            style, scale);
+  if (empty) add_no_points(picture.marks, map, overview, prepared.slabs, style, scale);
 }
 
 Result<void> check(std::span<const ComparedMap> maps, const ComparisonOptions& options) {
@@ -152,12 +166,15 @@ Result<Image> draw_comparison(std::span<const ComparedMap> maps, const Estimate*
   if (!prepared) return tl::unexpected(prepared.error());
 
   Picture picture{options.width_px, options.height_px, style.page, {}, {}};
-  add_maps(picture, maps, *prepared, layout, style);
+  for (std::size_t m = 0; m < maps.size(); ++m) add_map(picture, maps[m], *prepared, m, layout, style);
   const std::string title = !options.title.empty() ? options.title
                             : estimate != nullptr  ? estimate->recording
                                                    : "";
-  add_heading(picture.marks, layout, title, prepared->slabs, options.width_px, style);
-  add_scalar_bar(picture.marks, layout, prepared->colours, style);
+  const bool floor_left_out = !layout.close_ups.empty() && prepared->close_up_least_height_m == 0;
+  std::string how = "Seen from above: " + describe_slabs(prepared->slabs) + ".";
+  if (floor_left_out) how += " The close-ups leave out what is below.";
+  add_heading(picture.marks, layout, title, how, options.width_px, style);
+  if (!prepared->empty()) add_scalar_bar(picture.marks, layout, prepared->colours, style);
   for (std::size_t c = 0; c < charts.size(); ++c) {
     add_chart(picture.marks, layout.charts[c], charts[c], style, layout.scale);
   }

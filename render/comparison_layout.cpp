@@ -43,7 +43,7 @@ ComparisonLayout lay_out(const ComparisonOptions& options, std::size_t maps, std
   for (const PixelRect& overview : out.overviews)
     out.labels.push_back({overview.left, overview.top - px(12)});
   const double bar_height = std::min(row.height, px(380));
-  out.scalar_bar = {width - margin - scalar_bar_room + gap, room.top + px(30), px(16), bar_height - px(30)};
+  out.scalar_bar = {width - margin - scalar_bar_room + gap, room.top + px(38), px(16), bar_height - px(38)};
   if (charts > 0) {
     out.charts = columns({margin, maps_bottom + px(30), width - 2 * margin, charts_room}, charts, px(56));
   }

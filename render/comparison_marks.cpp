@@ -53,6 +53,31 @@ void add_scale_bar_inside(Drawing& drawing, const TopView& view, const Style& st
   drawing.add(TextMark{{left_end.x + bar.length_px + pad, left_end.y}, bar.label, size, style.text});
 }
 
+/// The sensor's way as a thin line.
+void add_path(Drawing& drawing, const TopView& view, std::span<const StampedPose> path, const Style& style,
+              double scale) {
+  constexpr double kLeastStep_px = 2;
+  Colour colour = style.map_highlight;
+  colour.alpha = 120;
+  LineMark line{{}, 1.2 * scale, colour};
+  const auto finish = [&] {
+    if (line.points.size() > 1) drawing.add(line);
+    line.points.clear();
+  };
+  for (const StampedPose& pose : path) {
+    const PixelPoint at = view.to_px(pose.position_m.x(), pose.position_m.y());
+    if (!view.place.contains(at)) {
+      finish();
+      continue;
+    }
+    const bool first = line.points.empty();
+    if (first || std::hypot(at.x - line.points.back().x, at.y - line.points.back().y) >= kLeastStep_px) {
+      line.points.push_back(at);
+    }
+  }
+  finish();
+}
+
 std::string describe_side(double near_m, double far_m, const char* side) {
   if (std::isinf(far_m)) return fmt::format("{:.1f} m and more {} the sensor's path", near_m, side);
   return fmt::format("{:.1f} to {:.1f} m {} the sensor's path", near_m, far_m, side);
@@ -105,14 +130,13 @@ std::string describe_slabs(std::span<const HeightRange> slabs) {
 }
 
 void add_heading(Drawing& drawing, const ComparisonLayout& layout, const std::string& title,
-                 std::span<const HeightRange> slabs, double width_px, const Style& style) {
+                 const std::string& how_it_is_seen, double width_px, const Style& style) {
   const double room = width_px - 2 * layout.margin, title_size = 24 * layout.scale,
                size = kBodyPx * layout.scale;
   const std::string shown = title.empty() ? "Comparison of maps" : title;
   drawing.add(TextMark{layout.title, fit_text(shown, title_size, room, true), title_size, style.text,
                        AlignX::kLeft, AlignY::kBaseline, true});
-  const std::string how = "Seen from above: " + describe_slabs(slabs) + ".";
-  drawing.add(TextMark{layout.subtitle, fit_text(how, size, room), size, style.faint_text});
+  drawing.add(TextMark{layout.subtitle, fit_text(how_it_is_seen, size, room), size, style.faint_text});
 }
 
 void add_label(Drawing& drawing, PixelPoint baseline, double width_px, const std::string& label,
@@ -129,8 +153,12 @@ void add_label(Drawing& drawing, PixelPoint baseline, double width_px, const std
                        true});
 }
 
-void add_overview_marks(Drawing& drawing, const TopView& view, const Style& style, double scale) {
-  add_scale_bar_above(drawing, view, style, scale);
+void add_overview_marks(Drawing& drawing, const TopView& view, std::span<const StampedPose> path, bool empty,
+                        const Style& style, double scale) {
+  if (!empty) {
+    add_path(drawing, view, path, style, scale);
+    add_scale_bar_above(drawing, view, style, scale);
+  }
   drawing.frame(view.place, scale, style.frame);
 }
 
@@ -148,21 +176,21 @@ void add_close_up_marks(Drawing& drawing, const TopView& overview, const TopView
   const double top = std::clamp(std::min(a.y, b.y), place.top, place.bottom());
   const double bottom = std::clamp(std::max(a.y, b.y), place.top, place.bottom());
   drawing.frame({std::round(left), std::round(top), std::round(right - left), std::round(bottom - top)},
-                1.5 * scale, style.highlight);
+                1.5 * scale, style.map_highlight);
 }
 
 void add_scalar_bar(Drawing& drawing, const ComparisonLayout& layout, const ColourScale& colours,
                     const Style& style) {
   const PixelRect& bar = layout.scalar_bar;
   const double size = 13 * layout.scale;
-  drawing.add(TextMark{{bar.left, bar.top - 16 * layout.scale},
+  drawing.add(TextMark{{bar.left, bar.top - 24 * layout.scale},
                        "elevation",
                        size,
                        style.faint_text,
                        AlignX::kLeft,
                        AlignY::kBottom});
   drawing.add(TextMark{
-      {bar.left, bar.top - 2 * layout.scale}, "[m]", size, style.faint_text, AlignX::kLeft, AlignY::kBottom});
+      {bar.left, bar.top - 8 * layout.scale}, "[m]", size, style.faint_text, AlignX::kLeft, AlignY::kBottom});
   const int steps = static_cast<int>(bar.height);
   for (int i = 0; i < steps; ++i) {
     const double value = colours.to + (colours.from - colours.to) * (i + 0.5) / steps;
@@ -195,12 +223,12 @@ void add_footer(Drawing& drawing, const ComparisonLayout& layout, double width_p
 
 void add_no_points(Drawing& drawing, const ComparedMap& map, const TopView& view,
                    std::span<const HeightRange> slabs, const Style& style, double scale) {
-  const bool no_map = !map.cloud || map.cloud->empty();
-  const std::vector<std::string> lines{
-      no_map ? "The map has no points."
-             : fmt::format("None of the map's {} points is at the heights shown:", map.cloud->size())};
-  std::vector<std::string> words = lines;
-  if (!no_map) words.push_back(describe_slabs(slabs));
+  std::vector<std::string> words{"The map has no points."};
+  if (map.cloud && !map.cloud->empty()) {
+    words = {"None of the map's points is at the heights shown:", describe_slabs(slabs)};
+  }
+  drawing.fill(view.place, style.panel);
+  drawing.frame(view.place, scale, style.frame);
   add_words(drawing, view.place, "Nothing to show", words, style, scale);
 }
 

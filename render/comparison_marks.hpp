@@ -13,10 +13,12 @@ namespace sweepscope {
 
 /// The words, frames and scales of a comparison, each into its place.
 void add_heading(Drawing& drawing, const ComparisonLayout& layout, const std::string& title,
-                 std::span<const HeightRange> slabs, double width_px, const Style& style);
+                 const std::string& how_it_is_seen, double width_px, const Style& style);
 void add_label(Drawing& drawing, PixelPoint baseline, double width_px, const std::string& label,
                Colour colour, const Style& style, double scale);
-void add_overview_marks(Drawing& drawing, const TopView& view, const Style& style, double scale);
+/// Where the sensor went, a scale, a frame; only the frame where the map is empty.
+void add_overview_marks(Drawing& drawing, const TopView& view, std::span<const StampedPose> path, bool empty,
+                        const Style& style, double scale);
 /// Also outlines in the overview what the close-up shows, unless there is nothing in it.
 void add_close_up_marks(Drawing& drawing, const TopView& overview, const TopView& close_up, bool empty,
                         const Style& style, double scale);

@@ -10,6 +10,7 @@ namespace sweepscope {
 /// green alone).
 struct Style {
   Colour page, panel, frame, grid, text, faint_text, highlight;
+  Colour map_panel, map_highlight;  // behind points, and marks upon them
   Colour curve, second_curve;
   std::array<Colour, 4> maps;
 };
@@ -22,6 +23,8 @@ inline constexpr Style kDarkStyle{
     .text = {232, 235, 240},
     .faint_text = {150, 160, 174},
     .highlight = {255, 255, 255},
+    .map_panel = {9, 11, 14},
+    .map_highlight = {255, 255, 255},
     .curve = {214, 220, 229},
     .second_curve = {128, 146, 178},
     .maps = {{{242, 180, 41}, {92, 192, 248}, {229, 138, 192}, {120, 214, 170}}},
@@ -35,6 +38,8 @@ inline constexpr Style kLightStyle{
     .text = {26, 30, 36},
     .faint_text = {92, 101, 114},
     .highlight = {0, 0, 0},
+    .map_panel = {9, 11, 14},  // colour tables end in yellow, which vanishes on white
+    .map_highlight = {255, 255, 255},
     .curve = {38, 44, 53},
     .second_curve = {104, 122, 156},
     .maps = {{{190, 120, 0}, {0, 114, 178}, {183, 78, 141}, {0, 138, 100}}},
