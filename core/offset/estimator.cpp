@@ -65,11 +65,9 @@ class Search {
 
   // Features, the scans to use, and the kind of recording. False where interrupted.
   bool prepare(double least_s, double greatest_s) {
-    auto features = extract_features(*problem_.recording, options_.features, job_);
-    if (!features) return false;
-    features_ = std::move(*features);
-    problem_.features = &features_;
-    problem_.scan_used = scans_covered(*problem_.recording, least_s, greatest_s);
+    auto problem = prepare_problem(*problem_.recording, least_s, greatest_s, options_.features, job_);
+    if (!problem) return false;
+    problem_ = std::move(*problem);
     const std::vector<PlacedSweep> placed = place_sweeps(problem_, (least_s + greatest_s) / 2);
     result_.sweeps = placed.size();
     for (const PlacedSweep& sweep : placed) result_.scans += sweep.scans;
@@ -269,7 +267,6 @@ class Search {
   const EstimateOptions& options_;
   const Job& job_;
   OffsetProblem problem_;
-  FeatureSet features_;
   SearchScale scale_;
   Method method_ = Method::kStationary;
   std::vector<std::size_t> pairs_;

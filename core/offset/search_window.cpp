@@ -76,4 +76,16 @@ std::vector<char> scans_covered(const Recording& recording, double least_s, doub
   return covered;
 }
 
+Result<OffsetProblem> prepare_problem(const Recording& recording, double least_s, double greatest_s,
+                                      const FeatureOptions& options, const Job& job) {
+  auto features = extract_features(recording, options, job);
+  if (!features) return tl::unexpected(features.error());
+  OffsetProblem problem;
+  problem.recording = &recording;
+  problem.features = std::make_shared<const FeatureSet>(std::move(*features));
+  problem.motor = find_sweeps(recording.motor);
+  problem.scan_used = scans_covered(recording, least_s, greatest_s);
+  return problem;
+}
+
 }  // namespace sweepscope

@@ -4,6 +4,7 @@
 
 #include "core/error.hpp"
 #include "core/geometry/sweeps.hpp"
+#include "core/loam/sweep_features.hpp"
 #include "core/offset/candidates.hpp"
 
 namespace sweepscope {
@@ -25,5 +26,10 @@ std::vector<std::string> motor_reasons(const MotorTrack& track, const MotorMotio
 /// Per scan 1 where the motor track covers it, without a gap, at every offset from `least_s` to `greatest_s`: all
 /// candidates must use the same scans, or the criteria count scans instead of sharpness.
 std::vector<char> scans_covered(const Recording& recording, double least_s, double greatest_s);
+
+/// Everything about a recording that does not depend on the offset, for offsets from `least_s` to `greatest_s`. The
+/// recording must outlive it.
+Result<OffsetProblem> prepare_problem(const Recording& recording, double least_s, double greatest_s,
+                                      const FeatureOptions& options, const Job& job);
 
 }  // namespace sweepscope
