@@ -45,6 +45,12 @@ std::string_view name_of(MotorKind kind) {
       ->second;
 }
 
+std::vector<std::string_view> motor_names() {
+  std::vector<std::string_view> names;
+  for (const auto& [kind, name] : kNames) names.push_back(name);
+  return names;
+}
+
 Motor::Motor(MotorKind kind, double sweep_s, double phase_s)
     : kind_(kind), sweep_s_(sweep_s), phase_s_(phase_s) {}
 

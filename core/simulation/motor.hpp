@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string_view>
+#include <vector>
 
 namespace sweepscope::simulation {
 
@@ -15,6 +16,7 @@ enum class MotorKind {
 
 std::optional<MotorKind> motor_kind(std::string_view name);
 std::string_view name_of(MotorKind kind);
+std::vector<std::string_view> motor_names();
 
 /// The motor's true angle over true time. It swings between -90 and +90 deg in sweep_s; phase_s, in [0, 2
 /// sweep_s), is how long after a passage through 0 deg, upwards, true time 0 falls.

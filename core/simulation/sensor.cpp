@@ -51,7 +51,7 @@ Sensor::Sensor(const SimulationOptions& options, const Scene& scene)
 LaserScan Sensor::scan(std::size_t number) const {
   LaserScan scan;
   const double late_s = options_.stamp_jitter_s * Random(options_.seed, kScanStamp, number).normal();
-  scan.first_beam_s = whole_ns(static_cast<double>(number) * kScanPeriod_s + late_s);
+  scan.first_beam_s = whole_ns(std::max(0.0, static_cast<double>(number) * kScanPeriod_s + late_s));
   scan.time_increment_s = kTimeIncrement_s;
   scan.angle_min_rad = kAngleMin_rad;
   scan.angle_increment_rad = kAngleIncrement_rad;
@@ -89,7 +89,7 @@ void Sensor::cast_scan(std::size_t number, std::span<float> ranges_m, std::span<
     intensities[beam] = intensity_of(*hit);
   }
   for (std::size_t beam = 0; beam < kBeams; ++beam) {
-    // Every beam draws the same number of values, whatever it met.
+    // Drawn whatever the beam met, so that one option does not change the luck of another.
     const double noise_m = options_.noise_m * random.normal();
     const bool dropped = random.uniform() < options_.dropout;
     const double mixed = random.uniform(), between = random.uniform();

@@ -91,13 +91,12 @@ std::vector<double> over_time(const std::vector<double>& v, double step_m, std::
 
 /// A moving average with a raised cosine of 2 * kHalfWindow + 1 steps; begins half a window earlier than `v`.
 std::vector<double> smoothed(const std::vector<double>& v) {
-  std::vector<double> result(v.size() + 2 * kHalfWindow, 0.0);
-  for (std::size_t i = 0; i < v.size(); ++i) {
-    for (int k = -kHalfWindow; k <= kHalfWindow; ++k) {
-      const double weight = (1 + sin_cos(kPi * k / (kHalfWindow + 1)).cos) / (2 * (kHalfWindow + 1));
-      result[i + static_cast<std::size_t>(k + kHalfWindow)] += weight * v[i];
-    }
-  }
+  std::vector<double> weights;
+  for (int k = -kHalfWindow; k <= kHalfWindow; ++k)
+    weights.push_back((1 + sin_cos(kPi * k / (kHalfWindow + 1)).cos) / (2 * (kHalfWindow + 1)));
+  std::vector<double> result(v.size() + weights.size() - 1, 0.0);
+  for (std::size_t i = 0; i < v.size(); ++i)
+    for (std::size_t k = 0; k < weights.size(); ++k) result[i + k] += weights[k] * v[i];
   return result;
 }
 

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <filesystem>
+
+#include "core/error.hpp"
+#include "core/simulation/simulate.hpp"
+
+namespace sweepscope {
+
+/// When a message reaches the recorder, after the last of the instants it is about and of its own stamp.
+inline constexpr double kScanLatency_s = 0.0040, kMotorLatency_s = 0.0015;
+
+/// Writes a simulation as a ROS 1 bag: sensor_msgs/LaserScan on /scan, beams without a usable return as +inf,
+/// and sensor_msgs/JointState on /joint_states with the joint roll_motor. Messages lie in the order in which
+/// they were received: a few milliseconds after the fact, more or less by a random but repeatable part. Equal
+/// simulations give equal bytes. Written beside the path and then renamed; where that fails,
+/// ExitCode::kUnreadableInput.
+Result<void> write_bag(const Simulation& simulation, const std::filesystem::path& path, const Job& job);
+
+}  // namespace sweepscope

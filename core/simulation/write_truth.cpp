@@ -1,0 +1,111 @@
+#include "core/simulation/write_truth.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "core/simulation/write_bag.hpp"
+
+namespace sweepscope {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Six digits after the point: free of binary tails such as 24.000000000000004.
+double tidy(double value) {
+  return std::round(value * 1e6) / 1e6;
+}
+
+/// The offset between the two streams' receive times: what an estimate on receive stamps finds.
+double receive_offset_s(const Simulation& simulation) {
+  const LaserScan& scan = simulation.recording.scans.front();
+  const double scan_s = scan.last_beam_s() - scan.first_beam_s + kScanLatency_s;
+  return std::max(0.0, simulation.options.offset_s) + kMotorLatency_s - scan_s;
+}
+
+Json options_json(const SimulationOptions& o) {
+  return {{"seed", o.seed},
+          {"duration_s", tidy(*o.duration_s)},
+          {"noise_mm", tidy(o.noise_m * 1e3)},
+          {"dropout", tidy(o.dropout)},
+          {"sweep_s", tidy(o.sweep_s)},
+          {"motor", simulation::name_of(o.motor)},
+          {"encoder_step_deg", tidy(o.encoder_step_deg)},
+          {"encoder_hz", tidy(o.encoder_hz)},
+          {"encoder_jitter_ms", tidy(o.encoder_jitter_s * 1e3)},
+          {"mixed_pixels", tidy(o.mixed_pixels)},
+          {"grazing_bias_mm", tidy(o.grazing_bias_m * 1e3)},
+          {"stamp_jitter_ms", tidy(o.stamp_jitter_s * 1e3)},
+          {"backlash_deg", tidy(o.backlash_deg)},
+          {"clock_drift_ppm", tidy(o.clock_drift_ppm)},
+          {"nudge_mm", tidy(o.nudge_m * 1e3)}};
+}
+
+Result<void> write_file(const std::filesystem::path& path, const std::string& text) {
+  const std::filesystem::path part = path.string() + ".part";
+  std::ofstream out(part, std::ios::binary);
+  out << text;
+  out.close();
+  std::error_code error;
+  if (out) std::filesystem::rename(part, path, error);
+  if (out && !error) return {};
+  std::error_code ignored;
+  std::filesystem::remove(part, ignored);
+  return unreadable(fmt::format("{}: cannot be written", path.string()));
+}
+
+std::filesystem::path stem_of(std::filesystem::path bag_path) {
+  return bag_path.extension() == ".bag" ? bag_path.replace_extension() : bag_path;
+}
+
+}  // namespace
+
+std::filesystem::path truth_json_path(const std::filesystem::path& bag_path) {
+  return stem_of(bag_path).string() + ".truth.json";
+}
+
+std::filesystem::path truth_tum_path(const std::filesystem::path& bag_path) {
+  return stem_of(bag_path).string() + ".truth.tum";
+}
+
+std::string truth_json(const Simulation& simulation) {
+  const Recording& recording = simulation.recording;
+  const Json json = {{"schema", "sweepscope.truth/1"},
+                     {"scene", simulation.options.scene},
+                     {"equation", "t_motor = t_laser + offset"},
+                     {"offset_ms", tidy(simulation.options.offset_s * 1e3)},
+                     {"receive_offset_ms", tidy(receive_offset_s(simulation) * 1e3)},
+                     {"moving", simulation.moving},
+                     {"length_m", tidy(simulation.length_m)},
+                     {"top_speed_mps", tidy(simulation.top_speed_mps)},
+                     {"top_angular_rate_radps", tidy(simulation.top_angular_rate_radps)},
+                     {"scans", recording.scans.size()},
+                     {"motor_samples", recording.motor.time_s.size()},
+                     {"triangles", simulation.triangles},
+                     {"options", options_json(simulation.options)},
+                     {"version", SWEEPSCOPE_VERSION}};
+  return json.dump(2) + "\n";
+}
+
+std::string truth_tum(const Simulation& simulation) {
+  std::string text = "# timestamp tx ty tz qx qy qz qw\n";
+  for (const TruthPose& pose : simulation.truth) {
+    const std::int64_t ns = simulation.recording.epoch_ns + std::llround(pose.time_s * 1e9);
+    const Eigen::Vector3d& p = pose.position_m;
+    const Eigen::Quaterniond& q = pose.orientation;
+    text += fmt::format("{}.{:09} {:.6f} {:.6f} {:.6f} {:.9f} {:.9f} {:.9f} {:.9f}\n", ns / 1'000'000'000,
+                        ns % 1'000'000'000, p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w());
+  }
+  return text;
+}
+
+Result<void> write_truth(const Simulation& simulation, const std::filesystem::path& bag_path) {
+  return write_file(truth_json_path(bag_path), truth_json(simulation)).and_then([&] {
+    return write_file(truth_tum_path(bag_path), truth_tum(simulation));
+  });
+}
+
+}  // namespace sweepscope
