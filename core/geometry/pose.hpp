@@ -1,0 +1,54 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace sweepscope {
+
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+
+/// A rigid transform: p_in_a = a_from_b * p_in_b.
+struct Pose {
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+  Eigen::Vector3d translation_m = Eigen::Vector3d::Zero();
+
+  Eigen::Vector3d operator*(const Eigen::Vector3d& p) const { return rotation * p + translation_m; }
+  Pose operator*(const Pose& other) const {
+    return {(rotation * other.rotation).normalized(), *this * other.translation_m};
+  }
+  Pose inverse() const {
+    const Eigen::Quaterniond back = rotation.conjugate();
+    return {back, -(back * translation_m)};
+  }
+};
+
+/// A pose of the base frame in the map frame at an instant (laser clock, seconds since Recording::epoch_ns).
+struct TimedPose {
+  double time_s = 0;
+  Pose map_from_base;
+};
+
+/// The rotation vector's quaternion: axis times angle (rad).
+inline Eigen::Quaterniond rotation_from_vector(const Eigen::Vector3d& rotation_rad) {
+  const double angle_rad = rotation_rad.norm();
+  if (angle_rad < 1e-12) return Eigen::Quaterniond(1, rotation_rad.x() / 2, rotation_rad.y() / 2, rotation_rad.z() / 2);
+  return Eigen::Quaterniond(Eigen::AngleAxisd(angle_rad, rotation_rad / angle_rad));
+}
+
+/// The rotation vector of a quaternion: axis times angle (rad), angle in [0, pi].
+inline Eigen::Vector3d vector_from_rotation(const Eigen::Quaterniond& rotation) {
+  const double sine = rotation.vec().norm();
+  if (sine < 1e-12) return 2.0 * (rotation.w() < 0 ? -1.0 : 1.0) * rotation.vec();
+  const double angle_rad = 2.0 * std::atan2(rotation.w() < 0 ? -sine : sine, std::abs(rotation.w()));
+  return angle_rad / sine * rotation.vec();
+}
+
+/// Between `from` (u = 0) and `to` (u = 1): the translation linearly, the rotation at constant rate. u outside [0, 1]
+/// goes on beyond the ends.
+inline Pose interpolate(const Pose& from, const Pose& to, double u) {
+  const Eigen::Vector3d turn_rad = vector_from_rotation(from.rotation.conjugate() * to.rotation);
+  return {from.rotation * rotation_from_vector(u * turn_rad),
+          from.translation_m + u * (to.translation_m - from.translation_m)};
+}
+
+}  // namespace sweepscope

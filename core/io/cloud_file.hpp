@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+#include "core/error.hpp"
+#include "core/map/map_cloud.hpp"
+
+namespace sweepscope {
+
+/// Writes the map as binary PCD or binary little-endian PLY, by the path's extension (.pcd or .ply; anything
+/// else is ExitCode::kWrongUsage). Fields: x y z (float, m), intensity (float), time (double, s), sweep
+/// (uint32).
+Result<void> write_cloud(const std::filesystem::path& path, const MapCloud& cloud);
+
+/// Reads a PCD file (ascii, binary or binary_compressed) or a PLY file (ascii or binary little endian); which
+/// of the two it is, its first bytes say. x, y and z are needed; intensity, time and sweep are 0 where the
+/// file has none; other fields are passed over, and so are points whose place is not finite. Sizes in headers
+/// are checked against the file's own size before anything is allocated.
+Result<MapCloud::Ptr> read_cloud(const std::filesystem::path& path);
+
+/// The same from memory; `name` stands for the file in error messages.
+Result<MapCloud::Ptr> parse_cloud(std::string_view bytes, std::string_view name);
+
+}  // namespace sweepscope

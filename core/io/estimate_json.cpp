@@ -1,0 +1,209 @@
+#include "core/io/estimate_json.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "core/io/atomic_file.hpp"
+
+namespace sweepscope {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kSchema = "sweepscope.estimate/1";
+
+/// The columns of the curve, in the order in which they are written.
+struct CurveColumn {
+  const char* key;
+  std::optional<double> CurvePoint::*value;
+};
+constexpr std::array<CurveColumn, 6> kCurveColumns{{{"d", &CurvePoint::d},
+                                                    {"translation_m", &CurvePoint::translation_m},
+                                                    {"rotation_rad", &CurvePoint::rotation_rad},
+                                                    {"signed_rotation_rad", &CurvePoint::signed_rotation_rad},
+                                                    {"n", &CurvePoint::n},
+                                                    {"e_m", &CurvePoint::e_m}}};
+
+/// To 1e-9 ms, so that 0.0239 s is written 23.9 and not 23.900000000000002.
+double to_ms(double seconds) {
+  return std::round(seconds * 1e12) / 1e9;
+}
+
+/// Whole numbers, such as counts, without a decimal point.
+Json number(double value) {
+  if (value == std::floor(value) && std::abs(value) < 1e15) return static_cast<std::int64_t>(value);
+  return value;
+}
+
+Json number_or_null(const std::optional<double>& value) {
+  return value ? number(*value) : Json(nullptr);
+}
+
+Json milliseconds_or_null(const std::optional<double>& seconds) {
+  return seconds ? Json(to_ms(*seconds)) : Json(nullptr);
+}
+
+Json curve_to_json(const std::vector<CurvePoint>& curve) {
+  Json points = Json::array();
+  for (const CurvePoint& point : curve) {
+    Json object;
+    object["offset_ms"] = to_ms(point.offset_s);
+    for (const CurveColumn& column : kCurveColumns) object[column.key] = number_or_null(point.*column.value);
+    points.push_back(std::move(object));
+  }
+  return points;
+}
+
+/// What is wrong with a document, as a place and a reason.
+struct BadValue : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+const Json& member(const Json& object, const char* key, const std::string& where) {
+  const auto found = object.find(key);
+  if (found == object.end()) throw BadValue(where + key + " is missing");
+  return *found;
+}
+
+template <typename T>
+T required(const Json& object, const char* key, const std::string& where = "") {
+  try {
+    return member(object, key, where).get<T>();
+  } catch (const Json::exception&) {
+    throw BadValue(where + key + " has the wrong type");
+  }
+}
+
+std::optional<double> optional_number(const Json& object, const char* key, const std::string& where = "") {
+  const auto found = object.find(key);
+  if (found == object.end() || found->is_null()) return std::nullopt;
+  if (!found->is_number()) throw BadValue(where + key + " is neither a number nor null");
+  return found->get<double>();
+}
+
+std::optional<double> optional_seconds(const Json& object, const char* key) {
+  const auto milliseconds = optional_number(object, key);
+  return milliseconds ? std::optional(*milliseconds / 1e3) : std::nullopt;
+}
+
+std::vector<CurvePoint> curve_from_json(const Json& curve) {
+  if (!curve.is_array()) throw BadValue("curve is not a list");
+  std::vector<CurvePoint> points;
+  for (const Json& object : curve) {
+    const std::string where = fmt::format("curve[{}].", points.size());
+    CurvePoint point;
+    if (!object.is_object()) throw BadValue(where + " is not an object");
+    point.offset_s = required<double>(object, "offset_ms", where) / 1e3;
+    for (const CurveColumn& column : kCurveColumns)
+      point.*column.value = optional_number(object, column.key, where);
+    points.push_back(point);
+  }
+  return points;
+}
+
+std::vector<CriterionOptimum> criteria_from_json(const Json& criteria) {
+  if (!criteria.is_object()) throw BadValue("criteria is not an object");
+  std::vector<CriterionOptimum> optima;
+  for (const auto& [key, object] : criteria.items()) {
+    const std::string where = fmt::format("criteria.{}.", key);
+    if (!object.is_object()) throw BadValue(where + " is not an object");
+    optima.push_back(
+        {key, required<double>(object, "offset_ms", where) / 1e3, required<double>(object, "value", where)});
+  }
+  return optima;
+}
+
+Estimate estimate_from_json(const Json& document) {
+  if (!document.is_object()) throw BadValue("it is not a JSON object");
+  if (required<std::string>(document, "schema") != kSchema) {
+    throw BadValue(fmt::format("schema is not {}", kSchema));
+  }
+  Estimate estimate;
+  estimate.recording = required<std::string>(document, "recording");
+  estimate.method = required<std::string>(document, "method");
+  estimate.identifiable = required<bool>(document, "identifiable");
+  estimate.offset_s = optional_seconds(document, "offset_ms");
+  estimate.sigma_s = optional_seconds(document, "sigma_ms");
+  estimate.warnings = required<std::vector<std::string>>(document, "warnings");
+  estimate.reasons = required<std::vector<std::string>>(document, "reasons");
+  estimate.criteria = criteria_from_json(member(document, "criteria", ""));
+  estimate.curve = curve_from_json(member(document, "curve", ""));
+  estimate.sweeps = required<std::size_t>(document, "sweeps");
+  estimate.scans = required<std::size_t>(document, "scans");
+  estimate.cpu_s = optional_number(document, "cpu_s").value_or(0);
+  estimate.wall_s = optional_number(document, "wall_s").value_or(0);
+  return estimate;
+}
+
+}  // namespace
+
+std::string estimate_to_json(const Estimate& estimate, Timing timing) {
+  Json document;
+  document["schema"] = kSchema;
+  document["recording"] = estimate.recording;
+  document["method"] = estimate.method;
+  document["equation"] = "t_motor = t_laser + offset";
+  document["identifiable"] = estimate.identifiable;
+  const bool found = estimate.identifiable;
+  document["offset_ms"] = found ? milliseconds_or_null(estimate.offset_s) : Json(nullptr);
+  document["sigma_ms"] = found ? milliseconds_or_null(estimate.sigma_s) : Json(nullptr);
+  document["warnings"] = estimate.warnings;
+  document["reasons"] = estimate.reasons;
+  document["criteria"] = Json::object();
+  for (const CriterionOptimum& optimum : estimate.criteria) {
+    document["criteria"][optimum.name] = {{"offset_ms", to_ms(optimum.offset_s)},
+                                          {"value", number(optimum.value)}};
+  }
+  document["curve"] = curve_to_json(estimate.curve);
+  document["sweeps"] = estimate.sweeps;
+  document["scans"] = estimate.scans;
+  document["cpu_s"] = timing == Timing::kWritten ? Json(estimate.cpu_s) : Json(nullptr);
+  document["wall_s"] = timing == Timing::kWritten ? Json(estimate.wall_s) : Json(nullptr);
+  document["version"] = SWEEPSCOPE_VERSION;
+  // File names need not be UTF-8; what is not becomes U+FFFD.
+  return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Result<Estimate> parse_estimate_json(std::string_view text, std::string_view name) {
+  try {
+    return estimate_from_json(Json::parse(text));
+  } catch (const Json::parse_error& error) {
+    return unreadable(fmt::format("{}: not JSON: broken at byte {}", name, error.byte));
+  } catch (const BadValue& error) {
+    return unreadable(fmt::format("{}: not an estimate: {}", name, error.what()));
+  }
+}
+
+Result<void> write_estimate_json(const std::filesystem::path& path, const Estimate& estimate, Timing timing) {
+  return write_file(path, estimate_to_json(estimate, timing));
+}
+
+Result<Estimate> read_estimate_json(const std::filesystem::path& path) {
+  const Result<std::string> text = read_file(path);
+  if (!text) return tl::unexpected(text.error());
+  return parse_estimate_json(*text, path.string());
+}
+
+std::string curve_to_csv(const Estimate& estimate) {
+  std::string text = "offset_ms,d,translation_m,rotation_rad,signed_rotation_rad,n,e_m\n";
+  for (const CurvePoint& point : estimate.curve) {
+    text += fmt::format("{}", to_ms(point.offset_s));
+    for (const CurveColumn& column : kCurveColumns) {
+      const auto& value = point.*column.value;
+      text += value ? fmt::format(",{}", *value) : ",";
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+Result<void> write_curve_csv(const std::filesystem::path& path, const Estimate& estimate) {
+  return write_file(path, curve_to_csv(estimate));
+}
+
+}  // namespace sweepscope

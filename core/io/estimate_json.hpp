@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "core/error.hpp"
+#include "core/offset/estimate.hpp"
+
+namespace sweepscope {
+
+/// Whether an output names the time that was spent. Without it the same input gives the same bytes.
+enum class Timing { kWritten, kNull };
+
+/// The estimate as a JSON object (schema "sweepscope.estimate/1"), keys in a fixed order, offsets in
+/// milliseconds, null where a value is absent, with a line end. Offsets keep 1e-9 ms. An estimate that is not
+/// identifiable has offset_ms and sigma_ms null.
+std::string estimate_to_json(const Estimate& estimate, Timing timing = Timing::kWritten);
+
+/// Reads what estimate_to_json wrote; keys that it does not know are passed over. `name` stands for the file
+/// in error messages, which also name the key.
+Result<Estimate> parse_estimate_json(std::string_view text, std::string_view name);
+
+Result<void> write_estimate_json(const std::filesystem::path& path, const Estimate& estimate,
+                                 Timing timing = Timing::kWritten);
+Result<Estimate> read_estimate_json(const std::filesystem::path& path);
+
+/// The curve as a table: a header line that names columns and units, then one line per offset; empty where
+/// absent.
+std::string curve_to_csv(const Estimate& estimate);
+Result<void> write_curve_csv(const std::filesystem::path& path, const Estimate& estimate);
+
+}  // namespace sweepscope

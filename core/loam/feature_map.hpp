@@ -1,0 +1,81 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace sweepscope {
+
+/// Which sweeps' points a query sees, by their direction of turning.
+enum class SweepFilter : std::uint8_t { kBackward = 1, kForward = 2, kAny = 3 };
+
+/// The points nearest to a query, nearest first.
+struct Neighbours {
+  static constexpr int kMax = 10;
+  int count = 0;
+  int lines = 0;  // distinct scan lines among them
+  std::array<Eigen::Vector3f, kMax> p_m;
+  std::array<float, kMax> squared_distance_m2;
+  std::array<std::uint32_t, kMax> line;
+};
+
+/// A map of feature points, thinned, in hashed grids of doubling cell size: level l has cells of
+/// `cell_m * 2^l` and at most one point per third of a cell and sweep direction, and is searched within 5/6 of a cell.
+/// Far points, which lie sparsely, are so matched as fast as near ones. The first point to arrive in a place stays.
+class FeatureMap {
+ public:
+  static constexpr int kLevels = 4;
+  explicit FeatureMap(double cell_m = 0.6, bool thinned = true);
+
+  /// Adds a point of scan line `line` (below 2^31) of a sweep turning in `direction` (+1 or -1).
+  void insert(const Eigen::Vector3f& p_m, std::uint32_t line, int direction);
+
+  /// The level whose search radius is at least `radius_m`, or the last.
+  int level_for(double radius_m) const;
+  double search_radius_m(int level) const { return levels_[level].radius_m; }
+
+  /// The nearest points, at most `most` and at most `per_line` of one scan line.
+  void nearest(const Eigen::Vector3f& p_m, int level, SweepFilter filter, int most, int per_line,
+               Neighbours& found) const;
+
+  std::size_t size() const { return levels_[0].points; }
+  void clear();
+
+ private:
+  static constexpr int kBlock = 16;
+  static constexpr std::uint32_t kNone = 0xffffffffu;
+  struct Block {
+    std::array<float, kBlock> x{}, y{}, z{};
+    std::array<std::uint32_t, kBlock> line;
+    std::uint32_t count = 0;
+    std::uint32_t next = kNone;
+  };
+  struct Cell {
+    std::array<std::uint32_t, 2> first{kNone, kNone};  // blocks, by direction
+    std::array<std::uint32_t, 2> taken{0, 0};          // thirds of the cell that hold a point
+  };
+  struct Slot {
+    std::uint64_t key = ~std::uint64_t{0};
+    std::uint32_t cell = kNone;
+  };
+  struct Level {
+    float inverse_cell = 0, cell_m = 0;
+    double radius_m = 0;
+    std::vector<Slot> slots;
+    std::vector<Cell> cells;
+    std::vector<Block> blocks;
+    std::size_t points = 0;
+  };
+  static std::uint64_t key_of(int x, int y, int z);
+  static std::size_t hash_of(std::uint64_t key);
+  static const Cell* find(const Level& level, std::uint64_t key);
+  static Cell& find_or_add(Level& level, std::uint64_t key);
+  static void grow(Level& level);
+  static void add_point(Level& level, std::uint32_t& first, const Eigen::Vector3f& p_m, std::uint32_t line);
+
+  std::array<Level, kLevels> levels_;
+  bool thinned_;
+};
+
+}  // namespace sweepscope

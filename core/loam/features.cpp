@@ -1,0 +1,261 @@
+#include "core/loam/features.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <span>
+
+namespace sweepscope {
+namespace {
+
+struct ScanFeatures {
+  std::vector<Feature> edges, planes;
+};
+
+// What is known of every beam of one scan line before features are picked.
+struct Line {
+  std::vector<float> x_m, y_m;       // in the scanner's plane
+  std::vector<float> curvature_m;    // distance from the neighbours' mean, along the beam; NaN where there is none
+  std::vector<char> occluded;        // beside a nearer surface: the edge is the nearer surface's, not its own
+  std::vector<char> silhouette;      // the last point of a surface before something far behind it, or nothing
+};
+
+class LineFeatures {
+ public:
+  LineFeatures(const Recording& recording, const Kinematics& kinematics, const FeatureOptions& options,
+               double noise_m)
+      : recording_(recording), kinematics_(kinematics), options_(options), noise_m_(noise_m) {}
+
+  ScanFeatures extract(std::uint32_t scan_index) {
+    const LaserScan& scan = recording_.scans[scan_index];
+    const auto ranges = recording_.ranges(scan);
+    measure(scan, ranges);
+    ScanFeatures found;
+    pick_edges(scan, scan_index, ranges, found.edges);
+    pick_planes(scan, scan_index, ranges, found.planes);
+    return found;
+  }
+
+ private:
+  void measure(const LaserScan& scan, std::span<const float> ranges) {
+    const int beams = static_cast<int>(scan.beams), half = options_.half_window;
+    line_.x_m.resize(beams);
+    line_.y_m.resize(beams);
+    line_.curvature_m.assign(beams, std::nanf(""));
+    line_.occluded.assign(beams, 0);
+    line_.silhouette.assign(beams, 0);
+    for (int i = 0; i < beams; ++i) {
+      const double angle_rad = scan.beam_angle_rad(i);
+      line_.x_m[i] = static_cast<float>(ranges[i] * std::cos(angle_rad));
+      line_.y_m[i] = static_cast<float>(ranges[i] * std::sin(angle_rad));
+    }
+    mark_occlusions(scan, ranges);
+    for (int i = half; i + half < beams; ++i) line_.curvature_m[i] = curvature(ranges, i);
+    for (int i = half; i + half < beams; ++i)
+      line_.silhouette[i] = ends_surface(ranges, i, 1) || ends_surface(ranges, i, -1);
+  }
+
+  // True where beam i and two before it are on one surface, and the three after it see nothing or far behind it.
+  // Three, since a single beam may return nothing by chance.
+  static constexpr int kBehind = 3;
+  bool ends_surface(std::span<const float> ranges, int i, int step) const {
+    if (!std::isfinite(ranges[i])) return false;
+    for (int k = 1; k <= 2; ++k)
+      if (!(std::abs(ranges[i - step * k] - ranges[i]) < k * surface_step_m(ranges[i]))) return false;
+    for (int k = 1; k <= kBehind; ++k)
+      if (ranges[i + step * k] - ranges[i] < jump_m(ranges[i])) return false;
+    return true;
+  }
+
+  double surface_step_m(double range_m) const { return 0.02 * range_m + 4 * noise_m_; }
+
+  // On a jump between neighbours the farther side's last points are cut by the nearer surface's shadow.
+  void mark_occlusions(const LaserScan& scan, std::span<const float> ranges) {
+    const int beams = static_cast<int>(scan.beams), half = options_.half_window;
+    for (int i = 0; i + 1 < beams; ++i) {
+      const float near = std::min(ranges[i], ranges[i + 1]), far = std::max(ranges[i], ranges[i + 1]);
+      if (!(far - near > jump_m(near))) continue;
+      const bool right_is_far = ranges[i + 1] > ranges[i];
+      const int from = right_is_far ? i + 1 : i - half, to = right_is_far ? i + 1 + half : i;
+      for (int k = std::max(from, 0); k <= std::min(to, beams - 1); ++k) line_.occluded[k] = 1;
+    }
+  }
+
+  double jump_m(double range_m) const { return std::max(0.1 * range_m, 8 * noise_m_); }
+
+  float curvature(std::span<const float> ranges, int i) const {
+    const int half = options_.half_window;
+    float x = 0, y = 0;
+    for (int k = i - half; k <= i + half; ++k) {
+      x += line_.x_m[k];
+      y += line_.y_m[k];
+    }
+    const auto count = static_cast<float>(2 * half + 1);
+    const float dx = x / count - line_.x_m[i], dy = y / count - line_.y_m[i];
+    // Along the beam and across: along a wall the beams' uneven spacing moves the mean as well, so take the part
+    // that is normal to the chord between the ends.
+    const float cx = line_.x_m[i + half] - line_.x_m[i - half], cy = line_.y_m[i + half] - line_.y_m[i - half];
+    const float chord = std::hypot(cx, cy);
+    if (!(chord > 1e-6f)) return std::nanf("");
+    const float value = std::abs(dx * cy - dy * cx) / chord;
+    return std::isfinite(ranges[i]) ? value : std::nanf("");
+  }
+
+  void pick_edges(const LaserScan& scan, std::uint32_t scan_index, std::span<const float> ranges,
+                  std::vector<Feature>& edges) {
+    const int beams = static_cast<int>(scan.beams);
+    for (int region = 0; region < options_.regions; ++region) {
+      order_.clear();
+      const int from = beams * region / options_.regions, to = beams * (region + 1) / options_.regions;
+      for (int i = from; i < to; ++i)
+        if (is_edge(ranges, i)) order_.push_back(i);
+      std::sort(order_.begin(), order_.end(), [&](int a, int b) {
+        return sharpness_m(a) != sharpness_m(b) ? sharpness_m(a) > sharpness_m(b) : a < b;
+      });
+      taken_.assign(beams, 0);
+      int count = 0;
+      for (const int i : order_) {
+        if (count >= options_.map_edges_per_region) break;
+        if (taken_[i]) continue;
+        if (push(scan, scan_index, i, ranges[i], count < options_.edges_per_region, edges)) ++count;
+        for (int k = std::max(0, i - options_.half_window); k <= std::min(beams - 1, i + options_.half_window); ++k)
+          taken_[k] = 1;
+      }
+    }
+    std::sort(edges.begin(), edges.end(), [](const Feature& a, const Feature& b) { return a.beam < b.beam; });
+  }
+
+  // A silhouette has no curvature of its own: it ranks behind sharp corners and before blunt ones.
+  float sharpness_m(int i) const {
+    const float curvature_m = std::isfinite(line_.curvature_m[i]) ? line_.curvature_m[i] : 0.0f;
+    return line_.silhouette[i] ? std::max(curvature_m, 0.1f) : curvature_m;
+  }
+
+  bool is_edge(std::span<const float> ranges, int i) const {
+    if (line_.silhouette[i]) return true;
+    const double threshold_m = std::max(options_.edge_curvature * noise_m_, options_.edge_curvature_slope * ranges[i]);
+    if (!(line_.curvature_m[i] > threshold_m) || line_.occluded[i]) return false;
+    for (int k = i - 1; k <= i + 1; ++k)
+      if (!std::isfinite(ranges[k])) return false;
+    return true;
+  }
+
+  void pick_planes(const LaserScan& scan, std::uint32_t scan_index, std::span<const float> ranges,
+                   std::vector<Feature>& planes) {
+    const int beams = static_cast<int>(scan.beams), half = options_.half_window;
+    const int per_match = std::max(1, options_.plane_spacing / options_.map_spacing);
+    int bin = 0;
+    for (int from = half; from + half < beams; from += options_.map_spacing, ++bin) {
+      int best = -1;
+      for (int i = from; i < std::min(from + options_.map_spacing, beams - half); ++i)
+        if (is_plane(ranges, i) && (best < 0 || line_.curvature_m[i] < line_.curvature_m[best])) best = i;
+      if (best < 0) continue;
+      const double range_m = smoothed_range_m(scan, ranges, best);
+      if (range_m > 0) push(scan, scan_index, best, range_m, bin % per_match == 0, planes);
+    }
+  }
+
+  bool is_plane(std::span<const float> ranges, int i) const {
+    const int half = options_.half_window;
+    if (!(line_.curvature_m[i] < options_.plane_curvature * noise_m_)) return false;
+    // Nearly parallel to the beam: the range changes from beam to beam by more than the beams' spacing times 5.
+    const double rise_m = std::abs(ranges[i + half] - ranges[i - half]);
+    const double width_m = std::hypot(line_.x_m[i + half] - line_.x_m[i - half], line_.y_m[i + half] - line_.y_m[i - half]);
+    return std::isfinite(rise_m) && rise_m < 0.97 * width_m + 4 * noise_m_ && width_m < 0.25 * ranges[i] + 0.3;
+  }
+
+  // The range at beam i of the line fitted to its neighbours: less noise, and no offset in it, since the neighbours
+  // are within a degree of motor angle. Negative where the neighbours are not on a line.
+  double smoothed_range_m(const LaserScan& scan, std::span<const float> ranges, int i) const {
+    const int half = options_.half_window;
+    double sx = 0, sy = 0, sxx = 0, sxy = 0, syy = 0;
+    const double n = 2 * half + 1;
+    for (int k = i - half; k <= i + half; ++k) {
+      const double x = line_.x_m[k], y = line_.y_m[k];
+      sx += x, sy += y, sxx += x * x, sxy += x * y, syy += y * y;
+    }
+    const double mx = sx / n, my = sy / n;
+    const double cxx = sxx / n - mx * mx, cxy = sxy / n - mx * my, cyy = syy / n - my * my;
+    // Total least squares: the direction of greatest spread.
+    const double theta = 0.5 * std::atan2(2 * cxy, cxx - cyy);
+    const double nx = -std::sin(theta), ny = std::cos(theta);
+    const double spread = nx * nx * cxx + 2 * nx * ny * cxy + ny * ny * cyy;
+    const double limit_m = 1.8 * noise_m_;
+    if (!(spread < limit_m * limit_m)) return -1;
+    const double angle_rad = scan.beam_angle_rad(i);
+    const double across = nx * std::cos(angle_rad) + ny * std::sin(angle_rad);
+    if (std::abs(across) < 0.1) return -1;
+    const double range_m = (nx * mx + ny * my) / across;
+    return std::abs(range_m - ranges[i]) < 4 * noise_m_ ? range_m : -1;
+  }
+
+  bool push(const LaserScan& scan, std::uint32_t scan_index, int beam, double range_m, bool sharp,
+            std::vector<Feature>& features) const {
+    const Eigen::Vector3d p_in_motor_m = kinematics_.point_in_motor(range_m, scan.beam_angle_rad(beam));
+    if (kinematics_.distance_to_axis_m(p_in_motor_m) < options_.axis_sine * range_m) return false;
+    features.push_back({p_in_motor_m.cast<float>(), static_cast<float>(range_m), scan.beam_s(beam), scan_index,
+                        static_cast<std::uint16_t>(beam), sharp});
+    return true;
+  }
+
+  const Recording& recording_;
+  const Kinematics& kinematics_;
+  const FeatureOptions& options_;
+  double noise_m_;
+  Line line_;
+  std::vector<int> order_;
+  std::vector<char> taken_;
+};
+
+void append(FeatureList& list, const std::vector<Feature>& scan_features) {
+  list.scan_begin.push_back(list.features.size());
+  list.features.insert(list.features.end(), scan_features.begin(), scan_features.end());
+}
+
+}  // namespace
+
+double estimate_range_noise_m(const Recording& recording) {
+  constexpr std::size_t kScans = 200;
+  std::vector<float> differences;
+  const std::size_t stride = std::max<std::size_t>(1, recording.scans.size() / kScans);
+  for (std::size_t s = 0; s < recording.scans.size(); s += stride) {
+    const auto ranges = recording.ranges(recording.scans[s]);
+    for (std::size_t i = 1; i + 1 < ranges.size(); ++i) {
+      const float difference = std::abs(ranges[i - 1] - 2 * ranges[i] + ranges[i + 1]);
+      if (std::isfinite(difference)) differences.push_back(difference);
+    }
+  }
+  if (differences.empty()) return 0.002;
+  const auto middle = differences.begin() + std::ptrdiff_t(differences.size() / 2);
+  std::nth_element(differences.begin(), middle, differences.end());
+  return std::max(0.002, *middle / (0.6745 * std::sqrt(6.0)));
+}
+
+Result<FeatureSet> extract_features(const Recording& recording, const FeatureOptions& options, const Job& job) {
+  FeatureSet set;
+  set.range_noise_m = estimate_range_noise_m(recording);
+  const Kinematics kinematics(recording.rig.mount);
+  const std::size_t scans = recording.scans.size();
+  std::vector<ScanFeatures> per_scan(scans);
+  std::atomic<std::size_t> done{0};
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, scans, 64), [&](const auto& block) {
+    LineFeatures line(recording, kinematics, options, set.range_noise_m);
+    if (job.cancelled()) return;
+    for (std::size_t i = block.begin(); i < block.end(); ++i) per_scan[i] = line.extract(static_cast<std::uint32_t>(i));
+    done += block.size();
+    job.report("features", double(done) / double(scans));
+  });
+  if (job.cancelled()) return failure(ExitCode::kInterrupted, "Interrupted while extracting features.");
+  for (const ScanFeatures& scan : per_scan) {
+    append(set.edges, scan.edges);
+    append(set.planes, scan.planes);
+  }
+  set.edges.scan_begin.push_back(set.edges.features.size());
+  set.planes.scan_begin.push_back(set.planes.features.size());
+  return set;
+}
+
+}  // namespace sweepscope

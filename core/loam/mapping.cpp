@@ -1,0 +1,373 @@
+#include "core/loam/mapping.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/loam/least_squares.hpp"
+#include "core/loam/sweep_motion.hpp"
+
+namespace sweepscope {
+namespace {
+
+struct SweepMaps {
+  FeatureMap edges, planes;
+
+  void insert(const PlacedSweep& sweep, const SweepPose& pose) {
+    const SweepMotion motion(pose.begin, pose.end);
+    for (const PlacedFeature& feature : sweep.edges)
+      edges.insert(motion(feature.p_in_base_m, feature.u).cast<float>(), feature.line, sweep.direction);
+    for (const PlacedFeature& feature : sweep.planes)
+      planes.insert(motion(feature.p_in_base_m, feature.u).cast<float>(), feature.line, sweep.direction);
+  }
+};
+
+// How the map is searched. A map of a few sweeps is sparse: scan lines lie farther apart than in a grown one.
+struct SearchRule {
+  PatchOptions patch;
+  double radius_m, radius_slope;
+  SweepFilter filter;
+};
+
+SearchRule rule_for(const MappingOptions& options, bool grown, SweepFilter filter) {
+  SearchRule rule{options.patch, options.search_radius_m, options.search_radius_slope, filter};
+  if (!grown) {
+    rule.patch.per_line = 3;
+    rule.patch.least_lines = 3;
+    rule.radius_slope = std::max(rule.radius_slope, 0.25);
+  }
+  return rule;
+}
+
+// The finest level that holds enough neighbours: a patch as small as the map allows, since large ones bend round
+// corners. Gives the search radius, or nothing where even the coarsest level allowed is too sparse.
+std::optional<double> nearest_on_finest(const FeatureMap& map, const Eigen::Vector3f& p_m, float range_m,
+                                        const SearchRule& rule, int most, int least, int least_lines, Neighbours& near) {
+  const int coarsest = map.level_for(std::max(rule.radius_m, rule.radius_slope * range_m));
+  for (int level = 0; level <= coarsest; ++level) {
+    map.nearest(p_m, level, rule.filter, most, rule.patch.per_line, near);
+    if (near.count >= least && near.lines >= least_lines) return map.search_radius_m(level);
+  }
+  return std::nullopt;
+}
+
+std::optional<PlanePatch> find_plane(const FeatureMap& map, const Eigen::Vector3d& p_m, float range_m,
+                                     const SearchRule& rule, Neighbours& near) {
+  const auto radius_m = nearest_on_finest(map, p_m.cast<float>(), range_m, rule, rule.patch.plane_neighbours, 6,
+                                          rule.patch.least_lines, near);
+  return radius_m ? fit_plane(near, rule.patch, *radius_m) : std::nullopt;
+}
+
+std::optional<LinePatch> find_line(const FeatureMap& map, const Eigen::Vector3d& p_m, float range_m,
+                                   const SearchRule& rule, Neighbours& near) {
+  const auto radius_m = nearest_on_finest(map, p_m.cast<float>(), range_m, rule, rule.patch.edge_neighbours, 4,
+                                          rule.patch.least_edge_lines, near);
+  return radius_m ? fit_line(near, rule.patch, *radius_m) : std::nullopt;
+}
+
+void count_one(bool found, double distance_m, double gate_m, double cap_m, MatchCount& count) {
+  ++count.features;
+  count.capped_sum_m += found ? std::min(distance_m, cap_m) : cap_m;
+  if (!found || !(distance_m < gate_m)) return;
+  ++count.matches;
+  count.distance_sum_m += distance_m;
+}
+
+// One sweep's matches with the map, kept from step to step while their points hardly move.
+class SweepMatcher {
+ public:
+  SweepMatcher(const SweepMaps& maps, const PlacedSweep& sweep, const SearchRule& rule, const MappingOptions& options)
+      : maps_(maps), sweep_(sweep), rule_(rule), options_(options), planes_(sweep.planes.size()),
+        edges_(sweep.edges.size()) {}
+
+  // Adds the matches at the given poses to the equations; counts them too.
+  MatchCount linearise(const Pose& begin, const Pose& end, const Eigen::Vector3d& pivot_m, SweepEquations& equations) {
+    const SweepMotion motion(begin, end);
+    MatchCount count;
+    for (std::size_t i = 0; i < planes_.size(); ++i) {
+      const PlacedFeature& feature = sweep_.planes[i];
+      if (!feature.sharp) continue;
+      const Eigen::Vector3d p_m = motion(feature.p_in_base_m, feature.u);
+      refresh(planes_[i], p_m, [&] { return find_plane(maps_.planes, p_m, feature.range_m, rule_, near_); });
+      const auto& plane = planes_[i].patch;
+      const double distance_m = plane ? (p_m - plane->centre_m).dot(plane->normal) : 0.0;
+      count_one(plane.has_value(), std::abs(distance_m), options_.plane_gate_m, options_.cost_cap_m, count);
+      if (plane) add(p_m, plane->normal, distance_m, feature.u, pivot_m, equations);
+    }
+    for (std::size_t i = 0; i < edges_.size(); ++i) {
+      const PlacedFeature& feature = sweep_.edges[i];
+      if (!feature.sharp) continue;
+      const Eigen::Vector3d p_m = motion(feature.p_in_base_m, feature.u);
+      refresh(edges_[i], p_m, [&] { return find_line(maps_.edges, p_m, feature.range_m, rule_, near_); });
+      const auto& line = edges_[i].patch;
+      const Eigen::Vector3d away_m = line ? from_line(*line, p_m) : Eigen::Vector3d::Zero();
+      const double distance_m = away_m.norm();
+      count_one(line.has_value(), distance_m, options_.edge_gate_m, options_.cost_cap_m, count);
+      if (distance_m > 1e-9) add(p_m, away_m / distance_m, distance_m, feature.u, pivot_m, equations);
+    }
+    return count;
+  }
+
+ private:
+  template <typename Patch>
+  struct Match {
+    std::optional<Patch> patch;
+    Eigen::Vector3d searched_at_m = Eigen::Vector3d::Constant(1e30);
+  };
+
+  template <typename Patch, typename Search>
+  void refresh(Match<Patch>& match, const Eigen::Vector3d& p_m, const Search& search) {
+    const double reach_m = options_.reuse_within_m;
+    if ((p_m - match.searched_at_m).squaredNorm() < reach_m * reach_m) return;
+    match.patch = search();
+    match.searched_at_m = p_m;
+  }
+
+  void add(const Eigen::Vector3d& p_m, const Eigen::Vector3d& normal, double distance_m, double u,
+           const Eigen::Vector3d& pivot_m, SweepEquations& equations) const {
+    const double weight = cauchy_weight(distance_m, options_.loss_width_m) /
+                          (options_.match_sigma_m * options_.match_sigma_m);
+    equations.add(distance_jacobian(p_m, normal, pivot_m), distance_m, weight, u);
+  }
+
+  const SweepMaps& maps_;
+  const PlacedSweep& sweep_;
+  SearchRule rule_;
+  const MappingOptions& options_;
+  std::vector<Match<PlanePatch>> planes_;
+  std::vector<Match<LinePatch>> edges_;
+  Neighbours near_;
+};
+
+// A soft tie: the sum of signed pose steps plus a residual is near zero, rotation and translation alike.
+struct Tie {
+  Eigen::Matrix<double, 6, 12> jacobian = Eigen::Matrix<double, 6, 12>::Zero();
+  Vector6d residual;
+
+  // How a pose's step about the pivot moves the pose itself.
+  void moves(int block, const Pose& pose, const Eigen::Vector3d& pivot_m, double sign) {
+    const Eigen::Vector3d d = pose.translation_m - pivot_m;
+    Eigen::Matrix3d cross;  // step_rotation x d = -[d]x step_rotation
+    cross << 0, d.z(), -d.y(), -d.z(), 0, d.x(), d.y(), -d.x(), 0;
+    jacobian.block<3, 3>(0, 6 * block) += sign * Eigen::Matrix3d::Identity();
+    jacobian.block<3, 3>(3, 6 * block) += sign * cross;
+    jacobian.block<3, 3>(3, 6 * block + 3) += sign * Eigen::Matrix3d::Identity();
+  }
+  void add_to(Matrix12d& a, Vector12d& g, double sigma) const {
+    a.noalias() += jacobian.transpose() * jacobian / (sigma * sigma);
+    g.noalias() += jacobian.transpose() * residual / (sigma * sigma);
+  }
+};
+
+Vector6d difference(const Pose& to, const Pose& from) {  // in the map frame
+  Vector6d d;
+  d << vector_from_rotation(to.rotation * from.rotation.conjugate()), to.translation_m - from.translation_m;
+  return d;
+}
+
+class Tracker {
+ public:
+  Tracker(const MappingOptions& options, const Eigen::Vector3d& motor_axis, const Vector6d& first_twist_per_s)
+      : options_(options), motor_axis_(motor_axis), first_twist_per_s_(first_twist_per_s) {}
+
+  void add(const PlacedSweep& sweep) {
+    SweepPose pose = predict(sweep);
+    if (!walk_.sweeps.empty()) solve(sweep, pose);
+    if (!walk_.sweeps.empty()) learn_jump(pose);
+    maps_.insert(sweep, pose);
+    walk_.sweeps.push_back(pose);
+  }
+  TrackedWalk& walk() { return walk_; }
+
+ private:
+  SweepPose predict(const PlacedSweep& sweep) const {
+    SweepPose pose;
+    pose.sweep = sweep.sweep;
+    pose.direction = sweep.direction;
+    pose.begin_s = sweep.begin_s;
+    pose.end_s = sweep.end_s;
+    const double duration_s = sweep.end_s - sweep.begin_s;
+    if (walk_.sweeps.empty()) {
+      const Vector6d twist = first_twist_per_s_ * duration_s;
+      pose.end = {rotation_from_vector(twist.head<3>()), twist.tail<3>()};
+      return pose;
+    }
+    const SweepPose& last = walk_.sweeps.back();
+    const double ratio = duration_s / (last.end_s - last.begin_s);
+    pose.begin = joined_to(last, pose.direction);
+    const Pose gone = last.begin.inverse() * last.end;
+    pose.end = pose.begin * interpolate(Pose{}, gone, ratio);
+    return pose;
+  }
+
+  // Where a sweep is expected to begin. A wrong offset makes the pose jump at every reversal, to and fro about the
+  // motor's axis; by how much is learned on the way.
+  Pose joined_to(const SweepPose& last, int direction) const {
+    Pose begin = last.end;
+    begin.rotation = (begin.rotation * rotation_from_vector(direction * jump_rad_ * motor_axis_)).normalized();
+    return begin;
+  }
+
+  void learn_jump(const SweepPose& pose) {
+    const Eigen::Quaterniond jump = walk_.sweeps.back().end.rotation.conjugate() * pose.begin.rotation;
+    const double jump_rad = pose.direction * motor_axis_.dot(vector_from_rotation(jump));
+    ++jumps_;
+    jump_rad_ += std::max(options_.jump_gain, 1.0 / jumps_) * (jump_rad - jump_rad_);
+  }
+
+  void solve(const PlacedSweep& sweep, SweepPose& pose) {
+    const bool grown = walk_.sweeps.size() >= std::size_t(options_.settling_sweeps);
+    SweepMatcher matcher(maps_, sweep, rule_for(options_, grown, SweepFilter::kAny), options_);
+    const SweepPose last = walk_.sweeps.back();
+    MatchCount count;
+    for (int iteration = 0; iteration < options_.most_iterations; ++iteration) {
+      const Eigen::Vector3d pivot_m = (pose.begin.translation_m + pose.end.translation_m) / 2;
+      SweepEquations equations;
+      count = matcher.linearise(pose.begin, pose.end, pivot_m, equations);
+      const Vector12d step = step_of(equations, last, pose, pivot_m);
+      pose.begin = stepped(pose.begin, step.head<6>(), pivot_m);
+      pose.end = stepped(pose.end, step.tail<6>(), pivot_m);
+      if (step.cwiseAbs().maxCoeff() < options_.step_tolerance) break;
+    }
+    pose.features = count.features;
+    pose.matches = count.matches;
+    if (walk_.sweeps.size() >= std::size_t(options_.settling_sweeps)) walk_.count += count;
+  }
+
+  Vector12d step_of(const SweepEquations& equations, const SweepPose& last, const SweepPose& pose,
+                    const Eigen::Vector3d& pivot_m) const {
+    Matrix12d a = equations.matrix();
+    Vector12d g = equations.gradient();
+    Tie joint;
+    joint.moves(0, pose.begin, pivot_m, 1);
+    joint.residual = difference(pose.begin, joined_to(last, pose.direction));
+    joint.add_to(a, g, jumps_ < 4 ? options_.first_tie_sigma : options_.tie_sigma);
+    Tie steady;
+    steady.moves(1, pose.end, pivot_m, 1);
+    steady.moves(0, pose.begin, pivot_m, -1);
+    const double ratio = (pose.end_s - pose.begin_s) / (last.end_s - last.begin_s);
+    steady.residual = difference(pose.end, pose.begin) - ratio * difference(last.end, last.begin);
+    steady.add_to(a, g, options_.twist_change_sigma);
+    return -a.ldlt().solve(g);
+  }
+
+  const MappingOptions& options_;
+  Eigen::Vector3d motor_axis_;
+  Vector6d first_twist_per_s_;
+  double jump_rad_ = 0;
+  int jumps_ = 0;
+  SweepMaps maps_;
+  TrackedWalk walk_;
+};
+
+// The first sweep has no map to be matched to, so the velocity within it is guessed, tried and averaged: taken at its
+// word the new estimate would swing to and fro for ever.
+Vector6d find_first_twist_per_s(const std::vector<PlacedSweep>& sweeps, const Eigen::Vector3d& motor_axis,
+                                const MappingOptions& options) {
+  Vector6d twist_per_s = Vector6d::Zero();
+  const std::size_t tried = std::min<std::size_t>(std::size_t(options.velocity_sweeps), sweeps.size());
+  if (tried < 2) return twist_per_s;
+  for (int round = 0; round < options.velocity_rounds; ++round) {
+    Tracker tracker(options, motor_axis, twist_per_s);
+    for (std::size_t i = 0; i < tried; ++i) tracker.add(sweeps[i]);
+    Vector6d found = Vector6d::Zero();
+    for (std::size_t i = 1; i < tried; ++i) {
+      const SweepPose& pose = tracker.walk().sweeps[i];
+      found += difference(pose.end, pose.begin) / (pose.end_s - pose.begin_s);
+    }
+    const Vector6d next = (twist_per_s + found / double(tried - 1)) / 2;
+    const bool settled = (next - twist_per_s).cwiseAbs().maxCoeff() < 0.01;
+    twist_per_s = next;
+    if (settled) break;
+  }
+  return twist_per_s;
+}
+
+bool lost_track(const TrackedWalk& walk, const MappingOptions& options) {
+  std::size_t judged = 0, poor = 0;
+  for (std::size_t i = std::size_t(options.settling_sweeps); i < walk.sweeps.size(); ++i) {
+    ++judged;
+    if (walk.sweeps[i].matches * 4 < walk.sweeps[i].features) ++poor;
+  }
+  return poor * 4 > judged;
+}
+
+}  // namespace
+
+Result<TrackedWalk> track(const std::vector<PlacedSweep>& sweeps, const Eigen::Vector3d& motor_axis,
+                          const MappingOptions& options, const Job& job) {
+  Tracker tracker(options, motor_axis, find_first_twist_per_s(sweeps, motor_axis, options));
+  for (std::size_t i = 0; i < sweeps.size(); ++i) {
+    if (job.cancelled()) return failure(ExitCode::kInterrupted, "Interrupted while tracking.");
+    tracker.add(sweeps[i]);
+    job.report("tracking", double(i + 1) / double(sweeps.size()));
+  }
+  tracker.walk().lost = lost_track(tracker.walk(), options);
+  return std::move(tracker.walk());
+}
+
+AlternatingRoll take_out_alternating_roll(const std::vector<SweepPose>& sweeps, const Eigen::Vector3d& motor_axis,
+                                          int settling_sweeps) {
+  AlternatingRoll result;
+  result.sweeps = sweeps;
+  const std::size_t count = sweeps.size();
+  if (count < 5) return result;
+  std::vector<double> roll_rad(count, 0.0);
+  for (std::size_t k = 1; k < count; ++k) {
+    const Eigen::Quaterniond turn = sweeps[k - 1].middle().rotation.conjugate() * sweeps[k].middle().rotation;
+    roll_rad[k] = roll_rad[k - 1] + motor_axis.dot(vector_from_rotation(turn));
+  }
+  const auto alternation_rad = [&](std::size_t k) {
+    const double smooth_rad = (-roll_rad[k - 2] + 4 * roll_rad[k - 1] + 10 * roll_rad[k] + 4 * roll_rad[k + 1] -
+                               roll_rad[k + 2]) / 16;
+    return roll_rad[k] - smooth_rad;
+  };
+  std::vector<double> away_rad;  // a wrong offset turns the pose against the sweep
+  for (std::size_t k = std::max<std::size_t>(2, std::size_t(settling_sweeps)); k + 2 < count; ++k)
+    away_rad.push_back(-sweeps[k].direction * alternation_rad(k));
+  if (away_rad.empty())
+    for (std::size_t k = 2; k + 2 < count; ++k) away_rad.push_back(-sweeps[k].direction * alternation_rad(k));
+  // The middle four fifths: a sweep that slipped does not count.
+  std::sort(away_rad.begin(), away_rad.end());
+  const std::size_t cut = away_rad.size() / 10;
+  double sum_rad = 0;
+  for (std::size_t i = cut; i < away_rad.size() - cut; ++i) sum_rad += away_rad[i];
+  const double mean_rad = sum_rad / double(away_rad.size() - 2 * cut);
+  result.signed_rotation_rad = 2 * mean_rad;
+  for (std::size_t k = 0; k < count; ++k) {
+    const Eigen::Quaterniond back = rotation_from_vector(sweeps[k].direction * mean_rad * motor_axis);
+    result.sweeps[k].begin.rotation = (sweeps[k].begin.rotation * back).normalized();
+    result.sweeps[k].end.rotation = (sweeps[k].end.rotation * back).normalized();
+  }
+  return result;
+}
+
+MatchCount count_matches(const std::vector<PlacedSweep>& sweeps, const std::vector<SweepPose>& poses,
+                         const MappingOptions& options) {
+  SweepMaps maps;
+  MatchCount count;
+  Neighbours near;
+  for (std::size_t k = 0; k < sweeps.size(); ++k) {
+    if (k >= std::size_t(options.settling_sweeps)) {
+      const SearchRule rule = rule_for(options, true, sweeps[k].direction > 0 ? SweepFilter::kBackward : SweepFilter::kForward);
+      const SweepMotion motion(poses[k].begin, poses[k].end);
+      for (const PlacedFeature& feature : sweeps[k].planes) {
+        if (!feature.sharp) continue;
+        const Eigen::Vector3d p_m = motion(feature.p_in_base_m, feature.u);
+        const auto plane = find_plane(maps.planes, p_m, feature.range_m, rule, near);
+        const double distance_m = plane ? std::abs((p_m - plane->centre_m).dot(plane->normal)) : 0.0;
+        count_one(plane.has_value(), distance_m, options.plane_gate_m, options.cost_cap_m, count);
+      }
+      for (const PlacedFeature& feature : sweeps[k].edges) {
+        if (!feature.sharp) continue;
+        const Eigen::Vector3d p_m = motion(feature.p_in_base_m, feature.u);
+        const auto line = find_line(maps.edges, p_m, feature.range_m, rule, near);
+        const double distance_m = line ? from_line(*line, p_m).norm() : 0.0;
+        count_one(line.has_value(), distance_m, options.edge_gate_m, options.cost_cap_m, count);
+      }
+    }
+    maps.insert(sweeps[k], poses[k]);
+  }
+  return count;
+}
+
+}  // namespace sweepscope

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "core/loam/feature_map.hpp"
+
+namespace sweepscope {
+
+/// When neighbours count as a plane or a line.
+struct PatchOptions {
+  int plane_neighbours = 10;
+  int edge_neighbours = 6;
+  int per_line = 2;               // neighbours from one scan line: more would fit the line instead of the surface
+  int least_lines = 4;            // distinct scan lines among a plane's neighbours, at least 3
+  int least_edge_lines = 3;
+  double thickness_m = 0.06;      // RMS distance of the neighbours from the plane or line, at most ...
+  double thickness_slope = 0.03;  // ... plus this times the search radius
+};
+
+/// A plane through the map's points near a query: (p - centre) . normal is a point's distance.
+struct PlanePatch {
+  Eigen::Vector3d centre_m, normal;
+};
+
+/// A line through the map's edge points near a query; `direction` has unit length.
+struct LinePatch {
+  Eigen::Vector3d centre_m, direction;
+};
+
+/// The plane that `neighbours` lie on, or nothing where they are too few, on too few scan lines, in a row, or not flat.
+std::optional<PlanePatch> fit_plane(const Neighbours& neighbours, const PatchOptions& options, double radius_m);
+
+/// The line that `neighbours` lie along, or nothing (LOAM: first eigenvalue more than three times the second).
+std::optional<LinePatch> fit_line(const Neighbours& neighbours, const PatchOptions& options, double radius_m);
+
+/// The vector from the line to the point, normal to the line.
+inline Eigen::Vector3d from_line(const LinePatch& line, const Eigen::Vector3d& p_m) {
+  const Eigen::Vector3d d = p_m - line.centre_m;
+  return d - line.direction.dot(d) * line.direction;
+}
+
+}  // namespace sweepscope

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/geometry/kinematics.hpp"
+#include "core/geometry/sweeps.hpp"
+#include "core/loam/features.hpp"
+
+namespace sweepscope {
+
+/// A feature of a sweep placed with the motor angle of its own instant at a candidate offset.
+struct PlacedFeature {
+  Eigen::Vector3d p_in_base_m;
+  double u = 0;  // where in the sweep: 0 at its begin, 1 at its end
+  float range_m = 0;
+  std::uint32_t line = 0;
+  bool sharp = false;  // to be matched; the others only build the map
+};
+
+/// A sweep's features at a candidate offset.
+struct PlacedSweep {
+  std::size_t sweep = 0;  // index into MotorMotion::sweeps
+  int direction = 0;
+  double begin_s = 0, end_s = 0;  // laser clock
+  std::size_t scans = 0;
+  std::vector<PlacedFeature> edges, planes;
+};
+
+/// What a candidate offset is tried on: everything that does not depend on the offset.
+struct OffsetProblem {
+  const Recording* recording = nullptr;
+  const FeatureSet* features = nullptr;
+  MotorMotion motor;
+  std::vector<char> scan_used;  // per scan: 1 where the motor track covers it at every offset searched
+};
+
+/// Places the features of every sweep at an offset: t_motor = t_laser + offset. Features within a reversal's unsteady
+/// part, and scans that are not used, are left out; sweeps without any scan are not in the result.
+std::vector<PlacedSweep> place_sweeps(const OffsetProblem& problem, double offset_s);
+
+}  // namespace sweepscope

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+/// Triangle meshes and the parts that scenes are built of. Metres, z up. `albedo` in [0, 1] is how bright a
+/// surface is to the laser.
+namespace sweepscope::simulation {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+struct Triangle {
+  Vector3d a, b, c;
+  double albedo = 0.5;
+};
+
+/// Where a part stands: turned about z, then moved.
+struct Placement {
+  double x_m = 0, y_m = 0, z_m = 0;
+  double yaw_deg = 0;
+};
+
+struct Mesh {
+  std::vector<Triangle> triangles;
+
+  Mesh& add(const Mesh& part, const Placement& placement = {});
+  /// The corners in order around a flat convex polygon.
+  Mesh& add_polygon(std::span<const Vector3d> corners, double albedo);
+  Mesh& add_box(const Vector3d& low, const Vector3d& high, double albedo = 0.5);
+};
+
+/// An axis-parallel box.
+Mesh box(const Vector3d& low, const Vector3d& high, double albedo = 0.5);
+
+/// A column on z = 0 with `sides` faces, of circumradius bottom_m below and top_m above, closed at both ends.
+Mesh frustum(int sides, double bottom_m, double top_m, double height_m, double albedo = 0.5);
+Mesh prism(int sides, double radius_m, double height_m, double albedo = 0.5);
+
+/// A round rod between two points.
+Mesh rod(const Vector3d& from, const Vector3d& to, double radius_m, double albedo = 0.5, int sides = 6);
+
+/// A profile in the x-z plane (corners in order, convex), stretched from y = 0 to y = depth_m.
+Mesh extrusion(std::span<const Vector2d> profile_xz, double depth_m, double albedo = 0.5);
+
+/// A crown, hedge or boulder: a sphere of facets with the half axes given, centre at the origin, its corners
+/// pushed in and out by up to `roughness` of the radius.
+Mesh boulder(const Vector3d& half_axes_m, double roughness, std::uint64_t seed, double albedo = 0.4);
+
+/// Solid steps that climb along +x from the origin, y from 0 to width_m.
+Mesh stairs(int steps, double rise_m, double going_m, double width_m, double albedo = 0.5);
+
+struct Opening {
+  double from_m = 0, to_m = 0;     // along the wall
+  double bottom_m = 0, top_m = 0;  // above its foot
+};
+
+/// A wall along +x with its front at y = 0 and its back at y = thickness_m; openings do not overlap one
+/// another along the wall.
+Mesh wall(double length_m, double height_m, double thickness_m, std::vector<Opening> openings = {},
+          double albedo = 0.6);
+
+}  // namespace sweepscope::simulation

@@ -1,0 +1,78 @@
+#include "core/simulation/motor.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "core/simulation/portable_math.hpp"
+
+namespace sweepscope::simulation {
+namespace {
+
+constexpr double kReach_rad = kPi / 2;
+constexpr double kReversal = 0.16;  // of a sweep is spent on one reversal of the trapezoid
+
+constexpr std::array kNames = {
+    std::pair{MotorKind::kTriangle, std::string_view("triangle")},
+    std::pair{MotorKind::kTrapezoid, std::string_view("trapezoid")},
+    std::pair{MotorKind::kSine, std::string_view("sine")},
+    std::pair{MotorKind::kOneWay, std::string_view("one-way")},
+    std::pair{MotorKind::kStuck, std::string_view("stuck")},
+};
+
+/// The angle u sweeps after the middle of an upward sweep, u in [-1/2, 1/2], as a part of the reach.
+double trapezoid(double u) {
+  // Straight up to r/2 before the reversal, a parabola from there; the speed follows from reaching 1 at u =
+  // 1/2.
+  constexpr double kSpeed = 1 / (0.5 - kReversal / 4);
+  const double into_reversal = std::abs(u) - (0.5 - kReversal / 2);
+  double reached = kSpeed * std::abs(u);
+  if (into_reversal > 0) reached -= kSpeed / kReversal * into_reversal * into_reversal;
+  return u < 0 ? -reached : reached;
+}
+
+}  // namespace
+
+std::optional<MotorKind> motor_kind(std::string_view name) {
+  for (const auto& [kind, its_name] : kNames)
+    if (its_name == name) return kind;
+  return std::nullopt;
+}
+
+std::string_view name_of(MotorKind kind) {
+  return std::find_if(kNames.begin(), kNames.end(), [&](const auto& entry) { return entry.first == kind; })
+      ->second;
+}
+
+Motor::Motor(MotorKind kind, double sweep_s, double phase_s)
+    : kind_(kind), sweep_s_(sweep_s), phase_s_(phase_s) {}
+
+Motor::Swing Motor::swing(double t_s) const {
+  const double sweeps = (t_s + phase_s_) / sweep_s_;
+  if (kind_ == MotorKind::kOneWay) return {2 * kReach_rad * sweeps, true};
+  if (kind_ == MotorKind::kStuck) return {2 * kReach_rad * phase_s_ / sweep_s_, true};
+  const double nearest = std::floor(sweeps + 0.5);
+  const double u = sweeps - nearest;
+  const bool upwards = std::fmod(nearest, 2.0) == 0;
+  double part = 2 * u;
+  if (kind_ == MotorKind::kTrapezoid) part = trapezoid(u);
+  if (kind_ == MotorKind::kSine) part = sin_cos(kPi * u).sin;
+  return {kReach_rad * (upwards ? part : -part), upwards};
+}
+
+double Motor::angle_rad(double t_s) const {
+  return swing(t_s).angle_rad;
+}
+
+double Motor::laser_angle_rad(double t_s, double backlash_rad) const {
+  const auto [angle_rad, upwards] = swing(t_s);
+  if (kind_ == MotorKind::kStuck) return angle_rad;
+  const double half_rad = backlash_rad / 2;
+  if (kind_ == MotorKind::kOneWay) return angle_rad - half_rad;
+  // Upwards the laser hangs back, but stays where the last downward sweep left it until the play is used up.
+  return upwards ? std::max(angle_rad - half_rad, half_rad - kReach_rad)
+                 : std::min(angle_rad + half_rad, kReach_rad - half_rad);
+}
+
+}  // namespace sweepscope::simulation

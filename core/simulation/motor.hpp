@@ -1,0 +1,41 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+namespace sweepscope::simulation {
+
+enum class MotorKind {
+  kTriangle,   // constant speed, reversed at once
+  kTrapezoid,  // constant speed, reversed with a finite acceleration
+  kSine,
+  kOneWay,  // constant speed for ever
+  kStuck,   // does not move
+};
+
+std::optional<MotorKind> motor_kind(std::string_view name);
+std::string_view name_of(MotorKind kind);
+
+/// The motor's true angle over true time. It swings between -90 and +90 deg in sweep_s; phase_s, in [0, 2
+/// sweep_s), is how long after a passage through 0 deg, upwards, true time 0 falls.
+class Motor {
+ public:
+  Motor(MotorKind kind, double sweep_s, double phase_s);
+
+  /// What the encoder, on the motor's side of the gears, would read if it had no steps.
+  double angle_rad(double t_s) const;
+  /// Where the laser really points: the gears' play of backlash_rad leaves it behind at every reversal.
+  double laser_angle_rad(double t_s, double backlash_rad) const;
+
+ private:
+  struct Swing {
+    double angle_rad;
+    bool upwards;
+  };
+  Swing swing(double t_s) const;
+
+  MotorKind kind_;
+  double sweep_s_, phase_s_;
+};
+
+}  // namespace sweepscope::simulation

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/job.hpp"
+#include "core/recording/recording.hpp"
+#include "core/simulation/motor.hpp"
+
+namespace sweepscope {
+
+/// What to record. t_motor = t_laser + offset: at one true instant the laser's clock shows T and the motor's
+/// T + offset_s. Equal options give equal bytes, on every x86-64 machine and for any number of threads.
+struct SimulationOptions {
+  std::string scene = "room-1";      // see simulation::scene_names()
+  double offset_s = 0.024;           // within +-10 s
+  std::uint64_t seed = 1;            // of noise, dropouts, jitter, swaying and the motor's phase
+  std::optional<double> duration_s;  // the first seconds of the walk; none: all of it, and 4.5 s in a room
+
+  double noise_m = 0.010;  // standard deviation of a range, 0 to 1
+  double dropout = 0.002;  // part of the beams that return nothing, 0 to 1
+  double sweep_s = 0.5;    // one half turn of the motor, 0.05 to 60
+  simulation::MotorKind motor = simulation::MotorKind::kTrapezoid;
+  double encoder_step_deg = 0.088;   // above 0, up to 10
+  double encoder_hz = 100;           // 5 to 2000
+  double encoder_jitter_s = 0.0005;  // standard deviation of the sampling instants, up to 0.3 / encoder_hz
+
+  // Faults of real rigs, none by default.
+  double mixed_pixels = 0;     // part of the beams at an edge that return a range between both sides', 0 to 1
+  double grazing_bias_m = 0;   // added to a range, times 1 - cos(incidence), within +-0.5
+  double stamp_jitter_s = 0;   // standard deviation added to every header stamp, 0 to 0.01
+  double backlash_deg = 0;     // play between the encoder and the laser, 0 to 10
+  double clock_drift_ppm = 0;  // by how much the motor's clock runs faster than the laser's, within +-1000
+  double nudge_m = 0;  // a stationary rig is pushed aside by this a second after the start, within +-1
+};
+
+/// The base frame in the world.
+struct TruthPose {
+  double time_s = 0;  // laser clock, seconds since Recording::epoch_ns
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
+};
+
+/// A recording and the truth about it.
+struct Simulation {
+  Recording recording;           // as reading the bag of write_bag gives it
+  std::vector<TruthPose> truth;  // every 10 ms from the first beam to the last
+  SimulationOptions options;     // with the duration filled in
+  bool moving = false;
+  double length_m = 0;  // of the path, from the truth, swaying included; the tops likewise
+  double top_speed_mps = 0;
+  double top_angular_rate_radps = 0;
+  std::size_t triangles = 0;  // of the scene
+};
+
+/// Records a scene with a UTM-30LX (40 scans/s, 721 beams over 180 deg, 0.1 to 30 m) that a motor rolls about
+/// the base frame's x axis. Every beam is cast at its own instant, with the pose and the motor angle of that
+/// instant. Ranges are rounded to 1 mm and angles to the encoder's step. Wrong options are
+/// ExitCode::kWrongUsage.
+Result<Simulation> simulate(const SimulationOptions& options, const Job& job);
+
+}  // namespace sweepscope

@@ -1,0 +1,150 @@
+#include "render/picture.hpp"
+
+#include <fmt/format.h>
+#include <vtkActor.h>
+#include <vtkCamera.h>
+#include <vtkCellArray.h>
+#include <vtkContextActor.h>
+#include <vtkFloatArray.h>
+#include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkRenderer.h>
+#include <vtkTypeInt64Array.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <algorithm>
+#include <cstring>
+#include <numeric>
+
+#include "render/gl/vtk_window.hpp"
+#include "render/vtk_drawing.hpp"
+
+namespace sweepscope {
+namespace {
+
+constexpr int kSupersampling = 2;
+
+vtkSmartPointer<vtkPolyData> to_polydata(const ColouredPoints& points, const ColourScale& scale) {
+  const auto count = static_cast<vtkIdType>(points.size());
+  vtkNew<vtkFloatArray> xyz;
+  xyz->SetNumberOfComponents(3);
+  xyz->SetNumberOfTuples(count);
+  std::memcpy(xyz->GetPointer(0), points.xyz_m.data(), points.size() * sizeof points.xyz_m[0]);
+  vtkNew<vtkUnsignedCharArray> colours;
+  colours->SetNumberOfComponents(3);
+  colours->SetNumberOfTuples(count);
+  unsigned char* out = colours->GetPointer(0);
+  for (const float value : points.values) {
+    const Colour colour = scale.at(static_cast<double>(value));
+    *out++ = colour.red;
+    *out++ = colour.green;
+    *out++ = colour.blue;
+  }
+  // One cell of all points: far less memory than a cell for each.
+  vtkNew<vtkTypeInt64Array> offsets, connectivity;
+  offsets->InsertNextValue(0);
+  offsets->InsertNextValue(count);
+  connectivity->SetNumberOfValues(count);
+  std::iota(connectivity->GetPointer(0), connectivity->GetPointer(0) + count, vtkIdType{0});
+  vtkNew<vtkCellArray> cells;
+  cells->SetData(offsets, connectivity);
+  vtkNew<vtkPoints> places;
+  places->SetData(xyz);
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  data->SetPoints(places);
+  data->SetVerts(cells);
+  data->GetPointData()->SetScalars(colours);
+  return data;
+}
+
+vtkSmartPointer<vtkActor> to_actor(const CloudLayer& layer, const ColourScale& scale) {
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(to_polydata(*layer.points, scale));
+  mapper->SetColorModeToDirectScalars();
+  auto actor = vtkSmartPointer<vtkActor>::New();
+  actor->SetMapper(mapper);
+  actor->GetProperty()->LightingOff();
+  actor->GetProperty()->SetPointSize(static_cast<float>(layer.point_size_px * kSupersampling));
+  return actor;
+}
+
+void set_background(vtkRenderer& renderer, Colour colour) {
+  renderer.SetBackground(colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0);
+}
+
+void set_camera(vtkRenderer& renderer, const Camera& camera) {
+  vtkCamera& out = *renderer.GetActiveCamera();
+  out.SetPosition(camera.position_m.data());
+  out.SetFocalPoint(camera.looks_at_m.data());
+  out.SetViewUp(camera.up.data());
+  out.SetParallelProjection(camera.orthographic);
+  out.SetParallelScale(camera.view_height_m / 2);
+  out.SetViewAngle(camera.view_angle_deg);
+  renderer.ResetCameraClippingRange();
+}
+
+vtkSmartPointer<vtkRenderer> to_renderer(const View& view, const Picture& picture) {
+  auto renderer = vtkSmartPointer<vtkRenderer>::New();
+  const double width = picture.width_px, height = picture.height_px;
+  renderer->SetViewport(view.place.left / width, 1 - view.place.bottom() / height, view.place.right() / width,
+                        1 - view.place.top / height);
+  set_background(*renderer, view.scene.background);
+  for (const CloudLayer& layer : view.scene.clouds) {
+    if (layer.points && layer.points->size() > 0) renderer->AddActor(to_actor(layer, view.scene.colours));
+  }
+  set_camera(*renderer, view.scene.camera);
+  return renderer;
+}
+
+/// The picture's background, which each view then covers with its own; and the marks, in a layer above.
+void add_flat_layers(vtkRenderWindow& window, const Picture& picture) {
+  vtkNew<vtkRenderer> below;
+  set_background(*below, picture.background);
+  window.SetNumberOfLayers(2);
+  window.AddRenderer(below);
+  vtkNew<vtkRenderer> above;
+  above->SetLayer(1);
+  above->AddActor(make_drawing_actor(std::make_shared<const Drawing>(picture.marks), kSupersampling));
+  window.AddRenderer(above);
+}
+
+Image read_pixels(vtkRenderWindow& window, int width_px, int height_px) {
+  vtkNew<vtkUnsignedCharArray> pixels;
+  window.GetPixelData(0, 0, width_px - 1, height_px - 1, 0, pixels);
+  Image image(width_px, height_px);
+  const std::size_t row_bytes = 3 * static_cast<std::size_t>(width_px);
+  for (int y = 0; y < height_px; ++y) {  // OpenGL's first row is the lowest
+    std::memcpy(image.pixel(0, y),
+                pixels->GetPointer(static_cast<vtkIdType>(row_bytes) * (height_px - 1 - y)), row_bytes);
+  }
+  return image;
+}
+
+}  // namespace
+
+Result<Image> draw(const Picture& picture) {
+  const auto [least, greatest] = std::minmax(picture.width_px, picture.height_px);
+  if (least < kLeastPictureSidePx || greatest > kGreatestPictureSidePx) {
+    return failure(
+        ExitCode::kWrongUsage,
+        fmt::format("A picture of {} x {} pixels cannot be drawn: each side is {} to {} pixels",
+                    picture.width_px, picture.height_px, kLeastPictureSidePx, kGreatestPictureSidePx));
+  }
+  const int width_px = picture.width_px * kSupersampling, height_px = picture.height_px * kSupersampling;
+  return gl::OffscreenWindow::create(width_px, height_px).map([&](gl::OffscreenWindow&& offscreen) {
+    vtkRenderWindow& window = offscreen.window();
+    add_flat_layers(window, picture);
+    for (const View& view : picture.views) {
+      window.AddRenderer(to_renderer(view, picture));
+    }
+    window.Render();
+    return shrink(read_pixels(window, width_px, height_px), kSupersampling);
+  });
+}
+
+}  // namespace sweepscope

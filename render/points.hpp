@@ -1,0 +1,27 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace sweepscope {
+
+/// Points as pictures need them: where they are, in metres, and the value that colours each.
+struct ColouredPoints {
+  std::vector<std::array<float, 3>> xyz_m;
+  std::vector<float> values;
+
+  std::size_t size() const { return xyz_m.size(); }
+  void add(const std::array<float, 3>& point, float value) {
+    xyz_m.push_back(point);
+    values.push_back(value);
+  }
+};
+
+/// One point for each cube of the given edge that has any, the first in the input's order, and the cubes
+/// along a Morton curve: what is near in space is near in memory, which draws several times faster than a
+/// random order. The same input gives the same output for any number of threads.
+ColouredPoints thin(const ColouredPoints& points, double edge_m);
+
+}  // namespace sweepscope
