@@ -11,6 +11,7 @@
 #include "core/io/cloud_file.hpp"
 #include "core/io/estimate_json.hpp"
 #include "render/comparison.hpp"
+#include "render/curve_charts.hpp"
 
 namespace sweepscope::app {
 namespace {
@@ -77,16 +78,22 @@ bool is_map_file(const std::string& path) {
 }
 
 Result<std::vector<ComparedMap>> maps_from_files(const CompareOptions& options) {
-  if (options.inputs.size() < 2 || options.inputs.size() > 4) {
-    return wrong_usage(fmt::format("Two to four maps are compared, not {}", options.inputs.size()));
+  const std::size_t count = options.inputs.size();
+  if (count < 2 || count > 4) return wrong_usage(fmt::format("Two to four maps are compared, not {}", count));
+  if (!options.offsets_ms.empty() && options.offsets_ms.size() != count) {
+    return wrong_usage(
+        fmt::format("--offsets-ms names {} offsets for {} maps", options.offsets_ms.size(), count));
   }
-  if (!options.offsets_ms.empty()) return wrong_usage("--offsets-ms goes with a recording, not with maps");
   std::vector<ComparedMap> maps;
   for (const std::string& path : options.inputs) {
     auto cloud = read_cloud(path);
     if (!cloud) return tl::unexpected(cloud.error());
     ComparedMap map;
     map.label = std::filesystem::path(path).filename().string();
+    if (!options.offsets_ms.empty()) {
+      map.offset_s = options.offsets_ms[maps.size()] / 1e3;
+      map.label += fmt::format("  offset {} ms", offset_label_ms(*map.offset_s));
+    }
     map.cloud = *cloud;
     map.path_height_m = options.path_height_m;
     maps.push_back(std::move(map));
@@ -134,7 +141,7 @@ void declare(CLI::App& command, CompareOptions& options) {
   command.add_option("-o,--output", options.output, "The picture to write (PNG)")->required();
   command
       .add_option("--offsets-ms", options.offsets_ms,
-                  "With a recording: the offsets to map at, such as 19,24")
+                  "The offsets to map a recording at, such as 19,24; with maps: those that they were made at")
       ->delimiter(',')
       ->allow_extra_args(false);
   command.add_option("--curve", options.curve, "An estimate (JSON) whose criteria are drawn below the maps");

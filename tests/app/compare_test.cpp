@@ -65,6 +65,12 @@ TEST_F(CompareTest, WorksWithoutACurve) {
   EXPECT_EQ(run("-u DISPLAY", "wrong.pcd right.ply -o out.png --size 960x600"), 0) << said_;
 }
 
+TEST_F(CompareTest, MapsMayNameTheOffsetsThatTheyWereMadeAt) {
+  ASSERT_EQ(run("-u DISPLAY", std::string(kArguments) + " --offsets-ms 19,24 -o out.png"), 0) << said_;
+  EXPECT_NE(test::contents_of(folder_ / "out.png").find("wrong.pcd  offset 19.0 ms"), std::string::npos);
+  EXPECT_EQ(run("-u DISPLAY", std::string(kArguments) + " --offsets-ms 19 -o out.png"), 2);
+}
+
 TEST_F(CompareTest, AFileThatCannotBeReadIsExit3AndLeavesNoPicture) {
   EXPECT_EQ(run("-u DISPLAY", "wrong.pcd none.pcd -o out.png"), 3);
   EXPECT_EQ(said_, "sweepscope: none.pcd: no such file\n");
