@@ -27,6 +27,10 @@ std::optional<RecordingOptions::Window> parse_window(const std::string& text) {
 
 void RecordingOptions::declare(CLI::App& app) {
   app.add_option("REC", recording, "The recording: a ROS 1 bag")->required();
+  declare_reading(app);
+}
+
+void RecordingOptions::declare_reading(CLI::App& app) {
   app.add_option("--rig", rig,
                  "Rig file: topics, joint, stamps and mount (default: detected, rolling about x)")
       ->type_name("F");
@@ -55,6 +59,11 @@ void RecordingOptions::declare_computing(CLI::App& app) {
   app.add_option("--threads", threads, "Threads (default: as many as there are processors)")
       ->type_name("N")
       ->check(CLI::Range(1, 1024));
+}
+
+std::unique_ptr<tbb::global_control> RecordingOptions::limit_threads() const {
+  if (threads <= 0) return nullptr;
+  return std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, std::size_t(threads));
 }
 
 Result<Recording> RecordingOptions::read(const Job& job) const {
