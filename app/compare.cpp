@@ -1,10 +1,181 @@
+#include <fmt/format.h>
+
+#include <charconv>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "app/commands.hpp"
+#include "core/io/cloud_file.hpp"
+#include "core/io/estimate_json.hpp"
+#include "render/comparison.hpp"
+#include "render/curve_charts.hpp"
 
 namespace sweepscope::app {
+namespace {
+
+struct CompareOptions {
+  std::vector<std::string> inputs;  // a recording, or two to four maps
+  std::string output, curve, size = "1920x1200", close_up;
+  std::vector<double> offsets_ms;
+  std::vector<std::string> slabs;
+  double path_height_m = 0;
+  ComparisonOptions picture;
+};
+
+/// The numbers of a text such as "1920x1200", or nothing where it is not exactly that many.
+std::optional<std::vector<double>> numbers_between(const std::string& text, char separator,
+                                                   std::size_t count) {
+  std::vector<double> numbers;
+  const char *at = text.data(), *end = text.data() + text.size();
+  while (numbers.size() < count) {
+    double number = 0;
+    const auto [after, error] = std::from_chars(at, end, number);
+    const bool last = numbers.size() + 1 == count;
+    if (error != std::errc() || (last ? after != end : after == end || *after != separator))
+      return std::nullopt;
+    numbers.push_back(number);
+    at = after + (last ? 0 : 1);
+  }
+  return numbers;
+}
+
+tl::unexpected<Error> wrong_usage(std::string message) {
+  return failure(ExitCode::kWrongUsage, std::move(message));
+}
+
+Result<ComparisonOptions> picture_options(const CompareOptions& options) {
+  ComparisonOptions picture = options.picture;
+  const auto size = numbers_between(options.size, 'x', 2);
+  if (!size || (*size)[0] < 0 || (*size)[1] < 0 || (*size)[0] > 1e6 || (*size)[1] > 1e6) {
+    return wrong_usage(fmt::format("--size {}: not like 1920x1200", options.size));
+  }
+  picture.width_px = static_cast<int>((*size)[0]);
+  picture.height_px = static_cast<int>((*size)[1]);
+  for (const std::string& text : options.slabs) {
+    const auto range = numbers_between(text, ':', 2);
+    if (!range || !((*range)[0] < (*range)[1])) {
+      return wrong_usage(fmt::format("--slab {}: not like 0.8:3.2, in metres above the sensor's path", text));
+    }
+    picture.slabs.push_back({(*range)[0], (*range)[1]});
+  }
+  if (!options.close_up.empty()) {
+    const auto region = numbers_between(options.close_up, ':', 3);
+    if (!region || !((*region)[2] > 0)) {
+      return wrong_usage(
+          fmt::format("--close-up {}: not like 12.5:-3:4, x, y and height in metres", options.close_up));
+    }
+    picture.close_up = Region{{(*region)[0], (*region)[1]}, (*region)[2]};
+  }
+  return picture;
+}
+
+bool is_map_file(const std::string& path) {
+  const std::string extension = std::filesystem::path(path).extension().string();
+  return extension == ".pcd" || extension == ".ply";
+}
+
+Result<std::vector<ComparedMap>> maps_from_files(const CompareOptions& options) {
+  const std::size_t count = options.inputs.size();
+  if (count < 2 || count > 4) return wrong_usage(fmt::format("Two to four maps are compared, not {}", count));
+  if (!options.offsets_ms.empty() && options.offsets_ms.size() != count) {
+    return wrong_usage(
+        fmt::format("--offsets-ms names {} offsets for {} maps", options.offsets_ms.size(), count));
+  }
+  std::vector<ComparedMap> maps;
+  for (const std::string& path : options.inputs) {
+    auto cloud = read_cloud(path);
+    if (!cloud) return tl::unexpected(cloud.error());
+    ComparedMap map;
+    map.label = std::filesystem::path(path).filename().string();
+    if (!options.offsets_ms.empty()) {
+      map.offset_s = options.offsets_ms[maps.size()] / 1e3;
+      map.label += fmt::format("  offset {} ms", offset_label_ms(*map.offset_s));
+    }
+    map.cloud = *cloud;
+    map.path_height_m = options.path_height_m;
+    maps.push_back(std::move(map));
+  }
+  return maps;
+}
+
+/// The maps that are compared, whatever they are made from.
+Result<std::vector<ComparedMap>> compared_maps(const CompareOptions& options) {
+  std::size_t map_files = 0;
+  for (const std::string& input : options.inputs) map_files += is_map_file(input) ? 1 : 0;
+  if (map_files == options.inputs.size()) return maps_from_files(options);
+  if (map_files > 0 || options.inputs.size() > 1) {
+    return wrong_usage("compare takes one recording, or two to four maps (.pcd or .ply)");
+  }
+  return wrong_usage(
+      "compare of a recording is not in this version; compare maps written by `sweepscope map`");
+}
+
+Result<void> draw(const CompareOptions& options, const std::vector<ComparedMap>& maps,
+                  const Estimate* estimate) {
+  return picture_options(options).and_then([&](const ComparisonOptions& picture) {
+    return write_comparison(options.output, maps, estimate, picture);
+  });
+}
+
+Result<void> compare(const CompareOptions& options) {
+  // Wrong words cost nothing; they are found before files of hundreds of megabytes are read.
+  if (auto picture = picture_options(options); !picture) return tl::unexpected(picture.error());
+  std::optional<Estimate> estimate;
+  if (!options.curve.empty()) {
+    auto read = read_estimate_json(options.curve);
+    if (!read) return tl::unexpected(read.error());
+    estimate = std::move(*read);
+  }
+  return compared_maps(options).and_then([&](const std::vector<ComparedMap>& maps) {
+    return draw(options, maps, estimate ? &*estimate : nullptr);
+  });
+}
+
+void declare(CLI::App& command, CompareOptions& options) {
+  command.add_option("INPUT", options.inputs, "A recording, or two to four maps (.pcd, .ply)")
+      ->required()
+      ->expected(-1);
+  command.add_option("-o,--output", options.output, "The picture to write (PNG)")->required();
+  command
+      .add_option("--offsets-ms", options.offsets_ms,
+                  "The offsets to map a recording at, such as 19,24; with maps: those that they were made at")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command.add_option("--curve", options.curve, "An estimate (JSON) whose criteria are drawn below the maps");
+  command.add_option("--size", options.size, "Of the picture, in pixels")->capture_default_str();
+  command.add_option("--colour-table", options.picture.colour_table, "viridis, cividis, turbo or grey")
+      ->capture_default_str();
+  command.add_flag("--light", options.picture.light_background, "A light background, for paper");
+  command.add_option("--title", options.picture.title, "Above the maps; default: the estimate's recording");
+  command.add_option(
+      "--slab", options.slabs,
+      "FROM:TO in metres above the sensor's path: show these heights; repeatable. Default: 0.8 m and "
+      "more below it, and from 0.8 m above it to just under the ceiling");
+  command.add_option(
+      "--close-up", options.close_up,
+      "X:Y:HEIGHT in metres of the map frame: what the close-ups show. Default: where the maps "
+      "differ most in sharpness");
+  command
+      .add_option("--path-height-m", options.path_height_m,
+                  "With maps: the sensor's height in the map frame, which slabs refer to")
+      ->capture_default_str();
+}
+
+}  // namespace
 
 void add_compare(CLI::App& app, ExitCode& exit_code) {
-  (void)app;
-  (void)exit_code;
+  CLI::App* command = app.add_subcommand("compare", "Maps side by side, seen alike, with the criteria below");
+  auto options = std::make_shared<CompareOptions>();
+  declare(*command, *options);
+  command->callback([options, &exit_code] {
+    if (const auto done = compare(*options); !done) {
+      fmt::print(stderr, "sweepscope: {}\n", done.error().message);
+      exit_code = done.error().code;
+    }
+  });
 }
 
 }  // namespace sweepscope::app

@@ -1,32 +1,201 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "app/commands.hpp"
 #include "app/progress.hpp"
 #include "app/recording_options.hpp"
+#include "core/recording/inspect.hpp"
 
 namespace sweepscope::app {
 namespace {
 
-ExitCode run(const RecordingOptions& options) {
-  const Progress progress;
-  const auto recording = options.read(progress.job());
+using Json = nlohmann::ordered_json;
+
+const char* stamp_name(StampSource stamp) {
+  return stamp == StampSource::kHeader ? "header" : "receive";
+}
+
+template <typename T>
+Json or_null(const std::optional<T>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+Json stream_json(const StreamSummary& stream) {
+  return {{"topic", stream.topic},
+          {"stamp", stamp_name(stream.stamp)},
+          {"used", stream.used},
+          {"rate_hz", stream.rate_hz()},
+          {"median_period_s", stream.median_period_s},
+          {"duration_s", stream.duration_s},
+          {"gaps", stream.gaps},
+          {"longest_gap_s", stream.longest_gap_s},
+          {"out_of_order", stream.out_of_order},
+          {"doubled", stream.doubled},
+          {"dropped", stream.dropped},
+          {"receive_minus_header_s", or_null(stream.receive_minus_header_s)},
+          {"receive_jitter_s", or_null(stream.receive_jitter_s)}};
+}
+
+Json laser_json(const LaserSummary& laser) {
+  Json json = stream_json(laser);
+  json.update(Json{{"fewest_beams", laser.fewest_beams},
+                   {"most_beams", laser.most_beams},
+                   {"first_beam_deg", laser.first_beam_deg},
+                   {"last_beam_deg", laser.last_beam_deg},
+                   {"scan_s", laser.scan_s},
+                   {"beams", laser.beams},
+                   {"usable_beams", laser.usable_beams},
+                   {"nan_ranges", laser.nan},
+                   {"infinite_ranges", laser.infinite},
+                   {"zero_ranges", laser.zero},
+                   {"out_of_range_ranges", laser.out_of_range},
+                   {"median_range_m", laser.median_range_m},
+                   {"scans_without_motor", laser.scans_without_motor},
+                   {"intensities", laser.intensities}});
+  return json;
+}
+
+Json motor_json(const MotorSummary& motor) {
+  Json json = stream_json(motor);
+  json.update(Json{{"joint", motor.joint},
+                   {"least_deg", motor.least_deg},
+                   {"most_deg", motor.most_deg},
+                   {"median_speed_deg_s", motor.median_speed_deg_s},
+                   {"deg_per_ms", motor.deg_per_ms()},
+                   {"turns", motor.turns},
+                   {"one_way", motor.one_way},
+                   {"unwrapped", motor.unwrapped},
+                   {"reversals", motor.reversals},
+                   {"whole_sweeps", motor.whole_sweeps()},
+                   {"median_sweep_s", motor.median_sweep_s}});
+  return json;
+}
+
+std::string as_json(const RecordingSummary& summary) {
+  Json topics = Json::array();
+  for (const RecordedTopic& topic : summary.topics) {
+    topics.push_back({{"name", topic.name},
+                      {"type", topic.type},
+                      {"messages", topic.messages},
+                      {"malformed", topic.malformed}});
+  }
+  const Json json = {{"schema", "sweepscope.info/1"},      {"recording", summary.name},
+                     {"warnings", summary.warnings},       {"topics", topics},
+                     {"laser", laser_json(summary.laser)}, {"motor", motor_json(summary.motor)},
+                     {"motion", or_null(summary.motion)},  {"expectations", summary.expectations},
+                     {"version", SWEEPSCOPE_VERSION}};
+  // Names come from the file, and need not be UTF-8.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string row(std::string_view name, const std::string& value) {
+  return fmt::format("  {:<10} {}\n", name, value);
+}
+
+std::string topics_text(const RecordingSummary& summary) {
+  std::size_t name_width = 0, type_width = 0;
+  for (const RecordedTopic& topic : summary.topics) {
+    name_width = std::max(name_width, topic.name.size());
+    type_width = std::max(type_width, topic.type.size());
+  }
+  std::string text = "topics\n";
+  for (const RecordedTopic& topic : summary.topics) {
+    const bool laser = topic.name == summary.laser.topic, motor = topic.name == summary.motor.topic;
+    text += fmt::format("  {:<{}}  {:<{}}  {:>7}{}{}\n", topic.name, name_width, topic.type, type_width,
+                        topic.messages,
+                        laser   ? "  the laser"
+                        : motor ? "  the motor"
+                                : "",
+                        topic.malformed > 0 ? fmt::format("  {} malformed", topic.malformed) : "");
+  }
+  return text;
+}
+
+std::string stream_text(const StreamSummary& stream) {
+  std::string stamps = stamp_name(stream.stamp);
+  if (stream.receive_minus_header_s) {
+    stamps += fmt::format("; receive minus header {:.4f} s, jitter {:.2g} ms", *stream.receive_minus_header_s,
+                          1000 * *stream.receive_jitter_s);
+  }
+  std::string gaps = "no gaps";
+  if (stream.gaps > 0) gaps = fmt::format("{} gaps, the longest {:.3f} s", stream.gaps, stream.longest_gap_s);
+  return row("stamps", stamps) +
+         row("rate", fmt::format("{:.2f} Hz over {:.3f} s, {}", stream.rate_hz(), stream.duration_s, gaps)) +
+         row("order", fmt::format("{} out of order, {} doubled, {} dropped", stream.out_of_order,
+                                  stream.doubled, stream.dropped));
+}
+
+std::string laser_text(const LaserSummary& laser) {
+  const std::string beams = laser.fewest_beams == laser.most_beams
+                                ? fmt::format("{}", laser.most_beams)
+                                : fmt::format("{} to {}", laser.fewest_beams, laser.most_beams);
+  const double usable =
+      laser.beams > 0 ? 100.0 * static_cast<double>(laser.usable_beams) / static_cast<double>(laser.beams)
+                      : 0;
+  return "laser\n" + row("topic", laser.topic) +
+         row("scans", fmt::format("{} of {} beams from {:.1f} to {:.1f} deg in {:.1f} ms{}", laser.used,
+                                  beams, laser.first_beam_deg, laser.last_beam_deg, 1000 * laser.scan_s,
+                                  laser.intensities ? ", with intensities" : "")) +
+         stream_text(laser) +
+         row("ranges",
+             fmt::format("{:.1f} % usable, median {:.2f} m; {} NaN, {} infinite, {} zero, {} out of range",
+                         usable, laser.median_range_m, laser.nan, laser.infinite, laser.zero,
+                         laser.out_of_range)) +
+         row("uncovered", fmt::format("{} scans have no motor samples around them at offset 0",
+                                      laser.scans_without_motor));
+}
+
+std::string motor_text(const MotorSummary& motor) {
+  std::string sweeps = fmt::format("{} whole", motor.whole_sweeps());
+  if (motor.median_sweep_s > 0) sweeps += fmt::format(", {:.3f} s each", motor.median_sweep_s);
+  sweeps += fmt::format("; {} reversals", motor.reversals);
+  return "motor\n" + row("joint", fmt::format("{} on {}, {} samples", motor.joint, motor.topic, motor.used)) +
+         stream_text(motor) +
+         row("angle",
+             fmt::format("{:.2f} to {:.2f} deg{}", motor.least_deg, motor.most_deg,
+                         motor.unwrapped > 0 ? fmt::format(", unwrapped {} times", motor.unwrapped) : "")) +
+         row("speed", fmt::format("{:.1f} deg/s (median while it turns): 1 ms is {:.3g} deg",
+                                  motor.median_speed_deg_s, motor.deg_per_ms())) +
+         row("sweeps", sweeps);
+}
+
+std::string as_text(const RecordingSummary& summary) {
+  std::string text = summary.name + "\n\n" + topics_text(summary) + "\n" + laser_text(summary.laser) + "\n" +
+                     motor_text(summary.motor);
+  if (summary.motion) text += "\nmotion\n" + row("the rig is", *summary.motion);
+  text += "\nwhat an estimate can hope for\n";
+  for (const std::string& line : summary.expectations) text += "  " + line + "\n";
+  return text;
+}
+
+ExitCode run(const RecordingOptions& options, const std::string& json) {
+  Result<Recording> recording = [&] {
+    const Progress progress;
+    return options.read(progress.job());
+  }();
   if (!recording) return fail(recording.error());
   print_warnings(*recording);
-  fmt::print("{}: {} scans, {} motor samples\n", recording->name, recording->scans.size(),
-             recording->motor.time_s.size());
-  return ExitCode::kDone;
+  const RecordingSummary summary = inspect(*recording);
+  if (json != "-") fmt::print("{}", as_text(summary));
+  if (json.empty()) return ExitCode::kDone;
+  const auto written = write_text(json, as_json(summary));
+  return written ? ExitCode::kDone : fail(written.error());
 }
 
 }  // namespace
 
 void add_info(CLI::App& app, ExitCode& exit_code) {
+  struct Options : RecordingOptions {
+    std::string json;
+  };
   CLI::App* info =
       app.add_subcommand("info", "Show what a recording holds and what an estimate can hope for");
-  const auto options = std::make_shared<RecordingOptions>();
+  const auto options = std::make_shared<Options>();
   options->declare(*info);
-  info->callback([options, &exit_code] { exit_code = run(*options); });
+  info->add_option("--json", options->json, "Write it as JSON, - for stdout")->type_name("F|-");
+  info->callback([options, &exit_code] { exit_code = run(*options, options->json); });
 }
 
 }  // namespace sweepscope::app

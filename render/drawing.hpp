@@ -19,6 +19,9 @@ struct PixelRect {
 
   double right() const { return left + width; }
   double bottom() const { return top + height; }
+  bool contains(PixelPoint point) const {
+    return point.x >= left && point.x <= right() && point.y >= top && point.y <= bottom();
+  }
   /// What is left after taking a margin from every side.
   PixelRect inset(double margin) const {
     return {left + margin, top + margin, width - 2 * margin, height - 2 * margin};

@@ -21,24 +21,27 @@ namespace sweepscope {
 namespace {
 
 /// VTK reads fonts from paths alone: a file in memory has one.
-std::string memory_file(const char* name, const char* begin, const char* end) {
+std::string memory_file(const char* name, std::string_view bytes) {
   const int file = memfd_create(name, MFD_CLOEXEC);
   if (file < 0) throw std::runtime_error("no memory file for a font");
-  while (begin < end) {
-    const ssize_t written = write(file, begin, static_cast<std::size_t>(end - begin));
+  while (!bytes.empty()) {
+    const ssize_t written = write(file, bytes.data(), bytes.size());
     if (written <= 0) throw std::runtime_error("no memory for a font");
-    begin += written;
+    bytes.remove_prefix(static_cast<std::size_t>(written));
   }
   return "/proc/self/fd/" + std::to_string(file);
 }
 
 }  // namespace
 
+std::string_view font_bytes(bool bold) {
+  return bold ? std::string_view(sweepscope_font_bold_begin, sweepscope_font_bold_end)
+              : std::string_view(sweepscope_font_regular_begin, sweepscope_font_regular_end);
+}
+
 const std::string& font_path(bool bold) {
-  static const std::string regular_path =
-      memory_file("DejaVuSans", sweepscope_font_regular_begin, sweepscope_font_regular_end);
-  static const std::string bold_path =
-      memory_file("DejaVuSans-Bold", sweepscope_font_bold_begin, sweepscope_font_bold_end);
+  static const std::string regular_path = memory_file("DejaVuSans", font_bytes(false));
+  static const std::string bold_path = memory_file("DejaVuSans-Bold", font_bytes(true));
   return bold ? bold_path : regular_path;
 }
 

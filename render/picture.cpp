@@ -101,15 +101,14 @@ vtkSmartPointer<vtkRenderer> to_renderer(const View& view, const Picture& pictur
   return renderer;
 }
 
-/// The whole window's background, below the views; and the marks, above them.
+/// The picture's background, which each view then covers with its own; and the marks, in a layer above.
 void add_flat_layers(vtkRenderWindow& window, const Picture& picture) {
   vtkNew<vtkRenderer> below;
   set_background(*below, picture.background);
-  window.SetNumberOfLayers(3);
-  below->SetLayer(0);
+  window.SetNumberOfLayers(2);
   window.AddRenderer(below);
   vtkNew<vtkRenderer> above;
-  above->SetLayer(2);
+  above->SetLayer(1);
   above->AddActor(make_drawing_actor(std::make_shared<const Drawing>(picture.marks), kSupersampling));
   window.AddRenderer(above);
 }
@@ -141,10 +140,7 @@ Result<Image> draw(const Picture& picture) {
     vtkRenderWindow& window = offscreen.window();
     add_flat_layers(window, picture);
     for (const View& view : picture.views) {
-      auto renderer = to_renderer(view, picture);
-      renderer->SetLayer(1);
-      renderer->EraseOn();
-      window.AddRenderer(renderer);
+      window.AddRenderer(to_renderer(view, picture));
     }
     window.Render();
     return shrink(read_pixels(window, width_px, height_px), kSupersampling);

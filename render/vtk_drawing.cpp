@@ -5,7 +5,6 @@
 #include <vtkContextActor.h>
 #include <vtkContextItem.h>
 #include <vtkContextScene.h>
-#include <vtkFreeTypeTools.h>
 #include <vtkObjectFactory.h>
 #include <vtkPen.h>
 #include <vtkStdString.h>
@@ -18,8 +17,6 @@
 
 namespace sweepscope {
 namespace {
-
-constexpr int kDpi = 72;  // one point of a font is one pixel
 
 void set_font(vtkTextProperty& property, double size_px, bool bold) {
   property.SetFontFamily(VTK_FONT_FILE);
@@ -60,20 +57,17 @@ class DrawingItem final : public vtkContextItem {
     set_font(property, size, mark.bold);
     property.SetColor(mark.colour.red / 255.0, mark.colour.green / 255.0, mark.colour.blue / 255.0);
     property.SetOpacity(mark.colour.alpha / 255.0);
-    property.SetJustificationToLeft();
+    property.SetJustification(mark.align_x == AlignX::kLeft     ? VTK_TEXT_LEFT
+                              : mark.align_x == AlignX::kCentre ? VTK_TEXT_CENTERED
+                                                                : VTK_TEXT_RIGHT);
     property.SetVerticalJustificationToBottom();
-    const auto box = box_of(mark.text, property);
-    const double width = box.width;
-    const double left = x(mark.at.x) - (mark.align_x == AlignX::kLeft     ? 0
-                                        : mark.align_x == AlignX::kCentre ? width / 2
-                                                                          : width);
     double baseline = y(mark.at.y);
     if (mark.align_y == AlignY::kTop) baseline -= kCapHeight * size;
     if (mark.align_y == AlignY::kMiddle) baseline -= kCapHeight / 2 * size;
     if (mark.align_y == AlignY::kBottom) baseline += kDescent * size;
-    // VTK puts the lowest pixel of this very text at the anchor: what hangs below the baseline moves it down.
-    painter.DrawString(static_cast<float>(std::round(left)),
-                       static_cast<float>(std::round(baseline) + box.descent), mark.text);
+    // VTK's anchor is the bottom of the line, below what may hang under the baseline.
+    painter.DrawString(std::round(x(mark.at.x)), static_cast<float>(std::round(baseline - kDescent * size)),
+                       mark.text);
   }
 
   void paint(vtkContext2D& painter, const LineMark& mark) const {
@@ -114,15 +108,6 @@ class DrawingItem final : public vtkContextItem {
     painter.DrawPolygon(corners.data(), static_cast<int>(mark.points.size()));
   }
 
-  struct TextBox {
-    double width = 0, descent = 0;  // in window pixels; the descent is negative below the baseline
-  };
-  static TextBox box_of(const std::string& text, vtkTextProperty& property) {
-    int box[4] = {0, 0, 0, 0};
-    vtkFreeTypeTools::GetInstance()->GetBoundingBox(&property, text, kDpi, box);
-    return {static_cast<double>(box[1] - box[0]), static_cast<double>(box[2])};
-  }
-
   std::shared_ptr<const Drawing> drawing_;
   double scale_ = 1, height_ = 0;
 };
@@ -137,14 +122,6 @@ vtkSmartPointer<vtkContextActor> make_drawing_actor(std::shared_ptr<const Drawin
   auto actor = vtkSmartPointer<vtkContextActor>::New();
   actor->GetScene()->AddItem(item);
   return actor;
-}
-
-double text_width_px(const std::string& text, double size_px, bool bold) {
-  vtkNew<vtkTextProperty> property;
-  set_font(*property, size_px, bold);
-  int box[4] = {0, 0, 0, 0};
-  vtkFreeTypeTools::GetInstance()->GetBoundingBox(property, text, kDpi, box);
-  return box[1] - box[0] + 1;
 }
 
 }  // namespace sweepscope

@@ -4,34 +4,10 @@
 #include <cmath>
 
 #include "core/loam/least_squares.hpp"
+#include "core/loam/sweep_motion.hpp"
 
 namespace sweepscope {
 namespace {
-
-// The poses within a sweep, with the begin's rotation and the turn to the end worked out once.
-class SweepMotion {
- public:
-  SweepMotion(const Pose& begin, const Pose& end)
-      : begin_(begin), turn_rad_(vector_from_rotation(begin.rotation.conjugate() * end.rotation)),
-        shift_m_(end.translation_m - begin.translation_m), rotation_(begin.rotation.toRotationMatrix()),
-        turn_angle_rad_(turn_rad_.norm()),
-        turn_axis_(turn_angle_rad_ > 1e-12 ? Eigen::Vector3d(turn_rad_ / turn_angle_rad_) : Eigen::Vector3d::UnitX()) {}
-
-  Eigen::Vector3d operator()(const Eigen::Vector3d& p_in_base_m, double u) const {
-    const double angle_rad = u * turn_angle_rad_;
-    const double c = std::cos(angle_rad), s = std::sin(angle_rad);
-    const Eigen::Vector3d turned_m = c * p_in_base_m + s * turn_axis_.cross(p_in_base_m) +
-                                     (1 - c) * turn_axis_.dot(p_in_base_m) * turn_axis_;
-    return rotation_ * turned_m + begin_.translation_m + u * shift_m_;
-  }
-
- private:
-  Pose begin_;
-  Eigen::Vector3d turn_rad_, shift_m_;
-  Eigen::Matrix3d rotation_;
-  double turn_angle_rad_;
-  Eigen::Vector3d turn_axis_;
-};
 
 struct SweepMaps {
   FeatureMap edges, planes;

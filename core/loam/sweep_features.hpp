@@ -1,6 +1,6 @@
 #pragma once
 
-#include <span>
+#include <memory>
 #include <vector>
 
 #include "core/geometry/kinematics.hpp"
@@ -30,7 +30,7 @@ struct PlacedSweep {
 /// What a candidate offset is tried on: everything that does not depend on the offset.
 struct OffsetProblem {
   const Recording* recording = nullptr;
-  const FeatureSet* features = nullptr;
+  std::shared_ptr<const FeatureSet> features;
   MotorMotion motor;
   std::vector<char> scan_used;  // per scan: 1 where the motor track covers it at every offset searched
 };

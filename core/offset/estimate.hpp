@@ -41,6 +41,7 @@ struct Estimate {
   std::size_t scans = 0;
   double cpu_s = 0;
   double wall_s = 0;
+  bool interrupted = false;  // the curve holds what was finished until then
 };
 
 }  // namespace sweepscope

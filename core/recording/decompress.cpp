@@ -20,7 +20,9 @@ class Output {
 
   std::span<std::byte> free_space() {
     if (used_ == buffer_.size()) {
-      buffer_.resize(std::min(most_bytes_, std::max(kFirstBuffer_bytes, 2 * buffer_.size())));
+      const std::size_t bytes = std::min(most_bytes_, std::max(kFirstBuffer_bytes, 2 * buffer_.size()));
+      buffer_.reserve(bytes);  // exactly, where resize() alone would take up to twice what was there
+      buffer_.resize(bytes);
     }
     return std::span(buffer_).first(std::min(buffer_.size(), most_bytes_)).subspan(used_);
   }

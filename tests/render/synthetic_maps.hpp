@@ -10,8 +10,8 @@
 
 namespace sweepscope::test {
 
-/// A hall with a ceiling, a hexagonal pillar and stairs at both ends, as a rig that walks along x sees it. Each
-/// sweep is rolled by the same error with alternating sign, as a wrong offset does.
+/// A hall with a ceiling, a hexagonal pillar and stairs at both ends, as a rig that walks along x sees it.
+/// Each sweep is rolled by the same error with alternating sign, as a wrong offset does.
 class HallMap {
  public:
   HallMap(double roll_error_rad, std::size_t points, std::size_t sweeps = 80)
@@ -28,7 +28,8 @@ class HallMap {
       if (in_rig.norm() > 18 || drawn() > 1.2 * std::exp(-in_rig.norm() / 9)) continue;
       const double roll = sweep % 2 == 0 ? roll_error_rad_ : -roll_error_rad_;
       const Eigen::Vector3d noise(drawn() - 0.5, drawn() - 0.5, drawn() - 0.5);
-      const Eigen::Vector3d place = sensor + Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX()) * in_rig + 0.03 * noise;
+      const Eigen::Vector3d place =
+          sensor + Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX()) * in_rig + 0.03 * noise;
       MapPoint point;
       point.x = static_cast<float>(place.x());
       point.y = static_cast<float>(place.y());
@@ -52,9 +53,12 @@ class HallMap {
     if (what < 0.25) return {within(-kLength / 2, kLength / 2), within(-kWidth / 2, kWidth / 2), kFloor};
     if (what < 0.5) return {within(-kLength / 2, kLength / 2), within(-kWidth / 2, kWidth / 2), kCeiling};
     if (what < 0.75) {
-      return {within(-kLength / 2, kLength / 2), drawn() < 0.5 ? -kWidth / 2 : kWidth / 2, within(kFloor, kCeiling)};
+      return {within(-kLength / 2, kLength / 2), drawn() < 0.5 ? -kWidth / 2 : kWidth / 2,
+              within(kFloor, kCeiling)};
     }
-    if (what < 0.8) return {drawn() < 0.5 ? -kLength / 2 : kLength / 2, within(-kWidth / 2, kWidth / 2), within(kFloor, kCeiling)};
+    if (what < 0.8)
+      return {drawn() < 0.5 ? -kLength / 2 : kLength / 2, within(-kWidth / 2, kWidth / 2),
+              within(kFloor, kCeiling)};
     if (what < 0.9) return pillar_point();
     return stair_point();
   }

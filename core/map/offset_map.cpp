@@ -1,0 +1,130 @@
+#include "core/map/offset_map.hpp"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/loam/sweep_motion.hpp"
+#include "core/offset/motion_test.hpp"
+#include "core/offset/search_window.hpp"
+
+namespace sweepscope {
+namespace {
+
+std::vector<SweepPose> standing_poses(const std::vector<PlacedSweep>& sweeps) {
+  std::vector<SweepPose> poses;
+  for (const PlacedSweep& sweep : sweeps) {
+    SweepPose& pose = poses.emplace_back();
+    pose.sweep = sweep.sweep;
+    pose.direction = sweep.direction;
+    pose.begin_s = sweep.begin_s;
+    pose.end_s = sweep.end_s;
+  }
+  return poses;
+}
+
+// Places every usable beam of one scan.
+class BeamPlacer {
+ public:
+  BeamPlacer(const Recording& recording, double offset_s)
+      : recording_(recording), kinematics_(recording.rig.mount), motor_(recording.motor), offset_s_(offset_s) {}
+
+  void place(const LaserScan& scan, const SweepPose& pose, MapCloud& cloud) {
+    const SweepMotion motion(pose.begin, pose.end);
+    const auto ranges_m = recording_.ranges(scan);
+    for (std::uint32_t beam = 0; beam < scan.beams; ++beam) {
+      if (!std::isfinite(ranges_m[beam])) continue;
+      const double time_s = scan.beam_s(beam);
+      const double u = (time_s - pose.begin_s) / (pose.end_s - pose.begin_s);
+      const Eigen::Vector3d p_in_motor_m = kinematics_.point_in_motor(ranges_m[beam], scan.beam_angle_rad(beam));
+      const Eigen::Vector3d p_m =
+          motion(kinematics_.base_from_motor(p_in_motor_m, motor_.angle_at(time_s + offset_s_)), u);
+      MapPoint point{};
+      point.getVector3fMap() = p_m.cast<float>();
+      point.data[3] = 1.0f;
+      point.intensity = recording_.intensities.empty() ? 0.0f : recording_.intensities[scan.first_range + beam];
+      point.sweep = static_cast<std::uint32_t>(pose.sweep);
+      point.time_s = time_s;
+      cloud.points.push_back(point);
+    }
+  }
+
+ private:
+  const Recording& recording_;
+  Kinematics kinematics_;
+  MotorReader motor_;
+  double offset_s_;
+};
+
+MapCloud::Ptr place_beams(const OffsetProblem& problem, double offset_s, const std::vector<SweepPose>& poses) {
+  const Recording& recording = *problem.recording;
+  const std::vector<std::size_t> sweep_of = assign_sweeps(recording.scans, problem.motor.sweeps, offset_s);
+  MapCloud::Ptr cloud(new MapCloud);
+  BeamPlacer placer(recording, offset_s);
+  auto pose = poses.begin();
+  for (std::size_t i = 0; i < recording.scans.size(); ++i) {
+    if (sweep_of[i] == kNoSweep || !problem.scan_used[i]) continue;
+    while (pose != poses.end() && pose->sweep < sweep_of[i]) ++pose;
+    if (pose == poses.end()) break;
+    if (pose->sweep == sweep_of[i]) placer.place(recording.scans[i], *pose, *cloud);
+  }
+  cloud->width = static_cast<std::uint32_t>(cloud->points.size());
+  cloud->height = 1;
+  cloud->is_dense = true;
+  return cloud;
+}
+
+OffsetMap build_one(const OffsetProblem& problem, double offset_s, bool moving, const MapOptions& options,
+                    const Job& job) {
+  OffsetMap map;
+  map.offset_s = offset_s;
+  map.moving = moving;
+  const std::vector<PlacedSweep> sweeps = place_sweeps(problem, offset_s);
+  std::vector<SweepPose> poses = standing_poses(sweeps);
+  if (moving) {
+    const Eigen::Vector3d axis = problem.recording->rig.mount.axis.normalized();
+    const auto walk = track(sweeps, axis, options.mapping, job);
+    if (!walk) return map;
+    AlternatingRoll roll = take_out_alternating_roll(walk->sweeps, axis, options.mapping.settling_sweeps);
+    map.lost = walk->lost;
+    map.signed_rotation_rad = roll.signed_rotation_rad;
+    poses = std::move(roll.sweeps);
+  }
+  map.cloud = place_beams(problem, offset_s, poses);
+  for (const SweepPose& pose : poses) {
+    // A sweep's end and the next one's begin are one instant: a quarter in from each keeps the times apart.
+    map.trajectory.push_back({pose.begin_s + 0.25 * (pose.end_s - pose.begin_s), pose.at(0.25)});
+    map.trajectory.push_back({pose.begin_s + 0.75 * (pose.end_s - pose.begin_s), pose.at(0.75)});
+    if (!moving) break;
+  }
+  return map;
+}
+
+}  // namespace
+
+Result<std::vector<OffsetMap>> build_maps(const Recording& recording, std::span<const double> offsets_s,
+                                          const MapOptions& options, const Job& job) {
+  const auto [least, greatest] = std::minmax_element(offsets_s.begin(), offsets_s.end());
+  const auto problem = prepare_problem(recording, *least, *greatest, options.features, job);
+  if (!problem) return tl::unexpected(problem.error());
+  const std::vector<std::string> reasons = motor_reasons(recording.motor, problem->motor);
+  if (!reasons.empty())
+    return failure(ExitCode::kNotIdentifiable, fmt::format("{}: {}", recording.name, reasons.front()));
+  const std::vector<PlacedSweep> placed = place_sweeps(*problem, *least);
+  if (placed.empty())
+    return failure(ExitCode::kNotIdentifiable,
+                   fmt::format("{}: no scan is covered by the motor's samples at these offsets.", recording.name));
+  const bool moving = options.assume ? *options.assume == Method::kMoving
+                                     : test_motion(placed, problem->motor, options.odometry).moving();
+  std::vector<OffsetMap> maps(offsets_s.size());
+  const Job part = Job::part_of(job);
+  tbb::parallel_for(std::size_t{0}, offsets_s.size(), [&](std::size_t i) {
+    maps[i] = build_one(*problem, offsets_s[i], moving, options, i == 0 ? job : part);
+  });
+  if (job.cancelled()) return failure(ExitCode::kInterrupted, "Interrupted while building the map.");
+  return maps;
+}
+
+}  // namespace sweepscope

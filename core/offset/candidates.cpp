@@ -1,0 +1,106 @@
+#include "core/offset/candidates.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdint>
+
+namespace sweepscope {
+namespace {
+
+std::int64_t nanoseconds(double seconds) { return std::llround(seconds * 1e9); }
+
+}  // namespace
+
+std::vector<double> offsets_of(const std::vector<OffsetRange>& ranges) {
+  std::vector<std::int64_t> offsets_ns;
+  for (const OffsetRange& range : ranges) {
+    const std::int64_t step_ns = std::max<std::int64_t>(1, nanoseconds(range.step_s));
+    for (std::int64_t offset_ns = nanoseconds(range.from_s); offset_ns <= nanoseconds(range.to_s); offset_ns += step_ns)
+      offsets_ns.push_back(offset_ns);
+  }
+  std::sort(offsets_ns.begin(), offsets_ns.end());
+  offsets_ns.erase(std::unique(offsets_ns.begin(), offsets_ns.end()), offsets_ns.end());
+  std::vector<double> offsets_s;
+  for (const std::int64_t offset_ns : offsets_ns) offsets_s.push_back(double(offset_ns) * 1e-9);
+  return offsets_s;
+}
+
+OffsetRange range_around(const OffsetsAround& around) {
+  const int above = (around.steps + 1) / 2, below = around.steps / 2;
+  return {around.initial_s - below * around.accuracy_s, around.initial_s + above * around.accuracy_s,
+          around.accuracy_s};
+}
+
+bool Curve::compute(const std::vector<double>& offsets_s, const Job& job) {
+  std::vector<double> wanted_s;
+  for (const double offset_s : offsets_s) {
+    const auto same = [&](const CurvePoint& p) { return p.offset_s == offset_s; };
+    if (std::none_of(points_.begin(), points_.end(), same)) wanted_s.push_back(offset_s);
+  }
+  std::vector<std::optional<CurvePoint>> computed(wanted_s.size());
+  std::atomic<std::size_t> done{0};
+  const Job part = Job::part_of(job);
+  tbb::parallel_for(std::size_t{0}, wanted_s.size(), [&](std::size_t i) {
+    if (job.cancelled()) return;
+    CurvePoint point = candidate_(wanted_s[i], part);
+    if (job.cancelled()) return;
+    computed[i] = point;
+    job.report("candidates", double(++done) / double(wanted_s.size()));
+  });
+  for (const auto& point : computed)
+    if (point) points_.push_back(*point);
+  std::sort(points_.begin(), points_.end(),
+            [](const CurvePoint& a, const CurvePoint& b) { return a.offset_s < b.offset_s; });
+  return !job.cancelled();
+}
+
+std::size_t index_of_least(const std::vector<CurvePoint>& curve, CurveValue value) {
+  std::size_t best = curve.size();
+  for (std::size_t i = 0; i < curve.size(); ++i)
+    if (curve[i].*value && (best == curve.size() || *(curve[i].*value) < *(curve[best].*value))) best = i;
+  return best;
+}
+
+std::size_t index_of_greatest(const std::vector<CurvePoint>& curve, CurveValue value) {
+  std::size_t best = curve.size();
+  for (std::size_t i = 0; i < curve.size(); ++i)
+    if (curve[i].*value && (best == curve.size() || *(curve[i].*value) > *(curve[best].*value))) best = i;
+  return best;
+}
+
+CriterionOptimum fitted_extremum(const std::vector<CurvePoint>& curve, CurveValue value, std::size_t best,
+                                 double reach_s) {
+  const double centre_s = curve[best].offset_s;
+  CriterionOptimum optimum{"", centre_s, *(curve[best].*value)};
+  const auto belongs = [&](std::size_t i) {
+    return (curve[i].*value).has_value() && std::abs(curve[i].offset_s - centre_s) <= reach_s + 1e-9;
+  };
+  std::size_t first = best, last = best;
+  while (first > 0 && belongs(first - 1)) --first;
+  while (last + 1 < curve.size() && belongs(last + 1)) ++last;
+  const auto count = static_cast<Eigen::Index>(last - first + 1);
+  if (count < 5) return optimum;
+  Eigen::MatrixXd powers(count, 3);
+  Eigen::VectorXd values(count);
+  const double scale = optimum.value == 0 ? 1.0 : optimum.value;
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const CurvePoint& point = curve[first + std::size_t(i)];
+    const double x = (point.offset_s - centre_s) / reach_s;
+    powers.row(i) << 1, x, x * x;
+    values[i] = *(point.*value) / scale;
+  }
+  const Eigen::Vector3d c = powers.colPivHouseholderQr().solve(values);
+  const bool is_least = value != &CurvePoint::n;
+  if (!(is_least ? c[2] > 0 : c[2] < 0)) return optimum;
+  const double offset_s = centre_s - c[1] / (2 * c[2]) * reach_s;
+  if (offset_s < curve[first].offset_s || offset_s > curve[last].offset_s) return optimum;
+  optimum.offset_s = offset_s;
+  optimum.value = scale * (c[0] - c[1] * c[1] / (4 * c[2]));
+  return optimum;
+}
+
+}  // namespace sweepscope

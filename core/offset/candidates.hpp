@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/job.hpp"
+#include "core/offset/estimate.hpp"
+
+namespace sweepscope {
+
+/// Candidate offsets from `from_s` to `to_s` in steps, both ends included where a step falls on them.
+struct OffsetRange {
+  double from_s = 0, to_s = 0, step_s = 0;
+};
+
+/// The paper's search: `steps` candidates besides the initial one, at initial + accuracy, initial - accuracy,
+/// initial + 2 accuracy, ...
+struct OffsetsAround {
+  double initial_s = 0, accuracy_s = 0;
+  int steps = 0;
+};
+
+/// All candidates of the ranges, ascending, each distinct offset once. Offsets are whole nanoseconds, so that ranges
+/// that share an offset share it to the last bit.
+std::vector<double> offsets_of(const std::vector<OffsetRange>& ranges);
+OffsetRange range_around(const OffsetsAround& around);
+
+/// What is computed for one candidate.
+using Candidate = std::function<CurvePoint(double offset_s, const Job& job)>;
+
+/// Computes candidates in parallel and keeps the curve ascending; offsets that are there already are not computed
+/// again. The same bytes for any number of threads. On interruption what was finished stays in the curve.
+class Curve {
+ public:
+  explicit Curve(Candidate candidate) : candidate_(std::move(candidate)) {}
+
+  /// False where the job was cancelled.
+  bool compute(const std::vector<double>& offsets_s, const Job& job);
+  const std::vector<CurvePoint>& points() const { return points_; }
+
+ private:
+  Candidate candidate_;
+  std::vector<CurvePoint> points_;
+};
+
+/// The index of the least (or greatest) present value; points().size() where there is none.
+using CurveValue = std::optional<double> CurvePoint::*;
+std::size_t index_of_least(const std::vector<CurvePoint>& curve, CurveValue value);
+std::size_t index_of_greatest(const std::vector<CurvePoint>& curve, CurveValue value);
+
+/// The extremum of the parabola fitted to the contiguous present values within `reach_s` of point `best` (the authors'
+/// 2018 follow-up). The grid point itself where they are fewer than 5, or the parabola bends the wrong way or has its
+/// extremum outside them.
+CriterionOptimum fitted_extremum(const std::vector<CurvePoint>& curve, CurveValue value, std::size_t best,
+                                 double reach_s);
+
+}  // namespace sweepscope

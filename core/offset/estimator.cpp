@@ -1,0 +1,288 @@
+#include "core/offset/estimator.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <ctime>
+
+#include "core/offset/motion_test.hpp"
+#include "core/offset/moving.hpp"
+#include "core/offset/search_window.hpp"
+#include "core/offset/stationary.hpp"
+
+namespace sweepscope {
+namespace {
+
+double cpu_now_s() { return double(std::clock()) / CLOCKS_PER_SEC; }
+
+double rounded_to(double value, double step) { return std::round(value / step) * step; }
+
+// One estimate on its way: what it works on and what it has found so far.
+class Search {
+ public:
+  Search(const Recording& recording, const EstimateOptions& options, const Job& job)
+      : options_(options), job_(job) {
+    result_.recording = recording.name;
+    result_.warnings = recording.report.warnings;
+    problem_.recording = &recording;
+    problem_.motor = find_sweeps(recording.motor);
+  }
+
+  Result<Estimate> run() {
+    result_.method = options_.method == Method::kMoving ? "moving" : "stationary";
+    result_.reasons = motor_reasons(problem_.recording->motor, problem_.motor);
+    if (!result_.reasons.empty()) return std::move(result_);
+    scale_ = search_scale(problem_.motor);
+    std::vector<OffsetRange> ranges = options_.ranges;
+    if (options_.around) ranges.push_back(range_around(*options_.around));
+    const bool by_default = ranges.empty();
+    if (by_default) ranges.push_back({-scale_.half_width_s, scale_.half_width_s, scale_.unit_s});
+    const auto offsets_s = checked_offsets(ranges, scale_);
+    if (!offsets_s) return tl::unexpected(offsets_s.error());
+    if (!prepare(offsets_s->front(), offsets_s->back())) return interrupted();
+    if (!result_.reasons.empty()) return std::move(result_);
+
+    Curve curve([this](double offset_s, const Job& job) { return candidate(offset_s, job); });
+    const bool finished = by_default ? coarse_to_fine(curve, *offsets_s) : compute(curve, *offsets_s);
+    result_.curve = curve.points();
+    if (!finished) return interrupted();
+    conclude();
+    return std::move(result_);
+  }
+
+ private:
+  bool moving() const { return method_ == Method::kMoving; }
+  CurveValue decisive() const { return moving() ? &CurvePoint::e_m : &CurvePoint::d; }
+
+  Estimate interrupted() {
+    result_.interrupted = true;
+    result_.identifiable = false;
+    result_.reasons = {"Interrupted; the curve holds the candidates that were finished."};
+    return std::move(result_);
+  }
+
+  // Features, the scans to use, and the kind of recording. False where interrupted.
+  bool prepare(double least_s, double greatest_s) {
+    auto problem = prepare_problem(*problem_.recording, least_s, greatest_s, options_.features, job_);
+    if (!problem) return false;
+    problem_ = std::move(*problem);
+    const std::vector<PlacedSweep> placed = place_sweeps(problem_, (least_s + greatest_s) / 2);
+    result_.sweeps = placed.size();
+    for (const PlacedSweep& sweep : placed) result_.scans += sweep.scans;
+    if (result_.sweeps < 2) {
+      result_.reasons.push_back("Fewer than two sweeps have both scans and motor samples at every offset searched.");
+      return true;
+    }
+    choose_method(test_motion(placed, problem_.motor, options_.odometry));
+    return !job_.cancelled();
+  }
+
+  void choose_method(const MotionTest& test) {
+    Method kind = Method::kStationary;
+    if (options_.assume) {
+      kind = *options_.assume;
+    } else if (test.answered()) {
+      kind = test.moving() ? Method::kMoving : Method::kStationary;
+    } else if (!options_.method) {
+      result_.warnings.push_back("Too short to tell whether the rig stood still: it is taken to have stood still.");
+    }
+    method_ = options_.method.value_or(kind);
+    result_.method = moving() ? "moving" : "stationary";
+    if (!moving() && kind == Method::kMoving)
+      result_.reasons.push_back(fmt::format(
+          "The rig moved: {} of {} pairs of sweeps of the same direction do not fall on each other. Use --method moving, "
+          "or --assume stationary if it did stand still.",
+          test.moved, test.pairs));
+    const std::size_t least_sweeps = std::size_t(options_.mapping.settling_sweeps) + 12;
+    if (moving() && result_.sweeps < least_sweeps)
+      result_.reasons.push_back(fmt::format("The recording is too short for a moving rig: {} sweeps, at least {} are "
+                                            "needed, and 40 s of walking for a good answer.",
+                                            result_.sweeps, least_sweeps));
+  }
+
+  CurvePoint candidate(double offset_s, const Job& job) const {
+    return moving() ? moving_candidate(problem_, offset_s, options_.scoring, options_.mapping, job)
+                    : stationary_candidate(problem_, offset_s, pairs_, options_.weight_c, options_.odometry);
+  }
+
+  // The pairs that can be registered at all, decided once: every candidate must answer for the same ones.
+  void choose_pairs(double offset_s) {
+    pairs_.clear();
+    for (const PairMotion& motion : pair_motions(problem_, offset_s, options_.odometry))
+      if (motion.succeeded) pairs_.push_back(motion.sweep);
+  }
+
+  bool compute(Curve& curve, const std::vector<double>& offsets_s) {
+    if (!moving()) choose_pairs(coarse_stationary(offsets_s));
+    return curve.compute(offsets_s, job_);
+  }
+
+  // Coarse over the whole window, then steps of a unit about the valley, then tenths of a unit about its ground.
+  bool coarse_to_fine(Curve& curve, const std::vector<double>& window_s) {
+    double centre_s = moving() ? coarse_moving(window_s) : coarse_stationary(window_s);
+    if (job_.cancelled()) return false;
+    if (!moving()) choose_pairs(centre_s);
+    constexpr int kMostMoves = 5;
+    for (int move = 0; move < kMostMoves; ++move) {
+      centre_s = rounded_to(centre_s, scale_.unit_s);
+      const double from_s = std::max(centre_s - 5 * scale_.unit_s, -scale_.most_half_width_s);
+      if (!curve.compute(offsets_of({{from_s, from_s + 10 * scale_.unit_s, scale_.unit_s}}), job_)) return false;
+      const std::size_t best = index_of_least(curve.points(), decisive());
+      if (best == curve.points().size()) return true;
+      centre_s = curve.points()[best].offset_s;
+      if (best > 1 && best + 2 < curve.points().size()) break;
+    }
+    const double step_s = scale_.unit_s / 10;
+    return curve.compute(offsets_of({{centre_s - 20 * step_s, centre_s + 20 * step_s, step_s}}), job_);
+  }
+
+  double coarse_stationary(const std::vector<double>& window_s) const {
+    constexpr double kCap_m = 0.2;
+    return least_cost_offset(window_s, 4 * scale_.unit_s, [&](double offset_s) {
+      return stationary_coarse_cost_m(problem_, offset_s, options_.odometry, kCap_m);
+    });
+  }
+
+  // On the first sweeps only; then Newton's steps on the signed alternating roll, which is linear in the offset.
+  double coarse_moving(const std::vector<double>& window_s) const {
+    constexpr std::size_t kSweeps = 40;
+    OffsetProblem part = problem_;
+    const std::vector<std::size_t> sweep_of = assign_sweeps(part.recording->scans, part.motor.sweeps, 0);
+    for (std::size_t i = 0; i < part.scan_used.size(); ++i)
+      if (sweep_of[i] != kNoSweep && sweep_of[i] >= kSweeps) part.scan_used[i] = 0;
+    double offset_s = least_cost_offset(window_s, 10 * scale_.unit_s, [&](double candidate_s) {
+      return moving_coarse_cost_m(part, candidate_s, options_.mapping, Job::part_of(job_));
+    });
+    for (int step = 0; step < 2; ++step) {
+      const CurvePoint point =
+          moving_candidate(part, offset_s, Scoring::kTwoStage, options_.mapping, Job::part_of(job_));
+      if (!point.signed_rotation_rad) break;
+      const double most_s = 10 * scale_.unit_s;
+      offset_s -= std::clamp(*point.signed_rotation_rad / (2 * problem_.motor.median_speed_rad_s), -most_s, most_s);
+      offset_s = std::clamp(offset_s, window_s.front(), window_s.back());
+    }
+    return offset_s;
+  }
+
+  template <typename Cost>
+  double least_cost_offset(const std::vector<double>& window_s, double step_s, const Cost& cost) const {
+    const std::vector<double> offsets_s = offsets_of({{window_s.front(), window_s.back(), step_s}});
+    CurveValue value = &CurvePoint::d;
+    Curve curve([&](double offset_s, const Job&) {
+      CurvePoint point;
+      point.offset_s = offset_s;
+      point.*value = cost(offset_s);
+      return point;
+    });
+    curve.compute(offsets_s, job_);
+    const std::size_t best = index_of_least(curve.points(), value);
+    return best < curve.points().size() ? curve.points()[best].offset_s : offsets_s[offsets_s.size() / 2];
+  }
+
+  void conclude() {
+    const std::size_t best = index_of_least(result_.curve, decisive());
+    if (best == result_.curve.size()) {
+      result_.reasons.push_back(moving() ? "LOAM lost track at every candidate offset."
+                                         : "The sweeps could not be registered to each other at any candidate offset.");
+      return;
+    }
+    const bool fits = options_.fit.value_or(moving() ? Fit::kParabola : Fit::kNone) == Fit::kParabola;
+    const double reach_s = fits ? 3 * scale_.unit_s : 0.0;
+    const CriterionOptimum least = named(moving() ? "e" : "d", decisive(), best, reach_s);
+    if (moving()) {
+      const std::size_t most = index_of_greatest(result_.curve, &CurvePoint::n);
+      const CriterionOptimum greatest = named("n", &CurvePoint::n, most, reach_s);
+      compare_criteria(greatest.offset_s, least.offset_s);
+    }
+    if (result_.curve.size() > 2 && (best == 0 || best + 1 == result_.curve.size()))
+      result_.reasons.push_back(fmt::format("The least {} lies on the edge of the searched range, at {:.1f} ms: the offset "
+                                            "lies beyond it, or nowhere.",
+                                            moving() ? "e" : "d", least.offset_s * 1e3));
+    judge_lever();
+    if (!moving()) judge_standing(best);
+    result_.identifiable = result_.reasons.empty();
+    if (!result_.identifiable) return;
+    result_.offset_s = least.offset_s;
+    if (!moving()) result_.sigma_s = sigma_of_pairs(least.offset_s);
+    if (moving() && (problem_.recording->scans.back().first_beam_s - problem_.recording->scans.front().first_beam_s) < 20)
+      result_.warnings.push_back("Less than 20 s of walking: the answer may be off by several tenths of a millisecond.");
+  }
+
+  CriterionOptimum named(const char* name, CurveValue value, std::size_t best, double reach_s) {
+    CriterionOptimum optimum = fitted_extremum(result_.curve, value, best, reach_s);
+    optimum.name = name;
+    result_.criteria.push_back(optimum);
+    return optimum;
+  }
+
+  void compare_criteria(double n_offset_s, double e_offset_s) {
+    const double apart_s = std::abs(n_offset_s - e_offset_s);
+    const std::string text = fmt::format("The two criteria disagree: n is greatest at {:.2f} ms, e is least at {:.2f} ms.",
+                                         n_offset_s * 1e3, e_offset_s * 1e3);
+    // n's curve is flat: only tracking on LOAM's own poses may leave it undecided.
+    if (apart_s > 3 * scale_.unit_s) result_.reasons.push_back(text);
+    else if (apart_s > scale_.unit_s) result_.warnings.push_back(text);
+  }
+
+  // A wrong offset must turn the sweeps against each other by twice the motor's speed times the error. Where it does
+  // not, nothing in the scene tells the motor's angle.
+  void judge_lever() {
+    double sx = 0, sy = 0, sxx = 0, sxy = 0, n = 0;
+    for (const CurvePoint& point : result_.curve) {
+      if (!point.signed_rotation_rad) continue;
+      const double x = point.offset_s - result_.curve.front().offset_s, y = *point.signed_rotation_rad;
+      sx += x, sy += y, sxx += x * x, sxy += x * y, n += 1;
+    }
+    const double spread = sxx - sx * sx / std::max(1.0, n);
+    if (n < 3 || !(spread > 0)) return;
+    const double slope = (sxy - sx * sy / n) / spread / (2 * problem_.motor.median_speed_rad_s);
+    if (slope < 0.3)
+      result_.reasons.push_back(fmt::format("The scene gives no lever: turning the motor's angle by 1 deg turns the "
+                                            "registered sweeps by {:.2f} deg only.",
+                                            slope));
+  }
+
+  void judge_standing(std::size_t best) {
+    constexpr double kMostTranslation_m = 0.15;
+    if (*result_.curve[best].translation_m > kMostTranslation_m)
+      result_.reasons.push_back(fmt::format("The rig moved: at the best offset the sweeps still lie {:.2f} m apart.",
+                                            *result_.curve[best].translation_m));
+  }
+
+  std::optional<double> sigma_of_pairs(double offset_s) const {
+    std::vector<double> errors_s;
+    for (const PairMotion& motion : pair_motions(problem_, offset_s, options_.odometry))
+      if (std::find(pairs_.begin(), pairs_.end(), motion.sweep) != pairs_.end())
+        errors_s.push_back(motion.signed_rotation_rad / (2 * problem_.motor.median_speed_rad_s));
+    const double n = static_cast<double>(errors_s.size());
+    if (n < 3) return std::nullopt;
+    double mean_s = 0, squares_s2 = 0;
+    for (const double error_s : errors_s) mean_s += error_s / n;
+    for (const double error_s : errors_s) squares_s2 += (error_s - mean_s) * (error_s - mean_s);
+    return std::sqrt(squares_s2 / (n - 1) / n);
+  }
+
+  const EstimateOptions& options_;
+  const Job& job_;
+  OffsetProblem problem_;
+  SearchScale scale_;
+  Method method_ = Method::kStationary;
+  std::vector<std::size_t> pairs_;
+  Estimate result_;
+};
+
+}  // namespace
+
+Result<Estimate> estimate(const Recording& recording, const EstimateOptions& options, const Job& job) {
+  const double cpu_begin_s = cpu_now_s();
+  const auto wall_begin = std::chrono::steady_clock::now();
+  Result<Estimate> result = Search(recording, options, job).run();
+  if (!result) return result;
+  result->cpu_s = cpu_now_s() - cpu_begin_s;
+  result->wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_begin).count();
+  return result;
+}
+
+}  // namespace sweepscope

@@ -1,0 +1,32 @@
+#include "core/offset/moving.hpp"
+
+namespace sweepscope {
+
+CurvePoint moving_candidate(const OffsetProblem& problem, double offset_s, Scoring scoring,
+                            const MappingOptions& options, const Job& job) {
+  CurvePoint point;
+  point.offset_s = offset_s;
+  const Eigen::Vector3d axis = problem.recording->rig.mount.axis.normalized();
+  const std::vector<PlacedSweep> sweeps = place_sweeps(problem, offset_s);
+  const auto walk = track(sweeps, axis, options, job);
+  if (!walk || walk->lost) return point;
+  const AlternatingRoll roll = take_out_alternating_roll(walk->sweeps, axis, options.settling_sweeps);
+  const MatchCount count =
+      scoring == Scoring::kLoam ? walk->count : count_matches(sweeps, roll.sweeps, options);
+  point.signed_rotation_rad = roll.signed_rotation_rad;
+  point.n = static_cast<double>(count.matches);
+  if (count.matches > 0) point.e_m = count.mean_distance_m();
+  return point;
+}
+
+double moving_coarse_cost_m(const OffsetProblem& problem, double offset_s, const MappingOptions& options,
+                            const Job& job) {
+  const Eigen::Vector3d axis = problem.recording->rig.mount.axis.normalized();
+  const std::vector<PlacedSweep> sweeps = place_sweeps(problem, offset_s);
+  const auto walk = track(sweeps, axis, options, job);
+  if (!walk) return options.cost_cap_m;
+  const AlternatingRoll roll = take_out_alternating_roll(walk->sweeps, axis, options.settling_sweeps);
+  return count_matches(sweeps, roll.sweeps, options).capped_cost_m();
+}
+
+}  // namespace sweepscope

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/recording/recording.hpp"
+
+namespace sweepscope {
+
+/// One of the two streams of a recording, as it is used.
+struct StreamSummary {
+  std::string topic;
+  std::size_t used = 0;  // scans or motor samples
+  StampSource stamp = StampSource::kHeader;
+  double median_period_s = 0;
+  double duration_s = 0;  // from the first to the last
+  std::size_t gaps = 0, out_of_order = 0, doubled = 0, dropped = 0;
+  double longest_gap_s = 0;
+  std::optional<double> receive_minus_header_s, receive_jitter_s;
+
+  double rate_hz() const { return median_period_s > 0 ? 1 / median_period_s : 0; }
+};
+
+struct LaserSummary : StreamSummary {
+  std::size_t fewest_beams = 0, most_beams = 0;  // of a scan
+  double first_beam_deg = 0, last_beam_deg = 0;  // of the first scan
+  double scan_s = 0;                             // median time from a scan's first to its last beam
+  std::size_t beams = 0, usable_beams = 0;
+  std::size_t nan = 0, infinite = 0, zero = 0, out_of_range = 0;  // of the whole file
+  double median_range_m = 0;
+  std::size_t scans_without_motor = 0;  // at offset 0
+  bool intensities = false;
+};
+
+struct MotorSummary : StreamSummary {
+  std::string joint;
+  double least_deg = 0, most_deg = 0;
+  double median_speed_deg_s = 0;  // while it turns
+  std::size_t reversals = 0;
+  std::size_t unwrapped = 0;
+  double median_sweep_s = 0;  // 0 where there is no whole sweep
+  bool turns = false;         // by more than 1 deg
+  bool one_way = false;       // more than a turn, and never back
+
+  std::size_t whole_sweeps() const { return reversals > 0 ? reversals - 1 : 0; }
+  /// How far 1 ms of offset turns a scan.
+  double deg_per_ms() const { return median_speed_deg_s / 1000; }
+};
+
+/// What is in a recording, for a person to read.
+struct RecordingSummary {
+  std::string name;
+  std::vector<RecordedTopic> topics;
+  LaserSummary laser;
+  MotorSummary motor;
+  std::optional<std::string> motion;      // "stationary" or "moving", where the motion test was run
+  std::vector<std::string> expectations;  // what an estimate can hope for, whole sentences
+  std::vector<std::string> warnings;
+};
+
+/// Counts of what reading met (gaps, order, kinds of unusable ranges) are those of the whole file, also where
+/// `recording` is a window of it.
+RecordingSummary inspect(const Recording& recording);
+
+}  // namespace sweepscope

@@ -1,0 +1,53 @@
+#include "render/comparison_layout.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sweepscope {
+namespace {
+
+/// Equal parts beside each other, on whole pixels.
+std::vector<PixelRect> columns(const PixelRect& place, std::size_t count, double gap) {
+  const double parts = static_cast<double>(count);
+  const double width = std::floor((place.width - gap * (parts - 1)) / parts);
+  std::vector<PixelRect> rects;
+  for (std::size_t i = 0; i < count; ++i) {
+    rects.push_back({place.left + static_cast<double>(i) * (width + gap), place.top, width, place.height});
+  }
+  return rects;
+}
+
+}  // namespace
+
+ComparisonLayout lay_out(const ComparisonOptions& options, std::size_t maps, std::size_t charts) {
+  const double width = options.width_px, height = options.height_px;
+  ComparisonLayout out;
+  const double s = out.scale = std::clamp(std::min(width / 1920, height / 1200), 0.4, 4.0);
+  const auto px = [s](double at_full_size) { return std::round(at_full_size * s); };
+  const double margin = out.margin = px(32), gap = px(20);
+  out.title = {margin, px(48)};
+  out.subtitle = {margin, px(74)};
+  out.footer = {margin, height - px(22)};
+
+  const double scalar_bar_room = px(86), charts_room = charts > 0 ? std::round(height * 0.25) : 0;
+  const double maps_bottom = height - px(56) - charts_room - (charts > 0 ? px(30) : 0);
+  PixelRect room{margin, px(126), width - 2 * margin - scalar_bar_room, 0};
+  room.height = maps_bottom - room.top;
+  PixelRect row = room;
+  if (options.with_close_up) row.height = std::floor((room.height - gap) / 2);
+  out.overviews = columns(row, maps, gap);
+  if (options.with_close_up) {
+    row.top += row.height + gap;
+    out.close_ups = columns(row, maps, gap);
+  }
+  for (const PixelRect& overview : out.overviews)
+    out.labels.push_back({overview.left, overview.top - px(12)});
+  const double bar_height = std::min(row.height, px(380));
+  out.scalar_bar = {width - margin - scalar_bar_room + gap, room.top + px(38), px(16), bar_height - px(38)};
+  if (charts > 0) {
+    out.charts = columns({margin, maps_bottom + px(30), width - 2 * margin, charts_room}, charts, px(56));
+  }
+  return out;
+}
+
+}  // namespace sweepscope

@@ -1,0 +1,102 @@
+#include "render/comparison_points.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sweepscope {
+namespace {
+
+constexpr double kBlindHeight_m = 0.8;  // nearer to the path's height a roll error shows too little
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// The sensor's height at the instants of a map's points, which come in the order of time.
+class PathHeight {
+ public:
+  explicit PathHeight(const ComparedMap& map) : map_(map) {}
+
+  double at(double time_s) {
+    const auto& path = map_.path;
+    if (path.empty()) return map_.path_height_m;
+    if (next_ > 0 && path[next_ - 1].time_s > time_s) next_ = 0;
+    while (next_ < path.size() && path[next_].time_s <= time_s) ++next_;
+    if (next_ == 0) return path.front().position_m.z();
+    if (next_ == path.size()) return path.back().position_m.z();
+    const StampedPose &a = path[next_ - 1], &b = path[next_];
+    const double t = (time_s - a.time_s) / (b.time_s - a.time_s);
+    return (1 - t) * a.position_m.z() + t * b.position_m.z();
+  }
+
+ private:
+  const ComparedMap& map_;
+  std::size_t next_ = 0;
+};
+
+template <typename Visit>
+void for_each_point(const ComparedMap& map, Visit visit) {
+  if (!map.cloud) return;
+  PathHeight path(map);
+  for (const MapPoint& point : *map.cloud) visit(point, static_cast<double>(point.z) - path.at(point.time_s));
+}
+
+/// How far above the path a ceiling begins to hide what is below it; infinite where there is none.
+double ceiling_above_path_m(std::span<const ComparedMap> maps) {
+  constexpr double kBin_m = 0.1, kMargin_m = 0.5, kLeastShare = 0.12;
+  std::vector<std::size_t> bins(300, 0);
+  std::size_t above = 0;
+  for (const ComparedMap& map : maps) {
+    for_each_point(map, [&](const MapPoint&, double height_m) {
+      if (height_m < kBlindHeight_m) return;
+      ++above;
+      const double bin = (height_m - kBlindHeight_m) / kBin_m;
+      if (bin < static_cast<double>(bins.size())) ++bins[static_cast<std::size_t>(bin)];
+    });
+  }
+  std::size_t best = 0, best_count = 0;  // three bins together: a blurred ceiling is thick
+  for (std::size_t i = 1; i + 1 < bins.size(); ++i) {
+    const std::size_t count = bins[i - 1] + bins[i] + bins[i + 1];
+    if (count > best_count) best = i, best_count = count;
+  }
+  if (static_cast<double>(best_count) < kLeastShare * static_cast<double>(above) || above == 0)
+    return kInfinity;
+  const double height_m = kBlindHeight_m + (static_cast<double>(best) + 0.5) * kBin_m - kMargin_m;
+  return height_m > kBlindHeight_m + 0.3 ? height_m : kInfinity;
+}
+
+}  // namespace
+
+std::vector<HeightRange> choose_slabs(std::span<const ComparedMap> maps, const ComparisonOptions& options) {
+  if (!options.slabs.empty()) return options.slabs;
+  return {{-kInfinity, -kBlindHeight_m}, {kBlindHeight_m, ceiling_above_path_m(maps)}};
+}
+
+SlabPoints points_in_slabs(const ComparedMap& map, std::span<const HeightRange> slabs) {
+  SlabPoints out;
+  for_each_point(map, [&](const MapPoint& point, double height_m) {
+    const bool inside = std::any_of(slabs.begin(), slabs.end(), [&](const HeightRange& slab) {
+      return height_m >= slab.from_m && height_m <= slab.to_m;
+    });
+    if (!inside) return;
+    out.points.add({point.x, point.y, point.z}, point.z);
+    out.above_path_m.push_back(static_cast<float>(height_m));
+  });
+  return out;
+}
+
+Bounds bounds_of(std::span<const SlabPoints> maps, std::size_t axis, double outermost_fraction) {
+  std::vector<float> all;
+  for (const SlabPoints& map : maps) {
+    for (const auto& point : map.points.xyz_m) all.push_back(point[axis]);
+  }
+  if (all.empty()) return {0, 1};
+  const auto at = [&](double fraction) {
+    const auto place =
+        all.begin() + static_cast<std::ptrdiff_t>(fraction * static_cast<double>(all.size() - 1));
+    std::nth_element(all.begin(), place, all.end());
+    return static_cast<double>(*place);
+  };
+  const double from = at(outermost_fraction);
+  return {from, at(1 - outermost_fraction)};
+}
+
+}  // namespace sweepscope

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace sweepscope {
+
+/// Marks of an axis at round numbers.
+struct Ticks {
+  double step = 1;
+  std::vector<double> values;       // within the axis's range, ascending
+  std::vector<std::string> labels;  // with as many decimals as the step needs
+};
+
+/// Steps of 1, 2 or 5 times a power of ten, `at_most` of them over the range.
+Ticks round_ticks(double from, double to, int at_most);
+
+/// The greatest of 1, 2 or 5 times a power of ten that is at most `length`.
+double round_length(double length);
+
+}  // namespace sweepscope
