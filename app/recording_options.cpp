@@ -1,10 +1,11 @@
 #include "app/recording_options.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <fstream>
+#include <cstdio>
+
+#include "core/io/atomic_file.hpp"
 
 namespace sweepscope::app {
 namespace {
@@ -86,31 +87,28 @@ Result<Recording> RecordingOptions::read(const Job& job) const {
   return part;
 }
 
+std::string printable(std::string text) {
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < ' ' && c != '\n') c = '?';
+  }
+  return text;
+}
+
 ExitCode fail(const Error& error) {
-  fmt::print(stderr, "sweepscope: {}\n", error.message);
+  fmt::print(stderr, "sweepscope: {}\n", printable(error.message));
   return error.code;
 }
 
 void print_warnings(const Recording& recording) {
   for (const std::string& warning : recording.report.warnings) {
-    fmt::print(stderr, "warning: {}: {}\n", recording.name, warning);
+    fmt::print(stderr, "warning: {}\n", printable(fmt::format("{}: {}", recording.name, warning)));
   }
 }
 
 Result<void> write_text(const std::string& path, const std::string& text) {
-  if (path == "-") {
-    std::fwrite(text.data(), 1, text.size(), stdout);
-    return {};
-  }
-  const std::string beside = fmt::format("{}.part-{}", path, getpid());
-  std::ofstream out(beside, std::ios::binary);
-  out << text;
-  out.close();
-  std::error_code error;
-  if (out) std::filesystem::rename(beside, path, error);
-  if (out && !error) return {};
-  std::filesystem::remove(beside, error);
-  return failure(ExitCode::kWrongUsage, fmt::format("{}: cannot be written", path));
+  if (path != "-") return write_file(path, text);
+  std::fwrite(text.data(), 1, text.size(), stdout);
+  return {};
 }
 
 }  // namespace sweepscope::app

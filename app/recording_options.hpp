@@ -38,11 +38,13 @@ struct RecordingOptions {
   Result<Recording> read(const Job& job) const;
 };
 
+/// Names from a file, with what would steer a terminal replaced by '?'.
+std::string printable(std::string text);
 /// Prints why a subcommand failed, as every subcommand prints it, and gives the exit code.
 ExitCode fail(const Error& error);
 /// Prints what reading warned of, on stderr.
 void print_warnings(const Recording& recording);
-/// Writes to stdout where `path` is "-", else whole or not at all: beside the file, then renamed.
+/// Writes to stdout where `path` is "-", else to the file, whole or not at all.
 Result<void> write_text(const std::string& path, const std::string& text);
 
 }  // namespace sweepscope::app
