@@ -83,8 +83,8 @@ void declare_method(CLI::App& command, Options& options) {
       .add_option_function<std::string>(
           "--fit",
           [&estimate](const std::string& text) { estimate.fit = text == "none" ? Fit::kNone : Fit::kParabola; },
-          "none: the best candidate; parabola: through those within 3 ms of it (default: parabola for moving, none "
-          "for stationary)")
+          "none: the best candidate; parabola: through those within 3 ms of it (default: parabola for moving and for slow motors, else "
+          "none)")
       ->type_name("F")
       ->check(CLI::IsMember({"none", "parabola"}));
   command
