@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/offset/search_window.hpp"
+
 namespace sweepscope {
 namespace {
 
@@ -40,6 +42,12 @@ MotionTest test_motion(const std::vector<PlacedSweep>& sweeps, const MotorMotion
   test.median_translation_m = median(translations_m);
   test.median_rotation_rad = median(rotations_rad);
   return test;
+}
+
+Result<MotionTest> test_motion(const Recording& recording, const Job& job) {
+  const auto problem = prepare_problem(recording, 0, 0, {}, job);
+  if (!problem) return tl::unexpected(problem.error());
+  return test_motion(place_sweeps(*problem, 0), problem->motor, {});
 }
 
 }  // namespace sweepscope
