@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <filesystem>
 #include <memory>
@@ -8,8 +9,12 @@
 #include <vector>
 
 #include "app/commands.hpp"
+#include "app/offset_texts.hpp"
+#include "app/progress.hpp"
+#include "app/recording_options.hpp"
 #include "core/io/cloud_file.hpp"
 #include "core/io/estimate_json.hpp"
+#include "core/map/offset_map.hpp"
 #include "render/comparison.hpp"
 #include "render/curve_charts.hpp"
 
@@ -17,6 +22,7 @@ namespace sweepscope::app {
 namespace {
 
 struct CompareOptions {
+  RecordingOptions recording;
   std::vector<std::string> inputs;  // a recording, or two to four maps
   std::string output, curve, size = "1920x1200", close_up;
   std::vector<double> offsets_ms;
@@ -101,50 +107,91 @@ Result<std::vector<ComparedMap>> maps_from_files(const CompareOptions& options) 
   return maps;
 }
 
-/// The maps that are compared, whatever they are made from.
-Result<std::vector<ComparedMap>> compared_maps(const CompareOptions& options) {
-  std::size_t map_files = 0;
-  for (const std::string& input : options.inputs) map_files += is_map_file(input) ? 1 : 0;
-  if (map_files == options.inputs.size()) return maps_from_files(options);
-  if (map_files > 0 || options.inputs.size() > 1) {
-    return wrong_usage("compare takes one recording, or two to four maps (.pcd or .ply)");
-  }
-  return wrong_usage(
-      "compare of a recording is not in this version; compare maps written by `sweepscope map`");
+/// What a picture is drawn from.
+struct Compared {
+  std::vector<ComparedMap> maps;
+  std::optional<Estimate> estimate;
+};
+
+Result<Estimate> curve_about(const Recording& recording, const CompareOptions& options, const Job& job) {
+  const auto [least, greatest] = std::minmax_element(options.offsets_ms.begin(), options.offsets_ms.end());
+  EstimateOptions wanted;
+  wanted.assume = parse_method(options.recording.assume);
+  wanted.ranges = {{(*least - 5) * 1e-3, (*greatest + 5) * 1e-3, 1e-3}};
+  return estimate(recording, wanted, job);
 }
 
-Result<void> draw(const CompareOptions& options, const std::vector<ComparedMap>& maps,
-                  const Estimate* estimate) {
-  return picture_options(options).and_then([&](const ComparisonOptions& picture) {
-    return write_comparison(options.output, maps, estimate, picture);
-  });
+Result<Compared> from_recording(const CompareOptions& options) {
+  if (options.offsets_ms.size() < 2 || options.offsets_ms.size() > 4)
+    return wrong_usage("compare of a recording wants two to four offsets, such as --offsets-ms 19,24");
+  const Progress progress;
+  RecordingOptions reading = options.recording;
+  reading.recording = options.inputs.front();
+  const auto recording = reading.read(progress.job());
+  if (!recording) return tl::unexpected(recording.error());
+  std::vector<double> offsets_s;
+  for (const double offset_ms : options.offsets_ms) offsets_s.push_back(offset_ms * 1e-3);
+  MapOptions map_options;
+  map_options.assume = parse_method(options.recording.assume);
+  auto built = build_maps(*recording, offsets_s, map_options, progress.job());
+  if (!built) return tl::unexpected(built.error());
+  Compared compared;
+  for (OffsetMap& map : *built) {
+    ComparedMap& next = compared.maps.emplace_back();
+    next.offset_s = map.offset_s;
+    next.cloud = map.cloud;
+    next.path = std::move(map.trajectory);
+  }
+  if (!options.curve.empty()) return compared;
+  auto curve = curve_about(*recording, options, progress.job());
+  if (!curve) return tl::unexpected(curve.error());
+  if (curve->interrupted) return failure(ExitCode::kInterrupted, "Interrupted while computing the criteria.");
+  compared.estimate = std::move(*curve);
+  return compared;
+}
+
+/// The maps that are compared, whatever they are made from.
+Result<Compared> compared_maps(const CompareOptions& options) {
+  std::size_t map_files = 0;
+  for (const std::string& input : options.inputs) map_files += is_map_file(input) ? 1 : 0;
+  if (map_files == options.inputs.size())
+    return maps_from_files(options).map([](std::vector<ComparedMap> maps) { return Compared{std::move(maps), {}}; });
+  if (map_files > 0 || options.inputs.size() > 1)
+    return wrong_usage("compare takes one recording, or two to four maps (.pcd or .ply)");
+  return from_recording(options);
 }
 
 Result<void> compare(const CompareOptions& options) {
   // Wrong words cost nothing; they are found before files of hundreds of megabytes are read.
-  if (auto picture = picture_options(options); !picture) return tl::unexpected(picture.error());
-  std::optional<Estimate> estimate;
+  const auto picture = picture_options(options);
+  if (!picture) return tl::unexpected(picture.error());
+  std::optional<Estimate> given;
   if (!options.curve.empty()) {
     auto read = read_estimate_json(options.curve);
     if (!read) return tl::unexpected(read.error());
-    estimate = std::move(*read);
+    given = std::move(*read);
   }
-  return compared_maps(options).and_then([&](const std::vector<ComparedMap>& maps) {
-    return draw(options, maps, estimate ? &*estimate : nullptr);
-  });
+  auto compared = compared_maps(options);
+  if (!compared) return tl::unexpected(compared.error());
+  if (given) compared->estimate = std::move(given);
+  return write_comparison(options.output, compared->maps, compared->estimate ? &*compared->estimate : nullptr,
+                          *picture);
 }
 
 void declare(CLI::App& command, CompareOptions& options) {
+  options.recording.declare_reading(command);
+  options.recording.declare_computing(command);
   command.add_option("INPUT", options.inputs, "A recording, or two to four maps (.pcd, .ply)")
       ->required()
       ->expected(-1);
   command.add_option("-o,--output", options.output, "The picture to write (PNG)")->required();
   command
       .add_option("--offsets-ms", options.offsets_ms,
-                  "The offsets to map a recording at, such as 19,24; with maps: those that they were made at")
+                  "The offsets to map a recording at in milliseconds, such as 19,24; with maps: those that they were made at")
       ->delimiter(',')
       ->allow_extra_args(false);
-  command.add_option("--curve", options.curve, "An estimate (JSON) whose criteria are drawn below the maps");
+  command.add_option("--curve", options.curve, "An estimate (JSON) whose criteria are drawn below the maps; default with a recording: "
+                     "computed by 1 ms from 5 ms below the offsets to 5 ms above");
   command.add_option("--size", options.size, "Of the picture, in pixels")->capture_default_str();
   command.add_option("--colour-table", options.picture.colour_table, "viridis, cividis, turbo or grey")
       ->capture_default_str();
@@ -171,10 +218,8 @@ void add_compare(CLI::App& app, ExitCode& exit_code) {
   auto options = std::make_shared<CompareOptions>();
   declare(*command, *options);
   command->callback([options, &exit_code] {
-    if (const auto done = compare(*options); !done) {
-      fmt::print(stderr, "sweepscope: {}\n", done.error().message);
-      exit_code = done.error().code;
-    }
+    const auto threads = options->recording.limit_threads();
+    if (const auto done = compare(*options); !done) exit_code = fail(done.error());
   });
 }
 

@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <tbb/global_control.h>
 
 #include <memory>
 
@@ -54,9 +53,7 @@ Result<void> write_results(const Options& options, const Estimate& estimate) {
 }
 
 ExitCode run(const Options& options) {
-  std::optional<tbb::global_control> threads;
-  if (options.recording.threads > 0)
-    threads.emplace(tbb::global_control::max_allowed_parallelism, std::size_t(options.recording.threads));
+  const auto threads = options.recording.limit_threads();
   Result<Estimate> found;
   {
     const Progress progress;
@@ -86,8 +83,8 @@ void declare_method(CLI::App& command, Options& options) {
       .add_option_function<std::string>(
           "--fit",
           [&estimate](const std::string& text) { estimate.fit = text == "none" ? Fit::kNone : Fit::kParabola; },
-          "none: the best candidate; parabola: through those within 3 ms of it (default: parabola for moving, none "
-          "for stationary)")
+          "none: the best candidate; parabola: through those within 3 ms of it (default: parabola for moving and for slow motors, else "
+          "none)")
       ->type_name("F")
       ->check(CLI::IsMember({"none", "parabola"}));
   command

@@ -156,7 +156,7 @@ std::string motor_text(const MotorSummary& motor) {
          row("angle",
              fmt::format("{:.2f} to {:.2f} deg{}", motor.least_deg, motor.most_deg,
                          motor.unwrapped > 0 ? fmt::format(", unwrapped {} times", motor.unwrapped) : "")) +
-         row("speed", fmt::format("{:.1f} deg/s (median while it turns): 1 ms is {:.3g} deg",
+         row("speed", fmt::format("{:.1f} deg/s (median of the sweeps): 1 ms is {:.3g} deg",
                                   motor.median_speed_deg_s, motor.deg_per_ms())) +
          row("sweeps", sweeps);
 }
@@ -178,7 +178,7 @@ ExitCode run(const RecordingOptions& options, const std::string& json) {
   if (!recording) return fail(recording.error());
   print_warnings(*recording);
   const RecordingSummary summary = inspect(*recording);
-  if (json != "-") fmt::print("{}", as_text(summary));
+  if (json != "-") fmt::print("{}", printable(as_text(summary)));
   if (json.empty()) return ExitCode::kDone;
   const auto written = write_text(json, as_json(summary));
   return written ? ExitCode::kDone : fail(written.error());

@@ -1,10 +1,69 @@
+#include <fmt/format.h>
+
+#include <memory>
+
 #include "app/commands.hpp"
+#include "app/offset_texts.hpp"
+#include "app/progress.hpp"
+#include "app/recording_options.hpp"
+#include "core/io/cloud_file.hpp"
+#include "core/io/trajectory_file.hpp"
+#include "core/map/offset_map.hpp"
 
 namespace sweepscope::app {
+namespace {
+
+struct Options {
+  RecordingOptions recording;
+  double offset_ms = 0;
+  std::string output, trajectory;
+};
+
+Result<OffsetMap> build(const Options& options) {
+  const Progress progress;
+  const auto recording = options.recording.read(progress.job());
+  if (!recording) return tl::unexpected(recording.error());
+  MapOptions map_options;
+  map_options.assume = parse_method(options.recording.assume);
+  const double offset_s = options.offset_ms * 1e-3;
+  auto maps = build_maps(*recording, {&offset_s, 1}, map_options, progress.job());
+  if (!maps) return tl::unexpected(maps.error());
+  return std::move(maps->front());
+}
+
+ExitCode run(const Options& options) {
+  const auto threads = options.recording.limit_threads();
+  const auto map = build(options);
+  if (!map) return fail(map.error());
+  if (map->lost) fmt::print(stderr, "warning: LOAM lost track at this offset: the map is not to be trusted\n");
+  if (const auto written = write_cloud(options.output, *map->cloud); !written) return fail(written.error());
+  if (!options.trajectory.empty()) {
+    const auto written = write_tum(options.trajectory, map->trajectory);
+    if (!written) return fail(written.error());
+  }
+  fmt::print("{}: {} points of a {} rig at t_motor = t_laser + {:.3f} ms\n", options.output, map->cloud->size(),
+             map->moving ? "moving" : "standing", options.offset_ms);
+  return ExitCode::kDone;
+}
+
+}  // namespace
 
 void add_map(CLI::App& app, ExitCode& exit_code) {
-  (void)app;
-  (void)exit_code;
+  CLI::App* command = app.add_subcommand("map", "Write the map at an offset, as PCD or PLY");
+  auto options = std::make_shared<Options>();
+  options->recording.declare(*command);
+  options->recording.declare_computing(*command);
+  command->add_option("--offset-ms", options->offset_ms, "t_motor = t_laser + offset")->required();
+  command
+      ->add_option("-o,--output", options->output,
+                   "OUT.pcd or OUT.ply: x y z (m), intensity, time (s), sweep")
+      ->required()
+      ->check([](const std::string& path) {
+        return path.ends_with(".pcd") || path.ends_with(".ply") ? std::string()
+                                                                : path + ": a map is written as .pcd or .ply";
+      });
+  command->add_option("--trajectory", options->trajectory, "Write where the rig went, as TUM")->type_name("F");
+  command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 
 }  // namespace sweepscope::app

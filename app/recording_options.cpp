@@ -1,10 +1,11 @@
 #include "app/recording_options.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <fstream>
+#include <cstdio>
+
+#include "core/io/atomic_file.hpp"
 
 namespace sweepscope::app {
 namespace {
@@ -27,6 +28,10 @@ std::optional<RecordingOptions::Window> parse_window(const std::string& text) {
 
 void RecordingOptions::declare(CLI::App& app) {
   app.add_option("REC", recording, "The recording: a ROS 1 bag")->required();
+  declare_reading(app);
+}
+
+void RecordingOptions::declare_reading(CLI::App& app) {
   app.add_option("--rig", rig,
                  "Rig file: topics, joint, stamps and mount (default: detected, rolling about x)")
       ->type_name("F");
@@ -57,6 +62,11 @@ void RecordingOptions::declare_computing(CLI::App& app) {
       ->check(CLI::Range(1, 1024));
 }
 
+std::unique_ptr<tbb::global_control> RecordingOptions::limit_threads() const {
+  if (threads <= 0) return nullptr;
+  return std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, std::size_t(threads));
+}
+
 Result<Recording> RecordingOptions::read(const Job& job) const {
   ReadOptions options;
   options.stamps = stamps;
@@ -77,31 +87,28 @@ Result<Recording> RecordingOptions::read(const Job& job) const {
   return part;
 }
 
+std::string printable(std::string text) {
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < ' ' && c != '\n') c = '?';
+  }
+  return text;
+}
+
 ExitCode fail(const Error& error) {
-  fmt::print(stderr, "sweepscope: {}\n", error.message);
+  fmt::print(stderr, "sweepscope: {}\n", printable(error.message));
   return error.code;
 }
 
 void print_warnings(const Recording& recording) {
   for (const std::string& warning : recording.report.warnings) {
-    fmt::print(stderr, "warning: {}: {}\n", recording.name, warning);
+    fmt::print(stderr, "warning: {}\n", printable(fmt::format("{}: {}", recording.name, warning)));
   }
 }
 
 Result<void> write_text(const std::string& path, const std::string& text) {
-  if (path == "-") {
-    std::fwrite(text.data(), 1, text.size(), stdout);
-    return {};
-  }
-  const std::string beside = fmt::format("{}.part-{}", path, getpid());
-  std::ofstream out(beside, std::ios::binary);
-  out << text;
-  out.close();
-  std::error_code error;
-  if (out) std::filesystem::rename(beside, path, error);
-  if (out && !error) return {};
-  std::filesystem::remove(beside, error);
-  return failure(ExitCode::kWrongUsage, fmt::format("{}: cannot be written", path));
+  if (path != "-") return write_file(path, text);
+  std::fwrite(text.data(), 1, text.size(), stdout);
+  return {};
 }
 
 }  // namespace sweepscope::app

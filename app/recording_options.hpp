@@ -1,7 +1,10 @@
 #pragma once
 
+#include <tbb/global_control.h>
+
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -25,17 +28,23 @@ struct RecordingOptions {
 
   /// REC, --rig, --stamps and --window. The options write to this object, which must outlive `app`'s parsing.
   void declare(CLI::App& app);
+  /// The same without REC, where the subcommand's own input may be something else.
+  void declare_reading(CLI::App& app);
   /// --assume and --threads, of the subcommands that compute.
   void declare_computing(CLI::App& app);
+  /// Holds the program to `threads` while the returned object lives.
+  std::unique_ptr<tbb::global_control> limit_threads() const;
   /// The recording that they name, cut to the window.
   Result<Recording> read(const Job& job) const;
 };
 
+/// Names from a file, with what would steer a terminal replaced by '?'.
+std::string printable(std::string text);
 /// Prints why a subcommand failed, as every subcommand prints it, and gives the exit code.
 ExitCode fail(const Error& error);
 /// Prints what reading warned of, on stderr.
 void print_warnings(const Recording& recording);
-/// Writes to stdout where `path` is "-", else whole or not at all: beside the file, then renamed.
+/// Writes to stdout where `path` is "-", else to the file, whole or not at all.
 Result<void> write_text(const std::string& path, const std::string& text);
 
 }  // namespace sweepscope::app

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -30,7 +31,8 @@ std::string summary(const Simulation& simulation, const std::filesystem::path& o
   std::string text = fmt::format("{}: {} for {:g} s, {} scans, {} motor samples, seed {}\n", output.string(),
                                  o.scene, *o.duration_s, simulation.recording.scans.size(),
                                  simulation.recording.motor.time_s.size(), o.seed);
-  text += fmt::format("  t_motor = t_laser + {:g} ms\n", o.offset_s * 1e3);
+  text +=
+      fmt::format("  t_motor = t_laser {} {:g} ms\n", o.offset_s < 0 ? '-' : '+', std::abs(o.offset_s) * 1e3);
   if (simulation.moving)
     text += fmt::format("  walked {:.1f} m, at most {:.2f} m/s and {:.2f} rad/s\n", simulation.length_m,
                         simulation.top_speed_mps, simulation.top_angular_rate_radps);

@@ -82,24 +82,32 @@ Region find_close_up(std::span<const SlabPoints> maps, double height_m, double w
   const Bounds x = bounds_of(maps, 0, 0.002), y = bounds_of(maps, 1, 0.002);
   std::vector<TileGrid> grids;
   for (const SlabPoints& map : maps) grids.push_back(fill_tiles(map, x, y));
-  // Looked for in squares of the close-up's smaller side, so that the find lies well inside.
+  // Looked for in squares of half the close-up's smaller side, so that the find lies well inside, and preferably with
+  // nothing around it: a pillar tells more than a piece of a wall.
   const auto side =
-      static_cast<std::size_t>(std::max(1.0, std::floor(std::min(height_m, width_m) / kTile_m)));
+      static_cast<std::size_t>(std::max(2.0, std::floor(0.5 * std::min(height_m, width_m) / kTile_m)));
+  const std::size_t rim = side / 2;
   Region best{{x.middle(), y.middle()}, height_m};
   double best_score = 0;
   for (std::size_t row = 0; row + side <= grids[0].rows; ++row) {
     for (std::size_t column = 0; column + side <= grids[0].columns; ++column) {
-      Filled least = grids[0].window(column, row, side, side), most = least;
-      for (std::size_t m = 1; m < grids.size(); ++m) {
-        const Filled filled = grids[m].window(column, row, side, side);
-        if (filled.count < least.count) least = filled;
-        if (filled.count > most.count) most = filled;
+      std::size_t sharpest = 0;
+      double least = 0, most = 0;
+      for (std::size_t m = 0; m < grids.size(); ++m) {
+        const double count = grids[m].window(column, row, side, side).count;
+        if (m == 0 || count < least) least = count, sharpest = m;
+        most = std::max(most, count);
       }
-      if (least.count < 30) continue;
-      const double score = (1 - least.count / most.count) * std::sqrt(least.count) * least.roundness();
+      if (least < 30) continue;
+      const TileGrid& grid = grids[sharpest];
+      const Filled object = grid.window(column, row, side, side);
+      const Filled around = grid.window(column - std::min(column, rim), row - std::min(row, rim), side + 2 * rim,
+                                        side + 2 * rim);
+      const double alone = object.count / around.count;
+      const double score = (1 - least / most) * std::sqrt(least) * object.roundness() * alone * alone;
       if (score <= best_score) continue;
       best_score = score;
-      best.centre_m = {x.from + least.x / least.count, y.from + least.y / least.count};
+      best.centre_m = {x.from + object.x / object.count, y.from + object.y / object.count};
     }
   }
   return best;

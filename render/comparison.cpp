@@ -60,7 +60,7 @@ std::vector<TopView> close_ups_of(const Prepared& prepared, const ComparisonLayo
   const TopView& overview = prepared.overviews[0];
   const PixelRect& first = layout.close_ups[0];
   const double overview_m = overview.metres_per_px * std::max(overview.place.width, overview.place.height);
-  const double height_m = std::clamp(overview_m / 14, 2.0, 10.0);
+  const double height_m = std::clamp(overview_m / 24, 2.0, 6.0);
   const Region region = options.close_up
                             ? *options.close_up
                             : find_close_up(prepared.maps, height_m, height_m * first.width / first.height);

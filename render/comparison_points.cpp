@@ -41,7 +41,7 @@ void for_each_point(const ComparedMap& map, Visit visit) {
 
 /// How far above the path a ceiling begins to hide what is below it; infinite where there is none.
 double ceiling_above_path_m(std::span<const ComparedMap> maps) {
-  constexpr double kBin_m = 0.1, kMargin_m = 0.5, kLeastShare = 0.12;
+  constexpr double kBin_m = 0.1, kLeastShare = 0.12;
   std::vector<std::size_t> bins(300, 0);
   std::size_t above = 0;
   for (const ComparedMap& map : maps) {
@@ -59,7 +59,9 @@ double ceiling_above_path_m(std::span<const ComparedMap> maps) {
   }
   if (static_cast<double>(best_count) < kLeastShare * static_cast<double>(above) || above == 0)
     return kInfinity;
-  const double height_m = kBlindHeight_m + (static_cast<double>(best) + 0.5) * kBin_m - kMargin_m;
+  // Lamps and beams hang below it, and a roll error tilts its far parts down: a quarter of the way is left out.
+  const double ceiling_m = kBlindHeight_m + (static_cast<double>(best) + 0.5) * kBin_m;
+  const double height_m = ceiling_m - std::max(0.5, 0.25 * ceiling_m);
   return height_m > kBlindHeight_m + 0.3 ? height_m : kInfinity;
 }
 

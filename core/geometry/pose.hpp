@@ -22,10 +22,11 @@ struct Pose {
   }
 };
 
-/// A pose of the base frame in the map frame at an instant (laser clock, seconds since Recording::epoch_ns).
-struct TimedPose {
-  double time_s = 0;
-  Pose map_from_base;
+/// Where the rig's base frame was in the map frame at an instant of the laser's clock.
+struct StampedPose {
+  double time_s = 0;  // seconds since Recording::epoch_ns
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  // map_from_base
 };
 
 /// The rotation vector's quaternion: axis times angle (rad).

@@ -95,9 +95,10 @@ OffsetMap build_one(const OffsetProblem& problem, double offset_s, bool moving, 
   map.cloud = place_beams(problem, offset_s, poses);
   for (const SweepPose& pose : poses) {
     // A sweep's end and the next one's begin are one instant: a quarter in from each keeps the times apart.
-    map.trajectory.push_back({pose.begin_s + 0.25 * (pose.end_s - pose.begin_s), pose.at(0.25)});
-    map.trajectory.push_back({pose.begin_s + 0.75 * (pose.end_s - pose.begin_s), pose.at(0.75)});
-    if (!moving) break;
+    for (const double u : {0.25, 0.75}) {
+      const Pose at = pose.at(u);
+      map.trajectory.push_back({pose.begin_s + u * (pose.end_s - pose.begin_s), at.translation_m, at.rotation});
+    }
   }
   return map;
 }

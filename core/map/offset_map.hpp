@@ -24,7 +24,7 @@ struct MapOptions {
 struct OffsetMap {
   double offset_s = 0;
   MapCloud::Ptr cloud;
-  std::vector<TimedPose> trajectory;   // two poses a sweep, ascending in time; one where the rig stood still
+  std::vector<StampedPose> trajectory; // two poses a sweep, ascending in time
   bool moving = false;
   bool lost = false;                   // LOAM lost track: the map is not to be trusted
   double signed_rotation_rad = 0;      // the alternating roll that was taken out, per sweep

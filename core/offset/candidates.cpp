@@ -99,7 +99,12 @@ CriterionOptimum fitted_extremum(const std::vector<CurvePoint>& curve, CurveValu
   const double offset_s = centre_s - c[1] / (2 * c[2]) * reach_s;
   if (offset_s < curve[first].offset_s || offset_s > curve[last].offset_s) return optimum;
   optimum.offset_s = offset_s;
-  optimum.value = scale * (c[0] - c[1] * c[1] / (4 * c[2]));
+  // The curve's own value there: the parabola is to find the place, and cuts the corner of a sharp valley.
+  const auto nearer = [&](const CurvePoint& a, const CurvePoint& b) {
+    return std::abs(a.offset_s - offset_s) < std::abs(b.offset_s - offset_s);
+  };
+  const auto from = curve.begin() + std::ptrdiff_t(first);
+  optimum.value = *((*std::min_element(from, from + count, nearer)).*value);
   return optimum;
 }
 

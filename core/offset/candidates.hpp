@@ -51,7 +51,7 @@ std::size_t index_of_least(const std::vector<CurvePoint>& curve, CurveValue valu
 std::size_t index_of_greatest(const std::vector<CurvePoint>& curve, CurveValue value);
 
 /// The extremum of the parabola fitted to the contiguous present values within `reach_s` of point `best` (the authors'
-/// 2018 follow-up). The grid point itself where they are fewer than 5, or the parabola bends the wrong way or has its
+/// 2018 follow-up), with the value of the point nearest to it. The grid point itself where they are fewer than 5, or the parabola bends the wrong way or has its
 /// extremum outside them.
 CriterionOptimum fitted_extremum(const std::vector<CurvePoint>& curve, CurveValue value, std::size_t best,
                                  double reach_s);

@@ -188,7 +188,9 @@ class Search {
                                          : "The sweeps could not be registered to each other at any candidate offset.");
       return;
     }
-    const bool fits = options_.fit.value_or(moving() ? Fit::kParabola : Fit::kNone) == Fit::kParabola;
+    // A slow motor leaves d so flat that the least of many candidates is chance.
+    const bool slow = scale_.unit_s > 1e-3;
+    const bool fits = options_.fit.value_or(moving() || slow ? Fit::kParabola : Fit::kNone) == Fit::kParabola;
     const double reach_s = fits ? 3 * scale_.unit_s : 0.0;
     const CriterionOptimum least = named(moving() ? "e" : "d", decisive(), best, reach_s);
     if (moving()) {

@@ -23,7 +23,7 @@ struct EstimateOptions {
   std::optional<Method> assume;            // the kind of recording, instead of the motion test
   std::vector<OffsetRange> ranges;         // none, and no `around`: coarse to fine over the default window
   std::optional<OffsetsAround> around;
-  std::optional<Fit> fit;                  // none: a parabola for moving, the least candidate for stationary
+  std::optional<Fit> fit;                  // none: a parabola for moving and for slow motors, else the least candidate
   Scoring scoring = Scoring::kTwoStage;
   double weight_c = 1.0;                   // c of equation 3
   FeatureOptions features;

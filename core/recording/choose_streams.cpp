@@ -59,6 +59,11 @@ std::size_t malformed_messages(const RawRecording& raw, std::string_view type_en
   return malformed;
 }
 
+/// What reading met first, which may be why something is not there.
+std::string first_warning(const RawRecording& raw) {
+  return raw.warnings.empty() ? std::string() : fmt::format("\n  besides: {}", raw.warnings.front());
+}
+
 /// Why nothing is there to choose from: the damage that was met comes first.
 std::string nothing_usable(const RawRecording& raw, std::string_view what, std::string_view type_end) {
   if (!raw.warnings.empty()) {
@@ -89,7 +94,8 @@ Result<std::size_t> choose_laser(const RawRecording& raw, const Rig& rig) {
   if (rig.laser.topic && any != " nothing") {
     return unreadable(
         fmt::format("{}: has no usable scans on {}, the rig's laser.topic; its topics of scans are:{}",
-                    raw.file, *rig.laser.topic, any));
+                    raw.file, *rig.laser.topic, any) +
+        first_warning(raw));
   }
   return unreadable(nothing_usable(raw, "sensor_msgs/LaserScan", "/LaserScan"));
 }
@@ -116,14 +122,17 @@ Result<std::size_t> choose_joint(const RawRecording& raw, const Rig& rig) {
                     raw.joints[choices.front()].joint, list_of_joints(raw, choices, rig)));
   }
   if (!all.empty()) {
-    return unreadable(fmt::format(
-        "{}: has no positions of joint {} on topic {}, which the rig asks for; its joints are:{}", raw.file,
-        rig.motor.joint.value_or("(any)"), rig.motor.topic.value_or("(any)"), list_of_joints(raw, all, rig)));
+    return unreadable(
+        fmt::format("{}: has no positions of joint {} on topic {}, which the rig asks for; its joints are:{}",
+                    raw.file, rig.motor.joint.value_or("(any)"), rig.motor.topic.value_or("(any)"),
+                    list_of_joints(raw, all, rig)) +
+        first_warning(raw));
   }
   if (rig.motor.topic) {
     return unreadable(
         fmt::format("{}: has no usable joint states on {}, the rig's motor.topic; what it holds is:{}",
-                    raw.file, *rig.motor.topic, list_of_topics(raw, "")));
+                    raw.file, *rig.motor.topic, list_of_topics(raw, "")) +
+        first_warning(raw));
   }
   return unreadable(nothing_usable(raw, "sensor_msgs/JointState", "/JointState"));
 }

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/recording/motor_reversals.hpp"
+#include "core/geometry/sweeps.hpp"
 #include "core/recording/stream_stamps.hpp"
 
 namespace sweepscope {
@@ -86,14 +86,11 @@ MotorSummary inspect_motor(const Recording& recording) {
   const auto [least_rad, most_rad] = std::ranges::minmax(track.angle_rad);
   motor.least_deg = least_rad * kDegPerRad;
   motor.most_deg = most_rad * kDegPerRad;
-  motor.median_speed_deg_s = median_motor_speed_rad_s(track) * kDegPerRad;
-  const auto reversals = motor_reversals(track);
-  motor.reversals = reversals.size();
-  std::vector<double> sweeps_s;
-  for (std::size_t i = 1; i < reversals.size(); ++i)
-    sweeps_s.push_back(reversals[i].time_s - reversals[i - 1].time_s);
-  motor.median_sweep_s = median(std::move(sweeps_s));
-  motor.turns = motor.most_deg - motor.least_deg > 1;
+  const MotorMotion motion = find_sweeps(track);
+  motor.median_speed_deg_s = motion.median_speed_rad_s * kDegPerRad;
+  motor.reversals = motion.sweeps.empty() ? 0 : motion.sweeps.size() - 1;
+  if (motor.whole_sweeps() > 0) motor.median_sweep_s = motion.median_sweep_s;
+  motor.turns = !motion.sweeps.empty() && motor.most_deg - motor.least_deg > 1;
   motor.one_way = motor.reversals == 0 && motor.most_deg - motor.least_deg > 360;
   return motor;
 }

@@ -36,7 +36,7 @@ struct LaserSummary : StreamSummary {
 struct MotorSummary : StreamSummary {
   std::string joint;
   double least_deg = 0, most_deg = 0;
-  double median_speed_deg_s = 0;  // while it turns
+  double median_speed_deg_s = 0;  // of the sweeps, away from their reversals
   std::size_t reversals = 0;
   std::size_t unwrapped = 0;
   double median_sweep_s = 0;  // 0 where there is no whole sweep

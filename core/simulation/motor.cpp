@@ -47,6 +47,7 @@ std::string_view name_of(MotorKind kind) {
 
 std::vector<std::string_view> motor_names() {
   std::vector<std::string_view> names;
+  names.reserve(kNames.size());
   for (const auto& [kind, name] : kNames) names.push_back(name);
   return names;
 }

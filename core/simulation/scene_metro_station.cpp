@@ -7,7 +7,7 @@ namespace {
 
 // An abandoned station's platform: x along the tracks, the platform's floor at z = 0, the hexagonal pillar at
 // the origin. A track on either side, stairs at the left (x < 0) and right ends.
-constexpr double kHalfLength_m = 24, kPlatformEdge_m = 8, kWall_m = 12, kCeiling_m = 4.8, kTrackBed_m = -1.1;
+constexpr double kHalfLength_m = 24, kPlatformEdge_m = 8, kWall_m = 12, kCeiling_m = 6.4, kTrackBed_m = -1.1;
 
 constexpr double kRise_m = 0.165, kGoing_m = 0.30, kStairWidth_m = 3.6, kStairFoot_m = 14.5;
 constexpr int kSteps = 29;
@@ -60,7 +60,7 @@ void add_shell(Mesh& hall) {
     hall.add_box({-kHalfLength_m, side * 11.8 - 0.2, 3.3}, {kHalfLength_m, side * 11.8 + 0.2, 3.4}, 0.4);
   }
   for (const double end : {-1.0, 1.0})
-    hall.add_box({end * 24.2 - 0.2, -kWall_m, kTrackBed_m}, {end * 24.2 + 0.2, kWall_m, 7.5}, 0.6);
+    hall.add_box({end * 24.2 - 0.2, -kWall_m, kTrackBed_m}, {end * 24.2 + 0.2, kWall_m, 8.5}, 0.6);
 }
 
 void add_ceiling(Mesh& hall) {
@@ -71,18 +71,18 @@ void add_ceiling(Mesh& hall) {
     const double low_x = end < 0 ? -kHalfLength_m : 17, high_x = end < 0 ? -17 : kHalfLength_m;
     hall.add_box({low_x, -kWall_m, kCeiling_m}, {high_x, -half_m, kCeiling_m + 0.3}, 0.8);
     hall.add_box({low_x, half_m, kCeiling_m}, {high_x, kWall_m, kCeiling_m + 0.3}, 0.8);
-    hall.add_box({low_x, -half_m, 7.3}, {high_x, half_m, 7.6}, 0.8);
+    hall.add_box({low_x, -half_m, 8.2}, {high_x, half_m, 8.5}, 0.8);
   }
   for (double x = -12; x <= 12; x += 4)
-    hall.add_box({x - 0.2, -kWall_m, 4.25}, {x + 0.2, kWall_m, kCeiling_m}, 0.7);
-  for (const double y : {-5.0, 5.0}) hall.add_box({-16, y - 0.15, 4.35}, {16, y + 0.15, kCeiling_m}, 0.7);
+    hall.add_box({x - 0.2, -kWall_m, kCeiling_m - 0.55}, {x + 0.2, kWall_m, kCeiling_m}, 0.7);
+  for (const double y : {-5.0, 5.0}) hall.add_box({-16, y - 0.15, kCeiling_m - 0.45}, {16, y + 0.15, kCeiling_m}, 0.7);
   for (double x = -10; x <= 10; x += 4)
-    for (const double y : {-2.5, 2.5}) hall.add_box({x - 0.7, y - 0.1, 3.9}, {x + 0.7, y + 0.1, 4.0}, 0.95);
+    for (const double y : {-2.5, 2.5}) hall.add_box({x - 0.7, y - 0.1, kCeiling_m - 0.9}, {x + 0.7, y + 0.1, kCeiling_m - 0.8}, 0.95);
 }
 
 void add_furniture(Mesh& hall) {
-  hall.add(prism(6, 0.65, kCeiling_m, 0.7));
-  hall.add(frustum(6, 0.65, 0.95, 0.5, 0.7), {0, 0, kCeiling_m - 0.5, 0}).add(prism(6, 0.75, 0.25, 0.4));
+  hall.add(prism(6, 0.45, kCeiling_m, 0.7));
+  hall.add(frustum(6, 0.45, 0.75, 0.5, 0.7), {0, 0, kCeiling_m - 0.5, 0}).add(prism(6, 0.55, 0.25, 0.4));
   for (const double x : {-13.6, 13.6})
     for (const double y : {-6.4, 6.4})
       hall.add_box({x - 0.25, y - 0.25, 0}, {x + 0.25, y + 0.25, kCeiling_m}, 0.7);

@@ -75,6 +75,7 @@ std::vector<Vector2d> scaled(const std::vector<Vector2d>& points_m, double scale
   Vector2d middle = Vector2d::Zero();
   for (const Vector2d& p : points_m) middle += p / static_cast<double>(points_m.size());
   std::vector<Vector2d> result;
+  result.reserve(points_m.size());
   for (const Vector2d& p : points_m) result.emplace_back(middle + scale * (p - middle));
   return result;
 }

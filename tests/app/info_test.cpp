@@ -38,7 +38,7 @@ TEST(Info, ShowsWhatIsInARecording) {
   EXPECT_TRUE(holds(run.out, "  /scan          sensor_msgs/LaserScan       160  the laser\n")) << run.out;
   EXPECT_TRUE(holds(run.out, "  rate       40.00 Hz over 3.975 s, no gaps\n")) << run.out;
   EXPECT_TRUE(holds(run.out, "  joint      roll_motor on /joint_states, 420 samples\n")) << run.out;
-  EXPECT_TRUE(holds(run.out, "  speed      229.2 deg/s (median while it turns): 1 ms is 0.229 deg\n"))
+  EXPECT_TRUE(holds(run.out, "  speed      229.2 deg/s (median of the sweeps): 1 ms is 0.229 deg\n"))
       << run.out;
   EXPECT_TRUE(holds(run.out, "what an estimate can hope for\n")) << run.out;
 }

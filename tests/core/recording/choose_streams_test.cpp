@@ -62,6 +62,14 @@ TEST(ChooseLaser, RefusesATopicThatIsNotThereAndListsTheOthers) {
             "    /a   sensor_msgs/LaserScan   1 messages");
 }
 
+TEST(ChooseLaser, NamesTheDamageThatMayBeWhyATopicIsMissing) {
+  RawRecording raw = with_lasers({"/a"});
+  raw.warnings.push_back("it is cut short");
+  Rig rig;
+  rig.laser.topic = "/c";
+  EXPECT_TRUE(refusal(choose_laser(raw, rig)).ends_with("\n  besides: it is cut short"));
+}
+
 TEST(ChooseLaser, SaysWhatIsThereWhereThereAreNoScans) {
   RawRecording raw;
   raw.file = "a.bag";

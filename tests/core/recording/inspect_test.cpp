@@ -7,8 +7,6 @@
 #include <limits>
 #include <numbers>
 
-#include "core/recording/motor_reversals.hpp"
-
 namespace sweepscope {
 namespace {
 
@@ -25,50 +23,6 @@ MotorTrack track(double duration_s, double period_s, const std::function<double(
 double triangle_rad(double t_s) {
   const double phase = std::fmod(t_s, 1.0);
   return phase < 0.5 ? -1 + 4 * phase : 3 - 4 * phase;
-}
-
-TEST(MotorReversals, LieAtTheTurningPointsOfATriangle) {
-  const auto reversals = motor_reversals(track(2.2, 0.01, triangle_rad));
-  ASSERT_EQ(reversals.size(), 4U);
-  double expected_s = 0;
-  for (const MotorReversal& reversal : reversals) EXPECT_NEAR(reversal.time_s, expected_s += 0.5, 0.005);
-  EXPECT_NEAR(reversals[0].angle_rad, 1, 0.02);
-  EXPECT_NEAR(reversals[1].angle_rad, -1, 0.02);
-}
-
-TEST(MotorReversals, LieInTheMiddleOfAStand) {
-  const auto stands = [](double t_s) { return std::min(1.0, std::min(t_s, 3.0 - t_s)); };
-  const auto reversals = motor_reversals(track(3, 0.01, stands));
-  ASSERT_EQ(reversals.size(), 1U);
-  EXPECT_NEAR(reversals[0].time_s, 1.5, 0.006);
-}
-
-TEST(MotorReversals, IgnoreNoiseAndEncoderSteps) {
-  const auto noisy = [](double t_s) {
-    const double step_rad = 0.088 * std::numbers::pi / 180;
-    return std::round((triangle_rad(t_s) + 0.03 * std::sin(977 * t_s)) / step_rad) * step_rad;
-  };
-  EXPECT_EQ(motor_reversals(track(2.2, 0.003, noisy)).size(), 4U);
-  EXPECT_TRUE(motor_reversals(track(2, 0.01, [](double t_s) { return 0.005 * std::sin(50 * t_s); })).empty());
-  EXPECT_TRUE(motor_reversals({}).empty());
-}
-
-TEST(MotorReversals, AreNoneWhereTheMotorTurnsOneWay) {
-  EXPECT_TRUE(motor_reversals(track(20, 0.01, [](double t_s) { return 3 * t_s; })).empty());
-}
-
-TEST(MotorSpeed, IsTheMedianWhileTheMotorTurns) {
-  const auto late = [](double t_s) { return t_s < 7 ? -1 : triangle_rad(t_s); };  // stands most of the time
-  EXPECT_NEAR(median_motor_speed_rad_s(track(10, 0.01, late)), 4, 0.01);
-  EXPECT_EQ(median_motor_speed_rad_s(track(10, 0.01, [](double) { return 0.5; })), 0);
-  EXPECT_EQ(median_motor_speed_rad_s({}), 0);
-}
-
-TEST(MotorSpeed, SeesThroughACoarseEncoder) {
-  const auto coarse = [](double t_s) {
-    return std::round(triangle_rad(t_s) / 0.05) * 0.05;
-  };  // 12.5 ms a step
-  EXPECT_NEAR(median_motor_speed_rad_s(track(10, 0.01, coarse)), 4, 0.3);
 }
 
 Recording recording_of(const MotorTrack& motor) {
@@ -99,11 +53,11 @@ TEST(Inspect, MeasuresTheMotor) {
   const MotorSummary motor = inspect(recording_of(track(5.2, 0.01, triangle_rad))).motor;
   EXPECT_NEAR(motor.least_deg, -57.3, 0.1);
   EXPECT_NEAR(motor.most_deg, 57.3, 0.1);
-  EXPECT_NEAR(motor.median_speed_deg_s, 229.18, 0.1);
-  EXPECT_NEAR(motor.deg_per_ms(), 0.22918, 1e-4);
+  EXPECT_NEAR(motor.median_speed_deg_s, 229.18, 0.5);
+  EXPECT_NEAR(motor.deg_per_ms(), 0.22918, 5e-4);
   EXPECT_EQ(motor.reversals, 10U);
   EXPECT_EQ(motor.whole_sweeps(), 9U);
-  EXPECT_NEAR(motor.median_sweep_s, 0.5, 1e-6);
+  EXPECT_NEAR(motor.median_sweep_s, 0.5, 1e-3);
   EXPECT_TRUE(motor.turns);
   EXPECT_FALSE(motor.one_way);
 }

@@ -1,5 +1,5 @@
+#include "core/geometry/sweeps.hpp"
 #include "core/recording/inspect.hpp"
-#include "core/recording/motor_reversals.hpp"
 #include "core/recording/read_recording.hpp"
 #include "tests/core/recording/test_bag.hpp"
 
@@ -55,11 +55,11 @@ TEST_F(GuardianTilt, MotorTurnsAsItIsKnownTo) {
 TEST_F(GuardianTilt, StandingPartHasTwoReversals) {
   const Recording recording = read();
   const Recording standing = window(recording, 0, 13);
-  const auto reversals = motor_reversals(standing.motor);
-  ASSERT_EQ(reversals.size(), 2U);
+  const std::vector<Sweep> sweeps = find_sweeps(standing.motor).sweeps;
+  ASSERT_EQ(sweeps.size(), 3U);  // part of one, a whole one, part of one
   const double start_s = recording.scans.front().first_beam_s;
-  EXPECT_NEAR(reversals[0].time_s - start_s, 6.8, 0.15);
-  EXPECT_NEAR(reversals[1].time_s - start_s, 11.7, 0.15);
+  EXPECT_NEAR(sweeps[1].begin_s - start_s, 6.8, 0.15);
+  EXPECT_NEAR(sweeps[1].end_s - start_s, 11.7, 0.15);
 }
 
 TEST_F(GuardianTilt, ReceiveTimesOfScansLagThoseOfTheMotorBy95Point7Milliseconds) {
