@@ -1,0 +1,119 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <string>
+#include <tuple>
+
+#include "core/geometry/sweeps.hpp"
+#include "core/offset/search_window.hpp"
+#include "core/simulation/mesh.hpp"
+#include "core/simulation/motor.hpp"
+#include "core/simulation/portable_math.hpp"
+#include "core/simulation/ray_caster.hpp"
+#include "core/simulation/simulate.hpp"
+
+namespace sweepscope::test {
+
+inline constexpr double kPi = std::numbers::pi;
+inline constexpr double kDegree = kPi / 180.0;
+inline constexpr double kMs = 1e-3;
+
+/// A motor track that samples an angle over time.
+inline MotorTrack track_of(const std::function<double(double t_s)>& angle_rad, double from_s, double to_s,
+                           double rate_hz = 100) {
+  MotorTrack track;
+  const auto samples = static_cast<int>((to_s - from_s) * rate_hz + 0.5);
+  for (int i = 0; i <= samples; ++i) {
+    track.time_s.push_back(from_s + i / rate_hz);
+    track.angle_rad.push_back(angle_rad(track.time_s.back()));
+  }
+  return track;
+}
+
+/// The first seconds of one of the simulator's scenes; made once per program.
+inline const Simulation& simulated(const std::string& scene, double offset_s, double duration_s,
+                                   double sweep_s = 0.5) {
+  static std::map<std::tuple<std::string, double, double, double>, Simulation> made;
+  const std::tuple key(scene, offset_s, duration_s, sweep_s);
+  if (const auto found = made.find(key); found != made.end()) return found->second;
+  SimulationOptions options;
+  options.scene = scene;
+  options.offset_s = offset_s;
+  options.duration_s = duration_s;
+  options.sweep_s = sweep_s;
+  return made.emplace(key, simulate(options, Job()).value()).first->second;
+}
+
+inline const Recording& room(double offset_s, double sweep_s = 0.5) {
+  return simulated("room-1", offset_s, 4.5, sweep_s).recording;
+}
+
+/// A recording made by hand, independently of the simulator's sensor: any surroundings, rig and path, and
+/// ranges that are exact but for the noise asked for.
+struct Bench {
+  simulation::Mesh mesh;
+  std::function<Eigen::Isometry3d(double t_s)> world_from_base = [](double) {
+    return Eigen::Isometry3d::Identity();
+  };
+  double duration_s = 4.5;
+  double sweep_s = 0.513;
+  double offset_s = 0;
+  double noise_m = 0;
+  Rig::Mount mount;
+
+  Recording record() const {
+    constexpr std::uint32_t kBeams = 721;
+    const simulation::Motor motor(simulation::MotorKind::kTriangle, sweep_s, 0.1);
+    const simulation::RayCaster caster(mesh);
+    Recording recording;
+    recording.name = "bench";
+    recording.rig.mount = mount;
+    recording.motor = track_of([&](double t_s) { return motor.angle_rad(t_s - offset_s); }, offset_s - 0.3,
+                               offset_s + duration_s + 0.3);
+    for (int i = 0; i < int(duration_s / 0.025); ++i) {
+      LaserScan scan{i * 0.025, 1.736e-5, -kPi / 2, kPi / (kBeams - 1), recording.ranges_m.size(), kBeams};
+      simulation::Random random(1, 100, std::uint64_t(i));
+      for (std::uint32_t beam = 0; beam < kBeams; ++beam)
+        recording.ranges_m.push_back(range(caster, motor, scan, beam) + float(noise_m * random.normal()));
+      recording.scans.push_back(scan);
+    }
+    return recording;
+  }
+
+ private:
+  float range(const simulation::RayCaster& caster, const simulation::Motor& motor, const LaserScan& scan,
+              std::uint32_t beam) const {
+    const Eigen::Vector3d rpy_rad = mount.laser_in_motor_rpy_deg * kDegree;
+    const double t_s = scan.beam_s(beam);
+    const Eigen::Isometry3d world_from_laser =
+        world_from_base(t_s) * Eigen::AngleAxisd(motor.angle_rad(t_s), mount.axis.normalized()) *
+        Eigen::Translation3d(mount.laser_in_motor_xyz_m) *
+        Eigen::AngleAxisd(rpy_rad.z(), Eigen::Vector3d::UnitZ()) *
+        Eigen::AngleAxisd(rpy_rad.y(), Eigen::Vector3d::UnitY()) *
+        Eigen::AngleAxisd(rpy_rad.x(), Eigen::Vector3d::UnitX());
+    const double angle_rad = scan.beam_angle_rad(beam);
+    const Eigen::Vector3d direction =
+        world_from_laser.linear() * Eigen::Vector3d(std::cos(angle_rad), std::sin(angle_rad), 0);
+    const auto hit = caster.cast(world_from_laser.translation(), direction.normalized(), 30);
+    return hit ? float(hit->range_m) : std::numeric_limits<float>::quiet_NaN();
+  }
+};
+
+/// A furnished hall around the origin, its walls 6, 4 and 1.5 m away, with pillars that break its symmetry.
+inline simulation::Mesh hall() {
+  simulation::Mesh mesh = simulation::box({-6, -4, -1.5}, {6, 4, 1.5});
+  mesh.add_box({3, 1, -1.5}, {3.6, 1.7, 1.5}).add_box({-3, -2.6, -1.5}, {-2.2, -2, 1.5});
+  return mesh.add_box({1.5, -3, -1.5}, {2.8, -2.2, -0.4}).add_box({-4, 2, -1.5}, {-3.2, 3.4, -0.2});
+}
+
+/// Everything about a recording that offsets within 60 ms of 0 are tried on. The recording must outlive it.
+inline OffsetProblem problem_of(const Recording& recording) {
+  return prepare_problem(recording, -0.06, 0.06, FeatureOptions(), Job()).value();
+}
+
+}  // namespace sweepscope::test
