@@ -155,7 +155,9 @@ Result<Compared> compared_maps(const CompareOptions& options) {
   std::size_t map_files = 0;
   for (const std::string& input : options.inputs) map_files += is_map_file(input) ? 1 : 0;
   if (map_files == options.inputs.size())
-    return maps_from_files(options).map([](std::vector<ComparedMap> maps) { return Compared{std::move(maps), {}}; });
+    return maps_from_files(options).map([](std::vector<ComparedMap> maps) {
+      return Compared{std::move(maps), {}};
+    });
   if (map_files > 0 || options.inputs.size() > 1)
     return wrong_usage("compare takes one recording, or two to four maps (.pcd or .ply)");
   return from_recording(options);
@@ -187,10 +189,12 @@ void declare(CLI::App& command, CompareOptions& options) {
   command.add_option("-o,--output", options.output, "The picture to write (PNG)")->required();
   command
       .add_option("--offsets-ms", options.offsets_ms,
-                  "The offsets to map a recording at in milliseconds, such as 19,24; with maps: those that they were made at")
+                  "The offsets to map a recording at in milliseconds, such as 19,24; with maps: those that "
+                  "they were made at")
       ->delimiter(',')
       ->allow_extra_args(false);
-  command.add_option("--curve", options.curve, "An estimate (JSON) whose criteria are drawn below the maps; default with a recording: "
+  command.add_option("--curve", options.curve,
+                     "An estimate (JSON) whose criteria are drawn below the maps; default with a recording: "
                      "computed by 1 ms from 5 ms below the offsets to 5 ms above");
   command.add_option("--size", options.size, "Of the picture, in pixels")->capture_default_str();
   command.add_option("--colour-table", options.picture.colour_table, "viridis, cividis, turbo or grey")

@@ -36,8 +36,8 @@ void print_answer(const Estimate& estimate) {
     fmt::print("offset   cannot be determined from this recording\n");
     for (const std::string& reason : estimate.reasons) fmt::print("  why: {}\n", reason);
   }
-  fmt::print("method   {}, {} sweeps, {} scans, {} candidates\n", estimate.method, estimate.sweeps, estimate.scans,
-             estimate.curve.size());
+  fmt::print("method   {}, {} sweeps, {} scans, {} candidates\n", estimate.method, estimate.sweeps,
+             estimate.scans, estimate.curve.size());
   for (const CriterionOptimum& criterion : estimate.criteria) fmt::print("{}", criterion_line(criterion));
   for (const std::string& warning : estimate.warnings) fmt::print(stderr, "warning: {}\n", warning);
 }
@@ -75,15 +75,19 @@ void declare_method(CLI::App& command, Options& options) {
   command
       .add_option_function<std::string>(
           "--method", [&estimate](const std::string& text) { estimate.method = parse_method(text); },
-          "stationary: where odometry sees least motion (d); moving: where the map is clearest (n, e). Default: what "
+          "stationary: where odometry sees least motion (d); moving: where the map is clearest (n, e). "
+          "Default: what "
           "the motion test says")
       ->type_name("M")
       ->check(CLI::IsMember({"stationary", "moving"}));
   command
       .add_option_function<std::string>(
           "--fit",
-          [&estimate](const std::string& text) { estimate.fit = text == "none" ? Fit::kNone : Fit::kParabola; },
-          "none: the best candidate; parabola: through those within 3 ms of it (default: parabola for moving and for slow motors, else "
+          [&estimate](const std::string& text) {
+            estimate.fit = text == "none" ? Fit::kNone : Fit::kParabola;
+          },
+          "none: the best candidate; parabola: through those within 3 ms of it (default: parabola for moving "
+          "and for slow motors, else "
           "none)")
       ->type_name("F")
       ->check(CLI::IsMember({"none", "parabola"}));
@@ -93,17 +97,21 @@ void declare_method(CLI::App& command, Options& options) {
           [&estimate](const std::string& text) {
             estimate.scoring = text == "loam" ? Scoring::kLoam : Scoring::kTwoStage;
           },
-          "two-stage: count matches after the alternating roll is taken out of the poses (default); loam: at LOAM's "
+          "two-stage: count matches after the alternating roll is taken out of the poses (default); loam: at "
+          "LOAM's "
           "own poses, as the paper did")
       ->type_name("S")
       ->check(CLI::IsMember({"two-stage", "loam"}));
   command.add_option("--weight-c", estimate.weight_c, "c of d = sqrt(t^2 + c theta^2)")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
-  command.add_option("--edge-gate-m", estimate.mapping.edge_gate_m, "delta_E: an edge match is nearer than this")
+  command
+      .add_option("--edge-gate-m", estimate.mapping.edge_gate_m, "delta_E: an edge match is nearer than this")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  command.add_option("--plane-gate-m", estimate.mapping.plane_gate_m, "delta_H: a plane match is nearer than this")
+  command
+      .add_option("--plane-gate-m", estimate.mapping.plane_gate_m,
+                  "delta_H: a plane match is nearer than this")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
 }
@@ -120,7 +128,8 @@ void declare_search(CLI::App& command, Options& options) {
       ->type_name("FROM:TO:STEP")
       ->allow_extra_args(false)
       ->check([](const std::string& text) {
-        return parse_range_ms(text) ? std::string() : "--range wants FROM:TO:STEP in milliseconds, and got " + text;
+        return parse_range_ms(text) ? std::string()
+                                    : "--range wants FROM:TO:STEP in milliseconds, and got " + text;
       });
   command
       .add_option_function<std::string>(
@@ -128,8 +137,9 @@ void declare_search(CLI::App& command, Options& options) {
           "The paper's search in milliseconds: 24:0.1:40 tries 24 and 20 steps of 0.1 to either side")
       ->type_name("INITIAL:ACCURACY:STEPS")
       ->check([](const std::string& text) {
-        return parse_around_ms(text) ? std::string()
-                                     : "--around wants INITIAL:ACCURACY:STEPS in milliseconds, and got " + text;
+        return parse_around_ms(text)
+                   ? std::string()
+                   : "--around wants INITIAL:ACCURACY:STEPS in milliseconds, and got " + text;
       });
 }
 
@@ -145,7 +155,8 @@ void add_estimate(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--json", options->json, "Write the result as JSON; - for stdout")->type_name("F");
   command->add_option("--csv", options->csv, "Write the criteria over the offset as CSV; - for stdout")
       ->type_name("F");
-  command->add_flag("--no-timing", options->no_timing, "cpu_s and wall_s are null: the same bytes run after run");
+  command->add_flag("--no-timing", options->no_timing,
+                    "cpu_s and wall_s are null: the same bytes run after run");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

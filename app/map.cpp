@@ -35,14 +35,15 @@ ExitCode run(const Options& options) {
   const auto threads = options.recording.limit_threads();
   const auto map = build(options);
   if (!map) return fail(map.error());
-  if (map->lost) fmt::print(stderr, "warning: LOAM lost track at this offset: the map is not to be trusted\n");
+  if (map->lost)
+    fmt::print(stderr, "warning: LOAM lost track at this offset: the map is not to be trusted\n");
   if (const auto written = write_cloud(options.output, *map->cloud); !written) return fail(written.error());
   if (!options.trajectory.empty()) {
     const auto written = write_tum(options.trajectory, map->trajectory);
     if (!written) return fail(written.error());
   }
-  fmt::print("{}: {} points of a {} rig at t_motor = t_laser + {:.3f} ms\n", options.output, map->cloud->size(),
-             map->moving ? "moving" : "standing", options.offset_ms);
+  fmt::print("{}: {} points of a {} rig at t_motor = t_laser + {:.3f} ms\n", options.output,
+             map->cloud->size(), map->moving ? "moving" : "standing", options.offset_ms);
   return ExitCode::kDone;
 }
 
@@ -62,7 +63,8 @@ void add_map(CLI::App& app, ExitCode& exit_code) {
         return path.ends_with(".pcd") || path.ends_with(".ply") ? std::string()
                                                                 : path + ": a map is written as .pcd or .ply";
       });
-  command->add_option("--trajectory", options->trajectory, "Write where the rig went, as TUM")->type_name("F");
+  command->add_option("--trajectory", options->trajectory, "Write where the rig went, as TUM")
+      ->type_name("F");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

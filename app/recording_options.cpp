@@ -64,7 +64,8 @@ void RecordingOptions::declare_computing(CLI::App& app) {
 
 std::unique_ptr<tbb::global_control> RecordingOptions::limit_threads() const {
   if (threads <= 0) return nullptr;
-  return std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, std::size_t(threads));
+  return std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
+                                               std::size_t(threads));
 }
 
 Result<Recording> RecordingOptions::read(const Job& job) const {

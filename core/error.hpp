@@ -16,8 +16,8 @@ enum class ExitCode : int {
   kInterrupted = 130,
 };
 
-/// An expected failure: what the program exits with, and one sentence for a person that names the file and the
-/// place in it. Programming errors are exceptions instead.
+/// An expected failure: what the program exits with, and one sentence for a person that names the file and
+/// the place in it. Programming errors are exceptions instead.
 struct Error {
   ExitCode code = ExitCode::kUnreadableInput;
   std::string message;

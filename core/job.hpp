@@ -15,7 +15,8 @@ class Job {
 
   Job() = default;
   explicit Job(Sink sink) : sink_(std::move(sink)) {}
-  /// A part of a job that reports nothing of its own and is cancelled with it. The whole must outlive the part.
+  /// A part of a job that reports nothing of its own and is cancelled with it. The whole must outlive the
+  /// part.
   static Job part_of(const Job& whole) { return Job(&whole); }
 
   void report(std::string_view phase, double fraction) const {

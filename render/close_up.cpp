@@ -82,8 +82,8 @@ Region find_close_up(std::span<const SlabPoints> maps, double height_m, double w
   const Bounds x = bounds_of(maps, 0, 0.002), y = bounds_of(maps, 1, 0.002);
   std::vector<TileGrid> grids;
   for (const SlabPoints& map : maps) grids.push_back(fill_tiles(map, x, y));
-  // Looked for in squares of half the close-up's smaller side, so that the find lies well inside, and preferably with
-  // nothing around it: a pillar tells more than a piece of a wall.
+  // Looked for in squares of half the close-up's smaller side, so that the find lies well inside, and
+  // preferably with nothing around it: a pillar tells more than a piece of a wall.
   const auto side =
       static_cast<std::size_t>(std::max(2.0, std::floor(0.5 * std::min(height_m, width_m) / kTile_m)));
   const std::size_t rim = side / 2;
@@ -101,8 +101,8 @@ Region find_close_up(std::span<const SlabPoints> maps, double height_m, double w
       if (least < 30) continue;
       const TileGrid& grid = grids[sharpest];
       const Filled object = grid.window(column, row, side, side);
-      const Filled around = grid.window(column - std::min(column, rim), row - std::min(row, rim), side + 2 * rim,
-                                        side + 2 * rim);
+      const Filled around = grid.window(column - std::min(column, rim), row - std::min(row, rim),
+                                        side + 2 * rim, side + 2 * rim);
       const double alone = object.count / around.count;
       const double score = (1 - least / most) * std::sqrt(least) * object.roundness() * alone * alone;
       if (score <= best_score) continue;

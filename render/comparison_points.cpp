@@ -59,7 +59,8 @@ double ceiling_above_path_m(std::span<const ComparedMap> maps) {
   }
   if (static_cast<double>(best_count) < kLeastShare * static_cast<double>(above) || above == 0)
     return kInfinity;
-  // Lamps and beams hang below it, and a roll error tilts its far parts down: a quarter of the way is left out.
+  // Lamps and beams hang below it, and a roll error tilts its far parts down: a quarter of the way is left
+  // out.
   const double ceiling_m = kBlindHeight_m + (static_cast<double>(best) + 0.5) * kBin_m;
   const double height_m = ceiling_m - std::max(0.5, 0.25 * ceiling_m);
   return height_m > kBlindHeight_m + 0.3 ? height_m : kInfinity;

@@ -11,15 +11,16 @@
 
 namespace sweepscope {
 
-/// The rig's kinematics: p_in_base = Rot(axis, motor angle) * (motor_from_laser * p_in_laser). Only the first factor
-/// depends on the offset, so points are kept in the motor frame, which turns with the motor.
+/// The rig's kinematics: p_in_base = Rot(axis, motor angle) * (motor_from_laser * p_in_laser). Only the first
+/// factor depends on the offset, so points are kept in the motor frame, which turns with the motor.
 class Kinematics {
  public:
   explicit Kinematics(const Rig::Mount& mount);
 
   /// A beam's point in the motor frame. `angle_rad` about the laser's z axis, 0 along its x axis.
   Eigen::Vector3d point_in_motor(double range_m, double angle_rad) const {
-    return motor_from_laser_ * Eigen::Vector3d(range_m * std::cos(angle_rad), range_m * std::sin(angle_rad), 0.0);
+    return motor_from_laser_ *
+           Eigen::Vector3d(range_m * std::cos(angle_rad), range_m * std::sin(angle_rad), 0.0);
   }
   /// Where a point of the motor frame is in the base frame at a motor angle.
   Eigen::Vector3d base_from_motor(const Eigen::Vector3d& p_in_motor, double motor_angle_rad) const {
@@ -27,7 +28,9 @@ class Kinematics {
     return c * p_in_motor + s * axis_.cross(p_in_motor) + (1 - c) * axis_.dot(p_in_motor) * axis_;
   }
   /// The distance of a point from the motor's axis: the lever by which an offset moves it.
-  double distance_to_axis_m(const Eigen::Vector3d& p_in_motor) const { return axis_.cross(p_in_motor).norm(); }
+  double distance_to_axis_m(const Eigen::Vector3d& p_in_motor) const {
+    return axis_.cross(p_in_motor).norm();
+  }
   const Eigen::Vector3d& axis() const { return axis_; }
   Eigen::Vector3d laser_in_motor_m() const { return motor_from_laser_.translation_m; }
 
@@ -36,8 +39,8 @@ class Kinematics {
   Pose motor_from_laser_;
 };
 
-/// Reads a motor track at instants that mostly ascend: a step or two from the last place instead of a search. Instants
-/// outside the track get the nearest end's angle.
+/// Reads a motor track at instants that mostly ascend: a step or two from the last place instead of a search.
+/// Instants outside the track get the nearest end's angle.
 class MotorReader {
  public:
   explicit MotorReader(const MotorTrack& track) : track_(&track) {}
@@ -47,7 +50,8 @@ class MotorReader {
     if (times.size() < 2) return times.empty() ? 0.0 : track_->angle_rad.front();
     while (next_ + 1 < times.size() && times[next_] <= motor_time_s) ++next_;
     while (next_ > 1 && times[next_ - 1] > motor_time_s) --next_;
-    const double u = std::clamp((motor_time_s - times[next_ - 1]) / (times[next_] - times[next_ - 1]), 0.0, 1.0);
+    const double u =
+        std::clamp((motor_time_s - times[next_ - 1]) / (times[next_] - times[next_ - 1]), 0.0, 1.0);
     return track_->angle_rad[next_ - 1] + u * (track_->angle_rad[next_] - track_->angle_rad[next_ - 1]);
   }
 

@@ -32,7 +32,8 @@ struct StampedPose {
 /// The rotation vector's quaternion: axis times angle (rad).
 inline Eigen::Quaterniond rotation_from_vector(const Eigen::Vector3d& rotation_rad) {
   const double angle_rad = rotation_rad.norm();
-  if (angle_rad < 1e-12) return Eigen::Quaterniond(1, rotation_rad.x() / 2, rotation_rad.y() / 2, rotation_rad.z() / 2);
+  if (angle_rad < 1e-12)
+    return Eigen::Quaterniond(1, rotation_rad.x() / 2, rotation_rad.y() / 2, rotation_rad.z() / 2);
   return Eigen::Quaterniond(Eigen::AngleAxisd(angle_rad, rotation_rad / angle_rad));
 }
 
@@ -44,8 +45,8 @@ inline Eigen::Vector3d vector_from_rotation(const Eigen::Quaterniond& rotation) 
   return angle_rad / sine * rotation.vec();
 }
 
-/// Between `from` (u = 0) and `to` (u = 1): the translation linearly, the rotation at constant rate. u outside [0, 1]
-/// goes on beyond the ends.
+/// Between `from` (u = 0) and `to` (u = 1): the translation linearly, the rotation at constant rate. u
+/// outside [0, 1] goes on beyond the ends.
 inline Pose interpolate(const Pose& from, const Pose& to, double u) {
   const Eigen::Vector3d turn_rad = vector_from_rotation(from.rotation.conjugate() * to.rotation);
   return {from.rotation * rotation_from_vector(u * turn_rad),

@@ -17,7 +17,8 @@ double crossing_s(const MotorTrack& track, std::size_t i, double level_rad) {
   return track.time_s[i - 1] + u * (track.time_s[i] - track.time_s[i - 1]);
 }
 
-// Samples at which the angle is extreme between turns by more than `turn_rad`; the first and last sample besides.
+// Samples at which the angle is extreme between turns by more than `turn_rad`; the first and last sample
+// besides.
 std::vector<std::size_t> extremes(const MotorTrack& track, double turn_rad) {
   std::vector<std::size_t> found;
   const auto& angle = track.angle_rad;
@@ -56,9 +57,10 @@ Crossings between(const MotorTrack& track, std::size_t first, std::size_t last, 
   return {crossing_s(track, leave, leave_rad), crossing_s(track, arrive, arrive_rad)};
 }
 
-// The reversal between two sweeps: the middle between where the angle comes near the extreme and where it leaves it
-// again, since a clipped or stepped extreme has no sharp instant of its own.
-void join_at_reversal(Sweep& before, Sweep& after, const Crossings& near_before, const Crossings& near_after) {
+// The reversal between two sweeps: the middle between where the angle comes near the extreme and where it
+// leaves it again, since a clipped or stepped extreme has no sharp instant of its own.
+void join_at_reversal(Sweep& before, Sweep& after, const Crossings& near_before,
+                      const Crossings& near_after) {
   const double reversal_s = (near_before.arrive_s + near_after.leave_s) / 2;
   before.end_s = reversal_s;
   after.begin_s = reversal_s;
@@ -94,7 +96,8 @@ MotorMotion find_sweeps(const MotorTrack& track) {
     if (sweep.end_s <= sweep.begin_s) continue;
     sweep.speed_rad_s = (std::abs(turned_rad) - 2 * margin_rad) / (sweep.end_s - sweep.begin_s);
     // A rest longer than the sweep itself parts two sweeps: nothing was turned meanwhile.
-    const bool joined = !motion.sweeps.empty() && crossings.leave_s - near.back().arrive_s < sweep.end_s - sweep.begin_s;
+    const bool joined =
+        !motion.sweeps.empty() && crossings.leave_s - near.back().arrive_s < sweep.end_s - sweep.begin_s;
     if (joined) join_at_reversal(motion.sweeps.back(), sweep, near.back(), crossings);
     motion.sweeps.push_back(sweep);
     near.push_back(crossings);
@@ -103,7 +106,8 @@ MotorMotion find_sweeps(const MotorTrack& track) {
   for (std::size_t i = 0; i < motion.sweeps.size(); ++i) {
     speeds.push_back(motion.sweeps[i].speed_rad_s);
     const bool partial = i == 0 || i + 1 == motion.sweeps.size();
-    if (!partial || motion.sweeps.size() <= 2) durations.push_back(motion.sweeps[i].end_s - motion.sweeps[i].begin_s);
+    if (!partial || motion.sweeps.size() <= 2)
+      durations.push_back(motion.sweeps[i].end_s - motion.sweeps[i].begin_s);
   }
   motion.median_speed_rad_s = median(speeds);
   motion.median_sweep_s = median(durations);

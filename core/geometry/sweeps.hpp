@@ -7,27 +7,28 @@
 
 namespace sweepscope {
 
-/// One half turn of the motor: from reversal to reversal, or, first and last, the part of one that was recorded.
-/// Times are on the motor's clock, so sweeps do not depend on the offset.
+/// One half turn of the motor: from reversal to reversal, or, first and last, the part of one that was
+/// recorded. Times are on the motor's clock, so sweeps do not depend on the offset.
 struct Sweep {
-  double begin_s = 0;         // of the half turn, at the reversal
+  double begin_s = 0;  // of the half turn, at the reversal
   double end_s = 0;
   double steady_begin_s = 0;  // the part away from the reversals, where the motor's speed is worth trusting
   double steady_end_s = 0;
-  int direction = 0;          // +1 where the angle grows, -1 where it falls
-  double speed_rad_s = 0;     // mean over the steady part, > 0
+  int direction = 0;       // +1 where the angle grows, -1 where it falls
+  double speed_rad_s = 0;  // mean over the steady part, > 0
 };
 
 /// What the motor did over the whole track.
 struct MotorMotion {
-  std::vector<Sweep> sweeps;        // in the order of time; neighbours turn in opposite directions
-  double range_rad = 0;             // greatest minus least angle
-  double median_speed_rad_s = 0;    // over the sweeps' steady parts
-  double median_sweep_s = 0;        // over whole sweeps; over all where none is whole
+  std::vector<Sweep> sweeps;      // in the order of time; neighbours turn in opposite directions
+  double range_rad = 0;           // greatest minus least angle
+  double median_speed_rad_s = 0;  // over the sweeps' steady parts
+  double median_sweep_s = 0;      // over whole sweeps; over all where none is whole
 };
 
-/// Cuts a motor track at its reversals. A reversal is where the angle turns back by more than a twentieth of its range
-/// and at least half a degree, so that encoder steps and jitter do not count. Rests do not belong to any sweep.
+/// Cuts a motor track at its reversals. A reversal is where the angle turns back by more than a twentieth of
+/// its range and at least half a degree, so that encoder steps and jitter do not count. Rests do not belong
+/// to any sweep.
 MotorMotion find_sweeps(const MotorTrack& track);
 
 /// Which sweep each scan belongs to at an offset, by the middle of its beams; kNoSweep where none.

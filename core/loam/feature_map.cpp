@@ -62,7 +62,9 @@ int count_lines(const Neighbours& found) {
   return lines;
 }
 
-int cell_index(float value_m, float inverse_cell) { return static_cast<int>(std::floor(value_m * inverse_cell)); }
+int cell_index(float value_m, float inverse_cell) {
+  return static_cast<int>(std::floor(value_m * inverse_cell));
+}
 
 }  // namespace
 
@@ -131,7 +133,8 @@ void FeatureMap::grow(Level& level) {
   }
 }
 
-void FeatureMap::add_point(Level& level, std::uint32_t& first, const Eigen::Vector3f& p_m, std::uint32_t line) {
+void FeatureMap::add_point(Level& level, std::uint32_t& first, const Eigen::Vector3f& p_m,
+                           std::uint32_t line) {
   if (first == kNone || level.blocks[first].count == kBlock) {
     Block block;
     block.next = first;
@@ -155,7 +158,9 @@ void FeatureMap::insert(const Eigen::Vector3f& p_m, std::uint32_t line, int dire
               z = static_cast<int>(std::floor(scaled.z()));
     Cell& cell = find_or_add(level, key_of(x, y, z));
     if (thinned_) {
-      const auto third = [](float value, int whole) { return std::min(2, static_cast<int>(3 * (value - float(whole)))); };
+      const auto third = [](float value, int whole) {
+        return std::min(2, static_cast<int>(3 * (value - float(whole))));
+      };
       const int place = third(scaled.x(), x) + 3 * third(scaled.y(), y) + 9 * third(scaled.z(), z);
       if (cell.taken[side] >> place & 1u) continue;
       cell.taken[side] |= 1u << place;
@@ -170,8 +175,8 @@ int FeatureMap::level_for(double radius_m) const {
   return l;
 }
 
-void FeatureMap::nearest(const Eigen::Vector3f& p_m, int level_index, SweepFilter filter, int most, int per_line,
-                         Neighbours& found) const {
+void FeatureMap::nearest(const Eigen::Vector3f& p_m, int level_index, SweepFilter filter, int most,
+                         int per_line, Neighbours& found) const {
   const Level& level = levels_[level_index];
   const auto radius = static_cast<float>(level.radius_m);
   found.count = 0;
@@ -204,7 +209,8 @@ void FeatureMap::nearest(const Eigen::Vector3f& p_m, int level_index, SweepFilte
               squared[i] = x * x + y * y + z * z;
             }
             for (std::uint32_t i = 0; i < block.count; ++i)
-              if (squared[i] < list.limit_m2()) list.offer(squared[i], block.x[i], block.y[i], block.z[i], block.line[i]);
+              if (squared[i] < list.limit_m2())
+                list.offer(squared[i], block.x[i], block.y[i], block.z[i], block.line[i]);
           }
         }
       }

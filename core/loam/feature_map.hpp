@@ -21,8 +21,9 @@ struct Neighbours {
 };
 
 /// A map of feature points, thinned, in hashed grids of doubling cell size: level l has cells of
-/// `cell_m * 2^l` and at most one point per third of a cell and sweep direction, and is searched within 5/6 of a cell.
-/// Far points, which lie sparsely, are so matched as fast as near ones. The first point to arrive in a place stays.
+/// `cell_m * 2^l` and at most one point per third of a cell and sweep direction, and is searched within 5/6
+/// of a cell. Far points, which lie sparsely, are so matched as fast as near ones. The first point to arrive
+/// in a place stays.
 class FeatureMap {
  public:
   static constexpr int kLevels = 4;

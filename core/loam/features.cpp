@@ -17,10 +17,11 @@ struct ScanFeatures {
 
 // What is known of every beam of one scan line before features are picked.
 struct Line {
-  std::vector<float> x_m, y_m;       // in the scanner's plane
-  std::vector<float> curvature_m;    // distance from the neighbours' mean, along the beam; NaN where there is none
-  std::vector<char> occluded;        // beside a nearer surface: the edge is the nearer surface's, not its own
-  std::vector<char> silhouette;      // the last point of a surface before something far behind it, or nothing
+  std::vector<float> x_m, y_m;  // in the scanner's plane
+  std::vector<float>
+      curvature_m;             // distance from the neighbours' mean, along the beam; NaN where there is none
+  std::vector<char> occluded;  // beside a nearer surface: the edge is the nearer surface's, not its own
+  std::vector<char> silhouette;  // the last point of a surface before something far behind it, or nothing
 };
 
 class LineFeatures {
@@ -58,8 +59,8 @@ class LineFeatures {
       line_.silhouette[i] = ends_surface(ranges, i, 1) || ends_surface(ranges, i, -1);
   }
 
-  // True where beam i and two before it are on one surface, and the three after it see nothing or far behind it.
-  // Three, since a single beam may return nothing by chance.
+  // True where beam i and two before it are on one surface, and the three after it see nothing or far behind
+  // it. Three, since a single beam may return nothing by chance.
   static constexpr int kBehind = 3;
   bool ends_surface(std::span<const float> ranges, int i, int step) const {
     if (!std::isfinite(ranges[i])) return false;
@@ -95,9 +96,10 @@ class LineFeatures {
     }
     const auto count = static_cast<float>(2 * half + 1);
     const float dx = x / count - line_.x_m[i], dy = y / count - line_.y_m[i];
-    // Along the beam and across: along a wall the beams' uneven spacing moves the mean as well, so take the part
-    // that is normal to the chord between the ends.
-    const float cx = line_.x_m[i + half] - line_.x_m[i - half], cy = line_.y_m[i + half] - line_.y_m[i - half];
+    // Along the beam and across: along a wall the beams' uneven spacing moves the mean as well, so take the
+    // part that is normal to the chord between the ends.
+    const float cx = line_.x_m[i + half] - line_.x_m[i - half],
+                cy = line_.y_m[i + half] - line_.y_m[i - half];
     const float chord = std::hypot(cx, cy);
     if (!(chord > 1e-6f)) return std::nanf("");
     const float value = std::abs(dx * cy - dy * cx) / chord;
@@ -121,7 +123,8 @@ class LineFeatures {
         if (count >= options_.map_edges_per_region) break;
         if (taken_[i]) continue;
         if (push(scan, scan_index, i, ranges[i], count < options_.edges_per_region, edges)) ++count;
-        for (int k = std::max(0, i - options_.half_window); k <= std::min(beams - 1, i + options_.half_window); ++k)
+        for (int k = std::max(0, i - options_.half_window);
+             k <= std::min(beams - 1, i + options_.half_window); ++k)
           taken_[k] = 1;
       }
     }
@@ -136,7 +139,8 @@ class LineFeatures {
 
   bool is_edge(std::span<const float> ranges, int i) const {
     if (line_.silhouette[i]) return true;
-    const double threshold_m = std::max(options_.edge_curvature * noise_m_, options_.edge_curvature_slope * ranges[i]);
+    const double threshold_m =
+        std::max(options_.edge_curvature * noise_m_, options_.edge_curvature_slope * ranges[i]);
     if (!(line_.curvature_m[i] > threshold_m) || line_.occluded[i]) return false;
     for (int k = i - 1; k <= i + 1; ++k)
       if (!std::isfinite(ranges[k])) return false;
@@ -161,14 +165,17 @@ class LineFeatures {
   bool is_plane(std::span<const float> ranges, int i) const {
     const int half = options_.half_window;
     if (!(line_.curvature_m[i] < options_.plane_curvature * noise_m_)) return false;
-    // Nearly parallel to the beam: the range changes from beam to beam by more than the beams' spacing times 5.
+    // Nearly parallel to the beam: the range changes from beam to beam by more than the beams' spacing
+    // times 5.
     const double rise_m = std::abs(ranges[i + half] - ranges[i - half]);
-    const double width_m = std::hypot(line_.x_m[i + half] - line_.x_m[i - half], line_.y_m[i + half] - line_.y_m[i - half]);
-    return std::isfinite(rise_m) && rise_m < 0.97 * width_m + 4 * noise_m_ && width_m < 0.25 * ranges[i] + 0.3;
+    const double width_m =
+        std::hypot(line_.x_m[i + half] - line_.x_m[i - half], line_.y_m[i + half] - line_.y_m[i - half]);
+    return std::isfinite(rise_m) && rise_m < 0.97 * width_m + 4 * noise_m_ &&
+           width_m < 0.25 * ranges[i] + 0.3;
   }
 
-  // The range at beam i of the line fitted to its neighbours: less noise, and no offset in it, since the neighbours
-  // are within a degree of motor angle. Negative where the neighbours are not on a line.
+  // The range at beam i of the line fitted to its neighbours: less noise, and no offset in it, since the
+  // neighbours are within a degree of motor angle. Negative where the neighbours are not on a line.
   double smoothed_range_m(const LaserScan& scan, std::span<const float> ranges, int i) const {
     const int half = options_.half_window;
     double sx = 0, sy = 0, sxx = 0, sxy = 0, syy = 0;
@@ -196,8 +203,8 @@ class LineFeatures {
             std::vector<Feature>& features) const {
     const Eigen::Vector3d p_in_motor_m = kinematics_.point_in_motor(range_m, scan.beam_angle_rad(beam));
     if (kinematics_.distance_to_axis_m(p_in_motor_m) < options_.axis_sine * range_m) return false;
-    features.push_back({p_in_motor_m.cast<float>(), static_cast<float>(range_m), scan.beam_s(beam), scan_index,
-                        static_cast<std::uint16_t>(beam), sharp});
+    features.push_back({p_in_motor_m.cast<float>(), static_cast<float>(range_m), scan.beam_s(beam),
+                        scan_index, static_cast<std::uint16_t>(beam), sharp});
     return true;
   }
 
@@ -234,7 +241,8 @@ double estimate_range_noise_m(const Recording& recording) {
   return std::max(0.002, *middle / (0.6745 * std::sqrt(6.0)));
 }
 
-Result<FeatureSet> extract_features(const Recording& recording, const FeatureOptions& options, const Job& job) {
+Result<FeatureSet> extract_features(const Recording& recording, const FeatureOptions& options,
+                                    const Job& job) {
   FeatureSet set;
   set.range_noise_m = estimate_range_noise_m(recording);
   const Kinematics kinematics(recording.rig.mount);
@@ -244,7 +252,8 @@ Result<FeatureSet> extract_features(const Recording& recording, const FeatureOpt
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, scans, 64), [&](const auto& block) {
     LineFeatures line(recording, kinematics, options, set.range_noise_m);
     if (job.cancelled()) return;
-    for (std::size_t i = block.begin(); i < block.end(); ++i) per_scan[i] = line.extract(static_cast<std::uint32_t>(i));
+    for (std::size_t i = block.begin(); i < block.end(); ++i)
+      per_scan[i] = line.extract(static_cast<std::uint32_t>(i));
     done += block.size();
     job.report("features", double(done) / double(scans));
   });

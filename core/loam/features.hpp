@@ -13,29 +13,31 @@ namespace sweepscope {
 
 /// How edge and plane points are chosen on a scan line (LOAM, section V.A; section 3.1 of the paper).
 struct FeatureOptions {
-  int half_window = 5;             // beams on either side that the curvature is taken over
-  double plane_curvature = 2.0;    // largest curvature of a plane point, in standard deviations of the range noise
-  double edge_curvature = 6.0;     // smallest curvature of an edge point, likewise ...
+  int half_window = 5;  // beams on either side that the curvature is taken over
+  double plane_curvature =
+      2.0;  // largest curvature of a plane point, in standard deviations of the range noise
+  double edge_curvature = 6.0;          // smallest curvature of an edge point, likewise ...
   double edge_curvature_slope = 0.006;  // ... and relative to the range
-  int plane_spacing = 18;          // beams: one plane point to match per so many
-  int map_spacing = 6;             // beams: one plane point to build the map from per so many
-  int edges_per_region = 2;        // sharpest edge points to match in each of the scan line's regions
-  int map_edges_per_region = 5;    // edge points to build the map from, likewise
+  int plane_spacing = 18;               // beams: one plane point to match per so many
+  int map_spacing = 6;                  // beams: one plane point to build the map from per so many
+  int edges_per_region = 2;             // sharpest edge points to match in each of the scan line's regions
+  int map_edges_per_region = 5;         // edge points to build the map from, likewise
   int regions = 4;
-  double axis_sine = 0.05;         // beams within this sine of the motor's axis have no lever and are left out
+  double axis_sine = 0.05;  // beams within this sine of the motor's axis have no lever and are left out
 };
 
 /// A feature, in the frame that turns with the motor, so that it does not depend on the offset.
 struct Feature {
   Eigen::Vector3f p_in_motor_m;
   float range_m = 0;
-  double time_s = 0;         // of its beam, laser clock, seconds since Recording::epoch_ns
-  std::uint32_t scan = 0;    // its scan line, index into Recording::scans
+  double time_s = 0;       // of its beam, laser clock, seconds since Recording::epoch_ns
+  std::uint32_t scan = 0;  // its scan line, index into Recording::scans
   std::uint16_t beam = 0;
-  bool sharp = false;        // to be matched; the others only build the map
+  bool sharp = false;  // to be matched; the others only build the map
 };
 
-/// One kind of feature over a whole recording, in the order of scans; scan i's are [scan_begin[i], scan_begin[i + 1]).
+/// One kind of feature over a whole recording, in the order of scans; scan i's are [scan_begin[i],
+/// scan_begin[i + 1]).
 struct FeatureList {
   std::vector<Feature> features;
   std::vector<std::size_t> scan_begin;
@@ -47,13 +49,15 @@ struct FeatureSet {
   double range_noise_m = 0;
 };
 
-/// The standard deviation of the range noise, from the second differences of neighbouring ranges: robust against the
-/// scene's own edges. At least 2 mm.
+/// The standard deviation of the range noise, from the second differences of neighbouring ranges: robust
+/// against the scene's own edges. At least 2 mm.
 double estimate_range_noise_m(const Recording& recording);
 
-/// Extracts the features of every scan line, once for all offsets. Curvature is the distance of a point from the mean
-/// of its neighbours on the line, judged by the noise rather than LOAM's fixed thresholds: those drown in noise of
-/// 30 mm. Left out are points beside an occlusion, on surfaces nearly parallel to the beam, and on the motor's axis.
-Result<FeatureSet> extract_features(const Recording& recording, const FeatureOptions& options, const Job& job);
+/// Extracts the features of every scan line, once for all offsets. Curvature is the distance of a point from
+/// the mean of its neighbours on the line, judged by the noise rather than LOAM's fixed thresholds: those
+/// drown in noise of 30 mm. Left out are points beside an occlusion, on surfaces nearly parallel to the beam,
+/// and on the motor's axis.
+Result<FeatureSet> extract_features(const Recording& recording, const FeatureOptions& options,
+                                    const Job& job);
 
 }  // namespace sweepscope

@@ -33,8 +33,8 @@ inline double cauchy_weight(double residual, double scale) {
   return 1.0 / (1.0 + ratio * ratio);
 }
 
-/// Normal equations of two poses, a sweep's begin and end, from points that move with the pose interpolated at u:
-/// the point's row J acts as (1 - u) J on the begin's step and u J on the end's.
+/// Normal equations of two poses, a sweep's begin and end, from points that move with the pose interpolated
+/// at u: the point's row J acts as (1 - u) J on the begin's step and u J on the end's.
 class SweepEquations {
  public:
   void add(const Vector6d& row, double residual, double weight, double u) {
@@ -64,8 +64,8 @@ class SweepEquations {
   Vector6d begin_ = Vector6d::Zero(), end_ = Vector6d::Zero();
 };
 
-/// Minimises x' A x / 2 + g' x, leaving the directions alone whose eigenvalue is below `least_eigenvalue`: what the
-/// scene does not determine keeps its value. `free_directions` counts them.
+/// Minimises x' A x / 2 + g' x, leaving the directions alone whose eigenvalue is below `least_eigenvalue`:
+/// what the scene does not determine keeps its value. `free_directions` counts them.
 inline Vector6d solve_determined(const Matrix6d& a, const Vector6d& g, double least_eigenvalue,
                                  int& free_directions) {
   const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(a);

@@ -38,10 +38,11 @@ SearchRule rule_for(const MappingOptions& options, bool grown, SweepFilter filte
   return rule;
 }
 
-// The finest level that holds enough neighbours: a patch as small as the map allows, since large ones bend round
-// corners. Gives the search radius, or nothing where even the coarsest level allowed is too sparse.
+// The finest level that holds enough neighbours: a patch as small as the map allows, since large ones bend
+// round corners. Gives the search radius, or nothing where even the coarsest level allowed is too sparse.
 std::optional<double> nearest_on_finest(const FeatureMap& map, const Eigen::Vector3f& p_m, float range_m,
-                                        const SearchRule& rule, int most, int least, int least_lines, Neighbours& near) {
+                                        const SearchRule& rule, int most, int least, int least_lines,
+                                        Neighbours& near) {
   const int coarsest = map.level_for(std::max(rule.radius_m, rule.radius_slope * range_m));
   for (int level = 0; level <= coarsest; ++level) {
     map.nearest(p_m, level, rule.filter, most, rule.patch.per_line, near);
@@ -52,15 +53,15 @@ std::optional<double> nearest_on_finest(const FeatureMap& map, const Eigen::Vect
 
 std::optional<PlanePatch> find_plane(const FeatureMap& map, const Eigen::Vector3d& p_m, float range_m,
                                      const SearchRule& rule, Neighbours& near) {
-  const auto radius_m = nearest_on_finest(map, p_m.cast<float>(), range_m, rule, rule.patch.plane_neighbours, 6,
-                                          rule.patch.least_lines, near);
+  const auto radius_m = nearest_on_finest(map, p_m.cast<float>(), range_m, rule, rule.patch.plane_neighbours,
+                                          6, rule.patch.least_lines, near);
   return radius_m ? fit_plane(near, rule.patch, *radius_m) : std::nullopt;
 }
 
 std::optional<LinePatch> find_line(const FeatureMap& map, const Eigen::Vector3d& p_m, float range_m,
                                    const SearchRule& rule, Neighbours& near) {
-  const auto radius_m = nearest_on_finest(map, p_m.cast<float>(), range_m, rule, rule.patch.edge_neighbours, 4,
-                                          rule.patch.least_edge_lines, near);
+  const auto radius_m = nearest_on_finest(map, p_m.cast<float>(), range_m, rule, rule.patch.edge_neighbours,
+                                          4, rule.patch.least_edge_lines, near);
   return radius_m ? fit_line(near, rule.patch, *radius_m) : std::nullopt;
 }
 
@@ -75,12 +76,18 @@ void count_one(bool found, double distance_m, double gate_m, double cap_m, Match
 // One sweep's matches with the map, kept from step to step while their points hardly move.
 class SweepMatcher {
  public:
-  SweepMatcher(const SweepMaps& maps, const PlacedSweep& sweep, const SearchRule& rule, const MappingOptions& options)
-      : maps_(maps), sweep_(sweep), rule_(rule), options_(options), planes_(sweep.planes.size()),
+  SweepMatcher(const SweepMaps& maps, const PlacedSweep& sweep, const SearchRule& rule,
+               const MappingOptions& options)
+      : maps_(maps),
+        sweep_(sweep),
+        rule_(rule),
+        options_(options),
+        planes_(sweep.planes.size()),
         edges_(sweep.edges.size()) {}
 
   // Adds the matches at the given poses to the equations; counts them too.
-  MatchCount linearise(const Pose& begin, const Pose& end, const Eigen::Vector3d& pivot_m, SweepEquations& equations) {
+  MatchCount linearise(const Pose& begin, const Pose& end, const Eigen::Vector3d& pivot_m,
+                       SweepEquations& equations) {
     const SweepMotion motion(begin, end);
     MatchCount count;
     for (std::size_t i = 0; i < planes_.size(); ++i) {
@@ -124,8 +131,8 @@ class SweepMatcher {
 
   void add(const Eigen::Vector3d& p_m, const Eigen::Vector3d& normal, double distance_m, double u,
            const Eigen::Vector3d& pivot_m, SweepEquations& equations) const {
-    const double weight = cauchy_weight(distance_m, options_.loss_width_m) /
-                          (options_.match_sigma_m * options_.match_sigma_m);
+    const double weight =
+        cauchy_weight(distance_m, options_.loss_width_m) / (options_.match_sigma_m * options_.match_sigma_m);
     equations.add(distance_jacobian(p_m, normal, pivot_m), distance_m, weight, u);
   }
 
@@ -199,11 +206,12 @@ class Tracker {
     return pose;
   }
 
-  // Where a sweep is expected to begin. A wrong offset makes the pose jump at every reversal, to and fro about the
-  // motor's axis; by how much is learned on the way.
+  // Where a sweep is expected to begin. A wrong offset makes the pose jump at every reversal, to and fro
+  // about the motor's axis; by how much is learned on the way.
   Pose joined_to(const SweepPose& last, int direction) const {
     Pose begin = last.end;
-    begin.rotation = (begin.rotation * rotation_from_vector(direction * jump_rad_ * motor_axis_)).normalized();
+    begin.rotation =
+        (begin.rotation * rotation_from_vector(direction * jump_rad_ * motor_axis_)).normalized();
     return begin;
   }
 
@@ -266,8 +274,8 @@ class Tracker {
   TrackedWalk walk_;
 };
 
-// The first sweep has no map to be matched to, so the velocity within it is guessed, tried and averaged: taken at its
-// word the new estimate would swing to and fro for ever.
+// The first sweep has no map to be matched to, so the velocity within it is guessed, tried and averaged:
+// taken at its word the new estimate would swing to and fro for ever.
 Vector6d find_first_twist_per_s(const std::vector<PlacedSweep>& sweeps, const Eigen::Vector3d& motor_axis,
                                 const MappingOptions& options) {
   Vector6d twist_per_s = Vector6d::Zero();
@@ -312,8 +320,8 @@ Result<TrackedWalk> track(const std::vector<PlacedSweep>& sweeps, const Eigen::V
   return std::move(tracker.walk());
 }
 
-AlternatingRoll take_out_alternating_roll(const std::vector<SweepPose>& sweeps, const Eigen::Vector3d& motor_axis,
-                                          int settling_sweeps) {
+AlternatingRoll take_out_alternating_roll(const std::vector<SweepPose>& sweeps,
+                                          const Eigen::Vector3d& motor_axis, int settling_sweeps) {
   AlternatingRoll result;
   result.sweeps = sweeps;
   const std::size_t count = sweeps.size();
@@ -324,8 +332,9 @@ AlternatingRoll take_out_alternating_roll(const std::vector<SweepPose>& sweeps, 
     roll_rad[k] = roll_rad[k - 1] + motor_axis.dot(vector_from_rotation(turn));
   }
   const auto alternation_rad = [&](std::size_t k) {
-    const double smooth_rad = (-roll_rad[k - 2] + 4 * roll_rad[k - 1] + 10 * roll_rad[k] + 4 * roll_rad[k + 1] -
-                               roll_rad[k + 2]) / 16;
+    const double smooth_rad =
+        (-roll_rad[k - 2] + 4 * roll_rad[k - 1] + 10 * roll_rad[k] + 4 * roll_rad[k + 1] - roll_rad[k + 2]) /
+        16;
     return roll_rad[k] - smooth_rad;
   };
   std::vector<double> away_rad;  // a wrong offset turns the pose against the sweep
@@ -355,7 +364,8 @@ MatchCount count_matches(const std::vector<PlacedSweep>& sweeps, const std::vect
   Neighbours near;
   for (std::size_t k = 0; k < sweeps.size(); ++k) {
     if (k >= std::size_t(options.settling_sweeps)) {
-      const SearchRule rule = rule_for(options, true, sweeps[k].direction > 0 ? SweepFilter::kBackward : SweepFilter::kForward);
+      const SearchRule rule =
+          rule_for(options, true, sweeps[k].direction > 0 ? SweepFilter::kBackward : SweepFilter::kForward);
       const SweepMotion motion(poses[k].begin, poses[k].end);
       for (const PlacedFeature& feature : sweeps[k].planes) {
         if (!feature.sharp) continue;

@@ -14,24 +14,24 @@ namespace sweepscope {
 struct MappingOptions {
   PatchOptions patch;
   double search_radius_m = 0.5;
-  double search_radius_slope = 0.12;   // of the range
-  double loss_width_m = 0.08;          // Cauchy
-  double match_sigma_m = 0.05;         // of a match, against the ties below: its neighbours err together
-  double tie_sigma = 0.03;             // rad and m: a sweep's begin to the previous sweep's end ...
-  double first_tie_sigma = 0.3;        // ... and at first, when the jump at a reversal is not known yet
-  bool expects_jump = true;            // learn the jump; else a sweep begins where the last one ended, as in LOAM ...
-  double continuous_tie_sigma = 0.005; // ... rad and m, to within this
-  double jump_gain = 0.05;             // of a new jump in the mean of all
-  double twist_change_sigma = 0.08;    // rad and m per sweep: how freely the motion changes
+  double search_radius_slope = 0.12;  // of the range
+  double loss_width_m = 0.08;         // Cauchy
+  double match_sigma_m = 0.05;        // of a match, against the ties below: its neighbours err together
+  double tie_sigma = 0.03;            // rad and m: a sweep's begin to the previous sweep's end ...
+  double first_tie_sigma = 0.3;       // ... and at first, when the jump at a reversal is not known yet
+  bool expects_jump = true;  // learn the jump; else a sweep begins where the last one ended, as in LOAM ...
+  double continuous_tie_sigma = 0.005;  // ... rad and m, to within this
+  double jump_gain = 0.05;              // of a new jump in the mean of all
+  double twist_change_sigma = 0.08;     // rad and m per sweep: how freely the motion changes
   int most_iterations = 6;
-  double step_tolerance = 5e-4;        // m and rad
-  double reuse_within_m = 0.03;        // a match is searched anew once its point moved by more
-  int settling_sweeps = 8;             // not counted: the map is still being begun
-  int velocity_rounds = 6;             // to find the first velocity
+  double step_tolerance = 5e-4;  // m and rad
+  double reuse_within_m = 0.03;  // a match is searched anew once its point moved by more
+  int settling_sweeps = 8;       // not counted: the map is still being begun
+  int velocity_rounds = 6;       // to find the first velocity
   int velocity_sweeps = 4;
-  double edge_gate_m = 0.1;            // delta_E of equation 4
-  double plane_gate_m = 0.1;           // delta_H of equation 5
-  double cost_cap_m = 0.3;             // what a feature without a match pays in the capped cost
+  double edge_gate_m = 0.1;   // delta_E of equation 4
+  double plane_gate_m = 0.1;  // delta_H of equation 5
+  double cost_cap_m = 0.3;    // what a feature without a match pays in the capped cost
 };
 
 /// A sweep's poses at its begin and end; between them the pose is interpolated. map_from_base.
@@ -66,28 +66,29 @@ struct MatchCount {
 /// What LOAM makes of a moving recording at one candidate offset.
 struct TrackedWalk {
   std::vector<SweepPose> sweeps;
-  MatchCount count;        // at LOAM's own converged pose of each sweep, before it enters the map
-  bool lost = false;       // most features of a stretch found no match
+  MatchCount count;   // at LOAM's own converged pose of each sweep, before it enters the map
+  bool lost = false;  // most features of a stretch found no match
 };
 
-/// Tracks the sweeps on the map that they build (LOAM's odometry and mapping in one): each sweep has a pose at its
-/// begin and one at its end, tied softly to the previous sweep's end, since a wrong offset makes the sweeps seem to roll
-/// to and fro and strict continuity would lose track of it.
+/// Tracks the sweeps on the map that they build (LOAM's odometry and mapping in one): each sweep has a pose
+/// at its begin and one at its end, tied softly to the previous sweep's end, since a wrong offset makes the
+/// sweeps seem to roll to and fro and strict continuity would lose track of it.
 Result<TrackedWalk> track(const std::vector<PlacedSweep>& sweeps, const Eigen::Vector3d& motor_axis,
                           const MappingOptions& options, const Job& job);
 
 /// The roll about the motor's axis that alternates from sweep to sweep, and the walk without it.
 struct AlternatingRoll {
-  double signed_rotation_rad = 0;    // from one sweep to the next; near 2 omega (offset - truth)
-  std::vector<SweepPose> sweeps;     // with the alternation taken out
+  double signed_rotation_rad = 0;  // from one sweep to the next; near 2 omega (offset - truth)
+  std::vector<SweepPose> sweeps;   // with the alternation taken out
 };
 
-/// Takes the alternation out of the sweeps' middle poses with the filter [-1 4 10 4 -1] / 16, which keeps quadratics.
-AlternatingRoll take_out_alternating_roll(const std::vector<SweepPose>& sweeps, const Eigen::Vector3d& motor_axis,
-                                          int settling_sweeps);
+/// Takes the alternation out of the sweeps' middle poses with the filter [-1 4 10 4 -1] / 16, which keeps
+/// quadratics.
+AlternatingRoll take_out_alternating_roll(const std::vector<SweepPose>& sweeps,
+                                          const Eigen::Vector3d& motor_axis, int settling_sweeps);
 
-/// Rebuilds the map along given poses and counts each sweep's matches with the map of the sweeps before it that turned
-/// the other way (equations 4 to 7).
+/// Rebuilds the map along given poses and counts each sweep's matches with the map of the sweeps before it
+/// that turned the other way (equations 4 to 7).
 MatchCount count_matches(const std::vector<PlacedSweep>& sweeps, const std::vector<SweepPose>& poses,
                          const MappingOptions& options);
 

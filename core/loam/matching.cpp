@@ -32,7 +32,8 @@ Spread spread_of(const Neighbours& neighbours) {
 
 }  // namespace
 
-std::optional<PlanePatch> fit_plane(const Neighbours& neighbours, const PatchOptions& options, double radius_m) {
+std::optional<PlanePatch> fit_plane(const Neighbours& neighbours, const PatchOptions& options,
+                                    double radius_m) {
   if (neighbours.count < 5 || neighbours.lines < options.least_lines) return std::nullopt;
   const Spread spread = spread_of(neighbours);
   const double thickness_m = options.thickness_m + options.thickness_slope * radius_m;
@@ -42,7 +43,8 @@ std::optional<PlanePatch> fit_plane(const Neighbours& neighbours, const PatchOpt
   return PlanePatch{spread.mean_m, spread.eigenvectors.col(0)};
 }
 
-std::optional<LinePatch> fit_line(const Neighbours& neighbours, const PatchOptions& options, double radius_m) {
+std::optional<LinePatch> fit_line(const Neighbours& neighbours, const PatchOptions& options,
+                                  double radius_m) {
   if (neighbours.count < 4 || neighbours.lines < options.least_edge_lines) return std::nullopt;
   const Spread spread = spread_of(neighbours);
   const double thickness_m = options.thickness_m + options.thickness_slope * radius_m;

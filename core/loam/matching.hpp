@@ -11,8 +11,8 @@ namespace sweepscope {
 struct PatchOptions {
   int plane_neighbours = 10;
   int edge_neighbours = 6;
-  int per_line = 2;               // neighbours from one scan line: more would fit the line instead of the surface
-  int least_lines = 4;            // distinct scan lines among a plane's neighbours, at least 3
+  int per_line = 2;     // neighbours from one scan line: more would fit the line instead of the surface
+  int least_lines = 4;  // distinct scan lines among a plane's neighbours, at least 3
   int least_edge_lines = 3;
   double thickness_m = 0.06;      // RMS distance of the neighbours from the plane or line, at most ...
   double thickness_slope = 0.03;  // ... plus this times the search radius
@@ -28,10 +28,13 @@ struct LinePatch {
   Eigen::Vector3d centre_m, direction;
 };
 
-/// The plane that `neighbours` lie on, or nothing where they are too few, on too few scan lines, in a row, or not flat.
-std::optional<PlanePatch> fit_plane(const Neighbours& neighbours, const PatchOptions& options, double radius_m);
+/// The plane that `neighbours` lie on, or nothing where they are too few, on too few scan lines, in a row, or
+/// not flat.
+std::optional<PlanePatch> fit_plane(const Neighbours& neighbours, const PatchOptions& options,
+                                    double radius_m);
 
-/// The line that `neighbours` lie along, or nothing (LOAM: first eigenvalue more than three times the second).
+/// The line that `neighbours` lie along, or nothing (LOAM: first eigenvalue more than three times the
+/// second).
 std::optional<LinePatch> fit_line(const Neighbours& neighbours, const PatchOptions& options, double radius_m);
 
 /// The vector from the line to the point, normal to the line.

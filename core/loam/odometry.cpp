@@ -18,8 +18,8 @@ struct Accumulated {
   }
 };
 
-void add_planes(const SweepMap& target, const PlacedSweep& source, const Pose& pose, const OdometryOptions& options,
-                Accumulated& sum) {
+void add_planes(const SweepMap& target, const PlacedSweep& source, const Pose& pose,
+                const OdometryOptions& options, Accumulated& sum) {
   Neighbours near;
   for (const PlacedFeature& feature : source.planes) {
     if (!feature.sharp) continue;
@@ -38,8 +38,8 @@ void add_planes(const SweepMap& target, const PlacedSweep& source, const Pose& p
   }
 }
 
-void add_edges(const SweepMap& target, const PlacedSweep& source, const Pose& pose, const OdometryOptions& options,
-               Accumulated& sum) {
+void add_edges(const SweepMap& target, const PlacedSweep& source, const Pose& pose,
+               const OdometryOptions& options, Accumulated& sum) {
   Neighbours near;
   for (const PlacedFeature& feature : source.edges) {
     if (!feature.sharp) continue;
@@ -62,14 +62,22 @@ void add_edges(const SweepMap& target, const PlacedSweep& source, const Pose& po
 
 }  // namespace
 
+OdometryOptions for_lines(OdometryOptions options, double line_spacing_rad) {
+  options.search_radius_slope = std::max(options.search_radius_slope, 1.5 * line_spacing_rad);
+  return options;
+}
+
 SweepMap map_of(const PlacedSweep& sweep) {
   SweepMap map;
-  for (const PlacedFeature& feature : sweep.edges) map.edges.insert(feature.p_in_base_m.cast<float>(), feature.line, 1);
-  for (const PlacedFeature& feature : sweep.planes) map.planes.insert(feature.p_in_base_m.cast<float>(), feature.line, 1);
+  for (const PlacedFeature& feature : sweep.edges)
+    map.edges.insert(feature.p_in_base_m.cast<float>(), feature.line, 1);
+  for (const PlacedFeature& feature : sweep.planes)
+    map.planes.insert(feature.p_in_base_m.cast<float>(), feature.line, 1);
   return map;
 }
 
-Registration register_rigidly(const SweepMap& target, const PlacedSweep& source, const OdometryOptions& options) {
+Registration register_rigidly(const SweepMap& target, const PlacedSweep& source,
+                              const OdometryOptions& options) {
   Registration result;
   for (; result.iterations < options.most_iterations; ++result.iterations) {
     Accumulated sum;
@@ -79,10 +87,11 @@ Registration register_rigidly(const SweepMap& target, const PlacedSweep& source,
     result.matches = sum.matches;
     if (sum.matches < std::size_t(options.least_matches)) return result;
     result.mean_distance_m = sum.distance_sum_m / double(sum.matches);
-    const Vector6d step = solve_determined(sum.matrix, sum.gradient, options.least_eigenvalue * double(sum.matches),
-                                           result.free_directions);
+    const Vector6d step = solve_determined(
+        sum.matrix, sum.gradient, options.least_eigenvalue * double(sum.matches), result.free_directions);
     result.target_from_source = stepped(result.target_from_source, step, Eigen::Vector3d::Zero());
-    if (step.head<3>().norm() < options.step_tolerance && step.tail<3>().norm() < options.step_tolerance) break;
+    if (step.head<3>().norm() < options.step_tolerance && step.tail<3>().norm() < options.step_tolerance)
+      break;
   }
   result.succeeded = result.target_from_source.translation_m.allFinite();
   return result;

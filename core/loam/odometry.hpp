@@ -8,15 +8,23 @@ namespace sweepscope {
 
 /// How two sweeps are registered. The search radius grows with range, since scan lines spread.
 struct OdometryOptions {
-  PatchOptions patch{.plane_neighbours = 9, .edge_neighbours = 6, .per_line = 3, .least_lines = 3, .thickness_m = 0.02, .thickness_slope = 0.01};
+  PatchOptions patch{.plane_neighbours = 9,
+                     .edge_neighbours = 6,
+                     .per_line = 3,
+                     .least_lines = 3,
+                     .thickness_m = 0.02,
+                     .thickness_slope = 0.01};
   double search_radius_m = 0.5;
-  double search_radius_slope = 0.25;  // of the range
+  double search_radius_slope = 0.25;  // of the range, or more where scan lines lie far apart: see for_lines
   double loss_width_m = 0.1;          // Cauchy
   int most_iterations = 20;
-  double step_tolerance = 2e-5;       // m and rad
+  double step_tolerance = 2e-5;  // m and rad
   int least_matches = 100;
-  double least_eigenvalue = 0.003;    // of the normal matrix, per match: below, the scene does not tell
+  double least_eigenvalue = 0.003;  // of the normal matrix, per match: below, the scene does not tell
 };
+
+/// The options with a search radius that reaches three scan lines `line_spacing_rad` apart, as a plane needs.
+OdometryOptions for_lines(OdometryOptions options, double line_spacing_rad);
 
 /// What registering one sweep to another found.
 struct Registration {
@@ -24,8 +32,8 @@ struct Registration {
   bool succeeded = false;
   int iterations = 0;
   std::size_t features = 0, matches = 0;
-  int free_directions = 0;       // that the scene does not determine; their part of the pose is left at 0
-  double mean_distance_m = 0;    // of the matches, at the end
+  int free_directions = 0;     // that the scene does not determine; their part of the pose is left at 0
+  double mean_distance_m = 0;  // of the matches, at the end
 };
 
 /// A sweep's edge and plane points as maps to register against.
@@ -35,8 +43,10 @@ struct SweepMap {
 };
 SweepMap map_of(const PlacedSweep& sweep);
 
-/// Registers a sweep to another rigidly, without motion inside either (LOAM's odometry for a system that stands still,
-/// undamped and iterated to convergence). p_in_target = target_from_source * p_in_source, both base frames.
-Registration register_rigidly(const SweepMap& target, const PlacedSweep& source, const OdometryOptions& options);
+/// Registers a sweep to another rigidly, without motion inside either (LOAM's odometry for a system that
+/// stands still, undamped and iterated to convergence). p_in_target = target_from_source * p_in_source, both
+/// base frames.
+Registration register_rigidly(const SweepMap& target, const PlacedSweep& source,
+                              const OdometryOptions& options);
 
 }  // namespace sweepscope

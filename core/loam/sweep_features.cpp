@@ -3,15 +3,16 @@
 namespace sweepscope {
 namespace {
 
-void place(const FeatureList& list, std::size_t scan, const Sweep& sweep, double offset_s, const Kinematics& kinematics,
-           MotorReader& motor, std::vector<PlacedFeature>& placed) {
+void place(const FeatureList& list, std::size_t scan, const Sweep& sweep, double offset_s,
+           const Kinematics& kinematics, MotorReader& motor, std::vector<PlacedFeature>& placed) {
   for (std::size_t i = list.scan_begin[scan]; i < list.scan_begin[scan + 1]; ++i) {
     const Feature& feature = list.features[i];
     const double motor_s = feature.time_s + offset_s;
     if (motor_s < sweep.steady_begin_s || motor_s > sweep.steady_end_s) continue;
-    placed.push_back({kinematics.base_from_motor(feature.p_in_motor_m.cast<double>(), motor.angle_at(motor_s)),
-                      (motor_s - sweep.begin_s) / (sweep.end_s - sweep.begin_s), feature.range_m, feature.scan,
-                      feature.sharp});
+    placed.push_back(
+        {kinematics.base_from_motor(feature.p_in_motor_m.cast<double>(), motor.angle_at(motor_s)),
+         (motor_s - sweep.begin_s) / (sweep.end_s - sweep.begin_s), feature.range_m, feature.scan,
+         feature.sharp});
   }
 }
 

@@ -33,10 +33,11 @@ struct OffsetProblem {
   std::shared_ptr<const FeatureSet> features;
   MotorMotion motor;
   std::vector<char> scan_used;  // per scan: 1 where the motor track covers it at every offset searched
+  double line_spacing_rad = 0;  // by which the motor turns from one scan to the next
 };
 
-/// Places the features of every sweep at an offset: t_motor = t_laser + offset. Features within a reversal's unsteady
-/// part, and scans that are not used, are left out; sweeps without any scan are not in the result.
+/// Places the features of every sweep at an offset: t_motor = t_laser + offset. Features within a reversal's
+/// unsteady part, and scans that are not used, are left out; sweeps without any scan are not in the result.
 std::vector<PlacedSweep> place_sweeps(const OffsetProblem& problem, double offset_s);
 
 }  // namespace sweepscope

@@ -4,15 +4,18 @@
 
 namespace sweepscope {
 
-/// The poses within a sweep: between its begin and its end the translation goes linearly and the rotation at constant
-/// rate. What all points share is worked out once.
+/// The poses within a sweep: between its begin and its end the translation goes linearly and the rotation at
+/// constant rate. What all points share is worked out once.
 class SweepMotion {
  public:
   SweepMotion(const Pose& begin, const Pose& end)
-      : begin_(begin), turn_rad_(vector_from_rotation(begin.rotation.conjugate() * end.rotation)),
-        shift_m_(end.translation_m - begin.translation_m), rotation_(begin.rotation.toRotationMatrix()),
+      : begin_(begin),
+        turn_rad_(vector_from_rotation(begin.rotation.conjugate() * end.rotation)),
+        shift_m_(end.translation_m - begin.translation_m),
+        rotation_(begin.rotation.toRotationMatrix()),
         turn_angle_rad_(turn_rad_.norm()),
-        turn_axis_(turn_angle_rad_ > 1e-12 ? Eigen::Vector3d(turn_rad_ / turn_angle_rad_) : Eigen::Vector3d::UnitX()) {}
+        turn_axis_(turn_angle_rad_ > 1e-12 ? Eigen::Vector3d(turn_rad_ / turn_angle_rad_)
+                                           : Eigen::Vector3d::UnitX()) {}
 
   /// Where a point of the base frame is in the map frame at u: 0 at the begin, 1 at the end.
   Eigen::Vector3d operator()(const Eigen::Vector3d& p_in_base_m, double u) const {

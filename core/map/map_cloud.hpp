@@ -1,16 +1,16 @@
 #pragma once
 
 #include <pcl/point_cloud.h>
-#include <pcl/register_point_struct.h>
 #include <pcl/point_types.h>
+#include <pcl/register_point_struct.h>
 
 #include <cstdint>
 
 namespace sweepscope {
 
-/// A point of a map: place in the map frame (m), the laser's intensity (0 where it has none), the beam's instant
-/// (laser clock, seconds since Recording::epoch_ns) and the number of the sweep that it belongs to. Neighbouring
-/// sweeps turn in opposite directions.
+/// A point of a map: place in the map frame (m), the laser's intensity (0 where it has none), the beam's
+/// instant (laser clock, seconds since Recording::epoch_ns) and the number of the sweep that it belongs to.
+/// Neighbouring sweeps turn in opposite directions.
 struct EIGEN_ALIGN16 MapPoint {
   PCL_ADD_POINT4D;
   float intensity;

@@ -29,7 +29,10 @@ std::vector<SweepPose> standing_poses(const std::vector<PlacedSweep>& sweeps) {
 class BeamPlacer {
  public:
   BeamPlacer(const Recording& recording, double offset_s)
-      : recording_(recording), kinematics_(recording.rig.mount), motor_(recording.motor), offset_s_(offset_s) {}
+      : recording_(recording),
+        kinematics_(recording.rig.mount),
+        motor_(recording.motor),
+        offset_s_(offset_s) {}
 
   void place(const LaserScan& scan, const SweepPose& pose, MapCloud& cloud) {
     const SweepMotion motion(pose.begin, pose.end);
@@ -38,13 +41,15 @@ class BeamPlacer {
       if (!std::isfinite(ranges_m[beam])) continue;
       const double time_s = scan.beam_s(beam);
       const double u = (time_s - pose.begin_s) / (pose.end_s - pose.begin_s);
-      const Eigen::Vector3d p_in_motor_m = kinematics_.point_in_motor(ranges_m[beam], scan.beam_angle_rad(beam));
+      const Eigen::Vector3d p_in_motor_m =
+          kinematics_.point_in_motor(ranges_m[beam], scan.beam_angle_rad(beam));
       const Eigen::Vector3d p_m =
           motion(kinematics_.base_from_motor(p_in_motor_m, motor_.angle_at(time_s + offset_s_)), u);
       MapPoint point{};
       point.getVector3fMap() = p_m.cast<float>();
       point.data[3] = 1.0f;
-      point.intensity = recording_.intensities.empty() ? 0.0f : recording_.intensities[scan.first_range + beam];
+      point.intensity =
+          recording_.intensities.empty() ? 0.0f : recording_.intensities[scan.first_range + beam];
       point.sweep = static_cast<std::uint32_t>(pose.sweep);
       point.time_s = time_s;
       cloud.points.push_back(point);
@@ -58,7 +63,8 @@ class BeamPlacer {
   double offset_s_;
 };
 
-MapCloud::Ptr place_beams(const OffsetProblem& problem, double offset_s, const std::vector<SweepPose>& poses) {
+MapCloud::Ptr place_beams(const OffsetProblem& problem, double offset_s,
+                          const std::vector<SweepPose>& poses) {
   const Recording& recording = *problem.recording;
   const std::vector<std::size_t> sweep_of = assign_sweeps(recording.scans, problem.motor.sweeps, offset_s);
   MapCloud::Ptr cloud(new MapCloud);
@@ -97,7 +103,8 @@ OffsetMap build_one(const OffsetProblem& problem, double offset_s, bool moving, 
     // A sweep's end and the next one's begin are one instant: a quarter in from each keeps the times apart.
     for (const double u : {0.25, 0.75}) {
       const Pose at = pose.at(u);
-      map.trajectory.push_back({pose.begin_s + u * (pose.end_s - pose.begin_s), at.translation_m, at.rotation});
+      map.trajectory.push_back(
+          {pose.begin_s + u * (pose.end_s - pose.begin_s), at.translation_m, at.rotation});
     }
   }
   return map;
@@ -115,10 +122,13 @@ Result<std::vector<OffsetMap>> build_maps(const Recording& recording, std::span<
     return failure(ExitCode::kNotIdentifiable, fmt::format("{}: {}", recording.name, reasons.front()));
   const std::vector<PlacedSweep> placed = place_sweeps(*problem, *least);
   if (placed.empty())
-    return failure(ExitCode::kNotIdentifiable,
-                   fmt::format("{}: no scan is covered by the motor's samples at these offsets.", recording.name));
+    return failure(
+        ExitCode::kNotIdentifiable,
+        fmt::format("{}: no scan is covered by the motor's samples at these offsets.", recording.name));
   const bool moving = options.assume ? *options.assume == Method::kMoving
-                                     : test_motion(placed, problem->motor, options.odometry).moving();
+                                     : test_motion(placed, problem->motor,
+                                                   for_lines(options.odometry, problem->line_spacing_rad))
+                                           .moving();
   std::vector<OffsetMap> maps(offsets_s.size());
   const Job part = Job::part_of(job);
   tbb::parallel_for(std::size_t{0}, offsets_s.size(), [&](std::size_t i) {

@@ -20,20 +20,21 @@ struct MapOptions {
   MappingOptions mapping;
 };
 
-/// The map at an offset, with where the base frame went. The map frame is the base frame at the first sweep's begin.
+/// The map at an offset, with where the base frame went. The map frame is the base frame at the first sweep's
+/// begin.
 struct OffsetMap {
   double offset_s = 0;
   MapCloud::Ptr cloud;
-  std::vector<StampedPose> trajectory; // two poses a sweep, ascending in time
+  std::vector<StampedPose> trajectory;  // two poses a sweep, ascending in time
   bool moving = false;
-  bool lost = false;                   // LOAM lost track: the map is not to be trusted
-  double signed_rotation_rad = 0;      // the alternating roll that was taken out, per sweep
+  bool lost = false;               // LOAM lost track: the map is not to be trusted
+  double signed_rotation_rad = 0;  // the alternating roll that was taken out, per sweep
 };
 
-/// Builds the map at each of the offsets from the same scans: every beam is placed with the motor angle of its own
-/// instant at t_motor = t_laser + offset. A rig that stood still has identity poses; a moving one's are solved at that
-/// offset, with the alternating roll taken out of them, since free poses would hide a wrong offset. A motor that
-/// does not turn to and fro is ExitCode::kNotIdentifiable.
+/// Builds the map at each of the offsets from the same scans: every beam is placed with the motor angle of
+/// its own instant at t_motor = t_laser + offset. A rig that stood still has identity poses; a moving one's
+/// are solved at that offset, with the alternating roll taken out of them, since free poses would hide a
+/// wrong offset. A motor that does not turn to and fro is ExitCode::kNotIdentifiable.
 Result<std::vector<OffsetMap>> build_maps(const Recording& recording, std::span<const double> offsets_s,
                                           const MapOptions& options, const Job& job);
 

@@ -11,7 +11,9 @@
 namespace sweepscope {
 namespace {
 
-std::int64_t nanoseconds(double seconds) { return std::llround(seconds * 1e9); }
+std::int64_t nanoseconds(double seconds) {
+  return std::llround(seconds * 1e9);
+}
 
 }  // namespace
 
@@ -19,7 +21,8 @@ std::vector<double> offsets_of(const std::vector<OffsetRange>& ranges) {
   std::vector<std::int64_t> offsets_ns;
   for (const OffsetRange& range : ranges) {
     const std::int64_t step_ns = std::max<std::int64_t>(1, nanoseconds(range.step_s));
-    for (std::int64_t offset_ns = nanoseconds(range.from_s); offset_ns <= nanoseconds(range.to_s); offset_ns += step_ns)
+    for (std::int64_t offset_ns = nanoseconds(range.from_s); offset_ns <= nanoseconds(range.to_s);
+         offset_ns += step_ns)
       offsets_ns.push_back(offset_ns);
   }
   std::sort(offsets_ns.begin(), offsets_ns.end());

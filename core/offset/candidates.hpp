@@ -22,16 +22,17 @@ struct OffsetsAround {
   int steps = 0;
 };
 
-/// All candidates of the ranges, ascending, each distinct offset once. Offsets are whole nanoseconds, so that ranges
-/// that share an offset share it to the last bit.
+/// All candidates of the ranges, ascending, each distinct offset once. Offsets are whole nanoseconds, so that
+/// ranges that share an offset share it to the last bit.
 std::vector<double> offsets_of(const std::vector<OffsetRange>& ranges);
 OffsetRange range_around(const OffsetsAround& around);
 
 /// What is computed for one candidate.
 using Candidate = std::function<CurvePoint(double offset_s, const Job& job)>;
 
-/// Computes candidates in parallel and keeps the curve ascending; offsets that are there already are not computed
-/// again. The same bytes for any number of threads. On interruption what was finished stays in the curve.
+/// Computes candidates in parallel and keeps the curve ascending; offsets that are there already are not
+/// computed again. The same bytes for any number of threads. On interruption what was finished stays in the
+/// curve.
 class Curve {
  public:
   explicit Curve(Candidate candidate) : candidate_(std::move(candidate)) {}
@@ -50,9 +51,9 @@ using CurveValue = std::optional<double> CurvePoint::*;
 std::size_t index_of_least(const std::vector<CurvePoint>& curve, CurveValue value);
 std::size_t index_of_greatest(const std::vector<CurvePoint>& curve, CurveValue value);
 
-/// The extremum of the parabola fitted to the contiguous present values within `reach_s` of point `best` (the authors'
-/// 2018 follow-up), with the value of the point nearest to it. The grid point itself where they are fewer than 5, or the parabola bends the wrong way or has its
-/// extremum outside them.
+/// The extremum of the parabola fitted to the contiguous present values within `reach_s` of point `best` (the
+/// authors' 2018 follow-up), with the value of the point nearest to it. The grid point itself where they are
+/// fewer than 5, or the parabola bends the wrong way or has its extremum outside them.
 CriterionOptimum fitted_extremum(const std::vector<CurvePoint>& curve, CurveValue value, std::size_t best,
                                  double reach_s);
 

@@ -7,16 +7,16 @@
 
 namespace sweepscope {
 
-/// What was computed at one candidate offset. A value is absent where the method has no such criterion or where
-/// the registration failed; a candidate that failed never wins.
+/// What was computed at one candidate offset. A value is absent where the method has no such criterion or
+/// where the registration failed; a candidate that failed never wins.
 struct CurvePoint {
   double offset_s = 0;
-  std::optional<double> d;                     // equation 3, mean over the pairs of sweeps
-  std::optional<double> translation_m;         // equation 1, likewise
-  std::optional<double> rotation_rad;          // equation 2, likewise
-  std::optional<double> signed_rotation_rad;   // about the motor's axis, alternating in sign; 0 at the offset
-  std::optional<double> n;                     // equation 6, matches
-  std::optional<double> e_m;                   // equation 7, mean distance per match
+  std::optional<double> d;                    // equation 3, mean over the pairs of sweeps
+  std::optional<double> translation_m;        // equation 1, likewise
+  std::optional<double> rotation_rad;         // equation 2, likewise
+  std::optional<double> signed_rotation_rad;  // about the motor's axis, alternating in sign; 0 at the offset
+  std::optional<double> n;                    // equation 6, matches
+  std::optional<double> e_m;                  // equation 7, mean distance per match
 };
 
 /// Where one criterion has its extremum, and its value there.

@@ -15,9 +15,13 @@
 namespace sweepscope {
 namespace {
 
-double cpu_now_s() { return double(std::clock()) / CLOCKS_PER_SEC; }
+double cpu_now_s() {
+  return double(std::clock()) / CLOCKS_PER_SEC;
+}
 
-double rounded_to(double value, double step) { return std::round(value / step) * step; }
+double rounded_to(double value, double step) {
+  return std::round(value / step) * step;
+}
 
 // One estimate on its way: what it works on and what it has found so far.
 class Search {
@@ -68,14 +72,16 @@ class Search {
     auto problem = prepare_problem(*problem_.recording, least_s, greatest_s, options_.features, job_);
     if (!problem) return false;
     problem_ = std::move(*problem);
+    odometry_ = for_lines(options_.odometry, problem_.line_spacing_rad);
     const std::vector<PlacedSweep> placed = place_sweeps(problem_, (least_s + greatest_s) / 2);
     result_.sweeps = placed.size();
     for (const PlacedSweep& sweep : placed) result_.scans += sweep.scans;
     if (result_.sweeps < 2) {
-      result_.reasons.push_back("Fewer than two sweeps have both scans and motor samples at every offset searched.");
+      result_.reasons.push_back(
+          "Fewer than two sweeps have both scans and motor samples at every offset searched.");
       return true;
     }
-    choose_method(test_motion(placed, problem_.motor, options_.odometry));
+    choose_method(test_motion(placed, problem_.motor, odometry_));
     return !job_.cancelled();
   }
 
@@ -86,31 +92,34 @@ class Search {
     } else if (test.answered()) {
       kind = test.moving() ? Method::kMoving : Method::kStationary;
     } else if (!options_.method) {
-      result_.warnings.push_back("Too short to tell whether the rig stood still: it is taken to have stood still.");
+      result_.warnings.push_back(
+          "Too short to tell whether the rig stood still: it is taken to have stood still.");
     }
     method_ = options_.method.value_or(kind);
     result_.method = moving() ? "moving" : "stationary";
     if (!moving() && kind == Method::kMoving)
-      result_.reasons.push_back(fmt::format(
-          "The rig moved: {} of {} pairs of sweeps of the same direction do not fall on each other. Use --method moving, "
-          "or --assume stationary if it did stand still.",
-          test.moved, test.pairs));
+      result_.reasons.push_back(
+          fmt::format("The rig moved: {} of {} pairs of sweeps of the same direction do not fall on each "
+                      "other. Use --method moving, "
+                      "or --assume stationary if it did stand still.",
+                      test.moved, test.pairs));
     const std::size_t least_sweeps = std::size_t(options_.mapping.settling_sweeps) + 12;
     if (moving() && result_.sweeps < least_sweeps)
-      result_.reasons.push_back(fmt::format("The recording is too short for a moving rig: {} sweeps, at least {} are "
-                                            "needed, and 40 s of walking for a good answer.",
-                                            result_.sweeps, least_sweeps));
+      result_.reasons.push_back(
+          fmt::format("The recording is too short for a moving rig: {} sweeps, at least {} are "
+                      "needed, and 40 s of walking for a good answer.",
+                      result_.sweeps, least_sweeps));
   }
 
   CurvePoint candidate(double offset_s, const Job& job) const {
     return moving() ? moving_candidate(problem_, offset_s, options_.scoring, options_.mapping, job)
-                    : stationary_candidate(problem_, offset_s, pairs_, options_.weight_c, options_.odometry);
+                    : stationary_candidate(problem_, offset_s, pairs_, options_.weight_c, odometry_);
   }
 
   // The pairs that can be registered at all, decided once: every candidate must answer for the same ones.
   void choose_pairs(double offset_s) {
     pairs_.clear();
-    for (const PairMotion& motion : pair_motions(problem_, offset_s, options_.odometry))
+    for (const PairMotion& motion : pair_motions(problem_, offset_s, odometry_))
       if (motion.succeeded) pairs_.push_back(motion.sweep);
   }
 
@@ -119,7 +128,8 @@ class Search {
     return curve.compute(offsets_s, job_);
   }
 
-  // Coarse over the whole window, then steps of a unit about the valley, then tenths of a unit about its ground.
+  // Coarse over the whole window, then steps of a unit about the valley, then tenths of a unit about its
+  // ground.
   bool coarse_to_fine(Curve& curve, const std::vector<double>& window_s) {
     double centre_s = moving() ? coarse_moving(window_s) : coarse_stationary(window_s);
     if (job_.cancelled()) return false;
@@ -128,7 +138,8 @@ class Search {
     for (int move = 0; move < kMostMoves; ++move) {
       centre_s = rounded_to(centre_s, scale_.unit_s);
       const double from_s = std::max(centre_s - 5 * scale_.unit_s, -scale_.most_half_width_s);
-      if (!curve.compute(offsets_of({{from_s, from_s + 10 * scale_.unit_s, scale_.unit_s}}), job_)) return false;
+      if (!curve.compute(offsets_of({{from_s, from_s + 10 * scale_.unit_s, scale_.unit_s}}), job_))
+        return false;
       const std::size_t best = index_of_least(curve.points(), decisive());
       if (best == curve.points().size()) return true;
       centre_s = curve.points()[best].offset_s;
@@ -141,11 +152,12 @@ class Search {
   double coarse_stationary(const std::vector<double>& window_s) const {
     constexpr double kCap_m = 0.2;
     return least_cost_offset(window_s, 4 * scale_.unit_s, [&](double offset_s) {
-      return stationary_coarse_cost_m(problem_, offset_s, options_.odometry, kCap_m);
+      return stationary_coarse_cost_m(problem_, offset_s, odometry_, kCap_m);
     });
   }
 
-  // On the first sweeps only; then Newton's steps on the signed alternating roll, which is linear in the offset.
+  // On the first sweeps only; then Newton's steps on the signed alternating roll, which is linear in the
+  // offset.
   double coarse_moving(const std::vector<double>& window_s) const {
     constexpr std::size_t kSweeps = 40;
     OffsetProblem part = problem_;
@@ -160,7 +172,8 @@ class Search {
           moving_candidate(part, offset_s, Scoring::kTwoStage, options_.mapping, Job::part_of(job_));
       if (!point.signed_rotation_rad) break;
       const double most_s = 10 * scale_.unit_s;
-      offset_s -= std::clamp(*point.signed_rotation_rad / (2 * problem_.motor.median_speed_rad_s), -most_s, most_s);
+      offset_s -=
+          std::clamp(*point.signed_rotation_rad / (2 * problem_.motor.median_speed_rad_s), -most_s, most_s);
       offset_s = std::clamp(offset_s, window_s.front(), window_s.back());
     }
     return offset_s;
@@ -184,8 +197,9 @@ class Search {
   void conclude() {
     const std::size_t best = index_of_least(result_.curve, decisive());
     if (best == result_.curve.size()) {
-      result_.reasons.push_back(moving() ? "LOAM lost track at every candidate offset."
-                                         : "The sweeps could not be registered to each other at any candidate offset.");
+      result_.reasons.push_back(
+          moving() ? "LOAM lost track at every candidate offset."
+                   : "The sweeps could not be registered to each other at any candidate offset.");
       return;
     }
     // A slow motor leaves d so flat that the least of many candidates is chance.
@@ -199,17 +213,20 @@ class Search {
       compare_criteria(greatest.offset_s, least.offset_s);
     }
     if (result_.curve.size() > 2 && (best == 0 || best + 1 == result_.curve.size()))
-      result_.reasons.push_back(fmt::format("The least {} lies on the edge of the searched range, at {:.1f} ms: the offset "
-                                            "lies beyond it, or nowhere.",
-                                            moving() ? "e" : "d", least.offset_s * 1e3));
+      result_.reasons.push_back(
+          fmt::format("The least {} lies on the edge of the searched range, at {:.1f} ms: the offset "
+                      "lies beyond it, or nowhere.",
+                      moving() ? "e" : "d", least.offset_s * 1e3));
     judge_lever();
     if (!moving()) judge_standing(best);
     result_.identifiable = result_.reasons.empty();
     if (!result_.identifiable) return;
     result_.offset_s = least.offset_s;
     if (!moving()) result_.sigma_s = sigma_of_pairs(least.offset_s);
-    if (moving() && (problem_.recording->scans.back().first_beam_s - problem_.recording->scans.front().first_beam_s) < 20)
-      result_.warnings.push_back("Less than 20 s of walking: the answer may be off by several tenths of a millisecond.");
+    if (moving() &&
+        (problem_.recording->scans.back().first_beam_s - problem_.recording->scans.front().first_beam_s) < 20)
+      result_.warnings.push_back(
+          "Less than 20 s of walking: the answer may be off by several tenths of a millisecond.");
   }
 
   CriterionOptimum named(const char* name, CurveValue value, std::size_t best, double reach_s) {
@@ -221,15 +238,18 @@ class Search {
 
   void compare_criteria(double n_offset_s, double e_offset_s) {
     const double apart_s = std::abs(n_offset_s - e_offset_s);
-    const std::string text = fmt::format("The two criteria disagree: n is greatest at {:.2f} ms, e is least at {:.2f} ms.",
-                                         n_offset_s * 1e3, e_offset_s * 1e3);
+    const std::string text =
+        fmt::format("The two criteria disagree: n is greatest at {:.2f} ms, e is least at {:.2f} ms.",
+                    n_offset_s * 1e3, e_offset_s * 1e3);
     // n's curve is flat: only tracking on LOAM's own poses may leave it undecided.
-    if (apart_s > 3 * scale_.unit_s) result_.reasons.push_back(text);
-    else if (apart_s > scale_.unit_s) result_.warnings.push_back(text);
+    if (apart_s > 3 * scale_.unit_s)
+      result_.reasons.push_back(text);
+    else if (apart_s > scale_.unit_s)
+      result_.warnings.push_back(text);
   }
 
-  // A wrong offset must turn the sweeps against each other by twice the motor's speed times the error. Where it does
-  // not, nothing in the scene tells the motor's angle.
+  // A wrong offset must turn the sweeps against each other by twice the motor's speed times the error. Where
+  // it does not, nothing in the scene tells the motor's angle.
   void judge_lever() {
     double sx = 0, sy = 0, sxx = 0, sxy = 0, n = 0;
     for (const CurvePoint& point : result_.curve) {
@@ -241,21 +261,23 @@ class Search {
     if (n < 3 || !(spread > 0)) return;
     const double slope = (sxy - sx * sy / n) / spread / (2 * problem_.motor.median_speed_rad_s);
     if (slope < 0.3)
-      result_.reasons.push_back(fmt::format("The scene gives no lever: turning the motor's angle by 1 deg turns the "
-                                            "registered sweeps by {:.2f} deg only.",
-                                            slope));
+      result_.reasons.push_back(
+          fmt::format("The scene gives no lever: turning the motor's angle by 1 deg turns the "
+                      "registered sweeps by {:.2f} deg only.",
+                      slope));
   }
 
   void judge_standing(std::size_t best) {
     constexpr double kMostTranslation_m = 0.15;
     if (*result_.curve[best].translation_m > kMostTranslation_m)
-      result_.reasons.push_back(fmt::format("The rig moved: at the best offset the sweeps still lie {:.2f} m apart.",
-                                            *result_.curve[best].translation_m));
+      result_.reasons.push_back(
+          fmt::format("The rig moved: at the best offset the sweeps still lie {:.2f} m apart.",
+                      *result_.curve[best].translation_m));
   }
 
   std::optional<double> sigma_of_pairs(double offset_s) const {
     std::vector<double> errors_s;
-    for (const PairMotion& motion : pair_motions(problem_, offset_s, options_.odometry))
+    for (const PairMotion& motion : pair_motions(problem_, offset_s, odometry_))
       if (std::find(pairs_.begin(), pairs_.end(), motion.sweep) != pairs_.end())
         errors_s.push_back(motion.signed_rotation_rad / (2 * problem_.motor.median_speed_rad_s));
     const double n = static_cast<double>(errors_s.size());
@@ -269,6 +291,7 @@ class Search {
   const EstimateOptions& options_;
   const Job& job_;
   OffsetProblem problem_;
+  OdometryOptions odometry_;
   SearchScale scale_;
   Method method_ = Method::kStationary;
   std::vector<std::size_t> pairs_;

@@ -19,21 +19,22 @@ enum class Scoring { kTwoStage, kLoam };
 
 /// How an offset is looked for. What is left empty is decided from the recording.
 struct EstimateOptions {
-  std::optional<Method> method;            // none: what the motion test says
-  std::optional<Method> assume;            // the kind of recording, instead of the motion test
-  std::vector<OffsetRange> ranges;         // none, and no `around`: coarse to fine over the default window
+  std::optional<Method> method;     // none: what the motion test says
+  std::optional<Method> assume;     // the kind of recording, instead of the motion test
+  std::vector<OffsetRange> ranges;  // none, and no `around`: coarse to fine over the default window
   std::optional<OffsetsAround> around;
-  std::optional<Fit> fit;                  // none: a parabola for moving and for slow motors, else the least candidate
+  std::optional<Fit> fit;  // none: a parabola for moving and for slow motors, else the least candidate
   Scoring scoring = Scoring::kTwoStage;
-  double weight_c = 1.0;                   // c of equation 3
+  double weight_c = 1.0;  // c of equation 3
   FeatureOptions features;
   OdometryOptions odometry;
   MappingOptions mapping;
 };
 
-/// Finds the offset between laser and motor, t_motor = t_laser + offset, by the paper's methods: `stationary` (section
-/// 3.2) or `moving` (section 3.3). A recording that cannot answer gives an Estimate with identifiable false and the
-/// reasons. Errors: ExitCode::kWrongUsage for a range wider than the motor allows or without a candidate.
+/// Finds the offset between laser and motor, t_motor = t_laser + offset, by the paper's methods: `stationary`
+/// (section 3.2) or `moving` (section 3.3). A recording that cannot answer gives an Estimate with
+/// identifiable false and the reasons. Errors: ExitCode::kWrongUsage for a range wider than the motor allows
+/// or without a candidate.
 ///
 /// On interruption the Estimate says so in `interrupted` and holds the candidates that were finished.
 Result<Estimate> estimate(const Recording& recording, const EstimateOptions& options, const Job& job);

@@ -8,7 +8,8 @@ namespace sweepscope {
 namespace {
 
 constexpr std::size_t kMostPairs = 16;
-constexpr double kStillTranslation_m = 0.04;  // what noise of 30 mm leaves of a rig that stands still is half of this
+constexpr double kStillTranslation_m =
+    0.04;  // what noise of 30 mm leaves of a rig that stands still is half of this
 constexpr double kStillRotation_rad = 0.02;
 
 double median(std::vector<double> values) {
@@ -24,7 +25,8 @@ MotionTest test_motion(const std::vector<PlacedSweep>& sweeps, const MotorMotion
   std::vector<std::size_t> candidates;
   const auto whole = [&](const PlacedSweep& s) { return s.end_s - s.begin_s > 0.7 * motor.median_sweep_s; };
   for (std::size_t k = 0; k + 2 < sweeps.size(); ++k)
-    if (sweeps[k + 2].sweep == sweeps[k].sweep + 2 && whole(sweeps[k]) && whole(sweeps[k + 2])) candidates.push_back(k);
+    if (sweeps[k + 2].sweep == sweeps[k].sweep + 2 && whole(sweeps[k]) && whole(sweeps[k + 2]))
+      candidates.push_back(k);
   MotionTest test;
   std::vector<double> translations_m, rotations_rad;
   const std::size_t stride = std::max<std::size_t>(1, candidates.size() / kMostPairs);
@@ -35,7 +37,8 @@ MotionTest test_motion(const std::vector<PlacedSweep>& sweeps, const MotorMotion
     const double rotation_rad = vector_from_rotation(found.target_from_source.rotation).norm();
     if (found.features < std::size_t(options.least_matches)) continue;  // too little to see for either answer
     ++test.pairs;
-    if (!found.succeeded || translation_m > kStillTranslation_m || rotation_rad > kStillRotation_rad) ++test.moved;
+    if (!found.succeeded || translation_m > kStillTranslation_m || rotation_rad > kStillRotation_rad)
+      ++test.moved;
     if (!found.succeeded) continue;
     translations_m.push_back(translation_m);
     rotations_rad.push_back(rotation_rad);
@@ -48,7 +51,7 @@ MotionTest test_motion(const std::vector<PlacedSweep>& sweeps, const MotorMotion
 Result<MotionTest> test_motion(const Recording& recording, const Job& job) {
   const auto problem = prepare_problem(recording, 0, 0, {}, job);
   if (!problem) return tl::unexpected(problem.error());
-  return test_motion(place_sweeps(*problem, 0), problem->motor, {});
+  return test_motion(place_sweeps(*problem, 0), problem->motor, for_lines({}, problem->line_spacing_rad));
 }
 
 }  // namespace sweepscope

@@ -6,11 +6,11 @@
 
 namespace sweepscope {
 
-/// Whether the rig stood still. A wrong offset turns all sweeps of one direction alike, so sweeps of the same direction
-/// (k and k + 2) fall on each other wherever nothing moved, whatever the offset.
+/// Whether the rig stood still. A wrong offset turns all sweeps of one direction alike, so sweeps of the same
+/// direction (k and k + 2) fall on each other wherever nothing moved, whatever the offset.
 struct MotionTest {
-  std::size_t pairs = 0;        // compared; 0: the recording has no two whole sweeps of one direction
-  std::size_t moved = 0;        // pairs that moved, or that could not be registered at all
+  std::size_t pairs = 0;  // compared; 0: the recording has no two whole sweeps of one direction
+  std::size_t moved = 0;  // pairs that moved, or that could not be registered at all
   double median_translation_m = 0;
   double median_rotation_rad = 0;
 

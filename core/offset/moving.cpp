@@ -9,7 +9,8 @@ CurvePoint moving_candidate(const OffsetProblem& problem, double offset_s, Scori
   const Eigen::Vector3d axis = problem.recording->rig.mount.axis.normalized();
   const std::vector<PlacedSweep> sweeps = place_sweeps(problem, offset_s);
   MappingOptions tracking = options;
-  // Poses that may jump at the reversals take the wrong offset up, and the map looks sharp at any: LOAM's own do not.
+  // Poses that may jump at the reversals take the wrong offset up, and the map looks sharp at any: LOAM's own
+  // do not.
   tracking.expects_jump = scoring != Scoring::kLoam;
   const auto walk = track(sweeps, axis, tracking, job);
   if (!walk || walk->lost) return point;

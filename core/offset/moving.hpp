@@ -6,14 +6,14 @@
 
 namespace sweepscope {
 
-/// The paper's criteria of section 3.3 at a candidate offset: n (equation 6) and e (equation 7), and the signed
-/// alternating roll. With Scoring::kTwoStage they are counted after the roll is taken out of the trajectory; with
-/// kLoam at LOAM's own converged poses. All absent where track was lost.
+/// The paper's criteria of section 3.3 at a candidate offset: n (equation 6) and e (equation 7), and the
+/// signed alternating roll. With Scoring::kTwoStage they are counted after the roll is taken out of the
+/// trajectory; with kLoam at LOAM's own converged poses. All absent where track was lost.
 CurvePoint moving_candidate(const OffsetProblem& problem, double offset_s, Scoring scoring,
                             const MappingOptions& options, const Job& job);
 
-/// A cost for the coarse search: after the alternating roll is taken out, the mean distance of a fixed set of features
-/// from the map of the other direction, in which a miss pays the cap.
+/// A cost for the coarse search: after the alternating roll is taken out, the mean distance of a fixed set of
+/// features from the map of the other direction, in which a miss pays the cap.
 double moving_coarse_cost_m(const OffsetProblem& problem, double offset_s, const MappingOptions& options,
                             const Job& job);
 

@@ -23,7 +23,8 @@ double median_spacing_s(const std::vector<double>& times_s) {
   std::vector<double> spacings_s;
   for (std::size_t i = 1; i < times_s.size(); ++i) spacings_s.push_back(times_s[i] - times_s[i - 1]);
   if (spacings_s.empty()) return 0.0;
-  std::nth_element(spacings_s.begin(), spacings_s.begin() + std::ptrdiff_t(spacings_s.size() / 2), spacings_s.end());
+  std::nth_element(spacings_s.begin(), spacings_s.begin() + std::ptrdiff_t(spacings_s.size() / 2),
+                   spacings_s.end());
   return spacings_s[spacings_s.size() / 2];
 }
 
@@ -33,11 +34,13 @@ SearchScale search_scale(const MotorMotion& motor) {
   SearchScale scale;
   scale.most_half_width_s = motor.median_sweep_s / 2;
   scale.unit_s = rounded_up(std::max(1e-3, 0.36 * kDegree / motor.median_speed_rad_s));
-  scale.half_width_s = std::min(scale.most_half_width_s, std::max(0.060, 5 * kDegree / motor.median_speed_rad_s));
+  scale.half_width_s =
+      std::min(scale.most_half_width_s, std::max(0.060, 5 * kDegree / motor.median_speed_rad_s));
   return scale;
 }
 
-Result<std::vector<double>> checked_offsets(const std::vector<OffsetRange>& ranges, const SearchScale& scale) {
+Result<std::vector<double>> checked_offsets(const std::vector<OffsetRange>& ranges,
+                                            const SearchScale& scale) {
   for (const OffsetRange& range : ranges)
     if (!(range.step_s > 0) || !(range.from_s <= range.to_s))
       return failure(ExitCode::kWrongUsage, "A range of offsets needs FROM <= TO and a STEP above 0.");
@@ -49,21 +52,25 @@ Result<std::vector<double>> checked_offsets(const std::vector<OffsetRange>& rang
   if (offsets_s.empty()) return failure(ExitCode::kWrongUsage, "The ranges hold no candidate offset.");
   const double half_width_s = (offsets_s.back() - offsets_s.front()) / 2;
   if (half_width_s > scale.most_half_width_s + 1e-9)
-    return failure(ExitCode::kWrongUsage,
-                   fmt::format("The range of offsets is {:.1f} ms to either side of its middle; this motor allows {:.1f} ms, "
-                               "a quarter of its period: an offset wrong by one sweep gives a perfect mirror image.",
-                               half_width_s * 1e3, scale.most_half_width_s * 1e3));
+    return failure(
+        ExitCode::kWrongUsage,
+        fmt::format(
+            "The range of offsets is {:.1f} ms to either side of its middle; this motor allows {:.1f} ms, "
+            "a quarter of its period: an offset wrong by one sweep gives a perfect mirror image.",
+            half_width_s * 1e3, scale.most_half_width_s * 1e3));
   return offsets_s;
 }
 
 std::vector<std::string> motor_reasons(const MotorTrack& track, const MotorMotion& motor) {
   if (track.time_s.size() < 3) return {fmt::format("The motor has {} samples only.", track.time_s.size())};
   if (motor.sweeps.empty())
-    return {fmt::format("The motor does not move: its angle stays within {:.2f} deg.", motor.range_rad / kDegree)};
+    return {fmt::format("The motor does not move: its angle stays within {:.2f} deg.",
+                        motor.range_rad / kDegree)};
   if (motor.sweeps.size() < 2)
-    return {fmt::format("The motor turns one way only ({:.0f} deg in {:.1f} s): an offset cannot be told from the "
-                        "encoder's zero.",
-                        motor.range_rad / kDegree, track.time_s.back() - track.time_s.front())};
+    return {fmt::format(
+        "The motor turns one way only ({:.0f} deg in {:.1f} s): an offset cannot be told from the "
+        "encoder's zero.",
+        motor.range_rad / kDegree, track.time_s.back() - track.time_s.front())};
   return {};
 }
 
@@ -85,6 +92,9 @@ Result<OffsetProblem> prepare_problem(const Recording& recording, double least_s
   problem.features = std::make_shared<const FeatureSet>(std::move(*features));
   problem.motor = find_sweeps(recording.motor);
   problem.scan_used = scans_covered(recording, least_s, greatest_s);
+  std::vector<double> stamps_s;
+  for (const LaserScan& scan : recording.scans) stamps_s.push_back(scan.first_beam_s);
+  problem.line_spacing_rad = problem.motor.median_speed_rad_s * median_spacing_s(stamps_s);
   return problem;
 }
 

@@ -14,7 +14,8 @@ bool form_pair(const PlacedSweep& first, const PlacedSweep& second, const MotorM
 
 }  // namespace
 
-std::vector<PairMotion> pair_motions(const OffsetProblem& problem, double offset_s, const OdometryOptions& options) {
+std::vector<PairMotion> pair_motions(const OffsetProblem& problem, double offset_s,
+                                     const OdometryOptions& options) {
   const std::vector<PlacedSweep> sweeps = place_sweeps(problem, offset_s);
   const Eigen::Vector3d axis = problem.recording->rig.mount.axis.normalized();
   std::vector<PairMotion> motions;
@@ -29,8 +30,9 @@ std::vector<PairMotion> pair_motions(const OffsetProblem& problem, double offset
   return motions;
 }
 
-CurvePoint stationary_candidate(const OffsetProblem& problem, double offset_s, const std::vector<std::size_t>& pairs,
-                                double weight_c, const OdometryOptions& options) {
+CurvePoint stationary_candidate(const OffsetProblem& problem, double offset_s,
+                                const std::vector<std::size_t>& pairs, double weight_c,
+                                const OdometryOptions& options) {
   CurvePoint point;
   point.offset_s = offset_s;
   double d = 0, translation_m = 0, rotation_rad = 0, signed_rotation_rad = 0;
@@ -39,7 +41,8 @@ CurvePoint stationary_candidate(const OffsetProblem& problem, double offset_s, c
     if (std::find(pairs.begin(), pairs.end(), motion.sweep) == pairs.end()) continue;
     if (!motion.succeeded) return point;
     ++count;
-    d += std::sqrt(motion.translation_m * motion.translation_m + weight_c * motion.rotation_rad * motion.rotation_rad);
+    d += std::sqrt(motion.translation_m * motion.translation_m +
+                   weight_c * motion.rotation_rad * motion.rotation_rad);
     translation_m += motion.translation_m;
     rotation_rad += motion.rotation_rad;
     signed_rotation_rad += motion.signed_rotation_rad;
@@ -66,8 +69,8 @@ double stationary_coarse_cost_m(const OffsetProblem& problem, double offset_s, c
       if (!feature.sharp) continue;
       const int level = map.planes.level_for(
           std::max(options.search_radius_m, options.search_radius_slope * feature.range_m));
-      map.planes.nearest(feature.p_in_base_m.cast<float>(), level, SweepFilter::kAny, options.patch.plane_neighbours,
-                         options.patch.per_line, near);
+      map.planes.nearest(feature.p_in_base_m.cast<float>(), level, SweepFilter::kAny,
+                         options.patch.plane_neighbours, options.patch.per_line, near);
       const auto plane = fit_plane(near, options.patch, map.planes.search_radius_m(level));
       const double distance_m =
           plane ? std::abs((feature.p_in_base_m - plane->centre_m).dot(plane->normal)) : cap_m;

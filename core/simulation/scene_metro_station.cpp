@@ -75,9 +75,11 @@ void add_ceiling(Mesh& hall) {
   }
   for (double x = -12; x <= 12; x += 4)
     hall.add_box({x - 0.2, -kWall_m, kCeiling_m - 0.55}, {x + 0.2, kWall_m, kCeiling_m}, 0.7);
-  for (const double y : {-5.0, 5.0}) hall.add_box({-16, y - 0.15, kCeiling_m - 0.45}, {16, y + 0.15, kCeiling_m}, 0.7);
+  for (const double y : {-5.0, 5.0})
+    hall.add_box({-16, y - 0.15, kCeiling_m - 0.45}, {16, y + 0.15, kCeiling_m}, 0.7);
   for (double x = -10; x <= 10; x += 4)
-    for (const double y : {-2.5, 2.5}) hall.add_box({x - 0.7, y - 0.1, kCeiling_m - 0.9}, {x + 0.7, y + 0.1, kCeiling_m - 0.8}, 0.95);
+    for (const double y : {-2.5, 2.5})
+      hall.add_box({x - 0.7, y - 0.1, kCeiling_m - 0.9}, {x + 0.7, y + 0.1, kCeiling_m - 0.8}, 0.95);
 }
 
 void add_furniture(Mesh& hall) {

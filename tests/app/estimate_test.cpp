@@ -48,7 +48,8 @@ TEST_F(EstimateCommand, GivesTheSameBytesForAnyNumberOfThreads) {
 
 TEST_F(EstimateCommand, SearchesAsThePaperDid) {
   simulate("room-3 -o room.bag --offset-ms 24");
-  const Outcome outcome = run("estimate room.bag --method stationary --range 19:29:1 --range 22:26:0.1 --json -");
+  const Outcome outcome =
+      run("estimate room.bag --method stationary --range 19:29:1 --range 22:26:0.1 --json -");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const Json json = Json::parse(outcome.out);
   EXPECT_EQ(json["curve"].size(), 47U) << "11 + 41 candidates, of which 5 are the same";
