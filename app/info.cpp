@@ -6,6 +6,7 @@
 #include "app/commands.hpp"
 #include "app/progress.hpp"
 #include "app/recording_options.hpp"
+#include "core/offset/motion_test.hpp"
 #include "core/recording/inspect.hpp"
 
 namespace sweepscope::app {
@@ -171,16 +172,21 @@ std::string as_text(const RecordingSummary& summary) {
 }
 
 ExitCode run(const RecordingOptions& options, const std::string& json) {
-  Result<Recording> recording = [&] {
+  Result<RecordingSummary> summary = [&]() -> Result<RecordingSummary> {
     const Progress progress;
-    return options.read(progress.job());
+    const auto recording = options.read(progress.job());
+    if (!recording) return tl::unexpected(recording.error());
+    RecordingSummary found = inspect(*recording);
+    const auto motion = test_motion(*recording, progress.job());
+    if (!motion) return tl::unexpected(motion.error());
+    if (motion->answered()) found.motion = motion->moving() ? "moving" : "stationary";
+    return found;
   }();
-  if (!recording) return fail(recording.error());
-  print_warnings(*recording);
-  const RecordingSummary summary = inspect(*recording);
-  if (json != "-") fmt::print("{}", printable(as_text(summary)));
+  if (!summary) return fail(summary.error());
+  for (const std::string& warning : summary->warnings) fmt::print(stderr, "warning: {}: {}\n", summary->name, warning);
+  if (json != "-") fmt::print("{}", printable(as_text(*summary)));
   if (json.empty()) return ExitCode::kDone;
-  const auto written = write_text(json, as_json(summary));
+  const auto written = write_text(json, as_json(*summary));
   return written ? ExitCode::kDone : fail(written.error());
 }
 

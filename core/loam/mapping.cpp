@@ -208,6 +208,7 @@ class Tracker {
   }
 
   void learn_jump(const SweepPose& pose) {
+    if (!options_.expects_jump) return;
     const Eigen::Quaterniond jump = walk_.sweeps.back().end.rotation.conjugate() * pose.begin.rotation;
     const double jump_rad = pose.direction * motor_axis_.dot(vector_from_rotation(jump));
     ++jumps_;
@@ -233,6 +234,12 @@ class Tracker {
     if (walk_.sweeps.size() >= std::size_t(options_.settling_sweeps)) walk_.count += count;
   }
 
+  double tie_sigma() const {
+    if (!options_.expects_jump) return options_.continuous_tie_sigma;
+    constexpr int kUnknownJumps = 4;
+    return jumps_ < kUnknownJumps ? options_.first_tie_sigma : options_.tie_sigma;
+  }
+
   Vector12d step_of(const SweepEquations& equations, const SweepPose& last, const SweepPose& pose,
                     const Eigen::Vector3d& pivot_m) const {
     Matrix12d a = equations.matrix();
@@ -240,7 +247,7 @@ class Tracker {
     Tie joint;
     joint.moves(0, pose.begin, pivot_m, 1);
     joint.residual = difference(pose.begin, joined_to(last, pose.direction));
-    joint.add_to(a, g, jumps_ < 4 ? options_.first_tie_sigma : options_.tie_sigma);
+    joint.add_to(a, g, tie_sigma());
     Tie steady;
     steady.moves(1, pose.end, pivot_m, 1);
     steady.moves(0, pose.begin, pivot_m, -1);

@@ -19,6 +19,8 @@ struct MappingOptions {
   double match_sigma_m = 0.05;         // of a match, against the ties below: its neighbours err together
   double tie_sigma = 0.03;             // rad and m: a sweep's begin to the previous sweep's end ...
   double first_tie_sigma = 0.3;        // ... and at first, when the jump at a reversal is not known yet
+  bool expects_jump = true;            // learn the jump; else a sweep begins where the last one ended, as in LOAM ...
+  double continuous_tie_sigma = 0.005; // ... rad and m, to within this
   double jump_gain = 0.05;             // of a new jump in the mean of all
   double twist_change_sigma = 0.08;    // rad and m per sweep: how freely the motion changes
   int most_iterations = 6;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/offset/search_window.hpp"
+
 namespace sweepscope {
 namespace {
 
@@ -31,6 +33,7 @@ MotionTest test_motion(const std::vector<PlacedSweep>& sweeps, const MotorMotion
     const Registration found = register_rigidly(map_of(sweeps[k]), sweeps[k + 2], options);
     const double translation_m = found.target_from_source.translation_m.norm();
     const double rotation_rad = vector_from_rotation(found.target_from_source.rotation).norm();
+    if (found.features < std::size_t(options.least_matches)) continue;  // too little to see for either answer
     ++test.pairs;
     if (!found.succeeded || translation_m > kStillTranslation_m || rotation_rad > kStillRotation_rad) ++test.moved;
     if (!found.succeeded) continue;
@@ -40,6 +43,12 @@ MotionTest test_motion(const std::vector<PlacedSweep>& sweeps, const MotorMotion
   test.median_translation_m = median(translations_m);
   test.median_rotation_rad = median(rotations_rad);
   return test;
+}
+
+Result<MotionTest> test_motion(const Recording& recording, const Job& job) {
+  const auto problem = prepare_problem(recording, 0, 0, {}, job);
+  if (!problem) return tl::unexpected(problem.error());
+  return test_motion(place_sweeps(*problem, 0), problem->motor, {});
 }
 
 }  // namespace sweepscope

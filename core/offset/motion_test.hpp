@@ -22,4 +22,7 @@ struct MotionTest {
 MotionTest test_motion(const std::vector<PlacedSweep>& sweeps, const MotorMotion& motor,
                        const OdometryOptions& options);
 
+/// The same for a recording as it is, with default options. Fails only where the job is cancelled.
+Result<MotionTest> test_motion(const Recording& recording, const Job& job);
+
 }  // namespace sweepscope

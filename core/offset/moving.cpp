@@ -8,7 +8,10 @@ CurvePoint moving_candidate(const OffsetProblem& problem, double offset_s, Scori
   point.offset_s = offset_s;
   const Eigen::Vector3d axis = problem.recording->rig.mount.axis.normalized();
   const std::vector<PlacedSweep> sweeps = place_sweeps(problem, offset_s);
-  const auto walk = track(sweeps, axis, options, job);
+  MappingOptions tracking = options;
+  // Poses that may jump at the reversals take the wrong offset up, and the map looks sharp at any: LOAM's own do not.
+  tracking.expects_jump = scoring != Scoring::kLoam;
+  const auto walk = track(sweeps, axis, tracking, job);
   if (!walk || walk->lost) return point;
   const AlternatingRoll roll = take_out_alternating_roll(walk->sweeps, axis, options.settling_sweeps);
   const MatchCount count =

@@ -92,12 +92,18 @@ INSTANTIATE_TEST_SUITE_P(Paper, Walks,
 TEST(Scenes, TheMetroStationsPillarIsAHexagonOfAMetreOrSo) {
   const Scene scene = metro_station();
   const RayCaster caster(scene.mesh);
-  for (int direction = 0; direction < 12; ++direction) {
-    const SinCos turn = sin_cos(radians(30 * direction));
+  const auto radius_m = [&](int direction_deg) {
+    const SinCos turn = sin_cos(radians(direction_deg));
     const Vector3d inwards(-turn.cos, -turn.sin, 0);
     const auto hit = caster.cast(Vector3d(0, 0, 2.3) - 2.5 * inwards, inwards, 30);
-    ASSERT_TRUE(hit);
-    EXPECT_NEAR(2.5 - hit->range_m, direction % 2 == 0 ? 0.65 : 0.65 * 0.8660254, 1e-6);
+    return hit ? 2.5 - hit->range_m : 0.0;
+  };
+  const double corner_m = radius_m(0);
+  EXPECT_GT(corner_m, 0.4);
+  EXPECT_LT(corner_m, 0.8);
+  for (int corner_deg = 0; corner_deg < 360; corner_deg += 60) {
+    EXPECT_NEAR(radius_m(corner_deg), corner_m, 1e-6);
+    EXPECT_NEAR(radius_m(corner_deg + 30), corner_m * 0.8660254037844386, 1e-6);
   }
 }
 

@@ -1,0 +1,128 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/app/program.hpp"
+
+namespace sweepscope {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+class EstimateCommand : public test::ProgramTest {
+ protected:
+  void simulate(const std::string& arguments) {
+    const Outcome outcome = run("simulate " + arguments);
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  }
+};
+
+TEST_F(EstimateCommand, WritesTheJsonOfTheContract) {
+  simulate("room-1 -o room.bag --offset-ms 7.3 --seed 5");
+  const Outcome outcome = run("estimate room.bag --json -");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const Json json = Json::parse(outcome.out);
+  EXPECT_EQ(json["schema"], "sweepscope.estimate/1");
+  EXPECT_EQ(json["recording"], "room.bag");
+  EXPECT_EQ(json["method"], "stationary");
+  EXPECT_EQ(json["equation"], "t_motor = t_laser + offset");
+  EXPECT_EQ(json["identifiable"], true);
+  EXPECT_NEAR(json["offset_ms"].get<double>(), 7.3, 0.5);
+  EXPECT_GT(json["sigma_ms"].get<double>(), 0);
+  EXPECT_EQ(json["criteria"]["d"]["offset_ms"], json["offset_ms"]);
+  ASSERT_GT(json["curve"].size(), 20U);
+  for (const char* key : {"offset_ms", "d", "translation_m", "rotation_rad", "signed_rotation_rad"})
+    EXPECT_TRUE(json["curve"][0][key].is_number()) << key;
+  EXPECT_TRUE(json["curve"][0]["n"].is_null());
+  EXPECT_TRUE(json["curve"][0]["e_m"].is_null());
+}
+
+TEST_F(EstimateCommand, GivesTheSameBytesForAnyNumberOfThreads) {
+  simulate("room-2 -o room.bag");
+  const std::string search = "estimate room.bag --range 20:28:0.5 --no-timing";
+  ASSERT_EQ(run(search + " --threads 1 --json one.json --csv one.csv").exit_code, 0);
+  ASSERT_EQ(run(search + " --threads 2 --json two.json --csv two.csv").exit_code, 0);
+  EXPECT_EQ(test::contents_of(folder_ / "one.json"), test::contents_of(folder_ / "two.json"));
+  EXPECT_EQ(test::contents_of(folder_ / "one.csv"), test::contents_of(folder_ / "two.csv"));
+}
+
+TEST_F(EstimateCommand, SearchesAsThePaperDid) {
+  simulate("room-3 -o room.bag --offset-ms 24");
+  const Outcome outcome = run("estimate room.bag --method stationary --range 19:29:1 --range 22:26:0.1 --json -");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const Json json = Json::parse(outcome.out);
+  EXPECT_EQ(json["curve"].size(), 47U) << "11 + 41 candidates, of which 5 are the same";
+  EXPECT_NEAR(json["offset_ms"].get<double>(), 24, 0.5);
+  const Outcome around = run("estimate room.bag --method stationary --around 24:0.1:40 --json -");
+  ASSERT_EQ(around.exit_code, 0) << around.err;
+  EXPECT_EQ(Json::parse(around.out)["curve"].size(), 41U);
+}
+
+TEST_F(EstimateCommand, RefusesAStuckMotorAndStillWritesTheJson) {
+  simulate("room-1 -o room.bag --motor stuck");
+  const Outcome outcome = run("estimate room.bag --json refused.json");
+  EXPECT_EQ(outcome.exit_code, 4);
+  EXPECT_NE(outcome.out.find("does not move"), std::string::npos) << outcome.out;
+  const Json json = Json::parse(test::contents_of(folder_ / "refused.json"));
+  EXPECT_EQ(json["identifiable"], false);
+  EXPECT_TRUE(json["offset_ms"].is_null());
+  EXPECT_TRUE(json["sigma_ms"].is_null());
+  EXPECT_FALSE(json["reasons"].empty());
+}
+
+TEST_F(EstimateCommand, RefusesAMotorThatTurnsOneWay) {
+  simulate("room-1 -o room.bag --motor one-way");
+  const Outcome outcome = run("estimate room.bag");
+  EXPECT_EQ(outcome.exit_code, 4);
+  EXPECT_NE(outcome.out.find("one way"), std::string::npos) << outcome.out;
+}
+
+TEST_F(EstimateCommand, RefusesAWalkThatIsSaidToStandStill) {
+  simulate("metro-station -o walk.bag --duration-s 10");
+  const Outcome outcome = run("estimate walk.bag --method stationary");
+  EXPECT_EQ(outcome.exit_code, 4);
+  EXPECT_NE(outcome.out.find("moved"), std::string::npos) << outcome.out;
+}
+
+TEST_F(EstimateCommand, RefusesAnExtremumOnTheEdgeOfTheRange) {
+  simulate("room-1 -o room.bag --offset-ms 24");
+  const Outcome outcome = run("estimate room.bag --range 10:20:1");
+  EXPECT_EQ(outcome.exit_code, 4);
+  EXPECT_NE(outcome.out.find("edge"), std::string::npos) << outcome.out;
+}
+
+TEST_F(EstimateCommand, RefusesWrongUsage) {
+  simulate("room-1 -o room.bag --duration-s 2");
+  EXPECT_EQ(run("estimate room.bag --range 29:19:1").exit_code, 2);
+  EXPECT_EQ(run("estimate room.bag --range 19:29").exit_code, 2);
+  EXPECT_EQ(run("estimate room.bag --around 24:0:4").exit_code, 2);
+  EXPECT_EQ(run("estimate room.bag --method guess").exit_code, 2);
+  EXPECT_EQ(run("estimate").exit_code, 2);
+  const Outcome wide = run("estimate room.bag --range -300:300:1");
+  EXPECT_EQ(wide.exit_code, 2);
+  EXPECT_NE(wide.err.find("mirror image"), std::string::npos) << wide.err;
+}
+
+TEST_F(EstimateCommand, AFileThatIsNotThereIsExit3AndNothingIsWritten) {
+  const Outcome outcome = run("estimate none.bag --json out.json");
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_NE(outcome.err.find("none.bag"), std::string::npos) << outcome.err;
+  EXPECT_FALSE(exists("out.json"));
+}
+
+TEST_F(EstimateCommand, MapAndCompareWorkWithNoDisplay) {
+  simulate("room-4 -o room.bag");
+  const Outcome map = run("map room.bag --offset-ms 24 -o map.pcd --trajectory map.tum");
+  ASSERT_EQ(map.exit_code, 0) << map.err;
+  EXPECT_TRUE(exists("map.pcd"));
+  EXPECT_TRUE(exists("map.tum"));
+  ASSERT_EQ(run("map room.bag --offset-ms 19 -o map.ply").exit_code, 0);
+  const Outcome picture = run("compare room.bag --offsets-ms 19,24 -o out.png --size 960x600", "DISPLAY=:99");
+  ASSERT_EQ(picture.exit_code, 0) << picture.err;
+  EXPECT_GT(std::filesystem::file_size(folder_ / "out.png"), 10'000U);
+  EXPECT_EQ(run("compare room.bag --offsets-ms 19 -o out2.png").exit_code, 2);
+  EXPECT_EQ(run("map room.bag --offset-ms 24 -o map.xyz").exit_code, 2);
+}
+
+}  // namespace
+}  // namespace sweepscope
