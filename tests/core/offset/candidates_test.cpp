@@ -1,0 +1,183 @@
+#include "core/offset/candidates.hpp"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <atomic>
+#include <cmath>
+
+namespace sweepscope {
+namespace {
+
+constexpr double kMs = 1e-3;
+
+std::vector<double> in_ms(const std::vector<OffsetRange>& ranges) {
+  std::vector<double> offsets_ms;
+  for (const double offset_s : offsets_of(ranges)) offsets_ms.push_back(offset_s * 1e3);
+  return offsets_ms;
+}
+
+TEST(Candidates, ARangeHoldsBothItsEnds) {
+  const std::vector<double> offsets_ms = in_ms({{19 * kMs, 29 * kMs, 1 * kMs}});
+  ASSERT_EQ(offsets_ms.size(), 11u);
+  for (int i = 0; i <= 10; ++i) EXPECT_NEAR(offsets_ms[std::size_t(i)], 19 + i, 1e-9);
+}
+
+TEST(Candidates, AnEndThatNoStepFallsOnIsNotReached) {
+  EXPECT_EQ(in_ms({{0, 1 * kMs, 0.3 * kMs}}).size(), 4u);
+}
+
+// The paper's: 11 and 41 candidates, of which 22, 23, 24, 25 and 26 ms are in both.
+TEST(Candidates, EachDistinctOffsetOfSeveralRangesIsThereOnceInAscendingOrder) {
+  const std::vector<double> offsets_ms =
+      in_ms({{22 * kMs, 26 * kMs, 0.1 * kMs}, {19 * kMs, 29 * kMs, 1 * kMs}});
+  EXPECT_EQ(offsets_ms.size(), 47u);
+  for (std::size_t i = 1; i < offsets_ms.size(); ++i) EXPECT_GT(offsets_ms[i] - offsets_ms[i - 1], 0.05);
+}
+
+TEST(Candidates, AroundIsHalfTheStepsToEitherSide) {
+  const OffsetRange range = range_around({24 * kMs, 0.1 * kMs, 40});
+  EXPECT_NEAR(range.from_s, 22 * kMs, 1e-12);
+  EXPECT_NEAR(range.to_s, 26 * kMs, 1e-12);
+  EXPECT_EQ(offsets_of({range}).size(), 41u);
+}
+
+TEST(Candidates, AnOddStepAroundFallsAboveTheInitialOffset) {
+  const std::vector<double> offsets_ms = in_ms({range_around({24 * kMs, 1 * kMs, 3})});
+  ASSERT_EQ(offsets_ms.size(), 4u);
+  EXPECT_NEAR(offsets_ms.front(), 23, 1e-9);
+  EXPECT_NEAR(offsets_ms.back(), 26, 1e-9);
+}
+
+// e of a curve of 11 candidates, 1 ms apart, from 19 ms on.
+std::vector<CurvePoint> curve_of(const std::function<std::optional<double>(double offset_ms)>& e_m) {
+  std::vector<CurvePoint> curve;
+  for (int i = 0; i <= 10; ++i) {
+    curve.emplace_back().offset_s = (19 + i) * kMs;
+    curve.back().e_m = e_m(19 + i);
+  }
+  return curve;
+}
+
+std::optional<double> parabola_m(double offset_ms) {
+  return 0.02 + 0.001 * std::pow(offset_ms - 23.8, 2);
+}
+
+CriterionOptimum fitted(const std::vector<CurvePoint>& curve, double reach_s = 3 * kMs) {
+  return fitted_extremum(curve, &CurvePoint::e_m, index_of_least(curve, &CurvePoint::e_m), reach_s);
+}
+
+TEST(FittedExtremum, IsExactOnAParabola) {
+  const CriterionOptimum least = fitted(curve_of(parabola_m));
+  EXPECT_NEAR(least.offset_s, 23.8 * kMs, 1e-12);
+  EXPECT_EQ(least.value, *parabola_m(24));  // the curve's own value, at the point nearest to it
+}
+
+TEST(FittedExtremum, AMaximumIsAsExact) {
+  std::vector<CurvePoint> curve = curve_of(parabola_m);
+  for (CurvePoint& point : curve) point.n = 30000 - 1e6 * *point.e_m;
+  const CriterionOptimum most =
+      fitted_extremum(curve, &CurvePoint::n, index_of_greatest(curve, &CurvePoint::n), 3 * kMs);
+  EXPECT_NEAR(most.offset_s, 23.8 * kMs, 1e-12);
+  EXPECT_EQ(most.value, 30000 - 1e6 * *parabola_m(24));
+}
+
+TEST(FittedExtremum, OfFewerThanFivePointsIsTheGridPoint) {
+  EXPECT_DOUBLE_EQ(fitted(curve_of(parabola_m), 1 * kMs).offset_s, 24 * kMs);
+}
+
+TEST(FittedExtremum, PointsBeyondAFailedCandidateDoNotBelong) {
+  const auto with_gap = [](double offset_ms) {
+    return offset_ms == 26 ? std::nullopt : std::optional(offset_ms > 26 ? 9.0 : *parabola_m(offset_ms));
+  };
+  EXPECT_NEAR(fitted(curve_of(with_gap)).offset_s, 23.8 * kMs, 1e-12);
+  const auto with_two_gaps = [](double offset_ms) {
+    return offset_ms == 22 || offset_ms == 26 ? std::nullopt : parabola_m(offset_ms);
+  };
+  EXPECT_DOUBLE_EQ(fitted(curve_of(with_two_gaps)).offset_s, 24 * kMs);  // three are left
+}
+
+TEST(FittedExtremum, AParabolaThatBendsTheWrongWayIsNotBelieved) {
+  const auto spike = [](double offset_ms) {
+    return offset_ms == 24 ? 0.9 : 1 - 0.001 * std::pow(offset_ms - 24, 2);
+  };
+  EXPECT_DOUBLE_EQ(fitted(curve_of(spike)).offset_s, 24 * kMs);
+}
+
+TEST(FittedExtremum, StaysInsideItsPoints) {
+  const CriterionOptimum least = fitted(curve_of([](double offset_ms) { return 1 / offset_ms; }));
+  EXPECT_LE(least.offset_s, 29 * kMs);
+}
+
+TEST(Extremum, AFailedCandidateNeverWins) {
+  const auto curve =
+      curve_of([](double offset_ms) { return offset_ms == 24 ? std::nullopt : parabola_m(offset_ms); });
+  EXPECT_DOUBLE_EQ(curve[index_of_least(curve, &CurvePoint::e_m)].offset_s, 23 * kMs);
+  EXPECT_DOUBLE_EQ(curve[index_of_greatest(curve, &CurvePoint::e_m)].offset_s, 29 * kMs);
+  const auto none = curve_of([](double) { return std::nullopt; });
+  EXPECT_EQ(index_of_least(none, &CurvePoint::e_m), none.size());
+  EXPECT_EQ(index_of_greatest(none, &CurvePoint::e_m), none.size());
+}
+
+CurvePoint wavy(double offset_s, const Job&) {
+  CurvePoint point;
+  point.offset_s = offset_s;
+  point.d = std::sin(1e3 * offset_s);
+  return point;
+}
+
+const std::vector<double> kHundred = offsets_of({{0, 99 * kMs, kMs}});
+
+TEST(Curve, IsTheSameForOneAndTwoThreads) {
+  const auto computed = [](std::size_t threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    Curve curve(wavy);
+    EXPECT_TRUE(curve.compute(kHundred, Job()));
+    std::vector<double> values;
+    for (const CurvePoint& point : curve.points()) values.insert(values.end(), {point.offset_s, *point.d});
+    return values;
+  };
+  EXPECT_EQ(computed(1), computed(2));
+  EXPECT_EQ(computed(1).size(), 200u);
+}
+
+TEST(Curve, SkipsOffsetsThatItHasAlreadyAndStaysAscending) {
+  std::atomic<int> calls{0};
+  Curve curve([&](double offset_s, const Job& job) {
+    ++calls;
+    return wavy(offset_s, job);
+  });
+  curve.compute(offsets_of({{19 * kMs, 29 * kMs, 1 * kMs}}), Job());
+  curve.compute(offsets_of({{22 * kMs, 26 * kMs, 0.1 * kMs}}), Job());
+  EXPECT_EQ(calls, 47);
+  ASSERT_EQ(curve.points().size(), 47u);
+  for (std::size_t i = 1; i < 47; ++i) EXPECT_GT(curve.points()[i].offset_s, curve.points()[i - 1].offset_s);
+}
+
+TEST(Curve, KeepsWhatWasFinishedWhenCancelled) {
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  Job job;
+  int calls = 0;
+  Curve curve([&](double offset_s, const Job& part) {
+    if (++calls == 10) job.cancel();
+    return wavy(offset_s, part);
+  });
+  EXPECT_FALSE(curve.compute(kHundred, job));
+  EXPECT_EQ(curve.points().size(), 9u);  // the tenth was cut short
+  EXPECT_EQ(calls, 10);
+}
+
+TEST(Curve, ReportsHowFarItIs) {
+  std::atomic<int> reports{0};
+  const Job job([&](std::string_view, double fraction) {
+    ++reports;
+    EXPECT_GT(fraction, 0);
+    EXPECT_LE(fraction, 1);
+  });
+  Curve curve(wavy);
+  curve.compute(kHundred, job);
+  EXPECT_EQ(reports, 100);
+}
+
+}  // namespace
+}  // namespace sweepscope

@@ -1,0 +1,96 @@
+#include "core/offset/stationary.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/offset/motion_test.hpp"
+#include "tests/core/engine_fixtures.hpp"
+
+namespace sweepscope {
+namespace {
+
+using test::kMs;
+
+constexpr double kTruth_s = 0.024;
+
+// 9 s in a room.
+class Room : public testing::Test {
+ protected:
+  std::vector<PairMotion> pairs(double off_s) const {
+    return pair_motions(problem_, kTruth_s + off_s, OdometryOptions());
+  }
+  CurvePoint candidate(double off_s, const std::vector<std::size_t>& of_pairs, double weight_c = 1) const {
+    return stationary_candidate(problem_, kTruth_s + off_s, of_pairs, weight_c, OdometryOptions());
+  }
+  const Recording& recording_ = test::simulated("room-1", kTruth_s, 9, 0.513).recording;
+  const OffsetProblem problem_ = test::problem_of(recording_);
+};
+
+TEST_F(Room, DDoesNotGrowWithTheNumberOfSweeps) {
+  std::vector<std::size_t> first, last;
+  for (std::size_t sweep = 1; sweep <= 5; ++sweep) first.push_back(sweep), last.push_back(sweep + 9);
+  const CurvePoint early = candidate(0, first), late = candidate(0, last);
+  EXPECT_LT(*late.d, 1.5 * *early.d);
+  EXPECT_LT(*late.d, 0.02);
+}
+
+TEST_F(Room, DCombinesTranslationAndRotationByItsWeight) {
+  const CurvePoint one = candidate(0, {3}), four = candidate(0, {3}, 4);
+  EXPECT_NEAR(*one.d, std::hypot(*one.translation_m, *one.rotation_rad), 1e-15);
+  EXPECT_NEAR(*four.d, std::hypot(*four.translation_m, 2 * *four.rotation_rad), 1e-15);
+}
+
+TEST_F(Room, TheSignedRotationIsTwiceTheMotorsSpeedTimesTheError) {
+  const double speed_rad_s = problem_.motor.median_speed_rad_s;
+  const CurvePoint below = candidate(-2 * kMs, {3, 4, 5, 6}), above = candidate(2 * kMs, {3, 4, 5, 6});
+  EXPECT_NEAR(*above.signed_rotation_rad, 2 * speed_rad_s * 2 * kMs, 0.15 * 2 * speed_rad_s * 2 * kMs);
+  EXPECT_NEAR(*below.signed_rotation_rad, -*above.signed_rotation_rad, 0.1 * *above.signed_rotation_rad);
+}
+
+TEST_F(Room, APairThatIsMissingMakesTheCandidateFail) {
+  const CurvePoint point = candidate(0, {3, 4, 999});
+  EXPECT_FALSE(point.d);
+  EXPECT_FALSE(point.signed_rotation_rad);
+  EXPECT_FALSE(candidate(0, {}).d);
+}
+
+TEST_F(Room, TheCoarseCostFallsTowardsTheTruthFromFarAway) {
+  const auto cost_m = [&](double off_s) {
+    return stationary_coarse_cost_m(problem_, kTruth_s + off_s, OdometryOptions(), 0.2);
+  };
+  EXPECT_GT(cost_m(-60 * kMs), cost_m(-20 * kMs));
+  EXPECT_GT(cost_m(-20 * kMs), cost_m(0));
+  EXPECT_GT(cost_m(20 * kMs), cost_m(0));
+  EXPECT_LT(cost_m(60 * kMs), 0.2 + 1e-12);
+}
+
+MotionTest tested(const Recording& recording, double offset_s) {
+  const OffsetProblem problem = test::problem_of(recording);
+  return test_motion(place_sweeps(problem, offset_s), problem.motor, OdometryOptions());
+}
+
+TEST(MotionOfTheRig, ARoomStandsAlsoAtAWrongOffset) {
+  for (const double offset_s : {kTruth_s, -0.04}) {
+    const MotionTest test = tested(test::room(kTruth_s), offset_s);
+    EXPECT_GE(test.pairs, 4u);
+    EXPECT_FALSE(test.moving()) << test.moved << " of " << test.pairs;
+    EXPECT_LT(test.median_translation_m, 0.01);
+  }
+}
+
+TEST(MotionOfTheRig, AWalkMovesAlsoAtAWrongOffset) {
+  for (const double offset_s : {kTruth_s, -0.04}) {
+    const MotionTest test = tested(test::simulated("metro-station", kTruth_s, 8).recording, offset_s);
+    EXPECT_TRUE(test.moving()) << test.moved << " of " << test.pairs;
+  }
+}
+
+TEST(MotionOfTheRig, TooFewSweepsAreNoAnswer) {
+  const Recording& recording = test::room(kTruth_s);
+  const OffsetProblem problem = test::problem_of(recording);
+  std::vector<PlacedSweep> placed = place_sweeps(problem, kTruth_s);
+  placed.resize(2);
+  EXPECT_FALSE(test_motion(placed, problem.motor, OdometryOptions()).answered());
+}
+
+}  // namespace
+}  // namespace sweepscope
