@@ -297,6 +297,26 @@ Vector6d find_first_twist_per_s(const std::vector<PlacedSweep>& sweeps, const Ei
   return twist_per_s;
 }
 
+// A recording mostly begins within a sweep. What is left of that one may see too little to be matched to, and
+// the whole map would stand on it.
+std::size_t first_whole_sweep(const std::vector<PlacedSweep>& sweeps) {
+  return sweeps.size() > 2 && 4 * sweeps[0].scans < 3 * sweeps[1].scans ? 1 : 0;
+}
+
+// The pose of a sweep before the first one tracked: the motion goes on backwards.
+void prepend_backwards(const PlacedSweep& sweep, std::vector<SweepPose>& poses) {
+  const SweepPose& next = poses.front();
+  const double ratio = (sweep.end_s - sweep.begin_s) / (next.end_s - next.begin_s);
+  SweepPose pose;
+  pose.sweep = sweep.sweep;
+  pose.direction = sweep.direction;
+  pose.begin_s = sweep.begin_s;
+  pose.end_s = sweep.end_s;
+  pose.begin = interpolate(next.begin, next.end, -ratio);
+  pose.end = next.begin;
+  poses.insert(poses.begin(), pose);
+}
+
 bool lost_track(const TrackedWalk& walk, const MappingOptions& options) {
   std::size_t judged = 0, poor = 0;
   for (std::size_t i = std::size_t(options.settling_sweeps); i < walk.sweeps.size(); ++i) {
@@ -310,13 +330,18 @@ bool lost_track(const TrackedWalk& walk, const MappingOptions& options) {
 
 Result<TrackedWalk> track(const std::vector<PlacedSweep>& sweeps, const Eigen::Vector3d& motor_axis,
                           const MappingOptions& options, const Job& job) {
-  Tracker tracker(options, motor_axis, find_first_twist_per_s(sweeps, motor_axis, options));
-  for (std::size_t i = 0; i < sweeps.size(); ++i) {
+  const std::size_t first = first_whole_sweep(sweeps);
+  const std::vector<PlacedSweep> beginning(
+      sweeps.begin() + std::ptrdiff_t(first),
+      sweeps.begin() + std::ptrdiff_t(std::min(sweeps.size(), first + std::size_t(options.velocity_sweeps))));
+  Tracker tracker(options, motor_axis, find_first_twist_per_s(beginning, motor_axis, options));
+  for (std::size_t i = first; i < sweeps.size(); ++i) {
     if (job.cancelled()) return failure(ExitCode::kInterrupted, "Interrupted while tracking.");
     tracker.add(sweeps[i]);
     job.report("tracking", double(i + 1) / double(sweeps.size()));
   }
   tracker.walk().lost = lost_track(tracker.walk(), options);
+  if (first > 0) prepend_backwards(sweeps[0], tracker.walk().sweeps);
   return std::move(tracker.walk());
 }
 
