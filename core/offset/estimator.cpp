@@ -217,7 +217,8 @@ class Search {
           fmt::format("The least {} lies on the edge of the searched range, at {:.1f} ms: the offset "
                       "lies beyond it, or nowhere.",
                       moving() ? "e" : "d", least.offset_s * 1e3));
-    judge_lever();
+    // Continuous poses hold the roll back: with them the slope says nothing of the scene.
+    if (!moving() || options_.scoring == Scoring::kTwoStage) judge_lever();
     if (!moving()) judge_standing(best);
     result_.identifiable = result_.reasons.empty();
     if (!result_.identifiable) return;
