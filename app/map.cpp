@@ -8,6 +8,7 @@
 #include "app/recording_options.hpp"
 #include "core/io/cloud_file.hpp"
 #include "core/io/trajectory_file.hpp"
+#include "core/map/clean_map.hpp"
 #include "core/map/offset_map.hpp"
 
 namespace sweepscope::app {
@@ -17,6 +18,8 @@ struct Options {
   RecordingOptions recording;
   double offset_ms = 0;
   std::string output, trajectory;
+  double voxel_m = 0;
+  bool remove_outliers = false;
 };
 
 Result<OffsetMap> build(const Options& options) {
@@ -33,8 +36,10 @@ Result<OffsetMap> build(const Options& options) {
 
 ExitCode run(const Options& options) {
   const auto threads = options.recording.limit_threads();
-  const auto map = build(options);
+  auto map = build(options);
   if (!map) return fail(map.error());
+  if (options.remove_outliers) map->cloud = without_outliers(map->cloud);
+  if (options.voxel_m > 0) map->cloud = thinned(map->cloud, options.voxel_m);
   if (map->lost)
     fmt::print(stderr, "warning: LOAM lost track at this offset: the map is not to be trusted\n");
   if (const auto written = write_cloud(options.output, *map->cloud); !written) return fail(written.error());
@@ -65,6 +70,9 @@ void add_map(CLI::App& app, ExitCode& exit_code) {
       });
   command->add_option("--trajectory", options->trajectory, "Write where the rig went, as TUM")
       ->type_name("F");
+  command->add_option("--voxel-m", options->voxel_m, "Keep one point per cube of this size (default: all)")
+      ->check(CLI::PositiveNumber);
+  command->add_flag("--remove-outliers", options->remove_outliers, "Leave out stray points");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 
