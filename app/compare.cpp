@@ -176,8 +176,10 @@ Result<void> compare(const CompareOptions& options) {
   auto compared = compared_maps(options);
   if (!compared) return tl::unexpected(compared.error());
   if (given) compared->estimate = std::move(given);
-  return write_comparison(options.output, compared->maps, compared->estimate ? &*compared->estimate : nullptr,
-                          *picture);
+  const Estimate* curve = compared->estimate ? &*compared->estimate : nullptr;
+  return comparison_picture(compared->maps, curve, *picture).and_then(draw).and_then([&](const Image& image) {
+    return write_png(image, options.output, comparison_texts(compared->maps, *picture));
+  });
 }
 
 void declare(CLI::App& command, CompareOptions& options) {
@@ -199,7 +201,6 @@ void declare(CLI::App& command, CompareOptions& options) {
   command.add_option("--size", options.size, "Of the picture, in pixels")->capture_default_str();
   command.add_option("--colour-table", options.picture.colour_table, "viridis, cividis, turbo or grey")
       ->capture_default_str();
-  command.add_flag("--light", options.picture.light_background, "A light background, for paper");
   command.add_option("--title", options.picture.title, "Above the maps; default: the estimate's recording");
   command.add_option(
       "--slab", options.slabs,

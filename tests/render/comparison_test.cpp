@@ -75,7 +75,7 @@ TEST(Comparison, TheGatePassesItselfAndFailsEveryControl) {
   const PixelRect place = lay_out(options, 2, 2).overviews[0].inset(4);
   for (int y = static_cast<int>(place.top); y < place.bottom(); ++y) {
     for (int x = static_cast<int>(place.left); x < place.right(); ++x) {
-      std::copy_n(expected.pixel(x - 3, y), 3, shifted.pixel(x, y));
+      std::copy_n(expected.pixel(x - 3, y), Image::kChannels, shifted.pixel(x, y));
     }
   }
   EXPECT_FALSE(compare_images(shifted, expected).passes);
@@ -161,7 +161,7 @@ using PngTest = test::FolderTest;
 
 TEST_F(PngTest, ReadsBackWhatItWroteWithItsTexts) {
   Image image(70, 64);
-  for (std::size_t i = 0; i < image.rgb.size(); ++i) image.rgb[i] = static_cast<std::uint8_t>(i * 7 % 251);
+  for (std::size_t i = 0; i < image.rgba.size(); ++i) image.rgba[i] = static_cast<std::uint8_t>(i * 7 % 251);
   const std::vector<PngText> texts{{"Software", "sweepscope"}, {"Maps", "θ"}};
   ASSERT_TRUE(write_png(image, folder_ / "a.png", texts));
   const auto read = read_png(folder_ / "a.png");

@@ -7,7 +7,7 @@ namespace {
 
 Image grey_image(int width, int height) {
   Image image(width, height);
-  std::fill(image.rgb.begin(), image.rgb.end(), std::uint8_t{100});
+  std::fill(image.rgba.begin(), image.rgba.end(), std::uint8_t{100});
   return image;
 }
 
@@ -25,9 +25,9 @@ TEST(ImageDifference, AnotherSizeFails) {
 TEST(ImageDifference, StepsOfEightEverywherePassAndNineFail) {
   const Image expected = grey_image(64, 64);
   Image actual = expected;
-  for (auto& channel : actual.rgb) channel = 108;
+  for (auto& channel : actual.rgba) channel = 108;
   EXPECT_TRUE(compare_images(actual, expected).passes);
-  for (auto& channel : actual.rgb) channel = 109;
+  for (auto& channel : actual.rgba) channel = 109;
   EXPECT_FALSE(compare_images(actual, expected).passes);
 }
 
