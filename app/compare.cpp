@@ -9,11 +9,13 @@
 #include <vector>
 
 #include "app/commands.hpp"
+#include "app/look_texts.hpp"
 #include "app/offset_texts.hpp"
 #include "app/progress.hpp"
 #include "app/recording_options.hpp"
 #include "core/io/cloud_file.hpp"
 #include "core/io/estimate_json.hpp"
+#include "core/io/trajectory_file.hpp"
 #include "core/map/offset_map.hpp"
 #include "render/comparison.hpp"
 #include "render/curve_charts.hpp"
@@ -24,58 +26,16 @@ namespace {
 struct CompareOptions {
   RecordingOptions recording;
   std::vector<std::string> inputs;  // a recording, or two to four maps
-  std::string output, curve, size = "1920x1200", close_up;
+  std::string output, curve;
   std::vector<double> offsets_ms;
-  std::vector<std::string> slabs;
   double path_height_m = 0;
-  ComparisonOptions picture;
+  std::string poses;
+  bool no_curve = false;
+  LookTexts look;
 };
-
-/// The numbers of a text such as "1920x1200", or nothing where it is not exactly that many.
-std::optional<std::vector<double>> numbers_between(const std::string& text, char separator,
-                                                   std::size_t count) {
-  std::vector<double> numbers;
-  const char *at = text.data(), *end = text.data() + text.size();
-  while (numbers.size() < count) {
-    double number = 0;
-    const auto [after, error] = std::from_chars(at, end, number);
-    const bool last = numbers.size() + 1 == count;
-    if (error != std::errc() || (last ? after != end : after == end || *after != separator))
-      return std::nullopt;
-    numbers.push_back(number);
-    at = after + (last ? 0 : 1);
-  }
-  return numbers;
-}
 
 tl::unexpected<Error> wrong_usage(std::string message) {
   return failure(ExitCode::kWrongUsage, std::move(message));
-}
-
-Result<ComparisonOptions> picture_options(const CompareOptions& options) {
-  ComparisonOptions picture = options.picture;
-  const auto size = numbers_between(options.size, 'x', 2);
-  if (!size || (*size)[0] < 0 || (*size)[1] < 0 || (*size)[0] > 1e6 || (*size)[1] > 1e6) {
-    return wrong_usage(fmt::format("--size {}: not like 1920x1200", options.size));
-  }
-  picture.width_px = static_cast<int>((*size)[0]);
-  picture.height_px = static_cast<int>((*size)[1]);
-  for (const std::string& text : options.slabs) {
-    const auto range = numbers_between(text, ':', 2);
-    if (!range || !((*range)[0] < (*range)[1])) {
-      return wrong_usage(fmt::format("--slab {}: not like 0.8:3.2, in metres above the sensor's path", text));
-    }
-    picture.slabs.push_back({(*range)[0], (*range)[1]});
-  }
-  if (!options.close_up.empty()) {
-    const auto region = numbers_between(options.close_up, ':', 3);
-    if (!region || !((*region)[2] > 0)) {
-      return wrong_usage(
-          fmt::format("--close-up {}: not like 12.5:-3:4, x, y and height in metres", options.close_up));
-    }
-    picture.close_up = Region{{(*region)[0], (*region)[1]}, (*region)[2]};
-  }
-  return picture;
 }
 
 bool is_map_file(const std::string& path) {
@@ -133,6 +93,11 @@ Result<Compared> from_recording(const CompareOptions& options) {
   for (const double offset_ms : options.offsets_ms) offsets_s.push_back(offset_ms * 1e-3);
   MapOptions map_options;
   map_options.assume = parse_method(options.recording.assume);
+  if (!options.poses.empty()) {
+    auto poses = read_tum(options.poses, recording->epoch_ns);
+    if (!poses) return tl::unexpected(poses.error());
+    map_options.poses = std::move(*poses);
+  }
   auto built = build_maps(*recording, offsets_s, map_options, progress.job());
   if (!built) return tl::unexpected(built.error());
   Compared compared;
@@ -142,7 +107,7 @@ Result<Compared> from_recording(const CompareOptions& options) {
     next.cloud = map.cloud;
     next.path = std::move(map.trajectory);
   }
-  if (!options.curve.empty()) return compared;
+  if (!options.curve.empty() || options.no_curve) return compared;
   auto curve = curve_about(*recording, options, progress.job());
   if (!curve) return tl::unexpected(curve.error());
   if (curve->interrupted) return failure(ExitCode::kInterrupted, "Interrupted while computing the criteria.");
@@ -165,7 +130,7 @@ Result<Compared> compared_maps(const CompareOptions& options) {
 
 Result<void> compare(const CompareOptions& options) {
   // Wrong words cost nothing; they are found before files of hundreds of megabytes are read.
-  const auto picture = picture_options(options);
+  const auto picture = options.look.parse();
   if (!picture) return tl::unexpected(picture.error());
   std::optional<Estimate> given;
   if (!options.curve.empty()) {
@@ -198,22 +163,16 @@ void declare(CLI::App& command, CompareOptions& options) {
   command.add_option("--curve", options.curve,
                      "An estimate (JSON) whose criteria are drawn below the maps; default with a recording: "
                      "computed by 1 ms from 5 ms below the offsets to 5 ms above");
-  command.add_option("--size", options.size, "Of the picture, in pixels")->capture_default_str();
-  command.add_option("--colour-table", options.picture.colour_table, "viridis, cividis, turbo or grey")
-      ->capture_default_str();
-  command.add_option("--title", options.picture.title, "Above the maps; default: the estimate's recording");
-  command.add_option(
-      "--slab", options.slabs,
-      "FROM:TO in metres above the sensor's path: show these heights; repeatable. Default: 0.8 m and "
-      "more below it, and from 0.8 m above it to just under the ceiling");
-  command.add_option(
-      "--close-up", options.close_up,
-      "X:Y:HEIGHT in metres of the map frame: what the close-ups show. Default: where the maps "
-      "differ most in sharpness");
+  command.add_flag("--no-curve", options.no_curve, "Leave the criteria out");
+  command
+      .add_option("--poses", options.poses,
+                  "Where the rig went (TUM), instead of solving for it; the map is in that frame")
+      ->type_name("F");
   command
       .add_option("--path-height-m", options.path_height_m,
                   "With maps: the sensor's height in the map frame, which slabs refer to")
       ->capture_default_str();
+  options.look.declare(command);
 }
 
 }  // namespace

@@ -98,8 +98,8 @@ ValueRange range_of(ColourBy by, std::span<const std::span<const float>> values)
     return static_cast<double>(*place);
   };
   // Lengths begin at nothing: dark is sharp, in every picture.
-  const bool is_length = by == ColourBy::kBlur || by == ColourBy::kDistance;
-  if (is_length) return {0, std::max(10.0, at(0.98))};
+  if (by == ColourBy::kBlur) return {0, std::clamp(at(0.9), 20.0, 60.0)};
+  if (by == ColourBy::kDistance) return {0, std::max(10.0, at(0.98))};
   const double from = at(0.005);
   return {from, at(0.995)};
 }

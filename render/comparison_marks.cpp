@@ -45,8 +45,8 @@ void add_scale_bar_above(Drawing& drawing, const Projection& projection, const S
 
 /// What keeps marks legible above points.
 Colour veil_of(const Style& style) {
-  Colour veil = style.page;
-  veil.alpha = style.page.alpha == 0 ? 0 : 215;
+  Colour veil = style.map_panel;
+  veil.alpha = style.map_panel.alpha == 0 ? 0 : 215;
   return veil;
 }
 
@@ -59,14 +59,14 @@ void add_scale_bar_inside(Drawing& drawing, const Projection& projection, const 
                          bar.length_px + text_width + 3 * pad, size + 1.4 * pad};
   drawing.fill(ground, veil_of(style));
   const PixelPoint left_end{ground.left + pad, ground.bottom() - pad};
-  add_bar(drawing, left_end, bar.length_px, style.text, scale);
-  drawing.add(TextMark{{left_end.x + bar.length_px + pad, left_end.y}, bar.label, size, style.text});
+  add_bar(drawing, left_end, bar.length_px, style.map_highlight, scale);
+  drawing.add(TextMark{{left_end.x + bar.length_px + pad, left_end.y}, bar.label, size, style.map_highlight});
 }
 
 /// Which way x, y and z go, at the view's lower left. An axis that points at the camera is left out.
 void add_axes(Drawing& drawing, const Projection& projection, const Camera& camera, const Style& style,
               double scale) {
-  const double arm_px = 26 * scale, size = 12 * scale, pad = 10 * scale, side = 2 * arm_px + 2.2 * size;
+  const double arm_px = 26 * scale, size = 12 * scale, pad = 10 * scale, side = 1.3 * arm_px + 2.4 * size;
   const PixelRect& place = projection.place();
   if (place.width < 2 * side || place.height < 1.4 * side) return;
   const PixelRect ground{place.left + pad, place.bottom() - pad - side, side, side};
@@ -88,12 +88,12 @@ void add_axes(Drawing& drawing, const Projection& projection, const Camera& came
     const Eigen::Vector2d tip = origin + arm_px * arm, letter = tip + 0.75 * size * arm.normalized();
     const Eigen::Vector2d back = tip - 6 * scale * arm.normalized();
     const Eigen::Vector2d aside = 3.2 * scale * Eigen::Vector2d(-arm.y(), arm.x()).normalized();
-    drawing.line({origin.x(), origin.y()}, {back.x(), back.y()}, 1.5 * scale, style.text);
+    drawing.line({origin.x(), origin.y()}, {back.x(), back.y()}, 1.5 * scale, style.map_highlight);
     drawing.add(PolygonMark{{{tip.x(), tip.y()},
                              {back.x() + aside.x(), back.y() + aside.y()},
                              {back.x() - aside.x(), back.y() - aside.y()}},
-                            style.text});
-    drawing.add(TextMark{{letter.x(), letter.y()}, name, size, style.text, AlignX::kCentre, AlignY::kMiddle});
+                            style.map_highlight});
+    drawing.add(TextMark{{letter.x(), letter.y()}, name, size, style.map_highlight, AlignX::kCentre, AlignY::kMiddle});
   }
 }
 
