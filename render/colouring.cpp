@@ -37,7 +37,9 @@ Result<std::vector<float>> feature_values(const ComparedMap& map) {
     return failure(ExitCode::kWrongUsage,
                    "Colours by features want a recording: a map file does not say which points are features");
   }
-  return std::vector<float>(map.feature_kinds.begin(), map.feature_kinds.end());
+  std::vector<float> values;
+  for (const FeatureKind kind : map.feature_kinds) values.push_back(static_cast<float>(kind));
+  return values;
 }
 
 Result<std::vector<float>> distance_values(const ComparedMap& map, const ComparedMap* other) {

@@ -93,7 +93,8 @@ void add_axes(Drawing& drawing, const Projection& projection, const Camera& came
                              {back.x() + aside.x(), back.y() + aside.y()},
                              {back.x() - aside.x(), back.y() - aside.y()}},
                             style.map_highlight});
-    drawing.add(TextMark{{letter.x(), letter.y()}, name, size, style.map_highlight, AlignX::kCentre, AlignY::kMiddle});
+    drawing.add(TextMark{
+        {letter.x(), letter.y()}, name, size, style.map_highlight, AlignX::kCentre, AlignY::kMiddle});
   }
 }
 

@@ -18,10 +18,11 @@ namespace {
 
 /// Everything that the simulation depends on, in one line.
 std::string canonical(const SimulationOptions& o) {
-  return fmt::format("simulate {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}", o.scene, o.offset_s, o.seed,
-                     o.duration_s.value_or(-1), o.noise_m, o.dropout, o.sweep_s, simulation::name_of(o.motor),
-                     o.encoder_step_deg, o.encoder_hz, o.encoder_jitter_s, o.mixed_pixels, o.grazing_bias_m,
-                     o.stamp_jitter_s, o.backlash_deg, o.clock_drift_ppm, o.nudge_m);
+  return fmt::format("simulate {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}", o.scene, o.offset_s,
+                     o.seed, o.duration_s.value_or(-1), o.noise_m, o.dropout, o.sweep_s,
+                     simulation::name_of(o.motor), o.encoder_step_deg, o.encoder_hz, o.encoder_jitter_s,
+                     o.mixed_pixels, o.grazing_bias_m, o.stamp_jitter_s, o.backlash_deg, o.clock_drift_ppm,
+                     o.nudge_m);
 }
 
 template <typename T>
@@ -82,8 +83,8 @@ Result<const FigureData::Source*> FigureData::source(const std::string& name) {
   if (spec.window_s) {
     source.recording = window(source.recording, spec.window_s->first, spec.window_s->second);
     if (source.recording.scans.empty()) {
-      return unreadable(fmt::format("{}: no scan of recording {} lies within its window_s",
-                                    recipe_.path.string(), name));
+      return unreadable(
+          fmt::format("{}: no scan of recording {} lies within its window_s", recipe_.path.string(), name));
     }
   }
   return &sources_.emplace(name, std::move(source)).first->second;
@@ -172,9 +173,9 @@ Result<void> FigureData::build(const std::string& name, bool true_poses, bool wi
     map.cloud = (*built)[k].cloud;
     map.path = std::move((*built)[k].trajectory);
     if (!with_features) continue;
-    auto kinds = feature_kinds((*data)->recording, *map.cloud);
-    if (!kinds) return tl::unexpected(kinds.error());
-    map.feature_kinds = std::move(*kinds);
+    const auto features = extract_features((*data)->recording, FeatureOptions(), job_);
+    if (!features) return tl::unexpected(features.error());
+    map.feature_kinds = feature_kinds(*features, *map.cloud);
   }
   return {};
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 
 #include "core/map/cross_section.hpp"
 #include "core/map/feature_points.hpp"
@@ -25,6 +26,6 @@ Picture profile_picture(std::span<const ComparedMap> maps, const CrossSection& s
                         std::span<const NamedProfile> profiles, const ComparisonOptions& look);
 
 /// A scan in the scanner's plane, with its edge and plane points (the paper's Figure 2).
-Picture scan_picture(const ScanFeatures& scan, const ComparisonOptions& look);
+Picture scan_picture(std::span<const ScanPoint> scan, const ComparisonOptions& look);
 
 }  // namespace sweepscope

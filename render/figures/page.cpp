@@ -17,8 +17,13 @@ Page make_page(const ComparisonOptions& look, int columns) {
   Drawing& marks = page.picture.marks;
   if (!look.title.empty()) {
     const double size = 18 * page.scale;
-    marks.add(TextMark{{margin, margin + size}, fit_text(look.title, size, page.room.width, true), size,
-                       page.style.text, AlignX::kLeft, AlignY::kBaseline, true});
+    marks.add(TextMark{{margin, margin + size},
+                       fit_text(look.title, size, page.room.width, true),
+                       size,
+                       page.style.text,
+                       AlignX::kLeft,
+                       AlignY::kBaseline,
+                       true});
   }
   const double small = 10 * page.scale, last_line = height - px(12);
   marks.add(TextMark{{margin, last_line}, "t_motor = t_laser + offset", small, page.style.faint_text});

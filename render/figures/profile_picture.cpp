@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "render/colouring.hpp"
 #include "render/comparison_points.hpp"
@@ -43,10 +44,11 @@ void add_scale_bar(Drawing& drawing, const Projection& projection, const Style& 
   const double length_px = length_m / projection.metres_per_px(), left = place.left + 10 * scale,
                bottom = place.bottom() - 10 * scale;
   drawing.fill({left, bottom - 2 * scale, length_px, 2 * scale}, style.map_highlight);
-  drawing.add(TextMark{{left, bottom - 7 * scale},
-                       length_m >= 1 ? fmt::format("{:.0f} m", length_m) : fmt::format("{:.0f} cm", 100 * length_m),
-                       11 * scale,
-                       style.map_highlight});
+  drawing.add(
+      TextMark{{left, bottom - 7 * scale},
+               length_m >= 1 ? fmt::format("{:.0f} m", length_m) : fmt::format("{:.0f} cm", 100 * length_m),
+               11 * scale,
+               style.map_highlight});
 }
 
 void add_map_view(Page& page, const ComparedMap& map, const CrossSection& section, const Colouring& colouring,
@@ -76,6 +78,18 @@ void add_map_view(Page& page, const ComparedMap& map, const CrossSection& sectio
   page.picture.views.push_back(std::move(view));
 }
 
+/// The outermost places where the density is at half of its peak.
+std::pair<double, double> half_height_of(const Profile& profile) {
+  const auto& density = profile.density_per_mm;
+  const double half = profile.peak_per_mm / 2;
+  const auto is_above = [&](double value) { return value >= half; };
+  const auto first = std::find_if(density.begin(), density.end(), is_above);
+  const auto last = std::find_if(density.rbegin(), density.rend(), is_above);
+  const auto index = [&](auto distance) { return static_cast<std::size_t>(distance); };
+  return {profile.distances_mm[index(first - density.begin())],
+          profile.distances_mm[density.size() - 1 - index(last - density.rbegin())]};
+}
+
 Chart density_chart(std::span<const NamedProfile> profiles, const Style& style) {
   Chart chart;
   chart.title = "Density of points [1/mm]";
@@ -92,8 +106,8 @@ Chart density_chart(std::span<const NamedProfile> profiles, const Style& style) 
     series.y.assign(profile.density_per_mm.begin(), profile.density_per_mm.end());
     chart.series.push_back(std::move(series));
     if (!profile.width_at_half_height_mm) continue;
-    const auto [from, to] = profile.half_height_mm;
-    chart.spans.push_back({profile.peak_per_mm / 2, from, to,
+    const auto [from_mm, to_mm] = half_height_of(profile);
+    chart.spans.push_back({profile.peak_per_mm / 2, from_mm, to_mm,
                            fmt::format("{:.0f} mm", *profile.width_at_half_height_mm), style.maps[i]});
   }
   return chart;
