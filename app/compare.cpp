@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -16,9 +15,11 @@
 #include "core/io/cloud_file.hpp"
 #include "core/io/estimate_json.hpp"
 #include "core/io/trajectory_file.hpp"
+#include "core/map/feature_points.hpp"
 #include "core/map/offset_map.hpp"
 #include "render/comparison.hpp"
 #include "render/curve_charts.hpp"
+#include "render/vector_file.hpp"
 
 namespace sweepscope::app {
 namespace {
@@ -81,7 +82,7 @@ Result<Estimate> curve_about(const Recording& recording, const CompareOptions& o
   return estimate(recording, wanted, job);
 }
 
-Result<Compared> from_recording(const CompareOptions& options) {
+Result<Compared> from_recording(const CompareOptions& options, bool by_features) {
   if (options.offsets_ms.size() < 2 || options.offsets_ms.size() > 4)
     return wrong_usage("compare of a recording wants two to four offsets, such as --offsets-ms 19,24");
   const Progress progress;
@@ -100,12 +101,19 @@ Result<Compared> from_recording(const CompareOptions& options) {
   }
   auto built = build_maps(*recording, offsets_s, map_options, progress.job());
   if (!built) return tl::unexpected(built.error());
+  std::optional<FeatureSet> features;
+  if (by_features) {
+    auto extracted = extract_features(*recording, FeatureOptions(), progress.job());
+    if (!extracted) return tl::unexpected(extracted.error());
+    features = std::move(*extracted);
+  }
   Compared compared;
   for (OffsetMap& map : *built) {
     ComparedMap& next = compared.maps.emplace_back();
     next.offset_s = map.offset_s;
     next.cloud = map.cloud;
     next.path = std::move(map.trajectory);
+    if (features) next.feature_kinds = feature_kinds(*features, *map.cloud);
   }
   if (!options.curve.empty() || options.no_curve) return compared;
   auto curve = curve_about(*recording, options, progress.job());
@@ -116,7 +124,7 @@ Result<Compared> from_recording(const CompareOptions& options) {
 }
 
 /// The maps that are compared, whatever they are made from.
-Result<Compared> compared_maps(const CompareOptions& options) {
+Result<Compared> compared_maps(const CompareOptions& options, bool by_features) {
   std::size_t map_files = 0;
   for (const std::string& input : options.inputs) map_files += is_map_file(input) ? 1 : 0;
   if (map_files == options.inputs.size())
@@ -125,7 +133,7 @@ Result<Compared> compared_maps(const CompareOptions& options) {
     });
   if (map_files > 0 || options.inputs.size() > 1)
     return wrong_usage("compare takes one recording, or two to four maps (.pcd or .ply)");
-  return from_recording(options);
+  return from_recording(options, by_features);
 }
 
 Result<void> compare(const CompareOptions& options) {
@@ -138,12 +146,12 @@ Result<void> compare(const CompareOptions& options) {
     if (!read) return tl::unexpected(read.error());
     given = std::move(*read);
   }
-  auto compared = compared_maps(options);
+  auto compared = compared_maps(options, picture->colour_by == ColourBy::kFeatures);
   if (!compared) return tl::unexpected(compared.error());
   if (given) compared->estimate = std::move(given);
   const Estimate* curve = compared->estimate ? &*compared->estimate : nullptr;
-  return comparison_picture(compared->maps, curve, *picture).and_then(draw).and_then([&](const Image& image) {
-    return write_png(image, options.output, comparison_texts(compared->maps, *picture));
+  return comparison_picture(compared->maps, curve, *picture).and_then([&](const Picture& drawn) {
+    return write_picture(options.output, drawn, comparison_texts(compared->maps, *picture));
   });
 }
 
@@ -153,7 +161,7 @@ void declare(CLI::App& command, CompareOptions& options) {
   command.add_option("INPUT", options.inputs, "A recording, or two to four maps (.pcd, .ply)")
       ->required()
       ->expected(-1);
-  command.add_option("-o,--output", options.output, "The picture to write (PNG)")->required();
+  command.add_option("-o,--output", options.output, "The picture to write: .png, .svg or .pdf")->required();
   command
       .add_option("--offsets-ms", options.offsets_ms,
                   "The offsets to map a recording at in milliseconds, such as 19,24; with maps: those that "
