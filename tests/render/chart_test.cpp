@@ -8,6 +8,7 @@
 #include "core/offset/candidates.hpp"
 #include "render/chart_layout.hpp"
 #include "render/curve_charts.hpp"
+#include "render/picture.hpp"
 #include "tests/render/synthetic_maps.hpp"
 
 namespace sweepscope {
@@ -271,6 +272,20 @@ TEST(CurvesOfMany, RefuseWhatTheyCannotShow) {
             "None of the estimates has a value of the criterion \"d\"");
   EXPECT_EQ(curves_of_many(estimates, "roll", kDarkStyle, Normalise::kByOptimum).error().code,
             ExitCode::kWrongUsage);
+}
+
+TEST(Chart, AreasAndDashesReachThePixels) {
+  Picture picture{100, 100, {0, 0, 0}, {}, {}};
+  picture.marks.add(AreaMark{{{10, 40}, {50, 20}, {90, 40}}, 60, {0, 0, 255}});
+  picture.marks.add(LineMark{{{10, 80}, {90, 80}}, 4, {255, 0, 0}, 10});
+  const auto image = draw(picture);
+  ASSERT_TRUE(image) << image.error().message;
+  EXPECT_EQ(image->pixel(50, 25)[2], 255);
+  EXPECT_EQ(image->pixel(15, 55)[2], 255);
+  EXPECT_EQ(image->pixel(15, 30)[2], 0);  // above the line
+  EXPECT_EQ(image->pixel(50, 65)[2], 0);  // below the base
+  EXPECT_EQ(image->pixel(15, 80)[0], 255);
+  EXPECT_EQ(image->pixel(25, 80)[0], 0);  // a gap
 }
 
 TEST(Dashes, AreAsLongAsTheirGapsAndTurnCorners) {
