@@ -64,7 +64,7 @@ struct Surfaces {
 Surfaces surfaces_of(const MapCloud& cloud) {
   ThicknessOptions options;
   options.cell_m = 0.2;
-  options.doublings = 1;
+  options.doublings = 0;
   Surfaces found{every_nth(cloud), {}, 0};
   found.surfaces = local_surfaces(found.cloud, options);
   std::vector<float> thickness_m;
