@@ -8,7 +8,6 @@
 #include "render/drawing.hpp"
 #include "render/points.hpp"
 #include "render/ticks.hpp"
-#include "render/top_view.hpp"
 #include "tests/render/synthetic_maps.hpp"
 
 namespace sweepscope {
@@ -109,17 +108,6 @@ TEST(Text, ThatIsTooLongIsCutBetweenLetters) {
   EXPECT_LE(text_width_px(cut, 14), 50);
   EXPECT_EQ(cut.substr(cut.size() - 3), "…");
   EXPECT_EQ((cut.size() - 3) % 2, 0U);
-}
-
-TEST(TopView, PutsTheMapsYUpwardsOrTurnedToTheRight) {
-  TopView view{{100, 100, 200, 100}, {10, 20}, 0.1, false};
-  EXPECT_DOUBLE_EQ(view.to_px(10, 20).x, 200);
-  EXPECT_DOUBLE_EQ(view.to_px(11, 20).x, 210);
-  EXPECT_DOUBLE_EQ(view.to_px(10, 21).y, 140);
-  view.turned = true;
-  EXPECT_DOUBLE_EQ(view.to_px(10, 21).x, 210);
-  EXPECT_DOUBLE_EQ(view.to_px(11, 20).y, 160);
-  EXPECT_DOUBLE_EQ(view.half_extent_m().x(), 5);
 }
 
 TEST(CurveCharts, AStationaryCurveHasDWithThetaAndTheRoll) {
