@@ -37,7 +37,8 @@ TEST(Colouring, DistancesAreMillimetresToTheOtherMap) {
   MapCloud::Ptr moved(new MapCloud(*b.cloud));
   for (MapPoint& point : *moved) point.y += 0.05F;
   b.cloud = moved;
-  for (const float value : *colour_values(a, &b, ColourBy::kDistance)) EXPECT_NEAR(value, 50, 0.01);
+  const std::vector<float> values = *colour_values(a, &b, ColourBy::kDistance);
+  for (const float value : values) EXPECT_NEAR(value, 50, 0.01);
 }
 
 TEST(Colouring, WhatAMapCannotTellIsRefusedInASentence) {
