@@ -27,7 +27,7 @@ ExitCode run(const Options& options) {
   const auto recipe = read_recipe(options.recipe);
   if (!recipe) return fail(recipe.error());
   const Progress progress;
-  const auto said = [](const std::string& line) { fmt::print(stderr, "{}\n", line); };
+  const auto said = [&progress](const std::string& line) { progress.say(line); };
   const auto files = make_figures(*recipe, options.folder, progress.job(), said);
   if (!files) return fail(files.error());
   for (const auto& file : *files) fmt::print("{}\n", file.string());
