@@ -127,25 +127,27 @@ Result<Estimate> FigureData::compute(const std::string& name, const EstimateSpec
   return computed;
 }
 
-Result<const Estimate*> FigureData::estimate(const std::string& name) {
-  if (const auto known = estimates_.find(name); known != estimates_.end()) return &known->second;
-  const EstimateSpec& spec = recipe_.estimates.at(name);
+Result<Estimate> FigureData::computed_or_cached(const std::string& name, const EstimateSpec& spec) {
   const auto key = estimate_key(spec);
   if (!key) return tl::unexpected(key.error());
   const std::filesystem::path path = cache_folder_ / (*key + ".json");
   std::error_code ignored;
-  auto found = std::filesystem::exists(path, ignored) ? read_estimate_json(path)
-                                                      : Result<Estimate>(tl::unexpected(Error{}));
-  if (!found) {
-    const auto computed = compute(name, spec);
-    if (!computed) return tl::unexpected(computed.error());
-    // Drawn from what the file holds, so that the first run's pictures are the second's.
-    const std::string json = estimate_to_json(*computed, Timing::kNull);
-    if (const auto written = write_file(path, json); !written) return tl::unexpected(written.error());
-    found = parse_estimate_json(json, path.string());
-    if (!found) return tl::unexpected(found.error());
+  if (std::filesystem::exists(path, ignored)) {
+    if (auto found = read_estimate_json(path)) return found;
   }
-  found->recording = recipe_.estimates.at(name).recording;
+  const auto computed = compute(name, spec);
+  if (!computed) return tl::unexpected(computed.error());
+  // Drawn from what the file holds, so that the first run's pictures are the second's.
+  const std::string json = estimate_to_json(*computed, Timing::kNull);
+  return write_file(path, json).and_then([&] { return parse_estimate_json(json, path.string()); });
+}
+
+Result<const Estimate*> FigureData::estimate(const std::string& name) {
+  if (const auto known = estimates_.find(name); known != estimates_.end()) return &known->second;
+  const EstimateSpec& spec = recipe_.estimates.at(name);
+  auto found = spec.file.empty() ? computed_or_cached(name, spec) : read_estimate_json(spec.file);
+  if (!found) return tl::unexpected(found.error());
+  found->recording = spec.recording;
   return &estimates_.emplace(name, std::move(*found)).first->second;
 }
 

@@ -180,6 +180,7 @@ class RecipeReader {
         node, name,
         {{"recording",
           [&](const Node& v) { spec.recording = read_reference(v, recipe_.recordings, "recording"); }},
+         {"file", [&](const Node& v) { spec.file = folder_ / read_text(v, name + ": file"); }},
          {"method",
           [&](const Node& v) { options.method = read_choice<Method>(v, name + ": method", methods); }},
          {"assume",
@@ -204,6 +205,8 @@ class RecipeReader {
             }
           }}});
     if (spec.recording.empty()) refuse(node, name + " needs a recording");
+    if (!spec.file.empty() && node.size() > 2)
+      refuse(node, name + ": a file is not computed: it has no options");
     return spec;
   }
 

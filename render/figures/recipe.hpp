@@ -31,6 +31,7 @@ struct RecordingSpec {
 struct EstimateSpec {
   std::string recording;
   EstimateOptions options;
+  std::filesystem::path file;  // what `sweepscope estimate --json` wrote; empty: it is computed
 };
 
 /// A map to draw: of a recording at an offset.
