@@ -200,6 +200,7 @@ void LiveView::set_point_size(double size_px) {
 void LiveView::set_background(Colour colour) {
   if (colour == parts_->background) return;
   parts_->background = colour;
+  parts_->renderer->SetBackgroundAlpha(1);
   parts_->renderer->SetBackground(colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0);
   parts_->begin_again();
 }

@@ -138,7 +138,8 @@ TEST(Session, ComesBackAsItWas) {
   estimate.method = "stationary";
   estimate.identifiable = true;
   estimate.offset_s = 0.0240123;
-  estimate.curve.push_back({.offset_s = 0.024, .d = 0.004});
+  estimate.curve.emplace_back().offset_s = 0.024;
+  estimate.curve.back().d = 0.004;
   session.estimate = estimate;
   const auto back = parse_session(session_to_json(session), "a.json");
   ASSERT_TRUE(back) << back.error().message;

@@ -46,7 +46,7 @@ const Solved& standing() {
 }
 
 double distance_m(const std::array<float, 3>& a, const MapPoint& b) {
-  return std::hypot(a[0] - b.x, a[1] - b.y, a[2] - b.z);
+  return static_cast<double>(std::hypot(a[0] - b.x, a[1] - b.y, a[2] - b.z));
 }
 
 TEST(ReplacePoints, AtTheOffsetThatThePathWasSolvedForItIsTheMap) {

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "render/colour_table.hpp"
+#include "render/gl/context.hpp"
+#include "render/image.hpp"
+
+namespace sweepscope::gl {
+
+/// Makes the context current and its default framebuffer the one that is drawn to, all of it in one colour.
+void begin_default_framebuffer(Context& context, Colour colour);
+
+/// What the default framebuffer holds.
+Image read_default_framebuffer(Context& context);
+
+}  // namespace sweepscope::gl
