@@ -13,5 +13,6 @@ void add_simulate(CLI::App& app, ExitCode& exit_code);
 void add_estimate(CLI::App& app, ExitCode& exit_code);
 void add_map(CLI::App& app, ExitCode& exit_code);
 void add_compare(CLI::App& app, ExitCode& exit_code);
+void add_view(CLI::App& app, ExitCode& exit_code);
 
 }  // namespace sweepscope::app

@@ -22,6 +22,7 @@ int run(int argc, char** argv) {
   app::add_estimate(app, exit_code);
   app::add_map(app, exit_code);
   app::add_compare(app, exit_code);
+  app::add_view(app, exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

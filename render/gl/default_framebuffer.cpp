@@ -29,6 +29,12 @@ void begin_default_framebuffer(Context& context, Colour colour) {
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
+std::string renderer_of_current() {
+  load_functions();
+  const auto* name = glGetString(GL_RENDERER);
+  return name != nullptr ? reinterpret_cast<const char*>(name) : "";
+}
+
 Image read_default_framebuffer(Context& context) {
   context.make_current();
   load_functions();

@@ -29,8 +29,8 @@ Result<LoadedPtr> load_file(const std::filesystem::path& path, const ReadOptions
   auto recording = read_recording(path, options, job);
   if (!recording) return tl::unexpected(recording.error());
   auto loaded = std::make_shared<Loaded>();
-  loaded->source = "open " + quoted(path.string());
-  loaded->shell = quoted(path.string());
+  loaded->source = "open " + ui::quoted(path.string());
+  loaded->shell = ui::quoted(path.string());
   loaded->recording = std::move(*recording);
   return finish(std::move(loaded), job);
 }

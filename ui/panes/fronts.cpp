@@ -1,8 +1,11 @@
+#include <imgui.h>
+
 #include <imgui_stdlib.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "ui/host/input.hpp"
 #include "ui/panes/widgets.hpp"
 
 namespace sweepscope::ui {
@@ -65,7 +68,8 @@ std::vector<Entry> all_entries() {
 }
 
 std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return text;
 }
 
@@ -208,7 +212,7 @@ void draw_ask(const PaneContext& context, const PixelRect& whole) {
   if ((!entered && !confirmed) || transient.asked_text.empty() || !transient.asks_for) return;
   const std::string before = command.name == "export-cloud" ? " b " : " ";
   transient.asks_for.reset();
-  context.perform(command.name + before + quoted(transient.asked_text));
+  context.perform(command.name + before + ui::quoted(transient.asked_text));
 }
 
 void draw_message(const PaneContext& context, const PixelRect& whole) {

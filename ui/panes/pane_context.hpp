@@ -41,6 +41,8 @@ struct Transient {
   };
   std::optional<HandleDrag> handle;
   double camera_moved_s = 1e9;  // ago
+  ImGuiID resting_on = 0;       // the widget whose tooltip comes next
+  double resting_since_s = 0;
   std::vector<std::string> recent;
   std::vector<std::string> dropped;  // files, in this frame
 };
@@ -78,6 +80,8 @@ void draw_recording_panel(const PaneContext& context, const PixelRect& place);
 void draw_display_panel(const PaneContext& context, const PixelRect& place);
 void draw_maps(const PaneContext& context, const PixelRect& place);
 void draw_criteria(const PaneContext& context, const PixelRect& place);
+/// The card of a point that was asked, and of a distance that was measured.
+void draw_cards(const PaneContext& context, const PixelRect& maps);
 /// What lies in front: the palette, the keys, a dialog, a message.
 void draw_palette(const PaneContext& context, const PixelRect& whole);
 void draw_help(const PaneContext& context, const PixelRect& whole);

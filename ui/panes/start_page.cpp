@@ -32,7 +32,7 @@ void recent_files(const PaneContext& context) {
   }
   for (const std::string& path : context.transient.recent) {
     if (ImGui::Selectable(std::filesystem::path(path).filename().c_str()))
-      context.perform("open " + quoted(path));
+      context.perform("open " + ui::quoted(path));
     context.anchor_last("recent " + path);
     tooltip(context, path);
   }

@@ -114,7 +114,8 @@ void PaneContext::anchor_last(const std::string& name) const {
   anchor(name, {from.x, from.y, to.x - from.x, to.y - from.y});
 }
 
-void begin_panel(const PaneContext& context, const char* name, const PixelRect& place, bool padded) {
+void begin_panel(const PaneContext& context, const char* name, const PixelRect& place, bool padded,
+                 bool above) {
   ImGui::SetNextWindowPos(corner(place));
   ImGui::SetNextWindowSize({static_cast<float>(place.width), static_cast<float>(place.height)});
   const float margin = padded ? context.pxf(14) : 0;
@@ -122,7 +123,8 @@ void begin_panel(const PaneContext& context, const char* name, const PixelRect& 
   ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
   ImGui::Begin(name, nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
-                   ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav);
+                   ImGuiWindowFlags_NoNav |
+                   (above ? ImGuiWindowFlags_NoFocusOnAppearing : ImGuiWindowFlags_NoBringToFrontOnFocus));
   ImGui::PopStyleVar(2);
 }
 
@@ -193,11 +195,10 @@ bool button(const PaneContext& context, const char* title, const std::string& li
 
 void tooltip(const PaneContext& context, const std::string& text) {
   constexpr float kDelay_s = 0.5f;
-  if (!ImGui::IsItemHovered() || ImGui::GetCurrentContext() == nullptr) return;
-  if (context.transient.handle) return;
+  if (!ImGui::IsItemHovered() || context.transient.handle) return;
   // ImGui 1.86 has no delay of its own.
-  static ImGuiID resting_on = 0;
-  static double since_s = 0;
+  ImGuiID& resting_on = context.transient.resting_on;
+  double& since_s = context.transient.resting_since_s;
   const ImGuiID id = ImGui::GetID((text + std::to_string(ImGui::GetItemRectMin().y)).c_str());
   if (id != resting_on) {
     resting_on = id;

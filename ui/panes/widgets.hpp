@@ -6,8 +6,9 @@
 
 namespace sweepscope::ui {
 
-/// Opens a window of fixed place without any decoration; `end_panel` closes it.
-void begin_panel(const PaneContext& context, const char* name, const PixelRect& place, bool padded = true);
+/// Opens a window of fixed place without any decoration, behind or above the others; `end_panel` closes it.
+void begin_panel(const PaneContext& context, const char* name, const PixelRect& place, bool padded = true,
+                 bool above = false);
 void end_panel();
 
 /// A panel's heading with a rule above it (not above the first).
