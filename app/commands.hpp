@@ -18,5 +18,6 @@ void add_compare(CLI::App& app, ExitCode& exit_code);
 void add_figures(CLI::App& app, ExitCode& exit_code);
 /// `words`: the command line without the program's name, which the report quotes.
 void add_report(CLI::App& app, ExitCode& exit_code, const std::vector<std::string>& words);
+void add_view(CLI::App& app, ExitCode& exit_code);
 
 }  // namespace sweepscope::app

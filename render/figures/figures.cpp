@@ -217,7 +217,7 @@ class FigureMaker {
                                      {"Shows", made->what}};
     for (const PictureFormat format : figure.formats) {
       const auto path = folder_ / (figure.name + extension_of(format));
-      if (auto written = write_picture(path, made->picture, texts); !written) return written;
+      if (auto written = write_picture(path, made->picture, texts, canvas_); !written) return written;
       keep(path, made->what);
     }
     return {};
@@ -241,6 +241,7 @@ class FigureMaker {
 
   const Recipe& recipe_;
   std::filesystem::path folder_;
+  Canvas& canvas_;
   const Job& job_;
   const Said& said_;
   FigureData data_;
@@ -250,12 +251,12 @@ class FigureMaker {
 }  // namespace
 
 Result<std::vector<std::filesystem::path>> make_figures(const Recipe& recipe,
-                                                        const std::filesystem::path& folder, const Job& job,
-                                                        const Said& said) {
+                                                        const std::filesystem::path& folder, Canvas& canvas,
+                                                        const Job& job, const Said& said) {
   std::error_code error;
   std::filesystem::create_directories(folder / "cache", error);
   if (error) return unreadable(fmt::format("{}: cannot be made: {}", folder.string(), error.message()));
-  return FigureMaker(recipe, folder, job, said).make_all();
+  return FigureMaker(recipe, folder, canvas, job, said).make_all();
 }
 
 }  // namespace sweepscope

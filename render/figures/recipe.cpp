@@ -218,7 +218,8 @@ class RecipeReader {
         const std::vector<Node> values = option.repeats ? read_list(node) : std::vector<Node>{node};
         for (const Node& value : values) {
           if (!value.IsScalar()) refuse(value, fmt::format("{} must be a text", option.name));
-          if (const auto set = set_look(look, option, value.Scalar()); !set) refuse(value, set.error().message);
+          if (const auto set = set_look(look, option, value.Scalar()); !set)
+            refuse(value, set.error().message);
         }
       };
     }
