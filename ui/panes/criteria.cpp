@@ -21,7 +21,7 @@ Colour colour_of(const PaneContext& context, Side side) {
   return side == Side::kA ? colour_of_a(context.style) : colour_of_b(context.style);
 }
 
-/// Before there is an estimate: an axis alone, to hold the handles.
+/// Before there is an estimate: what the handles can be moved over.
 Chart empty_chart(const PaneContext& context) {
   const double reach_ms = 1e3 * std::min(search_scale(context.explorer.loaded()->motor).half_width_s, 0.06);
   Chart chart;
