@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -9,14 +8,18 @@
 #include <vector>
 
 #include "app/commands.hpp"
+#include "app/look_texts.hpp"
 #include "app/offset_texts.hpp"
 #include "app/progress.hpp"
 #include "app/recording_options.hpp"
 #include "core/io/cloud_file.hpp"
 #include "core/io/estimate_json.hpp"
+#include "core/io/trajectory_file.hpp"
+#include "core/map/feature_points.hpp"
 #include "core/map/offset_map.hpp"
 #include "render/comparison.hpp"
 #include "render/curve_charts.hpp"
+#include "render/vector_file.hpp"
 
 namespace sweepscope::app {
 namespace {
@@ -24,58 +27,16 @@ namespace {
 struct CompareOptions {
   RecordingOptions recording;
   std::vector<std::string> inputs;  // a recording, or two to four maps
-  std::string output, curve, size = "1920x1200", close_up;
+  std::string output, curve;
   std::vector<double> offsets_ms;
-  std::vector<std::string> slabs;
   double path_height_m = 0;
-  ComparisonOptions picture;
+  std::string poses;
+  bool no_curve = false;
+  LookTexts look;
 };
-
-/// The numbers of a text such as "1920x1200", or nothing where it is not exactly that many.
-std::optional<std::vector<double>> numbers_between(const std::string& text, char separator,
-                                                   std::size_t count) {
-  std::vector<double> numbers;
-  const char *at = text.data(), *end = text.data() + text.size();
-  while (numbers.size() < count) {
-    double number = 0;
-    const auto [after, error] = std::from_chars(at, end, number);
-    const bool last = numbers.size() + 1 == count;
-    if (error != std::errc() || (last ? after != end : after == end || *after != separator))
-      return std::nullopt;
-    numbers.push_back(number);
-    at = after + (last ? 0 : 1);
-  }
-  return numbers;
-}
 
 tl::unexpected<Error> wrong_usage(std::string message) {
   return failure(ExitCode::kWrongUsage, std::move(message));
-}
-
-Result<ComparisonOptions> picture_options(const CompareOptions& options) {
-  ComparisonOptions picture = options.picture;
-  const auto size = numbers_between(options.size, 'x', 2);
-  if (!size || (*size)[0] < 0 || (*size)[1] < 0 || (*size)[0] > 1e6 || (*size)[1] > 1e6) {
-    return wrong_usage(fmt::format("--size {}: not like 1920x1200", options.size));
-  }
-  picture.width_px = static_cast<int>((*size)[0]);
-  picture.height_px = static_cast<int>((*size)[1]);
-  for (const std::string& text : options.slabs) {
-    const auto range = numbers_between(text, ':', 2);
-    if (!range || !((*range)[0] < (*range)[1])) {
-      return wrong_usage(fmt::format("--slab {}: not like 0.8:3.2, in metres above the sensor's path", text));
-    }
-    picture.slabs.push_back({(*range)[0], (*range)[1]});
-  }
-  if (!options.close_up.empty()) {
-    const auto region = numbers_between(options.close_up, ':', 3);
-    if (!region || !((*region)[2] > 0)) {
-      return wrong_usage(
-          fmt::format("--close-up {}: not like 12.5:-3:4, x, y and height in metres", options.close_up));
-    }
-    picture.close_up = Region{{(*region)[0], (*region)[1]}, (*region)[2]};
-  }
-  return picture;
 }
 
 bool is_map_file(const std::string& path) {
@@ -121,7 +82,7 @@ Result<Estimate> curve_about(const Recording& recording, const CompareOptions& o
   return estimate(recording, wanted, job);
 }
 
-Result<Compared> from_recording(const CompareOptions& options) {
+Result<Compared> from_recording(const CompareOptions& options, bool by_features) {
   if (options.offsets_ms.size() < 2 || options.offsets_ms.size() > 4)
     return wrong_usage("compare of a recording wants two to four offsets, such as --offsets-ms 19,24");
   const Progress progress;
@@ -133,16 +94,28 @@ Result<Compared> from_recording(const CompareOptions& options) {
   for (const double offset_ms : options.offsets_ms) offsets_s.push_back(offset_ms * 1e-3);
   MapOptions map_options;
   map_options.assume = parse_method(options.recording.assume);
+  if (!options.poses.empty()) {
+    auto poses = read_tum(options.poses, recording->epoch_ns);
+    if (!poses) return tl::unexpected(poses.error());
+    map_options.poses = std::move(*poses);
+  }
   auto built = build_maps(*recording, offsets_s, map_options, progress.job());
   if (!built) return tl::unexpected(built.error());
+  std::optional<FeatureSet> features;
+  if (by_features) {
+    auto extracted = extract_features(*recording, FeatureOptions(), progress.job());
+    if (!extracted) return tl::unexpected(extracted.error());
+    features = std::move(*extracted);
+  }
   Compared compared;
   for (OffsetMap& map : *built) {
     ComparedMap& next = compared.maps.emplace_back();
     next.offset_s = map.offset_s;
     next.cloud = map.cloud;
     next.path = std::move(map.trajectory);
+    if (features) next.feature_kinds = feature_kinds(*features, *map.cloud);
   }
-  if (!options.curve.empty()) return compared;
+  if (!options.curve.empty() || options.no_curve) return compared;
   auto curve = curve_about(*recording, options, progress.job());
   if (!curve) return tl::unexpected(curve.error());
   if (curve->interrupted) return failure(ExitCode::kInterrupted, "Interrupted while computing the criteria.");
@@ -151,7 +124,7 @@ Result<Compared> from_recording(const CompareOptions& options) {
 }
 
 /// The maps that are compared, whatever they are made from.
-Result<Compared> compared_maps(const CompareOptions& options) {
+Result<Compared> compared_maps(const CompareOptions& options, bool by_features) {
   std::size_t map_files = 0;
   for (const std::string& input : options.inputs) map_files += is_map_file(input) ? 1 : 0;
   if (map_files == options.inputs.size())
@@ -160,12 +133,12 @@ Result<Compared> compared_maps(const CompareOptions& options) {
     });
   if (map_files > 0 || options.inputs.size() > 1)
     return wrong_usage("compare takes one recording, or two to four maps (.pcd or .ply)");
-  return from_recording(options);
+  return from_recording(options, by_features);
 }
 
 Result<void> compare(const CompareOptions& options) {
   // Wrong words cost nothing; they are found before files of hundreds of megabytes are read.
-  const auto picture = picture_options(options);
+  const auto picture = options.look.parse();
   if (!picture) return tl::unexpected(picture.error());
   std::optional<Estimate> given;
   if (!options.curve.empty()) {
@@ -173,11 +146,13 @@ Result<void> compare(const CompareOptions& options) {
     if (!read) return tl::unexpected(read.error());
     given = std::move(*read);
   }
-  auto compared = compared_maps(options);
+  auto compared = compared_maps(options, picture->colour_by == ColourBy::kFeatures);
   if (!compared) return tl::unexpected(compared.error());
   if (given) compared->estimate = std::move(given);
-  return write_comparison(options.output, compared->maps, compared->estimate ? &*compared->estimate : nullptr,
-                          *picture);
+  const Estimate* curve = compared->estimate ? &*compared->estimate : nullptr;
+  return comparison_picture(compared->maps, curve, *picture).and_then([&](const Picture& drawn) {
+    return write_picture(options.output, drawn, comparison_texts(compared->maps, *picture));
+  });
 }
 
 void declare(CLI::App& command, CompareOptions& options) {
@@ -186,7 +161,7 @@ void declare(CLI::App& command, CompareOptions& options) {
   command.add_option("INPUT", options.inputs, "A recording, or two to four maps (.pcd, .ply)")
       ->required()
       ->expected(-1);
-  command.add_option("-o,--output", options.output, "The picture to write (PNG)")->required();
+  command.add_option("-o,--output", options.output, "The picture to write: .png, .svg or .pdf")->required();
   command
       .add_option("--offsets-ms", options.offsets_ms,
                   "The offsets to map a recording at in milliseconds, such as 19,24; with maps: those that "
@@ -196,23 +171,16 @@ void declare(CLI::App& command, CompareOptions& options) {
   command.add_option("--curve", options.curve,
                      "An estimate (JSON) whose criteria are drawn below the maps; default with a recording: "
                      "computed by 1 ms from 5 ms below the offsets to 5 ms above");
-  command.add_option("--size", options.size, "Of the picture, in pixels")->capture_default_str();
-  command.add_option("--colour-table", options.picture.colour_table, "viridis, cividis, turbo or grey")
-      ->capture_default_str();
-  command.add_flag("--light", options.picture.light_background, "A light background, for paper");
-  command.add_option("--title", options.picture.title, "Above the maps; default: the estimate's recording");
-  command.add_option(
-      "--slab", options.slabs,
-      "FROM:TO in metres above the sensor's path: show these heights; repeatable. Default: 0.8 m and "
-      "more below it, and from 0.8 m above it to just under the ceiling");
-  command.add_option(
-      "--close-up", options.close_up,
-      "X:Y:HEIGHT in metres of the map frame: what the close-ups show. Default: where the maps "
-      "differ most in sharpness");
+  command.add_flag("--no-curve", options.no_curve, "Leave the criteria out");
+  command
+      .add_option("--poses", options.poses,
+                  "Where the rig went (TUM), instead of solving for it; the map is in that frame")
+      ->type_name("F");
   command
       .add_option("--path-height-m", options.path_height_m,
                   "With maps: the sensor's height in the map frame, which slabs refer to")
       ->capture_default_str();
+  options.look.declare(command);
 }
 
 }  // namespace

@@ -17,34 +17,45 @@ namespace {
 struct Options {
   RecordingOptions recording;
   double offset_ms = 0;
-  std::string output, trajectory;
+  std::string output, trajectory, poses;
   double voxel_m = 0;
   bool remove_outliers = false;
 };
 
-Result<OffsetMap> build(const Options& options) {
+struct Built {
+  OffsetMap map;
+  std::int64_t epoch_ns = 0;
+};
+
+Result<Built> build(const Options& options) {
   const Progress progress;
   const auto recording = options.recording.read(progress.job());
   if (!recording) return tl::unexpected(recording.error());
   MapOptions map_options;
   map_options.assume = parse_method(options.recording.assume);
+  if (!options.poses.empty()) {
+    auto poses = read_tum(options.poses, recording->epoch_ns);
+    if (!poses) return tl::unexpected(poses.error());
+    map_options.poses = std::move(*poses);
+  }
   const double offset_s = options.offset_ms * 1e-3;
   auto maps = build_maps(*recording, {&offset_s, 1}, map_options, progress.job());
   if (!maps) return tl::unexpected(maps.error());
-  return std::move(maps->front());
+  return Built{std::move(maps->front()), recording->epoch_ns};
 }
 
 ExitCode run(const Options& options) {
   const auto threads = options.recording.limit_threads();
-  auto map = build(options);
-  if (!map) return fail(map.error());
+  auto built = build(options);
+  if (!built) return fail(built.error());
+  OffsetMap* map = &built->map;
   if (options.remove_outliers) map->cloud = without_outliers(map->cloud);
   if (options.voxel_m > 0) map->cloud = thinned(map->cloud, options.voxel_m);
   if (map->lost)
     fmt::print(stderr, "warning: LOAM lost track at this offset: the map is not to be trusted\n");
   if (const auto written = write_cloud(options.output, *map->cloud); !written) return fail(written.error());
   if (!options.trajectory.empty()) {
-    const auto written = write_tum(options.trajectory, map->trajectory);
+    const auto written = write_tum(options.trajectory, map->trajectory, built->epoch_ns);
     if (!written) return fail(written.error());
   }
   fmt::print("{}: {} points of a {} rig at t_motor = t_laser + {:.3f} ms\n", options.output,
@@ -69,6 +80,10 @@ void add_map(CLI::App& app, ExitCode& exit_code) {
                                                                 : path + ": a map is written as .pcd or .ply";
       });
   command->add_option("--trajectory", options->trajectory, "Write where the rig went, as TUM")
+      ->type_name("F");
+  command
+      ->add_option("--poses", options->poses,
+                   "Where the rig went (TUM), instead of solving for it; the map is in that frame")
       ->type_name("F");
   command->add_option("--voxel-m", options->voxel_m, "Keep one point per cube of this size (default: all)")
       ->check(CLI::PositiveNumber);

@@ -4,187 +4,274 @@
 #include <cmath>
 #include <limits>
 
-#include "render/ticks.hpp"
+#include "render/chart_layout.hpp"
 
 namespace sweepscope {
 namespace {
 
-struct Range {
-  double from = std::numeric_limits<double>::max(), to = std::numeric_limits<double>::lowest();
-
-  void include(double value) {
-    from = std::min(from, value);
-    to = std::max(to, value);
-  }
-  void pad(double fraction) {
-    if (from > to) from = to = 0;
-    const double least = std::max(std::abs(from), 1e-9) * 1e-3;  // a flat curve still gets an axis
-    const double padding = std::max((to - from) * fraction, least);
-    from -= padding;
-    to += padding;
-  }
-};
-
 /// What each step of drawing a chart needs.
-struct Frame {
+struct Canvas {
   Drawing& drawing;
   const Chart& chart;
   const Style& style;
+  const ChartLayout& layout;
   double scale;
-  PixelRect plot;
-  Range x, y;
 
-  double px(double value) const { return plot.left + (value - x.from) / (x.to - x.from) * plot.width; }
-  double py(double value) const { return plot.bottom() - (value - y.from) / (y.to - y.from) * plot.height; }
-  double label_px() const { return 13 * scale; }
+  PixelPoint px(double x, double y) const { return {layout.x_px(x), layout.y_px(y)}; }
 };
 
-Range range_of_x(const Chart& chart) {
-  Range range;
-  for (const ChartSeries& series : chart.series) {
-    for (const double x : series.x) range.include(x);
-  }
-  for (const ChartVertical& vertical : chart.verticals) range.include(vertical.x);
-  range.pad(0.04);
-  return range;
+Colour with_alpha(Colour colour, std::uint8_t alpha) {
+  colour.alpha = alpha;
+  return colour;
 }
 
-Range range_of_y(const Chart& chart) {
-  Range range;
-  for (const ChartSeries& series : chart.series) {
-    for (const auto& y : series.y) {
-      if (y) range.include(*y);
-    }
+PolygonMark marker_of(MarkerShape shape, PixelPoint at, double radius_px, Colour colour) {
+  // Corners of equal area, so that no shape stands out; a triangle's is about its centre of mass.
+  int corners = 24;
+  double turn = 0, reach = radius_px;
+  if (shape == MarkerShape::kSquare) corners = 4, turn = M_PI / 4, reach *= 1.25;
+  if (shape == MarkerShape::kDiamond) corners = 4, reach *= 1.25;
+  if (shape == MarkerShape::kTriangle) corners = 3, turn = -M_PI / 2, reach *= 1.55;
+  PolygonMark mark{{}, colour};
+  for (int i = 0; i < corners; ++i) {
+    const double angle = turn + 2 * M_PI * i / corners;
+    mark.points.push_back({at.x + reach * std::cos(angle), at.y + reach * std::sin(angle)});
   }
-  for (const ChartMarker& marker : chart.markers) range.include(marker.y);
-  if (chart.with_zero) range.include(0);
-  range.pad(0.08);
-  return range;
+  return mark;
 }
 
-void add_axes(const Frame& f) {
-  f.drawing.fill(f.plot, f.style.panel);
-  const Ticks ys =
-      round_ticks(f.y.from, f.y.to, std::max(2, static_cast<int>(f.plot.height / (38 * f.scale))));
+void add_text(const Canvas& c, PixelPoint at, const std::string& text, AlignX align_x, AlignY align_y) {
+  c.drawing.add(TextMark{at, text, c.layout.text_size_px(), c.style.faint_text, align_x, align_y});
+}
+
+void add_axes(const Canvas& c) {
+  const PixelRect& plot = c.layout.plot;
+  const Ticks &xs = c.layout.x_ticks, &ys = c.layout.y_ticks;
   for (std::size_t i = 0; i < ys.values.size(); ++i) {
-    const double y = f.py(ys.values[i]);
-    const bool zero = f.chart.with_zero && ys.values[i] == 0;
-    f.drawing.line({f.plot.left, y}, {f.plot.right(), y}, f.scale, zero ? f.style.faint_text : f.style.grid);
-    f.drawing.add(TextMark{{f.plot.left - 8 * f.scale, y},
-                           ys.labels[i],
-                           f.label_px(),
-                           f.style.faint_text,
-                           AlignX::kRight,
-                           AlignY::kMiddle});
+    const double y = c.layout.y_px(ys.values[i]);
+    const bool zero = c.chart.with_zero && ys.values[i] == 0;
+    c.drawing.line({plot.left, y}, {plot.right(), y}, c.scale, zero ? c.style.faint_text : c.style.grid);
+    add_text(c, {plot.left - 8 * c.scale, y}, ys.labels[i], AlignX::kRight, AlignY::kMiddle);
   }
-  const Ticks xs =
-      round_ticks(f.x.from, f.x.to, std::max(2, static_cast<int>(f.plot.width / (46 * f.scale))));
   for (std::size_t i = 0; i < xs.values.size(); ++i) {
-    const double x = f.px(xs.values[i]);
-    f.drawing.line({x, f.plot.top}, {x, f.plot.bottom()}, f.scale, f.style.grid);
-    f.drawing.add(TextMark{{x, f.plot.bottom() + 8 * f.scale},
-                           xs.labels[i],
-                           f.label_px(),
-                           f.style.faint_text,
-                           AlignX::kCentre,
-                           AlignY::kTop});
+    const double x = c.layout.x_px(xs.values[i]);
+    c.drawing.line({x, plot.top}, {x, plot.bottom()}, c.scale, c.style.grid);
+    add_text(c, {x, plot.bottom() + 8 * c.scale}, xs.labels[i], AlignX::kCentre, AlignY::kTop);
   }
-  f.drawing.add(TextMark{{f.plot.left + f.plot.width / 2, f.plot.bottom() + 28 * f.scale},
-                         f.chart.x_title,
-                         f.label_px(),
-                         f.style.faint_text,
-                         AlignX::kCentre,
-                         AlignY::kTop});
+  add_text(c, {plot.left + plot.width / 2, plot.bottom() + 28 * c.scale},
+           fit_text(c.chart.x_title, c.layout.text_size_px(), plot.width), AlignX::kCentre, AlignY::kTop);
 }
 
-void add_title_and_legend(const Frame& f, const PixelRect& place) {
-  const double size = 15 * f.scale, baseline = place.top + size;
-  f.drawing.add(TextMark{{place.left, baseline}, f.chart.title, size, f.style.text});
-  if (f.chart.series.size() < 2) return;
-  double right = place.right();
-  for (auto series = f.chart.series.rbegin(); series != f.chart.series.rend(); ++series) {
-    f.drawing.add(
-        TextMark{{right, baseline}, series->name, f.label_px(), f.style.faint_text, AlignX::kRight});
-    right -= text_width_px(series->name, f.label_px()) + 8 * f.scale;
-    const double y = baseline - 0.35 * f.label_px();
-    f.drawing.line({right - 22 * f.scale, y}, {right, y}, 2 * f.scale, series->colour);
-    right -= 42 * f.scale;
+void add_bands(const Canvas& c) {
+  const PixelRect& plot = c.layout.plot;
+  for (const ChartBand& band : c.chart.bands) {
+    const double from = std::max(plot.left, c.layout.x_px(band.from)),
+                 to = std::min(plot.right(), c.layout.x_px(band.to));
+    if (from < to) c.drawing.fill({from, plot.top, to - from, plot.height}, with_alpha(band.colour, 56));
   }
 }
 
-void add_series(const Frame& f, const ChartSeries& series) {
-  LineMark line{{}, 2 * f.scale, series.colour};
-  const auto finish = [&] {
-    if (line.points.size() > 1) f.drawing.add(line);
-    line.points.clear();
-  };
+LineMark line_of(const Canvas& c, const ChartSeries& series) {
+  if (series.dashed) return {{}, 1.5 * c.scale, series.colour, 4 * c.scale};
+  return {{}, 2 * c.scale, series.colour};
+}
+
+/// The stretches of a series between its gaps, in pixels.
+std::vector<std::vector<PixelPoint>> stretches_of(const Canvas& c, const ChartSeries& series) {
+  std::vector<std::vector<PixelPoint>> stretches(1);
   for (std::size_t i = 0; i < series.x.size(); ++i) {
-    if (!series.y[i]) {
-      finish();
-      continue;
+    if (series.y[i]) {
+      stretches.back().push_back(c.px(series.x[i], *series.y[i]));
+    } else if (!stretches.back().empty()) {
+      stretches.emplace_back();
     }
-    const PixelPoint at{f.px(series.x[i]), f.py(*series.y[i])};
-    line.points.push_back(at);
-    // A dot where a value was computed, as long as dots stay apart; then a lone value between gaps shows too.
-    const double r =
-        (static_cast<double>(series.x.size()) * 9 * f.scale < f.plot.width ? 3.0 : 1.0) * f.scale;
-    f.drawing.add(
-        PolygonMark{{{at.x - r, at.y}, {at.x, at.y - r}, {at.x + r, at.y}, {at.x, at.y + r}}, series.colour});
   }
-  finish();
+  if (stretches.back().empty()) stretches.pop_back();
+  return stretches;
 }
 
-/// Where each vertical's label is centred: above its line, or beside its neighbour where they would overlap.
-std::vector<double> label_centres(const Frame& f, const std::vector<const ChartVertical*>& sorted,
-                                  double size) {
-  std::vector<double> centres, half;
-  const double gap = 6 * f.scale;
-  for (const ChartVertical* vertical : sorted) {
-    half.push_back(text_width_px(vertical->label, size, true) / 2);
-    const double least = centres.empty() ? f.plot.left + half.back()
-                                         : centres.back() + half[half.size() - 2] + gap + half.back();
-    centres.push_back(std::max(f.px(vertical->x), least));
+void add_area(const Canvas& c, const ChartSeries& series) {
+  const double base = std::clamp(c.layout.y_px(0), c.layout.plot.top, c.layout.plot.bottom());
+  for (auto& stretch : stretches_of(c, series)) {
+    if (stretch.size() > 1) c.drawing.add(AreaMark{std::move(stretch), base, with_alpha(series.colour, 56)});
   }
-  double limit = f.plot.right();
-  for (std::size_t i = centres.size(); i-- > 0;) {
-    centres[i] = std::min(centres[i], limit - half[i]);
-    limit = centres[i] - half[i] - gap;
-  }
-  return centres;
 }
 
-void add_verticals(const Frame& f) {
-  std::vector<const ChartVertical*> sorted;
-  for (const ChartVertical& vertical : f.chart.verticals) {
-    const double x = f.px(vertical.x);
-    if (vertical.dashed) {
-      f.drawing.dashed({x, f.plot.top}, {x, f.plot.bottom()}, 5 * f.scale, 1.5 * f.scale, vertical.colour);
+/// Points that lie close get smaller shapes, or, beside other series, a shape now and then.
+void add_shapes(const Canvas& c, const ChartSeries& series, const std::vector<PixelPoint>& stretch,
+                bool beside_others) {
+  const double radius = 3.2 * c.scale;
+  const auto gap_px = [&](std::size_t i) { return std::abs(stretch[i].x - stretch[i - 1].x); };
+  PixelPoint last{-std::numeric_limits<double>::max(), 0};
+  for (std::size_t i = 0; i < stretch.size(); ++i) {
+    double fitting = radius;
+    if (beside_others) {
+      if (std::hypot(stretch[i].x - last.x, stretch[i].y - last.y) < 4 * radius) continue;
+      last = stretch[i];
     } else {
-      f.drawing.line({x, f.plot.top}, {x, f.plot.bottom()}, 2 * f.scale, vertical.colour);
+      if (i > 0) fitting = std::min(fitting, 0.36 * gap_px(i));
+      if (i + 1 < stretch.size()) fitting = std::min(fitting, 0.36 * gap_px(i + 1));
     }
-    if (!vertical.label.empty()) sorted.push_back(&vertical);
+    c.drawing.add(marker_of(series.marker, stretch[i], std::max(fitting, 1.3 * c.scale), series.colour));
   }
-  std::stable_sort(sorted.begin(), sorted.end(), [](auto* a, auto* b) { return a->x < b->x; });
-  const double size = 12.5 * f.scale;
-  const auto centres = label_centres(f, sorted, size);
-  for (std::size_t i = 0; i < sorted.size(); ++i) {
-    f.drawing.add(TextMark{{centres[i], f.plot.top - 6 * f.scale},
-                           sorted[i]->label,
-                           size,
-                           sorted[i]->colour,
+}
+
+void add_series(const Canvas& c, const ChartSeries& series, bool beside_others) {
+  for (auto& stretch : stretches_of(c, series)) {
+    if (series.marker != MarkerShape::kNone) add_shapes(c, series, stretch, beside_others);
+    LineMark line = line_of(c, series);
+    line.points = std::move(stretch);
+    if (line.points.size() > 1) c.drawing.add(std::move(line));
+  }
+  const double bottom = c.layout.plot.bottom();
+  for (std::size_t i = 0; i < series.x.size(); ++i) {
+    const double x = c.layout.x_px(series.x[i]);
+    if (!series.y[i]) c.drawing.line({x, bottom - 7 * c.scale}, {x, bottom}, 2 * c.scale, series.colour);
+  }
+}
+
+void add_all_series(const Canvas& c) {
+  const auto has_shapes = [](const ChartSeries& series) { return series.marker != MarkerShape::kNone; };
+  const bool beside_others = std::count_if(c.chart.series.begin(), c.chart.series.end(), has_shapes) > 1;
+  for (const ChartSeries& series : c.chart.series) add_series(c, series, beside_others);
+}
+
+void add_verticals(const Canvas& c) {
+  const PixelRect& plot = c.layout.plot;
+  for (const ChartVertical& vertical : c.chart.verticals) {
+    const double x = c.layout.x_px(vertical.x);
+    if (vertical.dashed) {
+      c.drawing.dashed({x, plot.top}, {x, plot.bottom()}, 5 * c.scale, 1.5 * c.scale, vertical.colour);
+    } else {
+      c.drawing.line({x, plot.top}, {x, plot.bottom()}, 2 * c.scale, vertical.colour);
+    }
+  }
+}
+
+void add_heading(const Canvas& c) {
+  const ChartLayout& layout = c.layout;
+  c.drawing.add(TextMark{{layout.title_place.left, layout.title_place.top + layout.title_size_px()},
+                         layout.title,
+                         layout.title_size_px(),
+                         c.style.text});
+  for (const LegendEntry& entry : layout.legend) {
+    const double baseline = entry.place.top + layout.title_size_px();
+    const double y = baseline - 0.35 * layout.text_size_px(), left = entry.place.left,
+                 width = layout.symbol_width_px();
+    const PixelPoint middle{left + width / 2, y};
+    if (entry.series == nullptr) {
+      c.drawing.line({middle.x, y - 4 * c.scale}, {middle.x, y + 4 * c.scale}, 2 * c.scale, c.style.curve);
+    } else {
+      LineMark line = line_of(c, *entry.series);
+      line.points = {{left, y}, {left + width, y}};
+      if (entry.series->filled) c.drawing.fill({left, y, width, 5 * c.scale}, with_alpha(line.colour, 56));
+      c.drawing.add(std::move(line));
+      if (entry.series->marker != MarkerShape::kNone)
+        c.drawing.add(marker_of(entry.series->marker, middle, 3.6 * c.scale, entry.series->colour));
+    }
+    c.drawing.add(TextMark{
+        {left + width + 8 * c.scale, baseline}, entry.name, layout.text_size_px(), c.style.faint_text});
+  }
+  for (const VerticalLabel& label : layout.labels) {
+    c.drawing.add(
+        TextMark{{label.place.left + label.place.width / 2, label.place.top + layout.label_size_px()},
+                 label.text,
+                 layout.label_size_px(),
+                 label.vertical->colour,
+                 AlignX::kCentre,
+                 AlignY::kBaseline,
+                 true});
+  }
+}
+
+/// Whether a stretch of a line passes through a rectangle.
+bool crosses(PixelPoint a, PixelPoint b, const PixelRect& rect) {
+  double from = 0, to = 1;
+  const auto clip = [&](double start, double step, double least, double most) {
+    if (step == 0) return start >= least && start <= most;
+    const double t1 = (least - start) / step, t2 = (most - start) / step;
+    from = std::max(from, std::min(t1, t2));
+    to = std::min(to, std::max(t1, t2));
+    return from <= to;
+  };
+  return clip(a.x, b.x - a.x, rect.left, rect.right()) && clip(a.y, b.y - a.y, rect.top, rect.bottom());
+}
+
+bool overlap(const PixelRect& a, const PixelRect& b) {
+  return a.left < b.right() && b.left < a.right() && a.top < b.bottom() && b.top < a.bottom();
+}
+
+/// How much a label there would hide or lie upon.
+int clutter(const Canvas& c, const PixelRect& place, const std::vector<PixelRect>& taken) {
+  const PixelRect& plot = c.layout.plot;
+  int count = 0;
+  for (const ChartSeries& series : c.chart.series) {
+    for (const auto& stretch : stretches_of(c, series)) {
+      for (std::size_t i = 1; i < stretch.size(); ++i) count += crosses(stretch[i - 1], stretch[i], place);
+    }
+  }
+  for (const ChartVertical& vertical : c.chart.verticals) {
+    const double x = c.layout.x_px(vertical.x);
+    count += crosses({x, plot.top}, {x, plot.bottom()}, place);
+  }
+  for (const PixelRect& other : taken) count += overlap(place, other) ? 100 : 0;
+  if (!plot.contains({place.left, place.top}) || !plot.contains({place.right(), place.bottom()}))
+    count += 1000;
+  return count;
+}
+
+/// Right or left of the bar, above or below it, or further off: the first place of the least clutter.
+PixelRect place_for(const Canvas& c, const ChartSpan& span, const std::vector<PixelRect>& taken) {
+  const double size = c.layout.label_size_px(), gap = 8 * c.scale, height = size + 6 * c.scale;
+  const double width = text_width_px(span.label, size, true) + 6 * c.scale;
+  const PixelPoint from = c.px(span.from, span.y), to = c.px(span.to, span.y);
+  const double middle = (from.x + to.x - width) / 2, y = from.y - height / 2;
+  PixelRect best{to.x + gap, y, width, height};
+  int least = std::numeric_limits<int>::max();
+  for (const double off : {0.0, 2.0, 4.0, 7.0, 11.0}) {
+    for (const PixelPoint at :
+         {PixelPoint{to.x + gap + off * gap, y}, PixelPoint{from.x - gap - off * gap - width, y},
+          PixelPoint{middle, from.y - gap / 2 - off * gap - height},
+          PixelPoint{middle, from.y + gap / 2 + off * gap}}) {
+      const PixelRect place{at.x, at.y, width, height};
+      const int count = clutter(c, place, taken);
+      if (count < least) least = count, best = place;
+    }
+  }
+  return best;
+}
+
+void add_spans(const Canvas& c) {
+  std::vector<PixelRect> taken;
+  const double cap = 5 * c.scale;
+  for (const ChartSpan& span : c.chart.spans) {
+    const PixelPoint from = c.px(span.from, span.y), to = c.px(span.to, span.y);
+    taken.push_back({from.x, from.y - cap, to.x - from.x, 2 * cap});
+  }
+  for (const ChartSpan& span : c.chart.spans) {
+    const PixelPoint from = c.px(span.from, span.y), to = c.px(span.to, span.y);
+    c.drawing.line(from, to, 2 * c.scale, span.colour);
+    for (const PixelPoint end : {from, to})
+      c.drawing.line({end.x, end.y - cap}, {end.x, end.y + cap}, 2 * c.scale, span.colour);
+    if (span.label.empty()) continue;
+    const PixelRect place = place_for(c, span, taken);
+    taken.push_back(place);
+    c.drawing.fill(place, with_alpha(c.style.panel, 190));
+    c.drawing.add(TextMark{{place.left + place.width / 2, place.top + place.height / 2},
+                           span.label,
+                           c.layout.label_size_px(),
+                           span.colour,
                            AlignX::kCentre,
-                           AlignY::kBaseline,
+                           AlignY::kMiddle,
                            true});
   }
 }
 
-void add_markers(const Frame& f) {
-  for (const ChartMarker& marker : f.chart.markers) {
-    const double x = f.px(marker.x), y = f.py(marker.y);
-    for (const auto& [r, colour] :
-         {std::pair{8 * f.scale, f.style.panel}, std::pair{6 * f.scale, marker.colour}}) {
-      f.drawing.add(PolygonMark{{{x - r, y}, {x, y - r}, {x + r, y}, {x, y + r}}, colour});
-    }
+void add_markers(const Canvas& c) {
+  for (const ChartMarker& marker : c.chart.markers) {
+    const PixelPoint at = c.px(marker.x, marker.y);
+    c.drawing.add(marker_of(marker.shape, at, 6.2 * c.scale, c.style.panel));
+    c.drawing.add(marker_of(marker.shape, at, 5 * c.scale, marker.colour));
   }
 }
 
@@ -192,19 +279,20 @@ void add_markers(const Frame& f) {
 
 void add_chart(Drawing& drawing, const PixelRect& place, const Chart& chart, const Style& style,
                double scale) {
-  const Range x = range_of_x(chart), y = range_of_y(chart);
-  const Ticks ys = round_ticks(y.from, y.to, std::max(2, static_cast<int>(place.height / (50 * scale))));
-  double widest = 0;
-  for (const std::string& label : ys.labels) widest = std::max(widest, text_width_px(label, 13 * scale));
-  const double left = place.left + widest + 12 * scale, top = place.top + 48 * scale;
-  const PixelRect plot{left, top, place.right() - left, place.bottom() - 46 * scale - top};
-  const Frame frame{drawing, chart, style, scale, plot, x, y};
-  add_axes(frame);
-  add_title_and_legend(frame, place);
-  add_verticals(frame);
-  for (const ChartSeries& series : chart.series) add_series(frame, series);
-  add_markers(frame);
-  drawing.frame(plot, scale, style.frame);
+  const ChartLayout layout = lay_out_chart(chart, place, scale);
+  const Canvas canvas{drawing, chart, style, layout, scale};
+  drawing.fill(layout.plot, style.panel);
+  add_bands(canvas);
+  add_axes(canvas);
+  add_heading(canvas);
+  for (const ChartSeries& series : chart.series) {
+    if (series.filled) add_area(canvas, series);
+  }
+  add_verticals(canvas);
+  add_all_series(canvas);
+  add_spans(canvas);
+  add_markers(canvas);
+  drawing.frame(layout.plot, scale, style.frame);
 }
 
 }  // namespace sweepscope

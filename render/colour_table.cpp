@@ -80,6 +80,7 @@ Result<ColourTable> colour_table(std::string_view name) {
 }
 
 Colour ColourScale::at(double value) const {
+  if (std::isnan(value)) return no_value;
   const double t = to > from ? (value - from) / (to - from) : 0.5;
   return table[static_cast<std::size_t>(std::lround(255 * std::clamp(t, 0.0, 1.0)))];
 }

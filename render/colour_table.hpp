@@ -23,10 +23,12 @@ std::span<const std::string_view> colour_table_names();
 /// An unknown name is ExitCode::kWrongUsage, with the names that there are.
 Result<ColourTable> colour_table(std::string_view name);
 
-/// What value has which colour: [from, to] is spread over the table; values beyond have its ends' colours.
+/// What value has which colour: [from, to] is spread over the table; values beyond have its ends' colours,
+/// and NaN has one of its own.
 struct ColourScale {
   ColourTable table{};
   double from = 0, to = 1;
+  Colour no_value{96, 100, 108};
 
   Colour at(double value) const;
 };

@@ -5,13 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "render/comparison_layout.hpp"
 #include "render/comparison_marks.hpp"
 #include "render/comparison_points.hpp"
 #include "render/curve_charts.hpp"
-#include "render/picture.hpp"
-#include "render/top_view.hpp"
 
 namespace sweepscope {
 namespace {
@@ -23,12 +22,13 @@ std::string label_of(const ComparedMap& map) {
 
 constexpr float kNoLimit_m = -std::numeric_limits<float>::infinity();
 
-/// The maps as they are drawn: what is shown of them, by what camera and in what colours.
+/// The maps as they are drawn: what is shown of them, by what cameras and in what colours.
 struct Prepared {
   std::vector<HeightRange> slabs;
   std::vector<SlabPoints> maps;
-  ColourScale colours;
-  std::vector<TopView> overviews, close_ups;
+  Colouring colouring;
+  std::vector<View> overviews, close_ups;      // without their points
+  std::vector<Region> regions;                 // what each close-up shows
   float close_up_least_height_m = kNoLimit_m;  // above the path
 
   bool empty() const {
@@ -37,103 +37,181 @@ struct Prepared {
   }
 };
 
-std::vector<TopView> overviews_of(const Prepared& prepared, const ComparisonLayout& layout) {
-  constexpr double kOutermost = 0.001, kRoom = 1.06;  // stray points do not shrink the view
-  const Bounds x = bounds_of(prepared.maps, 0, kOutermost), y = bounds_of(prepared.maps, 1, kOutermost);
-  TopView view;
-  view.turned = y.length() > 1.2 * x.length();
-  view.centre_m = {x.middle(), y.middle()};
-  const double across_m = view.turned ? y.length() : x.length(),
-               down_m = view.turned ? x.length() : y.length();
-  std::vector<TopView> views;
-  for (const PixelRect& place : layout.overviews) {
-    view.place = place;
-    view.metres_per_px = std::max({kRoom * across_m / place.width, kRoom * down_m / place.height, 1e-4});
-    views.push_back(view);
+Box box_of(std::span<const SlabPoints> maps) {
+  constexpr double kOutermost = 0.001;  // stray points do not shrink the view
+  Box box;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const Bounds bounds = bounds_of(maps, axis, kOutermost);
+    box.from_m[static_cast<Eigen::Index>(axis)] = bounds.from;
+    box.to_m[static_cast<Eigen::Index>(axis)] = bounds.to;
+  }
+  return box;
+}
+
+/// Long maps lie along the picture's width.
+Camera camera_over(const Box& box, const PixelRect& place) {
+  constexpr double kRoom = 1.06;
+  const double x_m = box.to_m.x() - box.from_m.x(), y_m = box.to_m.y() - box.from_m.y();
+  const bool turned = y_m > 1.2 * x_m;
+  const double across_m = turned ? y_m : x_m, down_m = turned ? x_m : y_m;
+  const double metres_per_px =
+      std::max({kRoom * across_m / place.width, kRoom * down_m / place.height, 1e-4});
+  return camera_from_above(box.middle_m().head<2>(), metres_per_px * place.height, turned);
+}
+
+Camera overview_camera(std::span<const SlabPoints> shown, const PixelRect& place,
+                       const ComparisonOptions& options) {
+  if (options.camera) return *options.camera;
+  const Box box = options.box ? *options.box : box_of(shown);
+  if (options.viewpoint == Viewpoint::kTop && !options.perspective) return camera_over(box, place);
+  return camera_on(box, options.viewpoint, !options.perspective, place.width / place.height);
+}
+
+bool is_turned(const Camera& camera) {
+  return camera.up.x() < -0.5;
+}
+
+std::vector<View> overviews_of(const Prepared& prepared, const ComparisonLayout& layout,
+                               const ComparisonOptions& options) {
+  std::vector<View> views;
+  for (std::size_t m = 0; m < layout.overviews.size(); ++m) {
+    View& view = views.emplace_back();
+    view.place = layout.overviews[m];
+    if (m > 0 && !options.each_own_view) {
+      view.scene.camera = views[0].scene.camera;
+      continue;
+    }
+    const std::span<const SlabPoints> all(prepared.maps);
+    view.scene.camera = overview_camera(options.each_own_view ? all.subspan(m, 1) : all, view.place, options);
   }
   return views;
 }
 
-std::vector<TopView> close_ups_of(const Prepared& prepared, const ComparisonLayout& layout,
-                                  const ComparisonOptions& options) {
-  if (layout.close_ups.empty()) return {};
-  const TopView& overview = prepared.overviews[0];
-  const PixelRect& first = layout.close_ups[0];
-  const double overview_m = overview.metres_per_px * std::max(overview.place.width, overview.place.height);
+Region close_up_region(const Prepared& prepared, const View& overview, double aspect,
+                       const ComparisonOptions& options) {
+  if (options.close_up) return *options.close_up;
+  const double overview_m = Projection(overview.scene.camera, overview.place).metres_per_px() *
+                            std::max(overview.place.width, overview.place.height);
   const double height_m = std::clamp(overview_m / 24, 2.0, 6.0);
-  const Region region = options.close_up
-                            ? *options.close_up
-                            : find_close_up(prepared.maps, height_m, height_m * first.width / first.height);
-  std::vector<TopView> views;
+  return find_close_up(prepared.maps, height_m, height_m * aspect);
+}
+
+void add_close_ups(Prepared& prepared, const ComparisonLayout& layout, const ComparisonOptions& options) {
+  if (layout.close_ups.empty()) return;
+  const PixelRect& first = layout.close_ups[0];
+  const Region region = close_up_region(prepared, prepared.overviews[0], first.width / first.height, options);
+  const bool turned = is_turned(prepared.overviews[0].scene.camera);
   for (const PixelRect& place : layout.close_ups) {
-    views.push_back({place, region.centre_m, region.height_m / place.height, overview.turned});
+    View& view = prepared.close_ups.emplace_back();
+    view.place = place;
+    view.scene.camera = camera_from_above(region.centre_m, region.height_m, turned);
+    prepared.regions.push_back(region);
   }
-  return views;
+}
+
+Result<std::vector<std::vector<float>>> values_of(std::span<const ComparedMap> maps, ColourBy by) {
+  std::vector<std::vector<float>> values;
+  for (std::size_t m = 0; m < maps.size(); ++m) {
+    // The first map is compared with the second, and the others with the first.
+    const ComparedMap* other = maps.size() < 2 ? nullptr : &maps[m == 0 ? 1 : 0];
+    auto of_map = colour_values(maps[m], other, by);
+    if (!of_map) return tl::unexpected(of_map.error());
+    values.push_back(std::move(*of_map));
+  }
+  return values;
 }
 
 Result<Prepared> prepare(std::span<const ComparedMap> maps, const ComparisonLayout& layout,
                          const ComparisonOptions& options) {
-  const auto table = colour_table(options.colour_table);
-  if (!table) return tl::unexpected(table.error());
+  const auto values = values_of(maps, options.colour_by);
+  if (!values) return tl::unexpected(values.error());
   Prepared prepared;
   prepared.slabs = choose_slabs(maps, options);
-  for (const ComparedMap& map : maps) prepared.maps.push_back(points_in_slabs(map, prepared.slabs));
-  const Bounds z = bounds_of(prepared.maps, 2, 0.005);
-  prepared.colours = {*table, z.from, z.to};
-  prepared.overviews = overviews_of(prepared, layout);
-  prepared.close_ups = close_ups_of(prepared, layout, options);
+  std::vector<std::span<const float>> shown;
+  for (std::size_t m = 0; m < maps.size(); ++m) {
+    prepared.maps.push_back(points_in_slabs(maps[m], (*values)[m], prepared.slabs, options.box));
+  }
+  for (const SlabPoints& map : prepared.maps) shown.push_back(map.points.values);
+  auto colouring = make_colouring(options.colour_by, options.colour_table, shown, options.colour_range);
+  if (!colouring) return tl::unexpected(colouring.error());
+  prepared.colouring = std::move(*colouring);
+  prepared.overviews = overviews_of(prepared, layout, options);
+  add_close_ups(prepared, layout, options);
   // A sparse floor behind a thin outline looks like the blur that the close-up is about.
   if (options.slabs.empty()) prepared.close_up_least_height_m = 0;
   return prepared;
 }
 
-/// The points inside a view and above a height over the path, no more of them than its pixels can show.
-std::shared_ptr<const ColouredPoints> points_for(const SlabPoints& map, const TopView& view,
-                                                 float least_height_m) {
-  constexpr double kCellsPerPixel = 2;
-  const Eigen::Vector2d half = view.half_extent_m();
-  ColouredPoints inside;
-  for (std::size_t i = 0; i < map.points.size(); ++i) {
-    const auto& point = map.points.xyz_m[i];
-    if (std::abs(static_cast<double>(point[0]) - view.centre_m.x()) > half.x() ||
-        std::abs(static_cast<double>(point[1]) - view.centre_m.y()) > half.y() ||
-        map.above_path_m[i] < least_height_m) {
-      continue;
-    }
-    inside.add(point, map.points.values[i]);
-  }
-  return std::make_shared<const ColouredPoints>(thin(inside, view.metres_per_px / kCellsPerPixel));
-}
+/// What a panel of a map needs besides its points.
+struct Panel {
+  const Prepared& prepared;
+  const ComparisonLayout& layout;
+  const ComparisonOptions& options;
+  const Style& style;
+};
 
-View to_view(const TopView& top, std::shared_ptr<const ColouredPoints> points, double point_size_px,
-             const ColourScale& colours, const Style& style) {
-  View view;
-  view.place = top.place;
-  view.scene.background = style.map_panel;
-  view.scene.colours = colours;
-  view.scene.camera = top.camera();
-  view.scene.clouds.push_back({std::move(points), point_size_px});
+View with_points(View view, const Panel& panel, const SlabPoints& map, float least_height_m,
+                 double point_size_px) {
+  const Projection projection(view.scene.camera, view.place);
+  view.scene.background = panel.style.map_panel;
+  view.scene.colours = panel.prepared.colouring.scale;
+  view.scene.clouds.push_back({points_seen(map, projection, least_height_m),
+                               point_size_px * panel.options.point_size_px * panel.layout.scale});
   return view;
 }
 
-void add_map(Picture& picture, const ComparedMap& map, const Prepared& prepared, std::size_t index,
-             const ComparisonLayout& layout, const Style& style) {
+ScenePath sensor_path(std::span<const StampedPose> poses, const Panel& panel) {
+  ScenePath path{{}, 1.2 * panel.layout.scale, panel.style.map_highlight};
+  path.colour.alpha = 120;
+  for (const StampedPose& pose : poses) path.points_m.push_back(pose.position_m);
+  return path;
+}
+
+double path_height_m(const ComparedMap& map) {
+  if (map.path.empty()) return map.path_height_m;
+  double sum = 0;
+  for (const StampedPose& pose : map.path) sum += pose.position_m.z();
+  return sum / static_cast<double>(map.path.size());
+}
+
+/// What a close-up shows, as a frame at the path's height.
+ScenePath outline(const View& close_up, double height_m, const Panel& panel) {
+  const double half_y = close_up.scene.camera.view_height_m / 2,
+               half_x = half_y * close_up.place.width / close_up.place.height;
+  const bool turned = is_turned(close_up.scene.camera);
+  const Eigen::Vector2d half = turned ? Eigen::Vector2d(half_y, half_x) : Eigen::Vector2d(half_x, half_y);
+  const Eigen::Vector2d middle = close_up.scene.camera.looks_at_m.head<2>();
+  ScenePath path{{}, 1.5 * panel.layout.scale, panel.style.map_highlight};
+  for (const auto& [sx, sy] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {-1, -1}}) {
+    path.points_m.emplace_back(middle.x() + sx * half.x(), middle.y() + sy * half.y(), height_m);
+  }
+  return path;
+}
+
+void add_map(Picture& picture, const ComparedMap& map, std::size_t index, const Panel& panel) {
+  const auto& [prepared, layout, options, style] = panel;
   const SlabPoints& points = prepared.maps[index];
-  const TopView& overview = prepared.overviews[index];
   const double scale = layout.scale;
   const bool empty = points.points.size() == 0;
-  picture.views.push_back(
-      to_view(overview, points_for(points, overview, kNoLimit_m), scale, prepared.colours, style));
-  add_overview_marks(picture.marks, overview, map.path, empty, style, scale);
-  if (!prepared.close_ups.empty()) {
-    const TopView& close_up = prepared.close_ups[index];
-    auto near_points = points_for(points, close_up, prepared.close_up_least_height_m);
-    picture.views.push_back(to_view(close_up, std::move(near_points), 1.5 * scale, prepared.colours, style));
-    add_close_up_marks(picture.marks, overview, close_up, empty, style, scale);
+  const PixelRect& place = prepared.overviews[index].place;
+  add_label(picture.marks, layout.labels[index], place.width, label_of(map), style.maps[index], style, scale);
+  if (empty) {
+    add_no_points(picture.marks, map, place, prepared.slabs, style, scale);
+    if (!prepared.close_ups.empty()) picture.marks.frame(prepared.close_ups[index].place, scale, style.frame);
+    return;
   }
-  add_label(picture.marks, layout.labels[index], overview.place.width, label_of(map), style.maps[index],
-            style, scale);
-  if (empty) add_no_points(picture.marks, map, overview, prepared.slabs, style, scale);
+  View overview = with_points(prepared.overviews[index], panel, points, kNoLimit_m, 1);
+  overview.scene.paths.push_back(sensor_path(map.path, panel));
+  const Projection projection(overview.scene.camera, overview.place);
+  add_overview_marks(picture.marks, projection, overview.scene.camera, style, scale);
+  if (!prepared.close_ups.empty()) {
+    View close_up =
+        with_points(prepared.close_ups[index], panel, points, prepared.close_up_least_height_m, 1.5);
+    overview.scene.paths.push_back(outline(close_up, path_height_m(map), panel));
+    add_close_up_marks(picture.marks, Projection(close_up.scene.camera, close_up.place), style, scale);
+    picture.views.push_back(std::move(close_up));
+  }
+  picture.views.push_back(std::move(overview));
 }
 
 Result<void> check(std::span<const ComparedMap> maps, const ComparisonOptions& options) {
@@ -149,52 +227,67 @@ Result<void> check(std::span<const ComparedMap> maps, const ComparisonOptions& o
   return {};
 }
 
+void add_charts(Picture& picture, std::span<const Chart> charts, const Estimate& estimate,
+                const ComparisonLayout& layout, const Style& style) {
+  if (charts.empty()) add_no_curve(picture.marks, layout.charts[0], estimate, style, layout.scale);
+  for (std::size_t c = 0; c < charts.size(); ++c) {
+    add_chart(picture.marks, layout.charts[c], charts[c], style, layout.scale);
+  }
+}
+
+std::string seen_from(const ComparisonOptions& options) {
+  if (options.camera) return "Seen";
+  const std::string how = options.perspective ? " in perspective" : "";
+  if (options.viewpoint == Viewpoint::kTop) return "Seen from above" + how;
+  if (options.viewpoint == Viewpoint::kFront) return "Seen along y" + how;
+  if (options.viewpoint == Viewpoint::kRight) return "Seen against x" + how;
+  return options.perspective ? "Seen from aside in perspective" : "Isometric view";
+}
+
+std::string how_it_is_seen(const Prepared& prepared, const ComparisonOptions& options) {
+  std::string how = seen_from(options) + ": " + describe_slabs(prepared.slabs) + ".";
+  const bool floor_left_out = !prepared.close_ups.empty() && prepared.close_up_least_height_m == 0;
+  if (floor_left_out) how += " The close-ups leave out what is below.";
+  return how;
+}
+
 }  // namespace
 
-Result<Image> draw_comparison(std::span<const ComparedMap> maps, const Estimate* estimate,
-                              const ComparisonOptions& options) {
+Result<Picture> comparison_picture(std::span<const ComparedMap> maps, const Estimate* estimate,
+                                   const ComparisonOptions& options) {
   if (auto usable = check(maps, options); !usable) return tl::unexpected(usable.error());
-  const Style& style = options.light_background ? kLightStyle : kDarkStyle;
+  const Style style = style_of(options.background);
   std::vector<MarkedOffset> marked;
   for (std::size_t m = 0; m < maps.size(); ++m) {
     if (maps[m].offset_s) marked.push_back({*maps[m].offset_s, style.maps[m]});
   }
   const auto charts = estimate != nullptr ? curve_charts(*estimate, marked, style) : std::vector<Chart>{};
-  const bool no_curve = estimate != nullptr && charts.empty();
-  const ComparisonLayout layout = lay_out(options, maps.size(), no_curve ? 1 : charts.size());
+  const std::size_t chart_places = estimate == nullptr ? 0 : std::max<std::size_t>(1, charts.size());
+  const ComparisonLayout layout = lay_out(options, maps.size(), chart_places);
   const auto prepared = prepare(maps, layout, options);
   if (!prepared) return tl::unexpected(prepared.error());
 
   Picture picture{options.width_px, options.height_px, style.page, {}, {}};
-  for (std::size_t m = 0; m < maps.size(); ++m) add_map(picture, maps[m], *prepared, m, layout, style);
-  const std::string title = !options.title.empty() ? options.title
-                            : estimate != nullptr  ? estimate->recording
-                                                   : "";
-  const bool floor_left_out = !layout.close_ups.empty() && prepared->close_up_least_height_m == 0;
-  std::string how = "Seen from above: " + describe_slabs(prepared->slabs) + ".";
-  if (floor_left_out) how += " The close-ups leave out what is below.";
-  add_heading(picture.marks, layout, title, how, options.width_px, style);
-  if (!prepared->empty()) add_scalar_bar(picture.marks, layout, prepared->colours, style);
-  for (std::size_t c = 0; c < charts.size(); ++c) {
-    add_chart(picture.marks, layout.charts[c], charts[c], style, layout.scale);
-  }
-  if (no_curve) add_no_curve(picture.marks, layout.charts[0], *estimate, style, layout.scale);
+  const Panel panel{*prepared, layout, options, style};
+  for (std::size_t m = 0; m < maps.size(); ++m) add_map(picture, maps[m], m, panel);
+  const std::string title =
+      options.title.empty() && estimate != nullptr ? estimate->recording : options.title;
+  add_heading(picture.marks, layout, title, how_it_is_seen(*prepared, options), options.width_px, style);
+  if (!prepared->empty()) add_legend(picture.marks, layout, prepared->colouring, style);
+  if (estimate != nullptr) add_charts(picture, charts, *estimate, layout, style);
   add_footer(picture.marks, layout, options.width_px, style);
-  return draw(picture);
+  return picture;
 }
 
-Result<void> write_comparison(const std::filesystem::path& path, std::span<const ComparedMap> maps,
-                              const Estimate* estimate, const ComparisonOptions& options) {
-  return draw_comparison(maps, estimate, options).and_then([&](const Image& image) {
-    std::string labels;
-    for (const ComparedMap& map : maps) labels += (labels.empty() ? "" : "; ") + label_of(map);
-    const std::vector<PngText> texts{{"Software", "sweepscope " SWEEPSCOPE_VERSION},
-                                     {"Equation", "t_motor = t_laser + offset"},
-                                     {"Maps", labels},
-                                     {"Recipe", fmt::format("compare, {} x {}, {}", options.width_px,
-                                                            options.height_px, options.colour_table)}};
-    return write_png(image, path, texts);
-  });
+std::vector<PngText> comparison_texts(std::span<const ComparedMap> maps, const ComparisonOptions& options) {
+  std::string labels;
+  for (const ComparedMap& map : maps) labels += (labels.empty() ? "" : "; ") + label_of(map);
+  return {{"Software", "sweepscope " SWEEPSCOPE_VERSION},
+          {"Equation", "t_motor = t_laser + offset"},
+          {"Maps", labels},
+          {"Recipe", fmt::format("compare, {} x {}, by {}, {}", options.width_px, options.height_px,
+                                 colour_by_names()[static_cast<std::size_t>(options.colour_by)],
+                                 options.colour_table)}};
 }
 
 }  // namespace sweepscope

@@ -17,12 +17,26 @@ std::vector<PixelRect> columns(const PixelRect& place, std::size_t count, double
   return rects;
 }
 
+/// The maps' places: beside each other, or four maps alone two by two.
+std::vector<PixelRect> map_places(const PixelRect& row, std::size_t maps, double gap, double label_room,
+                                  bool with_close_up) {
+  if (maps < 4 || with_close_up) return columns(row, maps, gap);
+  PixelRect half = row;
+  half.height = std::floor((row.height - label_room) / 2);
+  std::vector<PixelRect> places = columns(half, (maps + 1) / 2, gap);
+  half.top += half.height + label_room;
+  for (const PixelRect& place : columns(half, maps / 2, gap)) places.push_back(place);
+  return places;
+}
+
 }  // namespace
 
 ComparisonLayout lay_out(const ComparisonOptions& options, std::size_t maps, std::size_t charts) {
   const double width = options.width_px, height = options.height_px;
   ComparisonLayout out;
-  const double s = out.scale = std::clamp(std::min(width / 1920, height / 1200), 0.4, 4.0);
+  // Letters are as large as the room allows: a picture with fewer rows has more of it.
+  const double full_height = 700 + (options.with_close_up ? 300 : 0) + (charts > 0 ? 200 : 0);
+  const double s = out.scale = std::clamp(std::min(width / 1920, height / full_height), 0.4, 4.0);
   const auto px = [s](double at_full_size) { return std::round(at_full_size * s); };
   const double margin = out.margin = px(32), gap = px(20);
   out.title = {margin, px(48)};
@@ -35,7 +49,7 @@ ComparisonLayout lay_out(const ComparisonOptions& options, std::size_t maps, std
   room.height = maps_bottom - room.top;
   PixelRect row = room;
   if (options.with_close_up) row.height = std::floor((room.height - gap) / 2);
-  out.overviews = columns(row, maps, gap);
+  out.overviews = map_places(row, maps, gap, px(46), options.with_close_up);
   if (options.with_close_up) {
     row.top += row.height + gap;
     out.close_ups = columns(row, maps, gap);

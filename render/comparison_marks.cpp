@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "render/ticks.hpp"
 
@@ -18,9 +21,10 @@ struct ScaleBar {
 };
 
 /// A round length, about an eighth of the view.
-ScaleBar scale_bar_of(const TopView& view, double scale) {
-  const double length_m = round_length(view.metres_per_px * std::min(180 * scale, view.place.width * 0.2));
-  return {length_m / view.metres_per_px,
+ScaleBar scale_bar_of(const Projection& projection, double scale) {
+  const double metres_per_px = projection.metres_per_px();
+  const double length_m = round_length(metres_per_px * std::min(180 * scale, projection.place().width * 0.2));
+  return {length_m / metres_per_px,
           length_m >= 1 ? fmt::format("{:.0f} m", length_m) : fmt::format("{:.0f} cm", 100 * length_m)};
 }
 
@@ -32,50 +36,66 @@ void add_bar(Drawing& drawing, PixelPoint left_end, double length_px, Colour col
 }
 
 /// Above the view at its right, where it hides no points.
-void add_scale_bar_above(Drawing& drawing, const TopView& view, const Style& style, double scale) {
-  const ScaleBar bar = scale_bar_of(view, scale);
-  const double y = view.place.top - 12 * scale, left = view.place.right() - bar.length_px;
+void add_scale_bar_above(Drawing& drawing, const Projection& projection, const Style& style, double scale) {
+  const ScaleBar bar = scale_bar_of(projection, scale);
+  const double y = projection.place().top - 12 * scale, left = projection.place().right() - bar.length_px;
   add_bar(drawing, {left, y}, bar.length_px, style.text, scale);
   drawing.add(TextMark{{left - 9 * scale, y}, bar.label, kBodyPx * scale, style.text, AlignX::kRight});
 }
 
-/// At the view's lower left, on a ground that keeps it legible above points.
-void add_scale_bar_inside(Drawing& drawing, const TopView& view, const Style& style, double scale) {
-  const ScaleBar bar = scale_bar_of(view, scale);
-  const double size = kBodyPx * scale, pad = 10 * scale, text_width = text_width_px(bar.label, size);
-  const PixelRect ground{view.place.left + pad, view.place.bottom() - pad - size - 1.4 * pad,
-                         bar.length_px + text_width + 3 * pad, size + 1.4 * pad};
-  Colour veil = style.page;
-  veil.alpha = 215;
-  drawing.fill(ground, veil);
-  const PixelPoint left_end{ground.left + pad, ground.bottom() - pad};
-  add_bar(drawing, left_end, bar.length_px, style.text, scale);
-  drawing.add(TextMark{{left_end.x + bar.length_px + pad, left_end.y}, bar.label, size, style.text});
+/// What keeps marks legible above points.
+Colour veil_of(const Style& style) {
+  Colour veil = style.map_panel;
+  veil.alpha = style.map_panel.alpha == 0 ? 0 : 215;
+  return veil;
 }
 
-/// The sensor's way as a thin line.
-void add_path(Drawing& drawing, const TopView& view, std::span<const StampedPose> path, const Style& style,
+/// At the view's lower left, on a ground that keeps it legible above points.
+void add_scale_bar_inside(Drawing& drawing, const Projection& projection, const Style& style, double scale) {
+  const ScaleBar bar = scale_bar_of(projection, scale);
+  const PixelRect& place = projection.place();
+  const double size = kBodyPx * scale, pad = 10 * scale, text_width = text_width_px(bar.label, size);
+  const PixelRect ground{place.left + pad, place.bottom() - pad - size - 1.4 * pad,
+                         bar.length_px + text_width + 3 * pad, size + 1.4 * pad};
+  drawing.fill(ground, veil_of(style));
+  const PixelPoint left_end{ground.left + pad, ground.bottom() - pad};
+  add_bar(drawing, left_end, bar.length_px, style.map_highlight, scale);
+  drawing.add(TextMark{{left_end.x + bar.length_px + pad, left_end.y}, bar.label, size, style.map_highlight});
+}
+
+/// Which way x, y and z go, at the view's lower left. An axis that points at the camera is left out.
+void add_axes(Drawing& drawing, const Projection& projection, const Camera& camera, const Style& style,
               double scale) {
-  constexpr double kLeastStep_px = 2;
-  Colour colour = style.map_highlight;
-  colour.alpha = 120;
-  LineMark line{{}, 1.2 * scale, colour};
-  const auto finish = [&] {
-    if (line.points.size() > 1) drawing.add(line);
-    line.points.clear();
-  };
-  for (const StampedPose& pose : path) {
-    const PixelPoint at = view.to_px(pose.position_m.x(), pose.position_m.y());
-    if (!view.place.contains(at)) {
-      finish();
-      continue;
-    }
-    const bool first = line.points.empty();
-    if (first || std::hypot(at.x - line.points.back().x, at.y - line.points.back().y) >= kLeastStep_px) {
-      line.points.push_back(at);
-    }
+  const double arm_px = 26 * scale, size = 12 * scale, pad = 10 * scale, side = 1.3 * arm_px + 2.4 * size;
+  const PixelRect& place = projection.place();
+  if (place.width < 2 * side || place.height < 1.4 * side) return;
+  const PixelRect ground{place.left + pad, place.bottom() - pad - side, side, side};
+  drawing.fill(ground, veil_of(style));
+  const Eigen::Vector3d forward = (camera.looks_at_m - camera.position_m).normalized();
+  const Eigen::Vector3d right = forward.cross(camera.up).normalized(), up = right.cross(forward);
+  const PixelPoint middle{ground.left + side / 2, ground.top + side / 2};
+  constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
+  Eigen::Vector2d sum(0, 0);  // the origin sits opposite to where the arms go, so that all fits
+  std::vector<std::pair<const char*, Eigen::Vector2d>> arms;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Eigen::Vector2d arm(right[axis], -up[axis]);
+    if (arm.norm() < 0.2) continue;
+    arms.emplace_back(kAxes[static_cast<std::size_t>(axis)], arm);
+    sum += arm;
   }
-  finish();
+  const Eigen::Vector2d origin(middle.x - 0.5 * arm_px * sum.x(), middle.y - 0.5 * arm_px * sum.y());
+  for (const auto& [name, arm] : arms) {
+    const Eigen::Vector2d tip = origin + arm_px * arm, letter = tip + 0.75 * size * arm.normalized();
+    const Eigen::Vector2d back = tip - 6 * scale * arm.normalized();
+    const Eigen::Vector2d aside = 3.2 * scale * Eigen::Vector2d(-arm.y(), arm.x()).normalized();
+    drawing.line({origin.x(), origin.y()}, {back.x(), back.y()}, 1.5 * scale, style.map_highlight);
+    drawing.add(PolygonMark{{{tip.x(), tip.y()},
+                             {back.x() + aside.x(), back.y() + aside.y()},
+                             {back.x() - aside.x(), back.y() - aside.y()}},
+                            style.map_highlight});
+    drawing.add(TextMark{
+        {letter.x(), letter.y()}, name, size, style.map_highlight, AlignX::kCentre, AlignY::kMiddle});
+  }
 }
 
 std::string describe_side(double near_m, double far_m, const char* side) {
@@ -153,44 +173,24 @@ void add_label(Drawing& drawing, PixelPoint baseline, double width_px, const std
                        true});
 }
 
-void add_overview_marks(Drawing& drawing, const TopView& view, std::span<const StampedPose> path, bool empty,
+void add_overview_marks(Drawing& drawing, const Projection& projection, const Camera& camera,
                         const Style& style, double scale) {
-  if (!empty) {
-    add_path(drawing, view, path, style, scale);
-    add_scale_bar_above(drawing, view, style, scale);
-  }
-  drawing.frame(view.place, scale, style.frame);
+  if (camera.orthographic) add_scale_bar_above(drawing, projection, style, scale);
+  add_axes(drawing, projection, camera, style, scale);
+  drawing.frame(projection.place(), scale, style.frame);
 }
 
-void add_close_up_marks(Drawing& drawing, const TopView& overview, const TopView& close_up, bool empty,
-                        const Style& style, double scale) {
-  drawing.frame(close_up.place, empty ? scale : 1.5 * scale, empty ? style.frame : style.highlight);
-  if (empty) return;
-  add_scale_bar_inside(drawing, close_up, style, scale);
-  const Eigen::Vector2d half = close_up.half_extent_m();
-  const PixelPoint a = overview.to_px(close_up.centre_m.x() - half.x(), close_up.centre_m.y() - half.y());
-  const PixelPoint b = overview.to_px(close_up.centre_m.x() + half.x(), close_up.centre_m.y() + half.y());
-  const PixelRect& place = overview.place;
-  const double left = std::clamp(std::min(a.x, b.x), place.left, place.right());
-  const double right = std::clamp(std::max(a.x, b.x), place.left, place.right());
-  const double top = std::clamp(std::min(a.y, b.y), place.top, place.bottom());
-  const double bottom = std::clamp(std::max(a.y, b.y), place.top, place.bottom());
-  drawing.frame({std::round(left), std::round(top), std::round(right - left), std::round(bottom - top)},
-                1.5 * scale, style.map_highlight);
+void add_close_up_marks(Drawing& drawing, const Projection& projection, const Style& style, double scale) {
+  drawing.frame(projection.place(), 1.5 * scale, style.highlight);
+  add_scale_bar_inside(drawing, projection, style, scale);
 }
+
+namespace {
 
 void add_scalar_bar(Drawing& drawing, const ComparisonLayout& layout, const ColourScale& colours,
                     const Style& style) {
   const PixelRect& bar = layout.scalar_bar;
   const double size = 13 * layout.scale;
-  drawing.add(TextMark{{bar.left, bar.top - 24 * layout.scale},
-                       "elevation",
-                       size,
-                       style.faint_text,
-                       AlignX::kLeft,
-                       AlignY::kBottom});
-  drawing.add(TextMark{
-      {bar.left, bar.top - 8 * layout.scale}, "[m]", size, style.faint_text, AlignX::kLeft, AlignY::kBottom});
   const int steps = static_cast<int>(bar.height);
   for (int i = 0; i < steps; ++i) {
     const double value = colours.to + (colours.from - colours.to) * (i + 0.5) / steps;
@@ -211,6 +211,46 @@ void add_scalar_bar(Drawing& drawing, const ComparisonLayout& layout, const Colo
   }
 }
 
+void add_classes(Drawing& drawing, const ComparisonLayout& layout, std::span<const ColourClass> classes,
+                 const Style& style) {
+  const double size = 13 * layout.scale, chip = std::round(12 * layout.scale);
+  double top = layout.scalar_bar.top;
+  for (const ColourClass& one : classes) {
+    drawing.fill({layout.scalar_bar.left, std::round(top), chip, chip}, one.colour);
+    drawing.add(TextMark{{layout.scalar_bar.left + chip + 7 * layout.scale, top + chip / 2},
+                         one.name,
+                         size,
+                         style.text,
+                         AlignX::kLeft,
+                         AlignY::kMiddle});
+    top += 24 * layout.scale;
+  }
+}
+
+}  // namespace
+
+void add_legend(Drawing& drawing, const ComparisonLayout& layout, const Colouring& colouring,
+                const Style& style) {
+  const double size = 13 * layout.scale;
+  const double title_up = (colouring.unit.empty() ? 8 : 24) * layout.scale;
+  const PixelPoint at{layout.scalar_bar.left, layout.scalar_bar.top};
+  drawing.add(TextMark{
+      {at.x, at.y - title_up}, colouring.title, size, style.faint_text, AlignX::kLeft, AlignY::kBottom});
+  if (!colouring.unit.empty()) {
+    drawing.add(TextMark{{at.x, at.y - 8 * layout.scale},
+                         "[" + colouring.unit + "]",
+                         size,
+                         style.faint_text,
+                         AlignX::kLeft,
+                         AlignY::kBottom});
+  }
+  if (colouring.classes.empty()) {
+    add_scalar_bar(drawing, layout, colouring.scale, style);
+  } else {
+    add_classes(drawing, layout, colouring.classes, style);
+  }
+}
+
 void add_footer(Drawing& drawing, const ComparisonLayout& layout, double width_px, const Style& style) {
   const double size = 13 * layout.scale;
   drawing.add(TextMark{layout.footer, "t_motor = t_laser + offset", size, style.faint_text});
@@ -221,15 +261,15 @@ void add_footer(Drawing& drawing, const ComparisonLayout& layout, double width_p
                        AlignX::kRight});
 }
 
-void add_no_points(Drawing& drawing, const ComparedMap& map, const TopView& view,
+void add_no_points(Drawing& drawing, const ComparedMap& map, const PixelRect& place,
                    std::span<const HeightRange> slabs, const Style& style, double scale) {
   std::vector<std::string> words{"The map has no points."};
   if (map.cloud && !map.cloud->empty()) {
     words = {"None of the map's points is at the heights shown:", describe_slabs(slabs)};
   }
-  drawing.fill(view.place, style.panel);
-  drawing.frame(view.place, scale, style.frame);
-  add_words(drawing, view.place, "Nothing to show", words, style, scale);
+  drawing.fill(place, style.panel);
+  drawing.frame(place, scale, style.frame);
+  add_words(drawing, place, "Nothing to show", words, style, scale);
 }
 
 void add_no_curve(Drawing& drawing, const PixelRect& place, const Estimate& estimate, const Style& style,

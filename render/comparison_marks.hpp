@@ -7,7 +7,6 @@
 #include "render/comparison_layout.hpp"
 #include "render/drawing.hpp"
 #include "render/style.hpp"
-#include "render/top_view.hpp"
 
 namespace sweepscope {
 
@@ -16,18 +15,17 @@ void add_heading(Drawing& drawing, const ComparisonLayout& layout, const std::st
                  const std::string& how_it_is_seen, double width_px, const Style& style);
 void add_label(Drawing& drawing, PixelPoint baseline, double width_px, const std::string& label,
                Colour colour, const Style& style, double scale);
-/// Where the sensor went, a scale, a frame; only the frame where the map is empty.
-void add_overview_marks(Drawing& drawing, const TopView& view, std::span<const StampedPose> path, bool empty,
+/// A scale where lengths are alike everywhere, the directions of the axes, a frame.
+void add_overview_marks(Drawing& drawing, const Projection& projection, const Camera& camera,
                         const Style& style, double scale);
-/// Also outlines in the overview what the close-up shows, unless there is nothing in it.
-void add_close_up_marks(Drawing& drawing, const TopView& overview, const TopView& close_up, bool empty,
-                        const Style& style, double scale);
-void add_scalar_bar(Drawing& drawing, const ComparisonLayout& layout, const ColourScale& colours,
-                    const Style& style);
+void add_close_up_marks(Drawing& drawing, const Projection& projection, const Style& style, double scale);
+/// The bar of colours with its numbers, or the list of classes.
+void add_legend(Drawing& drawing, const ComparisonLayout& layout, const Colouring& colouring,
+                const Style& style);
 void add_footer(Drawing& drawing, const ComparisonLayout& layout, double width_px, const Style& style);
 
 /// What a picture says in words where it has nothing to show.
-void add_no_points(Drawing& drawing, const ComparedMap& map, const TopView& view,
+void add_no_points(Drawing& drawing, const ComparedMap& map, const PixelRect& place,
                    std::span<const HeightRange> slabs, const Style& style, double scale);
 void add_no_curve(Drawing& drawing, const PixelRect& place, const Estimate& estimate, const Style& style,
                   double scale);

@@ -1,5 +1,8 @@
 #include "render/comparison_points.hpp"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -36,7 +39,15 @@ template <typename Visit>
 void for_each_point(const ComparedMap& map, Visit visit) {
   if (!map.cloud) return;
   PathHeight path(map);
-  for (const MapPoint& point : *map.cloud) visit(point, static_cast<double>(point.z) - path.at(point.time_s));
+  std::size_t index = 0;
+  for (const MapPoint& point : *map.cloud) {
+    visit(index++, point, static_cast<double>(point.z) - path.at(point.time_s));
+  }
+}
+
+bool is_inside(const MapPoint& point, const Box& box) {
+  const Eigen::Array3d p = point.getVector3fMap().cast<double>().array();
+  return (p >= box.from_m.array()).all() && (p <= box.to_m.array()).all();
 }
 
 /// How far above the path a ceiling begins to hide what is below it; infinite where there is none.
@@ -45,7 +56,7 @@ double ceiling_above_path_m(std::span<const ComparedMap> maps) {
   std::vector<std::size_t> bins(300, 0);
   std::size_t above = 0;
   for (const ComparedMap& map : maps) {
-    for_each_point(map, [&](const MapPoint&, double height_m) {
+    for_each_point(map, [&](std::size_t, const MapPoint&, double height_m) {
       if (height_m < kBlindHeight_m) return;
       ++above;
       const double bin = (height_m - kBlindHeight_m) / kBin_m;
@@ -70,20 +81,43 @@ double ceiling_above_path_m(std::span<const ComparedMap> maps) {
 
 std::vector<HeightRange> choose_slabs(std::span<const ComparedMap> maps, const ComparisonOptions& options) {
   if (!options.slabs.empty()) return options.slabs;
-  return {{-kInfinity, -kBlindHeight_m}, {kBlindHeight_m, ceiling_above_path_m(maps)}};
+  const double ceiling_m = ceiling_above_path_m(maps);
+  if (options.viewpoint != Viewpoint::kTop || options.camera || options.box) return {{-kInfinity, ceiling_m}};
+  return {{-kInfinity, -kBlindHeight_m}, {kBlindHeight_m, ceiling_m}};
 }
 
-SlabPoints points_in_slabs(const ComparedMap& map, std::span<const HeightRange> slabs) {
+SlabPoints points_in_slabs(const ComparedMap& map, std::span<const float> values,
+                           std::span<const HeightRange> slabs, const std::optional<Box>& box) {
   SlabPoints out;
-  for_each_point(map, [&](const MapPoint& point, double height_m) {
-    const bool inside = std::any_of(slabs.begin(), slabs.end(), [&](const HeightRange& slab) {
+  for_each_point(map, [&](std::size_t index, const MapPoint& point, double height_m) {
+    const bool at_height = std::any_of(slabs.begin(), slabs.end(), [&](const HeightRange& slab) {
       return height_m >= slab.from_m && height_m <= slab.to_m;
     });
-    if (!inside) return;
-    out.points.add({point.x, point.y, point.z}, point.z);
+    if (!at_height || (box && !is_inside(point, *box))) return;
+    out.points.add({point.x, point.y, point.z}, values[index]);
     out.above_path_m.push_back(static_cast<float>(height_m));
   });
   return out;
+}
+
+std::shared_ptr<const ColouredPoints> points_seen(const SlabPoints& map, const Projection& projection,
+                                                  float least_height_m) {
+  constexpr double kCellsPerPixel = 2;
+  std::vector<char> seen(map.points.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, seen.size()), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      const auto& p = map.points.xyz_m[i];
+      if (map.above_path_m[i] < least_height_m) continue;
+      const auto at = projection(Eigen::Vector3f(p[0], p[1], p[2]).cast<double>());
+      seen[i] = at && projection.place().contains(*at);
+    }
+  });
+  ColouredPoints inside;
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    if (seen[i] != 0) inside.add(map.points.xyz_m[i], map.points.values[i]);
+  }
+  const double edge_m = std::max(projection.metres_per_px(), 1e-5) / kCellsPerPixel;
+  return std::make_shared<const ColouredPoints>(thin(inside, edge_m));
 }
 
 Bounds bounds_of(std::span<const SlabPoints> maps, std::size_t axis, double outermost_fraction) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -8,16 +9,24 @@
 
 namespace sweepscope {
 
-/// A map's points that a view from above shows, coloured by elevation, and the heights above the path.
+/// The points of a map at the heights shown, with the values that colour them, and their heights above the
+/// path.
 struct SlabPoints {
-  ColouredPoints points;            // value: z in the map frame
-  std::vector<float> above_path_m;  // of each point
+  ColouredPoints points;
+  std::vector<float> above_path_m;
 };
 
 /// The slabs that the options name, or the default ones for these maps.
 std::vector<HeightRange> choose_slabs(std::span<const ComparedMap> maps, const ComparisonOptions& options);
 
-SlabPoints points_in_slabs(const ComparedMap& map, std::span<const HeightRange> slabs);
+/// `values`: one for each point of the map. Without a box all places are inside.
+SlabPoints points_in_slabs(const ComparedMap& map, std::span<const float> values,
+                           std::span<const HeightRange> slabs, const std::optional<Box>& box = {});
+
+/// The points that a view shows, of those higher above the path than `least_height_m`; no more of them than
+/// its pixels can show.
+std::shared_ptr<const ColouredPoints> points_seen(const SlabPoints& map, const Projection& projection,
+                                                  float least_height_m);
 
 struct Bounds {
   double from = 0, to = 0;

@@ -5,15 +5,51 @@
 
 namespace sweepscope {
 
-void Drawing::dashed(PixelPoint from, PixelPoint to, double dash_px, double width_px, Colour colour) {
-  const double length = std::hypot(to.x - from.x, to.y - from.y);
-  const auto along = [&](double distance) {
-    const double t = std::min(distance, length) / length;
-    return PixelPoint{from.x + t * (to.x - from.x), from.y + t * (to.y - from.y)};
-  };
-  for (double begin = 0; begin < length; begin += 2 * dash_px) {
-    line(along(begin), along(begin + dash_px), width_px, colour);
+void Drawing::add(Mark mark) {
+  marks_.push_back(std::move(mark));
+}
+
+std::vector<LineMark> dashes_of(const LineMark& line) {
+  if (!(line.dash_px > 0)) return {line};
+  std::vector<LineMark> dashes;
+  bool drawing = false;
+  double left_px = 0;  // until the line goes on or ends
+  for (std::size_t i = 1; i < line.points.size(); ++i) {
+    const PixelPoint from = line.points[i - 1], to = line.points[i];
+    const double length = std::hypot(to.x - from.x, to.y - from.y);
+    for (double at = 0; at < length;) {
+      if (left_px <= 0) {
+        drawing = !drawing;
+        left_px = line.dash_px;
+        const double t = at / length;
+        if (drawing) {
+          dashes.push_back(
+              {{{from.x + t * (to.x - from.x), from.y + t * (to.y - from.y)}}, line.width_px, line.colour});
+        }
+      }
+      const double step = std::min(left_px, length - at), t = (at + step) / length;
+      at += step;
+      left_px -= step;
+      if (drawing) {
+        dashes.back().points.push_back({from.x + t * (to.x - from.x), from.y + t * (to.y - from.y)});
+      }
+    }
   }
+  return dashes;
+}
+
+double baseline_y(const TextMark& mark) {
+  switch (mark.align_y) {
+    case AlignY::kTop:
+      return mark.at.y + kCapHeight_em * mark.size_px;
+    case AlignY::kMiddle:
+      return mark.at.y + kCapHeight_em / 2 * mark.size_px;
+    case AlignY::kBottom:
+      return mark.at.y - kDescent_em * mark.size_px;
+    case AlignY::kBaseline:
+      break;
+  }
+  return mark.at.y;
 }
 
 std::string fit_text(const std::string& text, double size_px, double width_px, bool bold) {

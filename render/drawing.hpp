@@ -45,6 +45,7 @@ struct LineMark {
   std::vector<PixelPoint> points;
   double width_px = 1;
   Colour colour;
+  double dash_px = 0;  // the length of the dashes and of the gaps between them; 0: no gaps
 };
 
 struct PolygonMark {  // convex, filled
@@ -52,12 +53,19 @@ struct PolygonMark {  // convex, filled
   Colour colour;
 };
 
-/// Flat marks, later ones above earlier ones: text, lines, filled shapes. Data alone; vtk_drawing paints it.
+struct AreaMark {  // filled between a line, x ascending or descending, and a height
+  std::vector<PixelPoint> points;
+  double base_y = 0;
+  Colour colour;
+};
+
+/// Flat marks, later ones above earlier ones: text, lines, filled shapes. Data alone: vtk_drawing paints it
+/// as pixels, vector_file writes it as shapes and text.
 class Drawing {
  public:
-  using Mark = std::variant<TextMark, LineMark, PolygonMark>;
+  using Mark = std::variant<TextMark, LineMark, PolygonMark, AreaMark>;
 
-  void add(Mark mark) { marks_.push_back(std::move(mark)); }
+  void add(Mark mark);
   void line(PixelPoint from, PixelPoint to, double width_px, Colour colour) {
     add(LineMark{{from, to}, width_px, colour});
   }
@@ -75,13 +83,24 @@ class Drawing {
     fill({rect.left, rect.top + width_px, width_px, rect.height - 2 * width_px}, colour);
     fill({rect.right() - width_px, rect.top + width_px, width_px, rect.height - 2 * width_px}, colour);
   }
-  void dashed(PixelPoint from, PixelPoint to, double dash_px, double width_px, Colour colour);
+  void dashed(PixelPoint from, PixelPoint to, double dash_px, double width_px, Colour colour) {
+    add(LineMark{{from, to}, width_px, colour, dash_px});
+  }
 
   const std::vector<Mark>& marks() const { return marks_; }
 
  private:
   std::vector<Mark> marks_;
 };
+
+/// The dashes of a line as lines of their own, or the line itself where it has no gaps.
+std::vector<LineMark> dashes_of(const LineMark& line);
+
+/// How high capital letters are and how far others hang below the baseline, in ems.
+constexpr double kCapHeight_em = 0.73, kDescent_em = 0.24;
+
+/// Where a text's baseline is.
+double baseline_y(const TextMark& mark);
 
 /// How wide a line of text is.
 double text_width_px(const std::string& text, double size_px, bool bold = false);

@@ -12,24 +12,29 @@
 
 namespace sweepscope {
 
-/// Pixels as red, green, blue, 8 bits each, row by row from the top left.
+/// Pixels as red, green, blue, alpha, 8 bits each, row by row from the top left. The colours are not
+/// multiplied by alpha (255: opaque).
 struct Image {
+  static constexpr std::size_t kChannels = 4;
+
   int width_px = 0, height_px = 0;
-  std::vector<std::uint8_t> rgb;
+  std::vector<std::uint8_t> rgba;
 
   Image() = default;
   Image(int width, int height)
       : width_px(width),
         height_px(height),
-        rgb(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {}
+        rgba(kChannels * static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 255) {}
 
-  std::uint8_t* pixel(int x, int y) { return rgb.data() + index(x, y); }
-  const std::uint8_t* pixel(int x, int y) const { return rgb.data() + index(x, y); }
+  std::uint8_t* pixel(int x, int y) { return rgba.data() + index(x, y); }
+  const std::uint8_t* pixel(int x, int y) const { return rgba.data() + index(x, y); }
   bool operator==(const Image&) const = default;
+  bool opaque() const;
+  void make_opaque();
 
  private:
   std::size_t index(int x, int y) const {
-    return 3 *
+    return kChannels *
            (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px) + static_cast<std::size_t>(x));
   }
 };
@@ -39,15 +44,17 @@ struct PngText {
   std::string key, text;
 };
 
-/// The image as a PNG file in memory or on disk: the same bytes for the same image and texts; no clock.
+/// The image as a PNG file in memory or on disk, without an alpha channel where all is opaque: the same bytes
+/// for the same image and texts; no clock.
 std::string encode_png(const Image& image, std::span<const PngText> texts = {});
 Result<void> write_png(const Image& image, const std::filesystem::path& path,
                        std::span<const PngText> texts = {});
 
-/// Any PNG file, without its transparency. At most 2^28 pixels.
+/// Any PNG file. At most 2^28 pixels.
 Result<Image> read_png(const std::filesystem::path& path);
 
-/// Each pixel is the mean of factor x factor pixels; the sizes must be multiples of it.
-Image shrink(const Image& image, int factor);
+/// From colours that are multiplied by alpha, as blending leaves them: each pixel is the mean of factor x
+/// factor pixels, and its colour is divided by alpha. The sizes must be multiples of the factor.
+Image shrink_premultiplied(const Image& image, int factor);
 
 }  // namespace sweepscope

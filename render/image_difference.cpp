@@ -9,7 +9,9 @@ namespace sweepscope {
 namespace {
 
 int largest_step(const std::uint8_t* a, const std::uint8_t* b) {
-  return std::max({std::abs(a[0] - b[0]), std::abs(a[1] - b[1]), std::abs(a[2] - b[2])});
+  int largest = 0;
+  for (std::size_t c = 0; c < Image::kChannels; ++c) largest = std::max(largest, std::abs(a[c] - b[c]));
+  return largest;
 }
 
 }  // namespace
@@ -39,7 +41,7 @@ ImageDifference compare_images(const Image& actual, const Image& expected, const
       }
     }
   }
-  const auto pixels = static_cast<double>(actual.rgb.size() / 3);
+  const auto pixels = static_cast<double>(actual.rgba.size() / Image::kChannels);
   result.differing_fraction = pixels > 0 ? static_cast<double>(result.differing_pixels) / pixels : 0;
   result.passes = result.differing_fraction <= limits.differing_fraction &&
                   result.worst_tile_fraction <= limits.tile_fraction;
@@ -60,8 +62,12 @@ std::string describe(const ImageDifference& difference) {
 
 Image difference_picture(const Image& actual, const Image& expected) {
   Image picture(actual.width_px, actual.height_px);
-  for (std::size_t i = 0; i < picture.rgb.size(); ++i) {
-    picture.rgb[i] = static_cast<std::uint8_t>(std::min(255, 8 * std::abs(actual.rgb[i] - expected.rgb[i])));
+  for (std::size_t i = 0; i < picture.rgba.size(); i += Image::kChannels) {
+    const int alpha_step = std::abs(actual.rgba[i + 3] - expected.rgba[i + 3]);
+    for (std::size_t c = 0; c < 3; ++c) {
+      const int step = std::max(alpha_step, std::abs(actual.rgba[i + c] - expected.rgba[i + c]));
+      picture.rgba[i + c] = static_cast<std::uint8_t>(std::min(255, 8 * step));
+    }
   }
   return picture;
 }

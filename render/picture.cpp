@@ -14,6 +14,7 @@
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
+#include <vtkRendererCollection.h>
 #include <vtkTypeInt64Array.h>
 #include <vtkUnsignedCharArray.h>
 
@@ -22,6 +23,7 @@
 #include <numeric>
 
 #include "render/gl/vtk_window.hpp"
+#include "render/picture_drawing.hpp"
 #include "render/vtk_drawing.hpp"
 
 namespace sweepscope {
@@ -74,7 +76,10 @@ vtkSmartPointer<vtkActor> to_actor(const CloudLayer& layer, const ColourScale& s
 }
 
 void set_background(vtkRenderer& renderer, Colour colour) {
-  renderer.SetBackground(colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0);
+  const double alpha = colour.alpha / 255.0;  // blending leaves colours multiplied by alpha
+  renderer.SetBackground(alpha * colour.red / 255.0, alpha * colour.green / 255.0,
+                         alpha * colour.blue / 255.0);
+  renderer.SetBackgroundAlpha(alpha);
 }
 
 void set_camera(vtkRenderer& renderer, const Camera& camera) {
@@ -109,15 +114,15 @@ void add_flat_layers(vtkRenderWindow& window, const Picture& picture) {
   window.AddRenderer(below);
   vtkNew<vtkRenderer> above;
   above->SetLayer(1);
-  above->AddActor(make_drawing_actor(std::make_shared<const Drawing>(picture.marks), kSupersampling));
+  above->AddActor(make_drawing_actor(std::make_shared<const Drawing>(flat_marks(picture)), kSupersampling));
   window.AddRenderer(above);
 }
 
 Image read_pixels(vtkRenderWindow& window, int width_px, int height_px) {
   vtkNew<vtkUnsignedCharArray> pixels;
-  window.GetPixelData(0, 0, width_px - 1, height_px - 1, 0, pixels);
+  window.GetRGBACharPixelData(0, 0, width_px - 1, height_px - 1, 0, pixels);
   Image image(width_px, height_px);
-  const std::size_t row_bytes = 3 * static_cast<std::size_t>(width_px);
+  const std::size_t row_bytes = Image::kChannels * static_cast<std::size_t>(width_px);
   for (int y = 0; y < height_px; ++y) {  // OpenGL's first row is the lowest
     std::memcpy(image.pixel(0, y),
                 pixels->GetPointer(static_cast<vtkIdType>(row_bytes) * (height_px - 1 - y)), row_bytes);
@@ -125,26 +130,48 @@ Image read_pixels(vtkRenderWindow& window, int width_px, int height_px) {
   return image;
 }
 
+bool is_opaque(const Picture& picture) {
+  return picture.background.alpha == 255 &&
+         std::all_of(picture.views.begin(), picture.views.end(),
+                     [](const View& view) { return view.scene.background.alpha == 255; });
+}
+
 }  // namespace
 
-Result<Image> draw(const Picture& picture) {
+Result<void> check_size(const Picture& picture) {
   const auto [least, greatest] = std::minmax(picture.width_px, picture.height_px);
-  if (least < kLeastPictureSidePx || greatest > kGreatestPictureSidePx) {
-    return failure(
-        ExitCode::kWrongUsage,
-        fmt::format("A picture of {} x {} pixels cannot be drawn: each side is {} to {} pixels",
-                    picture.width_px, picture.height_px, kLeastPictureSidePx, kGreatestPictureSidePx));
+  if (least >= kLeastPictureSidePx && greatest <= kGreatestPictureSidePx) return {};
+  return failure(
+      ExitCode::kWrongUsage,
+      fmt::format("A picture of {} x {} pixels cannot be drawn: each side is {} to {} pixels",
+                  picture.width_px, picture.height_px, kLeastPictureSidePx, kGreatestPictureSidePx));
+}
+
+int drawn_width_px(const Picture& picture) {
+  return kSupersampling * picture.width_px;
+}
+
+int drawn_height_px(const Picture& picture) {
+  return kSupersampling * picture.height_px;
+}
+
+Image draw_in(vtkRenderWindow& window, const Picture& picture) {
+  add_flat_layers(window, picture);
+  for (const View& view : picture.views) {
+    window.AddRenderer(to_renderer(view, picture));
   }
-  const int width_px = picture.width_px * kSupersampling, height_px = picture.height_px * kSupersampling;
-  return gl::OffscreenWindow::create(width_px, height_px).map([&](gl::OffscreenWindow&& offscreen) {
-    vtkRenderWindow& window = offscreen.window();
-    add_flat_layers(window, picture);
-    for (const View& view : picture.views) {
-      window.AddRenderer(to_renderer(view, picture));
-    }
-    window.Render();
-    return shrink(read_pixels(window, width_px, height_px), kSupersampling);
-  });
+  window.Render();
+  Image pixels = read_pixels(window, drawn_width_px(picture), drawn_height_px(picture));
+  if (is_opaque(picture)) pixels.make_opaque();  // what VTK leaves in alpha depends on its passes
+  while (vtkRenderer* renderer = window.GetRenderers()->GetFirstRenderer()) window.RemoveRenderer(renderer);
+  return shrink_premultiplied(pixels, kSupersampling);
+}
+
+Result<Image> draw(const Picture& picture) {
+  return check_size(picture)
+      .and_then(
+          [&] { return gl::OffscreenWindow::create(drawn_width_px(picture), drawn_height_px(picture)); })
+      .map([&](gl::OffscreenWindow&& offscreen) { return draw_in(offscreen.window(), picture); });
 }
 
 }  // namespace sweepscope

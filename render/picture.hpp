@@ -2,9 +2,11 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "core/error.hpp"
+#include "render/camera.hpp"
 #include "render/colour_table.hpp"
 #include "render/drawing.hpp"
 #include "render/image.hpp"
@@ -12,25 +14,32 @@
 
 namespace sweepscope {
 
-/// From where a scene is seen, in the map frame.
-struct Camera {
-  Eigen::Vector3d position_m{0, 0, 10};
-  Eigen::Vector3d looks_at_m{0, 0, 0};
-  Eigen::Vector3d up{0, 1, 0};
-  bool orthographic = true;
-  double view_height_m = 10;   // orthographic: how much of the scene the view's height shows
-  double view_angle_deg = 30;  // perspective: of the view's height
-};
-
 /// Points and what colours them.
 struct CloudLayer {
   std::shared_ptr<const ColouredPoints> points;
   double point_size_px = 1;
 };
 
+/// A line through places of the map frame, drawn above the points.
+struct ScenePath {
+  std::vector<Eigen::Vector3d> points_m;
+  double width_px = 1;
+  Colour colour;
+};
+
+/// Words at a place of the map frame.
+struct SceneLabel {
+  Eigen::Vector3d at_m{0, 0, 0};
+  std::string text;
+  double size_px = 14;
+  Colour colour;
+};
+
 struct Scene {
   std::vector<CloudLayer> clouds;
   ColourScale colours;
+  std::vector<ScenePath> paths;
+  std::vector<SceneLabel> labels;
   Camera camera;
   Colour background{0, 0, 0};
 };
@@ -41,7 +50,8 @@ struct View {
   Scene scene;
 };
 
-/// A picture as data: views of scenes beside each other, and flat marks above them all.
+/// A picture as data: views of scenes beside each other, and flat marks above them all. Where the background
+/// of the picture and of its views has alpha 0 the picture is transparent.
 struct Picture {
   int width_px = 0, height_px = 0;
   Colour background{0, 0, 0};
@@ -50,6 +60,12 @@ struct Picture {
 };
 
 constexpr int kLeastPictureSidePx = 64, kGreatestPictureSidePx = 8000;
+
+/// Says why a picture of that size cannot be drawn (ExitCode::kWrongUsage).
+Result<void> check_size(const Picture& picture);
+
+/// Everything flat: the paths and labels of its scenes at their places, then its marks.
+Drawing flat_marks(const Picture& picture);
 
 /// Draws it without a display. Edges are smoothed by drawing at twice the size; the same picture gives the
 /// same pixels, run after run. A size beyond the limits is ExitCode::kWrongUsage.

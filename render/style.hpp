@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <string_view>
 
 #include "render/colour_table.hpp"
 
@@ -44,5 +45,39 @@ inline constexpr Style kLightStyle{
     .second_curve = {104, 122, 156},
     .maps = {{{190, 120, 0}, {0, 114, 178}, {183, 78, 141}, {0, 138, 100}}},
 };
+
+/// The same with nothing dark on it.
+inline constexpr Style white_style() {
+  Style style = kLightStyle;
+  style.panel = {255, 255, 255};
+  style.map_panel = {255, 255, 255};
+  style.map_highlight = {0, 0, 0};
+  return style;
+}
+
+/// To lay on a page of any light colour.
+inline constexpr Style transparent_style() {
+  Style style = white_style();
+  style.page.alpha = style.panel.alpha = style.map_panel.alpha = 0;
+  return style;
+}
+
+enum class Background { kDark, kLight, kWhite, kTransparent };
+
+inline constexpr std::array<std::string_view, 4> kBackgroundNames{"dark", "light", "white", "transparent"};
+
+inline constexpr Style style_of(Background background) {
+  switch (background) {
+    case Background::kLight:
+      return kLightStyle;
+    case Background::kWhite:
+      return white_style();
+    case Background::kTransparent:
+      return transparent_style();
+    case Background::kDark:
+      break;
+  }
+  return kDarkStyle;
+}
 
 }  // namespace sweepscope

@@ -26,9 +26,6 @@ void set_font(vtkTextProperty& property, double size_px, bool bold) {
   property.SetItalic(0);
 }
 
-/// Above and below the baseline, in ems.
-constexpr double kCapHeight = 0.73, kDescent = 0.24;
-
 class DrawingItem final : public vtkContextItem {
  public:
   static DrawingItem* New();
@@ -62,15 +59,19 @@ class DrawingItem final : public vtkContextItem {
                                                                 : VTK_TEXT_RIGHT);
     property.SetVerticalJustificationToBottom();
     double baseline = y(mark.at.y);
-    if (mark.align_y == AlignY::kTop) baseline -= kCapHeight * size;
-    if (mark.align_y == AlignY::kMiddle) baseline -= kCapHeight / 2 * size;
-    if (mark.align_y == AlignY::kBottom) baseline += kDescent * size;
+    if (mark.align_y == AlignY::kTop) baseline -= kCapHeight_em * size;
+    if (mark.align_y == AlignY::kMiddle) baseline -= kCapHeight_em / 2 * size;
+    if (mark.align_y == AlignY::kBottom) baseline += kDescent_em * size;
     // VTK's anchor is the bottom of the line, below what may hang under the baseline.
-    painter.DrawString(std::round(x(mark.at.x)), static_cast<float>(std::round(baseline - kDescent * size)),
-                       mark.text);
+    painter.DrawString(std::round(x(mark.at.x)),
+                       static_cast<float>(std::round(baseline - kDescent_em * size)), mark.text);
   }
 
   void paint(vtkContext2D& painter, const LineMark& mark) const {
+    if (mark.dash_px > 0) {
+      for (const LineMark& dash : dashes_of(mark)) paint(painter, dash);
+      return;
+    }
     // Quads and not GL lines, whose width and ends differ between machines.
     for (std::size_t i = 1; i < mark.points.size(); ++i) {
       const PixelPoint a = mark.points[i - 1], b = mark.points[i];
@@ -95,6 +96,14 @@ class DrawingItem final : public vtkContextItem {
       disc.points.push_back({at.x + radius_px * std::cos(angle), at.y + radius_px * std::sin(angle)});
     }
     paint(painter, disc);
+  }
+
+  void paint(vtkContext2D& painter, const AreaMark& mark) const {
+    for (std::size_t i = 1; i < mark.points.size(); ++i) {
+      const PixelPoint a = mark.points[i - 1], b = mark.points[i];
+      if (a.x == b.x) continue;
+      paint(painter, PolygonMark{{a, b, {b.x, mark.base_y}, {a.x, mark.base_y}}, mark.colour});
+    }
   }
 
   void paint(vtkContext2D& painter, const PolygonMark& mark) const {

@@ -4,27 +4,35 @@
 
 #include <array>
 #include <cmath>
+#include <cstdlib>
+#include <limits>
 
 #include "core/io/atomic_file.hpp"
 #include "core/io/text_cursor.hpp"
 
 namespace sweepscope {
 
-Result<void> write_tum(const std::filesystem::path& path, std::span<const StampedPose> trajectory) {
+Result<void> write_tum(const std::filesystem::path& path, std::span<const StampedPose> trajectory,
+                       std::int64_t epoch_ns) {
   std::string text = "# time_s x_m y_m z_m qx qy qz qw\n";
   for (const StampedPose& pose : trajectory) {
     const auto& p = pose.position_m;
     const auto& q = pose.orientation;
-    fmt::format_to(std::back_inserter(text), "{:.9f} {:.9f} {:.9f} {:.9f} {:.12f} {:.12f} {:.12f} {:.12f}\n",
-                   pose.time_s, p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w());
+    // Whole nanoseconds: a double does not hold them beside the seconds since 1970.
+    const std::int64_t ns = epoch_ns + std::llround(pose.time_s * 1e9);
+    fmt::format_to(std::back_inserter(text),
+                   "{}{}.{:09} {:.9f} {:.9f} {:.9f} {:.12f} {:.12f} {:.12f} {:.12f}\n", ns < 0 ? "-" : "",
+                   std::abs(ns) / 1'000'000'000, std::abs(ns) % 1'000'000'000, p.x(), p.y(), p.z(), q.x(),
+                   q.y(), q.z(), q.w());
   }
   return write_file(path, text);
 }
 
-Result<std::vector<StampedPose>> read_tum(const std::filesystem::path& path) {
+Result<std::vector<StampedPose>> read_tum(const std::filesystem::path& path, std::int64_t epoch_ns) {
   const Result<std::string> text = read_file(path);
   if (!text) return tl::unexpected(text.error());
   std::vector<StampedPose> trajectory;
+  double last_time_s = -std::numeric_limits<double>::infinity();
   TextCursor cursor(*text);
   while (const auto line = cursor.next_line()) {
     if (line->find_first_not_of(" \t") == std::string_view::npos || line->front() == '#') continue;
@@ -43,10 +51,12 @@ Result<std::vector<StampedPose>> read_tum(const std::filesystem::path& path) {
       return unreadable(
           fmt::format("{}: line {}: the quaternion's length is not 1", path.string(), cursor.line()));
     }
-    if (!trajectory.empty() && value[0] <= trajectory.back().time_s) {
+    if (!trajectory.empty() && value[0] <= last_time_s) {
       return unreadable(fmt::format("{}: line {}: the times do not ascend", path.string(), cursor.line()));
     }
-    trajectory.push_back({value[0], {value[1], value[2], value[3]}, orientation.normalized()});
+    last_time_s = value[0];
+    const double time_s = value[0] - static_cast<double>(epoch_ns) * 1e-9;
+    trajectory.push_back({time_s, {value[1], value[2], value[3]}, orientation.normalized()});
   }
   return trajectory;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <vector>
@@ -9,10 +10,12 @@
 
 namespace sweepscope {
 
-/// Writes the trajectory as TUM text: one line per pose, "time x y z qx qy qz qw", in seconds and metres.
-Result<void> write_tum(const std::filesystem::path& path, std::span<const StampedPose> trajectory);
+/// Writes the trajectory as TUM text: one line per pose, "time x y z qx qy qz qw", in seconds and metres. The
+/// poses' times count from `epoch_ns` (Recording::epoch_ns), the file's from 0.
+Result<void> write_tum(const std::filesystem::path& path, std::span<const StampedPose> trajectory,
+                       std::int64_t epoch_ns = 0);
 
 /// Reads such a file; lines that are empty or begin with # are skipped. Times must ascend strictly.
-Result<std::vector<StampedPose>> read_tum(const std::filesystem::path& path);
+Result<std::vector<StampedPose>> read_tum(const std::filesystem::path& path, std::int64_t epoch_ns = 0);
 
 }  // namespace sweepscope

@@ -40,6 +40,12 @@ class LineFeatures {
     return found;
   }
 
+  const std::vector<float>& curvatures_m(std::size_t scan_index) {
+    const LaserScan& scan = recording_.scans[scan_index];
+    measure(scan, recording_.ranges(scan));
+    return line_.curvature_m;
+  }
+
  private:
   void measure(const LaserScan& scan, std::span<const float> ranges) {
     const int beams = static_cast<int>(scan.beams), half = options_.half_window;
@@ -265,6 +271,12 @@ Result<FeatureSet> extract_features(const Recording& recording, const FeatureOpt
   set.edges.scan_begin.push_back(set.edges.features.size());
   set.planes.scan_begin.push_back(set.planes.features.size());
   return set;
+}
+
+std::vector<float> line_curvatures_m(const Recording& recording, std::size_t scan,
+                                     const FeatureOptions& options) {
+  const Kinematics kinematics(recording.rig.mount);
+  return LineFeatures(recording, kinematics, options, 0).curvatures_m(scan);
 }
 
 }  // namespace sweepscope

@@ -60,4 +60,8 @@ double estimate_range_noise_m(const Recording& recording);
 Result<FeatureSet> extract_features(const Recording& recording, const FeatureOptions& options,
                                     const Job& job);
 
+/// The curvature of every beam of a scan line (m), by which its features are picked; NaN where there is none.
+std::vector<float> line_curvatures_m(const Recording& recording, std::size_t scan,
+                                     const FeatureOptions& options);
+
 }  // namespace sweepscope

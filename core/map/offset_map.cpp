@@ -82,8 +82,65 @@ MapCloud::Ptr place_beams(const OffsetProblem& problem, double offset_s,
   return cloud;
 }
 
+/// Poses that ascend in time, read at instants that ascend too.
+class PoseReader {
+ public:
+  explicit PoseReader(const std::vector<StampedPose>& poses) : poses_(poses) {}
+
+  bool covers(double from_s, double to_s) const {
+    return poses_.size() > 1 && from_s >= poses_.front().time_s && to_s <= poses_.back().time_s;
+  }
+  Pose at(double time_s) {
+    while (next_ + 1 < poses_.size() && poses_[next_].time_s < time_s) ++next_;
+    while (next_ > 1 && poses_[next_ - 1].time_s > time_s) --next_;
+    const StampedPose &a = poses_[next_ - 1], &b = poses_[next_];
+    return interpolate({a.orientation, a.position_m}, {b.orientation, b.position_m},
+                       (time_s - a.time_s) / (b.time_s - a.time_s));
+  }
+
+ private:
+  const std::vector<StampedPose>& poses_;
+  std::size_t next_ = 1;
+};
+
+/// Every scan by poses of its own.
+MapCloud::Ptr place_beams_along(const OffsetProblem& problem, double offset_s,
+                                const std::vector<StampedPose>& poses) {
+  const Recording& recording = *problem.recording;
+  const std::vector<std::size_t> sweep_of = assign_sweeps(recording.scans, problem.motor.sweeps, offset_s);
+  MapCloud::Ptr cloud(new MapCloud);
+  BeamPlacer placer(recording, offset_s);
+  PoseReader reader(poses);
+  for (std::size_t i = 0; i < recording.scans.size(); ++i) {
+    const LaserScan& scan = recording.scans[i];
+    if (sweep_of[i] == kNoSweep || !problem.scan_used[i]) continue;
+    SweepPose pose;
+    pose.sweep = sweep_of[i];
+    pose.begin_s = scan.first_beam_s;
+    pose.end_s = scan.last_beam_s();
+    if (!(pose.end_s > pose.begin_s) || !reader.covers(pose.begin_s, pose.end_s)) continue;
+    pose.begin = reader.at(pose.begin_s);
+    pose.end = reader.at(pose.end_s);
+    placer.place(scan, pose, *cloud);
+  }
+  cloud->width = static_cast<std::uint32_t>(cloud->points.size());
+  cloud->height = 1;
+  cloud->is_dense = true;
+  return cloud;
+}
+
+OffsetMap build_along(const OffsetProblem& problem, double offset_s, const MapOptions& options) {
+  OffsetMap map;
+  map.offset_s = offset_s;
+  map.moving = true;
+  map.trajectory = options.poses;
+  map.cloud = place_beams_along(problem, offset_s, options.poses);
+  return map;
+}
+
 OffsetMap build_one(const OffsetProblem& problem, double offset_s, bool moving, const MapOptions& options,
                     const Job& job) {
+  if (!options.poses.empty()) return build_along(problem, offset_s, options);
   OffsetMap map;
   map.offset_s = offset_s;
   map.moving = moving;
@@ -125,10 +182,15 @@ Result<std::vector<OffsetMap>> build_maps(const Recording& recording, std::span<
     return failure(
         ExitCode::kNotIdentifiable,
         fmt::format("{}: no scan is covered by the motor's samples at these offsets.", recording.name));
-  const bool moving = options.assume ? *options.assume == Method::kMoving
-                                     : test_motion(placed, problem->motor,
-                                                   for_lines(options.odometry, problem->line_spacing_rad))
-                                           .moving();
+  const auto moves = [&] {
+    return test_motion(placed, problem->motor, for_lines(options.odometry, problem->line_spacing_rad))
+        .moving();
+  };
+  const bool moving = options.assume           ? *options.assume == Method::kMoving
+                      : !options.poses.empty() ? true
+                                               : moves();
+  if (options.poses.size() == 1)
+    return failure(ExitCode::kUnreadableInput, "A trajectory of one pose places nothing: two at least.");
   std::vector<OffsetMap> maps(offsets_s.size());
   const Job part = Job::part_of(job);
   tbb::parallel_for(std::size_t{0}, offsets_s.size(), [&](std::size_t i) {

@@ -15,6 +15,9 @@ namespace sweepscope {
 
 struct MapOptions {
   std::optional<Method> assume;  // the kind of recording, instead of the motion test
+  /// Where the base frame went, instead of LOAM's answer; ascending in time. Between them the pose goes
+  /// linearly; scans before the first and after the last are left out. The map frame is theirs.
+  std::vector<StampedPose> poses;
   FeatureOptions features;
   OdometryOptions odometry;
   MappingOptions mapping;

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 namespace sweepscope {
 namespace {
@@ -75,10 +76,14 @@ std::size_t index_of_greatest(const std::vector<CurvePoint>& curve, CurveValue v
   return best;
 }
 
-CriterionOptimum fitted_extremum(const std::vector<CurvePoint>& curve, CurveValue value, std::size_t best,
-                                 double reach_s) {
+double Parabola::at(double offset_s) const {
+  const double x = (offset_s - centre_s) / reach_s;
+  return scale * (c0 + (c1 + c2 * x) * x);
+}
+
+std::optional<Parabola> fitted_parabola(const std::vector<CurvePoint>& curve, CurveValue value,
+                                        std::size_t best, double reach_s) {
   const double centre_s = curve[best].offset_s;
-  CriterionOptimum optimum{"", centre_s, *(curve[best].*value)};
   const auto belongs = [&](std::size_t i) {
     return (curve[i].*value).has_value() && std::abs(curve[i].offset_s - centre_s) <= reach_s + 1e-9;
   };
@@ -86,10 +91,10 @@ CriterionOptimum fitted_extremum(const std::vector<CurvePoint>& curve, CurveValu
   while (first > 0 && belongs(first - 1)) --first;
   while (last + 1 < curve.size() && belongs(last + 1)) ++last;
   const auto count = static_cast<Eigen::Index>(last - first + 1);
-  if (count < 5) return optimum;
+  if (count < 5) return std::nullopt;
   Eigen::MatrixXd powers(count, 3);
   Eigen::VectorXd values(count);
-  const double scale = optimum.value == 0 ? 1.0 : optimum.value;
+  const double best_value = *(curve[best].*value), scale = best_value == 0 ? 1.0 : best_value;
   for (Eigen::Index i = 0; i < count; ++i) {
     const CurvePoint& point = curve[first + std::size_t(i)];
     const double x = (point.offset_s - centre_s) / reach_s;
@@ -98,16 +103,46 @@ CriterionOptimum fitted_extremum(const std::vector<CurvePoint>& curve, CurveValu
   }
   const Eigen::Vector3d c = powers.colPivHouseholderQr().solve(values);
   const bool is_least = value != &CurvePoint::n;
-  if (!(is_least ? c[2] > 0 : c[2] < 0)) return optimum;
-  const double offset_s = centre_s - c[1] / (2 * c[2]) * reach_s;
-  if (offset_s < curve[first].offset_s || offset_s > curve[last].offset_s) return optimum;
-  optimum.offset_s = offset_s;
+  if (!(is_least ? c[2] > 0 : c[2] < 0)) return std::nullopt;
+  const Parabola parabola{
+      centre_s, reach_s, scale, c[0], c[1], c[2], curve[first].offset_s, curve[last].offset_s};
+  const double offset_s = parabola.extremum_s();
+  if (offset_s < parabola.from_s || offset_s > parabola.to_s) return std::nullopt;
+  return parabola;
+}
+
+std::optional<Parabola> parabola_behind(const std::vector<CurvePoint>& curve, CurveValue value,
+                                        const CriterionOptimum& optimum) {
+  constexpr double kUsualReach_s = 3e-3, kSame_s = 1e-10, kSameGridPoint_s = 2e-12;
+  const std::size_t best =
+      value == &CurvePoint::n ? index_of_greatest(curve, value) : index_of_least(curve, value);
+  if (best == curve.size() || std::abs(curve[best].offset_s - optimum.offset_s) <= kSameGridPoint_s)
+    return std::nullopt;
+  std::vector<double> reaches_s{kUsualReach_s};
+  for (const CurvePoint& point : curve) reaches_s.push_back(std::abs(point.offset_s - curve[best].offset_s));
+  for (const double reach_s : reaches_s) {
+    if (!(reach_s > 0)) continue;
+    const auto parabola = fitted_parabola(curve, value, best, reach_s);
+    if (parabola && std::abs(parabola->extremum_s() - optimum.offset_s) <= kSame_s) return parabola;
+  }
+  return std::nullopt;
+}
+
+CriterionOptimum fitted_extremum(const std::vector<CurvePoint>& curve, CurveValue value, std::size_t best,
+                                 double reach_s) {
+  CriterionOptimum optimum{"", curve[best].offset_s, *(curve[best].*value)};
+  const auto parabola = fitted_parabola(curve, value, best, reach_s);
+  if (!parabola) return optimum;
+  optimum.offset_s = parabola->extremum_s();
   // The curve's own value there: the parabola is to find the place, and cuts the corner of a sharp valley.
-  const auto nearer = [&](const CurvePoint& a, const CurvePoint& b) {
-    return std::abs(a.offset_s - offset_s) < std::abs(b.offset_s - offset_s);
-  };
-  const auto from = curve.begin() + std::ptrdiff_t(first);
-  optimum.value = *((*std::min_element(from, from + count, nearer)).*value);
+  double nearest_s = std::numeric_limits<double>::max();
+  for (const CurvePoint& point : curve) {
+    const double away_s = std::abs(point.offset_s - optimum.offset_s);
+    const bool inside = point.offset_s >= parabola->from_s && point.offset_s <= parabola->to_s;
+    if (!inside || !(away_s < nearest_s)) continue;
+    nearest_s = away_s;
+    optimum.value = *(point.*value);
+  }
   return optimum;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "core/error.hpp"
@@ -50,6 +51,25 @@ class Curve {
 using CurveValue = std::optional<double> CurvePoint::*;
 std::size_t index_of_least(const std::vector<CurvePoint>& curve, CurveValue value);
 std::size_t index_of_greatest(const std::vector<CurvePoint>& curve, CurveValue value);
+
+/// A parabola over a part of a curve: value = scale (c0 + c1 x + c2 x^2) with x = (offset - centre) / reach.
+struct Parabola {
+  double centre_s = 0, reach_s = 1;
+  double scale = 1, c0 = 0, c1 = 0, c2 = 0;
+  double from_s = 0, to_s = 0;  // the first and last offset of the points that it was fitted to
+
+  double at(double offset_s) const;
+  double extremum_s() const { return centre_s - c1 / (2 * c2) * reach_s; }
+};
+
+/// The parabola from which `fitted_extremum` takes its answer; none where that is the grid point.
+std::optional<Parabola> fitted_parabola(const std::vector<CurvePoint>& curve, CurveValue value,
+                                        std::size_t best, double reach_s);
+
+/// The parabola that gave this optimum of the curve, looked for among all reaches (an estimate does not hold
+/// its own). None where no parabola has its extremum there: then the optimum is a grid point.
+std::optional<Parabola> parabola_behind(const std::vector<CurvePoint>& curve, CurveValue value,
+                                        const CriterionOptimum& optimum);
 
 /// The extremum of the parabola fitted to the contiguous present values within `reach_s` of point `best` (the
 /// authors' 2018 follow-up), with the value of the point nearest to it. The grid point itself where they are

@@ -1,56 +1,15 @@
 #include "core/recording/rig.hpp"
 
-#include <fmt/format.h>
-#include <yaml-cpp/yaml.h>
-
 #include <cmath>
-#include <functional>
-#include <map>
-#include <set>
 
-#include "core/recording/input_file.hpp"
+#include "core/io/yaml_members.hpp"
 
 namespace sweepscope {
 namespace {
 
+using yaml::read_choice, yaml::read_members, yaml::read_number, yaml::refuse;
+
 constexpr std::uint64_t kMostRigFile_bytes = std::uint64_t{1} << 20;
-
-/// A value that a rig file must not have. Caught in read_rig, which adds the file's name.
-struct RigError {
-  YAML::Mark mark;
-  std::string what;
-};
-
-[[noreturn]] void refuse(const YAML::Node& node, std::string what) {
-  throw RigError{node.Mark(), std::move(what)};
-}
-
-using Members = std::map<std::string, std::function<void(const YAML::Node&)>>;
-
-/// Calls the reader of every key in `node`; an unknown or doubled key is refused.
-void read_members(const YAML::Node& node, const std::string& name, const Members& members) {
-  if (!node.IsMap()) refuse(node, fmt::format("{} must be a map of keys to values", name));
-  std::set<std::string> seen;
-  for (const auto& entry : node) {
-    const auto key = entry.first.IsScalar() ? entry.first.Scalar() : std::string();
-    const auto member = members.find(key);
-    if (member == members.end()) {
-      std::string known;
-      for (const auto& [known_key, reader] : members) known += (known.empty() ? "" : ", ") + known_key;
-      refuse(entry.first, fmt::format("unknown key \"{}\" in {}; known are: {}", key, name, known));
-    }
-    if (!seen.insert(key).second) refuse(entry.first, fmt::format("key \"{}\" comes twice in {}", key, name));
-    member->second(entry.second);
-  }
-}
-
-double read_number(const YAML::Node& node, const std::string& name) {
-  double number = NAN;
-  if (!node.IsScalar() || !YAML::convert<double>::decode(node, number) || !std::isfinite(number)) {
-    refuse(node, fmt::format("{} must be a finite number", name));
-  }
-  return number;
-}
 
 std::string read_name(const YAML::Node& node, const std::string& name) {
   if (!node.IsScalar() || node.Scalar().empty()) refuse(node, fmt::format("{} must be a name", name));
@@ -60,15 +19,6 @@ std::string read_name(const YAML::Node& node, const std::string& name) {
 Eigen::Vector3d read_vector(const YAML::Node& node, const std::string& name) {
   if (!node.IsSequence() || node.size() != 3) refuse(node, fmt::format("{} must be three numbers", name));
   return {read_number(node[0], name), read_number(node[1], name), read_number(node[2], name)};
-}
-
-template <typename T>
-T read_choice(const YAML::Node& node, const std::string& name, const std::map<std::string, T>& choices) {
-  const auto choice = node.IsScalar() ? choices.find(node.Scalar()) : choices.end();
-  if (choice != choices.end()) return choice->second;
-  std::string known;
-  for (const auto& [text, value] : choices) known += (known.empty() ? "" : ", ") + text;
-  refuse(node, fmt::format("{} must be one of: {}", name, known));
 }
 
 StampSource read_stamp(const YAML::Node& node, const std::string& name) {
@@ -142,23 +92,10 @@ Rig read_document(const YAML::Node& document) {
 }  // namespace
 
 Result<Rig> read_rig(const std::filesystem::path& path) {
-  auto file = InputFile::open(path);
-  if (!file) return tl::unexpected(file.error());
-  if (file->size() > kMostRigFile_bytes) {
-    return unreadable(fmt::format("{}: has {} bytes, too many for a rig file", path.string(), file->size()));
-  }
-  std::string text(file->size(), '\0');
-  text.resize(file->read(std::as_writable_bytes(std::span(text))));
-  const auto at = [&](const YAML::Mark& mark, const std::string& what) {
-    return unreadable(fmt::format("{}:{}:{}: {}", path.string(), mark.line + 1, mark.column + 1, what));
-  };
-  try {
-    return read_document(YAML::Load(text));
-  } catch (const RigError& error) {
-    return at(error.mark, error.what);
-  } catch (const YAML::Exception& error) {
-    return at(error.mark, error.msg);
-  }
+  Rig rig;
+  return yaml::read_file(path, "a rig file", kMostRigFile_bytes,
+                         [&](const YAML::Node& node) { rig = read_document(node); })
+      .map([&] { return std::move(rig); });
 }
 
 }  // namespace sweepscope

@@ -2,12 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
 namespace sweepscope {
 namespace {
 
 Image grey_image(int width, int height) {
   Image image(width, height);
-  std::fill(image.rgb.begin(), image.rgb.end(), std::uint8_t{100});
+  std::fill(image.rgba.begin(), image.rgba.end(), std::uint8_t{100});
   return image;
 }
 
@@ -25,9 +29,9 @@ TEST(ImageDifference, AnotherSizeFails) {
 TEST(ImageDifference, StepsOfEightEverywherePassAndNineFail) {
   const Image expected = grey_image(64, 64);
   Image actual = expected;
-  for (auto& channel : actual.rgb) channel = 108;
+  for (auto& channel : actual.rgba) channel = 108;
   EXPECT_TRUE(compare_images(actual, expected).passes);
-  for (auto& channel : actual.rgb) channel = 109;
+  for (auto& channel : actual.rgba) channel = 109;
   EXPECT_FALSE(compare_images(actual, expected).passes);
 }
 
@@ -62,6 +66,81 @@ TEST(ImageDifference, ThePictureIsBlackWhereBothAgree) {
   EXPECT_EQ(picture.pixel(0, 0)[0], 0);
   EXPECT_EQ(picture.pixel(3, 4)[0], 80);
 }
+
+/// The baselines of the screenshot tests, as they are and spoiled.
+class SpoiledBaseline : public testing::TestWithParam<const char*> {
+ protected:
+  void SetUp() override {
+    const auto path = std::filesystem::path(SWEEPSCOPE_SOURCE_DIR) / "screenshots" / GetParam();
+    const auto image = read_png(path);
+    ASSERT_TRUE(image) << image.error().message;
+    expected_ = actual_ = *image;
+  }
+  bool passes() const { return compare_images(actual_, expected_).passes; }
+
+  /// Covers a part with the colour of the picture's top left corner.
+  void erase(int left, int top, int width, int height) {
+    for (int y = top; y < top + height; ++y) {
+      for (int x = left; x < left + width; ++x) std::copy_n(expected_.pixel(0, 0), 4, actual_.pixel(x, y));
+    }
+  }
+
+  Image expected_, actual_;
+};
+
+TEST_P(SpoiledBaseline, PassesAsItIs) {
+  EXPECT_TRUE(passes());
+}
+
+TEST_P(SpoiledBaseline, AShiftOfThreePixelsFails) {
+  for (int y = 0; y < actual_.height_px; ++y) {
+    for (int x = 3; x < actual_.width_px; ++x) {
+      std::copy_n(expected_.pixel(x - 3, y), 4, actual_.pixel(x, y));
+    }
+  }
+  EXPECT_FALSE(passes());
+}
+
+TEST_P(SpoiledBaseline, AMissingTitleOrFooterFails) {
+  erase(0, 0, actual_.width_px, 24);
+  EXPECT_FALSE(passes());
+  actual_ = expected_;
+  erase(0, actual_.height_px - 18, actual_.width_px, 18);
+  EXPECT_FALSE(passes());
+}
+
+TEST_P(SpoiledBaseline, ALabelCutInHalfFails) {
+  erase(0, 0, actual_.width_px, 16);
+  EXPECT_FALSE(passes());
+}
+
+TEST_P(SpoiledBaseline, OtherColoursFail) {
+  for (std::size_t i = 0; i < actual_.rgba.size(); i += Image::kChannels) {
+    std::swap(actual_.rgba[i], actual_.rgba[i + 2]);
+  }
+  EXPECT_FALSE(passes());
+}
+
+TEST_P(SpoiledBaseline, ABlankPictureFails) {
+  erase(0, 0, actual_.width_px, actual_.height_px);
+  EXPECT_FALSE(passes());
+}
+
+TEST_P(SpoiledBaseline, AnEmptyPanelFails) {
+  erase(actual_.width_px / 2, actual_.height_px / 4, actual_.width_px / 3, actual_.height_px / 2);
+  EXPECT_FALSE(passes());
+}
+
+INSTANTIATE_TEST_SUITE_P(Pictures, SpoiledBaseline,
+                         testing::Values("maps-two-moving-curve.png", "maps-four.png", "colour-by-time.png",
+                                         "view-isometric.png", "figure-curves-standing.png",
+                                         "figure-profile.png", "figure-scan.png"),
+                         [](const auto& info) {
+                           std::string name = info.param;
+                           std::replace_if(
+                               name.begin(), name.end(), [](char c) { return c == '-' || c == '.'; }, '_');
+                           return name;
+                         });
 
 }  // namespace
 }  // namespace sweepscope

@@ -109,6 +109,34 @@ TEST(FittedExtremum, StaysInsideItsPoints) {
   EXPECT_LE(least.offset_s, 29 * kMs);
 }
 
+TEST(FittedParabola, GoesThroughPointsThatLieOnOne) {
+  const std::vector<CurvePoint> curve = curve_of(parabola_m);
+  const auto parabola =
+      fitted_parabola(curve, &CurvePoint::e_m, index_of_least(curve, &CurvePoint::e_m), 3 * kMs);
+  ASSERT_TRUE(parabola);
+  EXPECT_NEAR(parabola->from_s, 21 * kMs, 1e-12);
+  EXPECT_NEAR(parabola->to_s, 27 * kMs, 1e-12);
+  for (const double offset_ms : {21.0, 23.8, 26.5})
+    EXPECT_NEAR(parabola->at(offset_ms * kMs), *parabola_m(offset_ms), 1e-12);
+}
+
+TEST(ParabolaBehind, FindsTheReachThatGaveTheAnswer) {
+  const auto curve = curve_of([](double offset_ms) { return 0.02 + 1e-3 * std::pow(offset_ms - 23.7, 4); });
+  for (const double reach_s : {2 * kMs, 3 * kMs, 4 * kMs}) {
+    const auto parabola = parabola_behind(curve, &CurvePoint::e_m, fitted(curve, reach_s));
+    ASSERT_TRUE(parabola);
+    EXPECT_NEAR(parabola->from_s, 24 * kMs - reach_s, 1e-9);
+    EXPECT_NEAR(parabola->to_s, 24 * kMs + reach_s, 1e-9);
+  }
+}
+
+TEST(ParabolaBehind, ThereIsNoneBehindAnAnswerFromElsewhere) {
+  const auto curve = curve_of(parabola_m);
+  EXPECT_FALSE(parabola_behind(curve, &CurvePoint::e_m, {"e", 24 * kMs, 0.02}));
+  EXPECT_FALSE(parabola_behind(curve, &CurvePoint::e_m, {"e", 23.5 * kMs, 0.02}));
+  EXPECT_FALSE(parabola_behind(curve, &CurvePoint::d, {"d", 23.8 * kMs, 0.02}));
+}
+
 TEST(Extremum, AFailedCandidateNeverWins) {
   const auto curve =
       curve_of([](double offset_ms) { return offset_ms == 24 ? std::nullopt : parabola_m(offset_ms); });

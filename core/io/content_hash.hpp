@@ -1,0 +1,17 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "core/error.hpp"
+
+namespace sweepscope {
+
+/// 32 hexadecimal digits that tell contents apart (XXH3, 128 bits; not against forgery).
+std::string content_hash(std::string_view bytes);
+
+/// Of a file, read in pieces. Fails as reading does.
+Result<std::string> file_content_hash(const std::filesystem::path& path);
+
+}  // namespace sweepscope

@@ -1,0 +1,237 @@
+#include "core/map/cross_section.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/map/section_points.hpp"
+
+namespace sweepscope {
+namespace {
+
+constexpr double kStep_mm = 1, kSmoothing_mm = 3;
+constexpr std::size_t kLeastPoints = 300;
+const double kWidthPerDeviation = 2 * std::sqrt(2 * std::numbers::ln2);
+
+// Counts per step from -reach to reach about the median, and a Gaussian's width beyond it on either side.
+std::vector<double> smoothed(const std::vector<double>& distances_m, double median_m, double reach_m) {
+  const int half = static_cast<int>(std::ceil((reach_m * 1e3 + 4 * kSmoothing_mm) / kStep_mm));
+  std::vector<double> counts(2 * half + 1), density(counts.size());
+  for (const double distance_m : distances_m) {
+    const auto bin = static_cast<int>(std::lround((distance_m - median_m) * 1e3 / kStep_mm)) + half;
+    if (bin >= 0 && bin <= 2 * half) ++counts[bin];
+  }
+  const int width = static_cast<int>(std::ceil(4 * kSmoothing_mm / kStep_mm));
+  std::vector<double> kernel(2 * width + 1);
+  double sum = 0;
+  for (int k = -width; k <= width; ++k) {
+    const double at = k * kStep_mm / kSmoothing_mm;
+    sum += kernel[k + width] = std::exp(-at * at / 2);
+  }
+  const double scale = 1 / (sum * kStep_mm * static_cast<double>(distances_m.size()));
+  for (int i = 0; i < static_cast<int>(counts.size()); ++i)
+    for (int k = std::max(-width, -i); k <= std::min(width, 2 * half - i); ++k)
+      density[i] += scale * counts[i + k] * kernel[k + width];
+  return density;
+}
+
+double width_at_half_mm(const std::vector<double>& density, double peak) {
+  const double half = peak / 2;
+  std::size_t first = 0, last = density.size() - 1;
+  while (density[first] < half) ++first;
+  while (density[last] < half) --last;
+  // Between two steps, linearly; beyond the ends there is nothing.
+  const auto beyond = [&](std::size_t inside, std::ptrdiff_t step) {
+    const std::ptrdiff_t outside = static_cast<std::ptrdiff_t>(inside) + step;
+    if (outside < 0 || outside >= std::ssize(density)) return 0.0;
+    return (density[inside] - half) / (density[inside] - density[outside]);
+  };
+  const double width_mm =
+      (static_cast<double>(last - first) + beyond(first, -1) + beyond(last, 1)) * kStep_mm;
+  const double smoothing_mm = kWidthPerDeviation * kSmoothing_mm;
+  return std::sqrt(std::max(0.0, width_mm * width_mm - smoothing_mm * smoothing_mm));
+}
+
+// A point of a section: along the face, above its middle, across it.
+struct FacePoint {
+  double along_m, up_m, across_m;
+};
+
+FacePoint face_point(const MapPoint& p, const CrossSection& section) {
+  const Eigen::Vector3d d = p.getVector3fMap().cast<double>() - section.middle_m();
+  return {d.dot(section.along()), d.z(), d.dot(section.across())};
+}
+
+double median(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// across = offset + turn * along + lean * up, in the section's own axes.
+struct Plane {
+  double offset_m = 0, turn = 0, lean = 0;
+  double distance_m(const FacePoint& p) const {
+    return p.across_m - offset_m - turn * p.along_m - lean * p.up_m;
+  }
+};
+
+// The direction in which the face is densest somewhere across it: a start near enough for the fit.
+Plane densest(const std::vector<FacePoint>& points, double length_m, double reach_m) {
+  constexpr double kMostTurn_rad = 6 * std::numbers::pi / 180, kBin_m = 0.005;
+  const std::size_t stride = 1 + points.size() / 20000;
+  const int turns = static_cast<int>(std::ceil(kMostTurn_rad * std::max(length_m, 0.3) / 0.01));
+  const int bins = static_cast<int>(2 * reach_m / kBin_m) + 1;
+  std::vector<int> counts(bins);
+  Plane best;
+  int most = -1;
+  for (int k = -turns; k <= turns; ++k) {
+    const double turn = std::tan(kMostTurn_rad * k / turns);
+    std::fill(counts.begin(), counts.end(), 0);
+    for (std::size_t i = 0; i < points.size(); i += stride) {
+      const auto bin =
+          static_cast<int>(std::floor((points[i].across_m - turn * points[i].along_m + reach_m) / kBin_m));
+      if (bin >= 0 && bin < bins) ++counts[bin];
+    }
+    for (int b = 2; b + 2 < bins; ++b) {
+      const int sum = counts[b - 2] + counts[b - 1] + counts[b] + counts[b + 1] + counts[b + 2];
+      if (sum <= most) continue;
+      most = sum;
+      best = {(b + 0.5) * kBin_m - reach_m, turn, 0};
+    }
+  }
+  return best;
+}
+
+// Reweighted least squares (Welsch): from half the reach, which holds both layers of a doubled face, down to
+// the spread that the points have.
+Plane robust_plane(const std::vector<FacePoint>& points, Plane plane, double reach_m) {
+  constexpr double kLeastScale_m = 0.015;
+  constexpr int kRounds = 25;
+  double scale_m = reach_m / 2;
+  std::vector<double> residuals_m(points.size());
+  for (int round = 0; round < kRounds; ++round) {
+    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d right = Eigen::Vector3d::Zero();
+    for (const FacePoint& p : points) {
+      const double r = plane.distance_m(p) / scale_m, weight = std::exp(-r * r / 2);
+      const Eigen::Vector3d terms(1, p.along_m, p.up_m);
+      normal += weight * terms * terms.transpose();
+      right += weight * p.across_m * terms;
+    }
+    const Eigen::Vector3d solved = normal.ldlt().solve(right);
+    if (!solved.allFinite()) break;
+    plane = {solved[0], solved[1], solved[2]};
+    for (std::size_t i = 0; i < points.size(); ++i) residuals_m[i] = std::abs(plane.distance_m(points[i]));
+    scale_m = std::max(kLeastScale_m, std::min(0.8 * scale_m, 2 * 1.4826 * median(residuals_m)));
+  }
+  return plane;
+}
+
+}  // namespace
+
+Eigen::Vector3d CrossSection::across() const {
+  const double level = std::cos(lean_rad);
+  return {level * std::cos(normal_rad), level * std::sin(normal_rad), std::sin(lean_rad)};
+}
+
+Eigen::Vector3d CrossSection::along() const {
+  return {-std::sin(normal_rad), std::cos(normal_rad), 0};
+}
+
+std::vector<std::vector<std::uint32_t>> points_near(const MapCloud& cloud,
+                                                    std::span<const CrossSection> sections) {
+  constexpr std::size_t kBlock = 1 << 16;
+  using PerSection = std::vector<std::vector<std::uint32_t>>;
+  std::vector<PerSection> blocks((cloud.size() + kBlock - 1) / kBlock, PerSection(sections.size()));
+  tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t block) {
+    const std::size_t end = std::min(cloud.size(), (block + 1) * kBlock);
+    for (std::size_t i = block * kBlock; i < end; ++i) {
+      const MapPoint& p = cloud.points[i];
+      for (std::size_t s = 0; s < sections.size(); ++s) {
+        const CrossSection& section = sections[s];
+        const double dx_m = p.x - section.at_m.x(), dy_m = p.y - section.at_m.y();
+        // A face that leans lies to the side of the section's middle at its ends.
+        const double lean_m = std::abs(std::tan(section.lean_rad)) * (section.to_m - section.from_m) / 2;
+        const double half_m = section.length_m / 2, deep_m = section.reach_m + lean_m;
+        if (dx_m * dx_m + dy_m * dy_m <= half_m * half_m + 1.1 * deep_m * deep_m && p.z >= section.from_m &&
+            p.z <= section.to_m)
+          blocks[block][s].push_back(static_cast<std::uint32_t>(i));
+      }
+    }
+  });
+  PerSection found(sections.size());
+  for (const PerSection& block : blocks)
+    for (std::size_t s = 0; s < sections.size(); ++s)
+      found[s].insert(found[s].end(), block[s].begin(), block[s].end());
+  return found;
+}
+
+std::vector<std::uint32_t> points_inside(const MapCloud& cloud, std::span<const std::uint32_t> near,
+                                         const CrossSection& section) {
+  std::vector<std::uint32_t> inside;
+  for (const std::uint32_t i : near) {
+    const MapPoint& p = cloud.points[i];
+    const FacePoint at = face_point(p, section);
+    if (p.z >= section.from_m && p.z <= section.to_m && std::abs(at.along_m) <= section.length_m / 2 &&
+        std::abs(at.across_m) <= section.reach_m)
+      inside.push_back(i);
+  }
+  return inside;
+}
+
+std::vector<double> distances_across_m(const MapCloud& cloud, std::span<const std::uint32_t> points,
+                                       const CrossSection& section) {
+  std::vector<double> distances_m;
+  for (const std::uint32_t i : points) distances_m.push_back(face_point(cloud.points[i], section).across_m);
+  return distances_m;
+}
+
+Profile profile_of(std::vector<double> distances_m, double reach_m) {
+  Profile profile;
+  profile.points = distances_m.size();
+  if (distances_m.empty()) return profile;
+  const double median_m = median(distances_m);
+  profile.median_mm = median_m * 1e3;
+  profile.density_per_mm = smoothed(distances_m, median_m, reach_m);
+  const double half_mm = kStep_mm * static_cast<double>(profile.density_per_mm.size() - 1) / 2;
+  for (std::size_t i = 0; i < profile.density_per_mm.size(); ++i)
+    profile.distances_mm.push_back(kStep_mm * static_cast<double>(i) - half_mm);
+  profile.peak_per_mm = *std::max_element(profile.density_per_mm.begin(), profile.density_per_mm.end());
+  if (profile.points >= kLeastPoints) {
+    profile.width_at_half_height_mm = width_at_half_mm(profile.density_per_mm, profile.peak_per_mm);
+    profile.integral_width_mm = 1 / profile.peak_per_mm;
+  }
+  return profile;
+}
+
+std::optional<CrossSection> face_of(const MapCloud& cloud, std::span<const std::uint32_t> inside,
+                                    const CrossSection& section) {
+  if (inside.size() < kLeastPoints) return std::nullopt;
+  std::vector<FacePoint> face;
+  for (const std::uint32_t i : inside) face.push_back(face_point(cloud.points[i], section));
+  const Plane plane = robust_plane(face, densest(face, section.length_m, section.reach_m), section.reach_m);
+  const Eigen::Vector3d gradient =
+      section.across() - plane.turn * section.along() - Eigen::Vector3d(0, 0, plane.lean);
+  CrossSection fitted = section;
+  fitted.at_m += plane.offset_m / std::cos(section.lean_rad) *
+                 Eigen::Vector2d(std::cos(section.normal_rad), std::sin(section.normal_rad));
+  fitted.normal_rad = std::atan2(gradient.y(), gradient.x());
+  fitted.lean_rad = std::atan2(gradient.z(), std::hypot(gradient.x(), gradient.y()));
+  return fitted;
+}
+
+Profile profile_across(const MapCloud& cloud, const CrossSection& section) {
+  const auto inside = points_inside(cloud, points_near(cloud, {&section, 1}).front(), section);
+  return profile_of(distances_across_m(cloud, inside, section), section.reach_m);
+}
+
+std::optional<CrossSection> face_fitted(const MapCloud& cloud, const CrossSection& section) {
+  return face_of(cloud, points_inside(cloud, points_near(cloud, {&section, 1}).front(), section), section);
+}
+
+}  // namespace sweepscope

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/geometry/pose.hpp"
+#include "core/map/map_cloud.hpp"
+
+namespace sweepscope {
+
+/// A box through a wall or a pillar's face, in the map frame: what a profile across the face is taken from.
+struct CrossSection {
+  Eigen::Vector2d at_m = Eigen::Vector2d::Zero();  // the face's middle, x and y, at the middle height
+  double normal_rad = 0;  // direction across the face in the horizontal plane, 0 along x, growing towards y
+  double lean_rad = 0;    // by which that direction points up: maps are not level to a degree
+  double length_m = 1;    // of the box along the face
+  double from_m = 0, to_m = 0;  // heights: z of the map frame
+  double reach_m = 0.25;        // of the box to either side of the face
+
+  /// Unit vectors across the face and along it.
+  Eigen::Vector3d across() const;
+  Eigen::Vector3d along() const;
+  /// The face's middle.
+  Eigen::Vector3d middle_m() const { return {at_m.x(), at_m.y(), (from_m + to_m) / 2}; }
+};
+
+/// Density of a map's points over the signed distance across a face.
+struct Profile {
+  std::vector<double> distances_mm;    // every 1 mm, about the points' own median
+  std::vector<double> density_per_mm;  // of a point; the integral is 1. Empty where there are no points
+  std::size_t points = 0;
+  double median_mm = 0;    // of the points, along the section's direction from its middle
+  double peak_per_mm = 0;  // greatest density
+  /// Between the outermost crossings of half of the peak: both layers of a face that a wrong offset doubled
+  /// count where the lesser is above half the greater. None from too few points.
+  std::optional<double> width_at_half_height_mm;
+  /// The inverse of the peak: how wide the points would be, all as dense as where they are densest (1.06
+  /// times the width at half height of a single layer). It also grows where a layer is smeared below half the
+  /// peak.
+  std::optional<double> integral_width_mm;
+};
+
+/// The profile of the points inside the section. The density is smoothed by a Gaussian of sd 3 mm, which
+/// would widen a single layer of 10 mm noise from 23.5 to 24.6 mm; this is taken out of the width again
+/// (exactly for one layer, to within 1 mm for two). Widths need 300 points.
+Profile profile_across(const MapCloud& cloud, const CrossSection& section);
+
+/// The section laid on the face that lies in it, by a robust plane fit: place, direction (to 6 deg) and lean.
+/// Named roughly, it is so made exact on the sharpest map. None where the section holds too few points.
+std::optional<CrossSection> face_fitted(const MapCloud& cloud, const CrossSection& section);
+
+/// A map and where its rig went. Both must outlive it.
+struct MapOnPath {
+  const MapCloud* cloud = nullptr;
+  std::span<const StampedPose> path;  // ascending in time; map_from_base
+};
+
+struct SectionSearch {
+  Eigen::Vector3d motor_axis = Eigen::Vector3d::UnitX();  // in the base frame
+  double length_m = 0.5;                                  // of the section along the face
+  double least_height_m = 0.8;  // above or below the rig, where a wrong offset shows in a view from above
+  double reach_m = 0.25;
+  std::size_t least_points = 600;
+  double error_rad = 0.0314;              // the turning that one map alone is tried with: 5 ms at 360 deg/s
+  std::optional<Eigen::Vector2d> near_m;  // only faces within near_radius_m of this place in the map
+  double near_radius_m = 2;
+  double most_width_mm = 45;  // at half height, in the sharpest of the maps
+};
+
+/// A section and what speaks for it.
+struct FoundSection {
+  CrossSection section;           // laid on its face in the sharpest map
+  std::size_t sharpest = 0;       // index of that map
+  std::vector<double> widths_mm;  // at half height, per map
+  /// By how much the motor's turning by 1 rad moves three of four of the face's points across it, at least.
+  double lever_m = 0;
+};
+
+/// The vertical face at least 0.8 m above or below the rig's path that shows best what the offset does: seen
+/// by sweeps of both directions, thin in the sharpest of the maps (no map's points beyond the reach), and of
+/// several maps the one whose widths differ most; of one alone the one that would grow widest if sweeps were
+/// turned by error_rad, to and fro. None where no face will do.
+std::optional<FoundSection> best_section(std::span<const MapOnPath> maps, const SectionSearch& search = {});
+
+}  // namespace sweepscope

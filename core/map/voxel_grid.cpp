@@ -1,0 +1,128 @@
+#include "core/map/voxel_grid.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <utility>
+
+namespace sweepscope {
+namespace {
+
+constexpr std::int32_t kHalf = 1 << 20;
+
+// The low 21 bits, two zeros between each.
+std::uint64_t spread(std::uint64_t v) {
+  v &= 0x1fffff;
+  v = (v | v << 32) & 0x1f00000000ffff;
+  v = (v | v << 16) & 0x1f0000ff0000ff;
+  v = (v | v << 8) & 0x100f00f00f00f00f;
+  v = (v | v << 4) & 0x10c30c30c30c30c3;
+  return (v | v << 2) & 0x1249249249249249;
+}
+
+std::uint64_t gathered(std::uint64_t v) {
+  v &= 0x1249249249249249;
+  v = (v | v >> 2) & 0x10c30c30c30c30c3;
+  v = (v | v >> 4) & 0x100f00f00f00f00f;
+  v = (v | v >> 8) & 0x1f0000ff0000ff;
+  v = (v | v >> 16) & 0x1f00000000ffff;
+  return (v | v >> 32) & 0x1fffff;
+}
+
+std::uint64_t morton(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+  return spread(x) | spread(y) << 1 | spread(z) << 2;
+}
+
+std::uint32_t cell_of(float value_m, double inverse_cell, std::int32_t half) {
+  const double cell = std::clamp(std::floor(value_m * inverse_cell), -double(half), half - 1.0);
+  return static_cast<std::uint32_t>(static_cast<std::int32_t>(cell) + half);
+}
+
+std::size_t hash_of(std::uint64_t key) {
+  return static_cast<std::size_t>((key ^ key >> 29) * 0x9e3779b97f4a7c15u >> 20);
+}
+
+}  // namespace
+
+VoxelLevel::VoxelLevel(const std::vector<std::uint64_t>& keys, int shift, double cell_m)
+    : cell_m_(cell_m), inverse_cell_(1 / cell_m), half_(kHalf >> (shift / 3)) {
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    const std::uint64_t key = keys[i] >> shift;
+    if (!keys_.empty() && keys_.back() == key) continue;
+    keys_.push_back(key);
+    begin_.push_back(static_cast<std::uint32_t>(i));
+  }
+  begin_.push_back(static_cast<std::uint32_t>(keys.size()));
+  slots_.assign(std::bit_ceil(2 * keys_.size() + 2), kNone);
+  for (std::uint32_t cell = 0; cell < cells(); ++cell) {
+    std::size_t slot = hash_of(keys_[cell]) & (slots_.size() - 1);
+    while (slots_[slot] != kNone) slot = (slot + 1) & (slots_.size() - 1);
+    slots_[slot] = cell;
+  }
+}
+
+VoxelLevel::Place VoxelLevel::place(std::uint32_t cell) const {
+  const std::uint64_t key = keys_[cell];
+  return {static_cast<std::int32_t>(gathered(key)) - half_,
+          static_cast<std::int32_t>(gathered(key >> 1)) - half_,
+          static_cast<std::int32_t>(gathered(key >> 2)) - half_};
+}
+
+VoxelLevel::Place VoxelLevel::place_of(float x_m, float y_m, float z_m) const {
+  const auto along = [&](float value_m) {
+    return static_cast<std::int32_t>(cell_of(value_m, inverse_cell_, half_)) - half_;
+  };
+  return {along(x_m), along(y_m), along(z_m)};
+}
+
+std::uint32_t VoxelLevel::find(const Place& place) const {
+  for (const std::int32_t p : place)
+    if (p < -half_ || p >= half_) return kNone;
+  const std::uint64_t key =
+      morton(static_cast<std::uint32_t>(place[0] + half_), static_cast<std::uint32_t>(place[1] + half_),
+             static_cast<std::uint32_t>(place[2] + half_));
+  std::size_t slot = hash_of(key) & (slots_.size() - 1);
+  while (slots_[slot] != kNone && keys_[slots_[slot]] != key) slot = (slot + 1) & (slots_.size() - 1);
+  return slots_[slot];
+}
+
+VoxelGrid::VoxelGrid(const MapCloud& cloud, double finest_m)
+    : x_m(cloud.size()),
+      y_m(cloud.size()),
+      z_m(cloud.size()),
+      index(cloud.size()),
+      finest_m_(finest_m),
+      keys_(cloud.size()) {
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> order(cloud.size());
+  const double inverse_cell = 1 / finest_m;
+  const tbb::blocked_range<std::size_t> all(0, cloud.size(), 16384);
+  tbb::parallel_for(all, [&](const auto& block) {
+    for (std::size_t i = block.begin(); i < block.end(); ++i) {
+      const MapPoint& p = cloud.points[i];
+      order[i] = {morton(cell_of(p.x, inverse_cell, kHalf), cell_of(p.y, inverse_cell, kHalf),
+                         cell_of(p.z, inverse_cell, kHalf)),
+                  static_cast<std::uint32_t>(i)};
+    }
+  });
+  tbb::parallel_sort(order);
+  tbb::parallel_for(all, [&](const auto& block) {
+    for (std::size_t i = block.begin(); i < block.end(); ++i) {
+      const MapPoint& p = cloud.points[order[i].second];
+      keys_[i] = order[i].first;
+      index[i] = order[i].second;
+      x_m[i] = p.x;
+      y_m[i] = p.y;
+      z_m[i] = p.z;
+    }
+  });
+}
+
+VoxelLevel VoxelGrid::level(int doublings) const {
+  return VoxelLevel(keys_, 3 * doublings, finest_m_ * (1 << doublings));
+}
+
+}  // namespace sweepscope

@@ -1,0 +1,201 @@
+#include "render/figures/figure_data.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <system_error>
+
+#include "core/io/atomic_file.hpp"
+#include "core/io/content_hash.hpp"
+#include "core/io/estimate_json.hpp"
+#include "core/map/feature_points.hpp"
+#include "core/map/offset_map.hpp"
+#include "core/recording/rig.hpp"
+
+namespace sweepscope {
+namespace {
+
+/// Everything that the simulation depends on, in one line.
+std::string canonical(const SimulationOptions& o) {
+  return fmt::format("simulate {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}", o.scene, o.offset_s,
+                     o.seed, o.duration_s.value_or(-1), o.noise_m, o.dropout, o.sweep_s,
+                     simulation::name_of(o.motor), o.encoder_step_deg, o.encoder_hz, o.encoder_jitter_s,
+                     o.mixed_pixels, o.grazing_bias_m, o.stamp_jitter_s, o.backlash_deg, o.clock_drift_ppm,
+                     o.nudge_m);
+}
+
+template <typename T>
+int number_of(const std::optional<T>& choice) {
+  return choice ? static_cast<int>(*choice) : -1;
+}
+
+std::string canonical(const EstimateOptions& o) {
+  std::string text = fmt::format("estimate {} {} {} {} {}", number_of(o.method), number_of(o.assume),
+                                 number_of(o.fit), static_cast<int>(o.scoring), o.weight_c);
+  for (const OffsetRange& range : o.ranges) {
+    text += fmt::format(" {}:{}:{}", range.from_s, range.to_s, range.step_s);
+  }
+  return text;
+}
+
+Result<Recording> read(const RecordedFile& file, const Job& job) {
+  ReadOptions options;
+  options.stamps = file.stamps;
+  if (file.rig) {
+    auto rig = read_rig(*file.rig);
+    if (!rig) return tl::unexpected(rig.error());
+    options.rig = std::move(*rig);
+  }
+  return read_recording(file.path, options, job);
+}
+
+}  // namespace
+
+FigureData::FigureData(const Recipe& recipe, std::filesystem::path cache_folder, const Job& job,
+                       std::function<void(const std::string&)> said)
+    : recipe_(recipe), cache_folder_(std::move(cache_folder)), job_(job), said_(std::move(said)) {}
+
+std::optional<double> FigureData::truth_s(const std::string& recording) const {
+  const auto* simulated = std::get_if<SimulationOptions>(&recipe_.recordings.at(recording).source);
+  return simulated != nullptr ? std::optional(simulated->offset_s) : std::nullopt;
+}
+
+Result<const FigureData::Source*> FigureData::source(const std::string& name) {
+  if (const auto known = sources_.find(name); known != sources_.end()) return &known->second;
+  const RecordingSpec& spec = recipe_.recordings.at(name);
+  Source source;
+  if (const auto* options = std::get_if<SimulationOptions>(&spec.source)) {
+    said_("simulate " + name);
+    auto simulated = simulate(*options, job_);
+    if (!simulated) return tl::unexpected(simulated.error());
+    source.recording = std::move(simulated->recording);
+    source.recording.name = name;
+    for (const TruthPose& pose : simulated->truth) {
+      source.truth.push_back({pose.time_s, pose.position_m, pose.orientation});
+    }
+  } else {
+    said_("read " + name);
+    auto recorded = read(std::get<RecordedFile>(spec.source), job_);
+    if (!recorded) return tl::unexpected(recorded.error());
+    source.recording = std::move(*recorded);
+  }
+  if (spec.window_s) {
+    source.recording = window(source.recording, spec.window_s->first, spec.window_s->second);
+    if (source.recording.scans.empty()) {
+      return unreadable(
+          fmt::format("{}: no scan of recording {} lies within its window_s", recipe_.path.string(), name));
+    }
+  }
+  return &sources_.emplace(name, std::move(source)).first->second;
+}
+
+Result<const Recording*> FigureData::recording(const std::string& name) {
+  return source(name).map([](const Source* found) { return &found->recording; });
+}
+
+Result<std::string> FigureData::fingerprint(const std::string& name) const {
+  const RecordingSpec& spec = recipe_.recordings.at(name);
+  std::string text = spec.window_s ? fmt::format("{}:{} ", spec.window_s->first, spec.window_s->second) : "";
+  if (const auto* options = std::get_if<SimulationOptions>(&spec.source)) return text + canonical(*options);
+  const auto& file = std::get<RecordedFile>(spec.source);
+  for (const auto& path : {std::optional(file.path), file.rig}) {
+    if (!path) continue;
+    const auto hash = file_content_hash(*path);
+    if (!hash) return hash;
+    text += *hash + " ";
+  }
+  return text + fmt::format("stamps {}", number_of(file.stamps));
+}
+
+Result<std::string> FigureData::estimate_key(const EstimateSpec& spec) const {
+  // The program's own bytes stand for its version: another build may answer otherwise.
+  static const Result<std::string> program = file_content_hash("/proc/self/exe");
+  if (!program) return program;
+  return fingerprint(spec.recording).map([&](const std::string& recording) {
+    return content_hash(recording + "\n" + canonical(spec.options) + "\n" + *program);
+  });
+}
+
+Result<Estimate> FigureData::compute(const std::string& name, const EstimateSpec& spec) {
+  const auto data = recording(spec.recording);
+  if (!data) return tl::unexpected(data.error());
+  said_("estimate " + name);
+  auto computed = sweepscope::estimate(**data, spec.options, job_);
+  if (!computed) return computed;
+  if (computed->interrupted) return failure(ExitCode::kInterrupted, "Interrupted in estimate " + name + ".");
+  return computed;
+}
+
+Result<Estimate> FigureData::computed_or_cached(const std::string& name, const EstimateSpec& spec) {
+  const auto key = estimate_key(spec);
+  if (!key) return tl::unexpected(key.error());
+  const std::filesystem::path path = cache_folder_ / (*key + ".json");
+  std::error_code ignored;
+  if (std::filesystem::exists(path, ignored)) {
+    if (auto found = read_estimate_json(path)) return found;
+  }
+  const auto computed = compute(name, spec);
+  if (!computed) return tl::unexpected(computed.error());
+  // Drawn from what the file holds, so that the first run's pictures are the second's.
+  const std::string json = estimate_to_json(*computed, Timing::kNull);
+  return write_file(path, json).and_then([&] { return parse_estimate_json(json, path.string()); });
+}
+
+Result<const Estimate*> FigureData::estimate(const std::string& name) {
+  if (const auto known = estimates_.find(name); known != estimates_.end()) return &known->second;
+  const EstimateSpec& spec = recipe_.estimates.at(name);
+  auto found = spec.file.empty() ? computed_or_cached(name, spec) : read_estimate_json(spec.file);
+  if (!found) return tl::unexpected(found.error());
+  found->recording = spec.recording;
+  return &estimates_.emplace(name, std::move(*found)).first->second;
+}
+
+Result<void> FigureData::build(const std::string& name, bool true_poses, bool with_features,
+                               std::span<const MapSpec> specs, std::vector<ComparedMap>& maps) {
+  const auto data = source(name);
+  if (!data) return tl::unexpected(data.error());
+  std::vector<double> offsets_s;
+  std::vector<std::size_t> indices;
+  for (std::size_t i = 0; i < specs.size(); ++i) {
+    if (specs[i].recording != name || specs[i].true_poses != true_poses) continue;
+    offsets_s.push_back(specs[i].offset_s);
+    indices.push_back(i);
+  }
+  if (indices.empty()) return {};
+  said_("map " + name);
+  MapOptions options;
+  if (true_poses) options.poses = (*data)->truth;
+  auto built = build_maps((*data)->recording, offsets_s, options, job_);
+  if (!built) return tl::unexpected(built.error());
+  for (std::size_t k = 0; k < indices.size(); ++k) {
+    ComparedMap& map = maps[indices[k]];
+    map.label = specs[indices[k]].label;
+    map.offset_s = offsets_s[k];
+    map.cloud = (*built)[k].cloud;
+    map.path = std::move((*built)[k].trajectory);
+    const bool features_only = specs[indices[k]].features_only;
+    if (!with_features && !features_only) continue;
+    const auto features = extract_features((*data)->recording, FeatureOptions(), job_);
+    if (!features) return tl::unexpected(features.error());
+    map.feature_kinds = feature_kinds(*features, *map.cloud);
+    if (!features_only) continue;
+    FeatureCloud cloud = feature_cloud(*map.cloud, map.feature_kinds);
+    map.cloud = std::move(cloud.cloud);
+    map.feature_kinds = std::move(cloud.kinds);
+  }
+  return {};
+}
+
+Result<std::vector<ComparedMap>> FigureData::maps(std::span<const MapSpec> specs, bool with_features) {
+  std::vector<ComparedMap> maps(specs.size());
+  std::set<std::pair<std::string, bool>> done;
+  for (const MapSpec& spec : specs) {
+    if (!done.emplace(spec.recording, spec.true_poses).second) continue;
+    const auto built = build(spec.recording, spec.true_poses, with_features, specs, maps);
+    if (!built) return tl::unexpected(built.error());
+  }
+  return maps;
+}
+
+}  // namespace sweepscope

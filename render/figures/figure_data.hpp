@@ -1,0 +1,56 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/job.hpp"
+#include "core/offset/estimate.hpp"
+#include "core/recording/recording.hpp"
+#include "render/figures/recipe.hpp"
+
+namespace sweepscope {
+
+/// The recordings, estimates and maps that a recipe's figures are drawn from, each made when it is first
+/// asked for. Estimates are kept in a folder under a hash of all that they depend on (the recording's
+/// content, the options, the program), so that a second run does not compute them again.
+class FigureData {
+ public:
+  /// `said` hears in words what takes time: "estimate metro".
+  FigureData(const Recipe& recipe, std::filesystem::path cache_folder, const Job& job,
+             std::function<void(const std::string&)> said);
+
+  Result<const Recording*> recording(const std::string& name);
+  Result<const Estimate*> estimate(const std::string& name);
+  /// Maps of one recording are built from the same scans. `with_features`: with each point's kind.
+  Result<std::vector<ComparedMap>> maps(std::span<const MapSpec> specs, bool with_features);
+  /// The offset that a simulation was made with.
+  std::optional<double> truth_s(const std::string& recording) const;
+
+ private:
+  struct Source {
+    Recording recording;
+    std::vector<StampedPose> truth;
+  };
+  Result<const Source*> source(const std::string& name);
+  Result<std::string> fingerprint(const std::string& recording) const;
+  Result<std::string> estimate_key(const EstimateSpec& spec) const;
+  Result<Estimate> compute(const std::string& name, const EstimateSpec& spec);
+  Result<Estimate> computed_or_cached(const std::string& name, const EstimateSpec& spec);
+  Result<void> build(const std::string& recording, bool true_poses, bool with_features,
+                     std::span<const MapSpec> specs, std::vector<ComparedMap>& maps);
+
+  const Recipe& recipe_;
+  std::filesystem::path cache_folder_;
+  const Job& job_;
+  std::function<void(const std::string&)> said_;
+  std::map<std::string, Source> sources_;
+  std::map<std::string, Estimate> estimates_;
+};
+
+}  // namespace sweepscope

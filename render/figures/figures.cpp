@@ -1,0 +1,261 @@
+#include "render/figures/figures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <system_error>
+
+#include "core/io/table.hpp"
+#include "core/loam/features.hpp"
+#include "core/map/cross_section.hpp"
+#include "render/curve_charts.hpp"
+#include "render/figures/figure_data.hpp"
+#include "render/figures/figure_pictures.hpp"
+#include "render/figures/figure_table.hpp"
+#include "render/vector_file.hpp"
+
+namespace sweepscope {
+namespace {
+
+struct Made {
+  Picture picture;
+  std::string what;  // the offsets or the like, for the file's own description
+};
+
+std::string describe(std::span<const MapSpec> maps) {
+  std::string text;
+  for (const MapSpec& map : maps) {
+    text += fmt::format("{}{} at {} ms{}", text.empty() ? "" : "; ", map.recording,
+                        offset_label_ms(map.offset_s), map.true_poses ? ", placed by the true poses" : "");
+  }
+  return text;
+}
+
+Result<Made> make(const MapsFigure& figure, const ComparisonOptions& look, FigureData& data) {
+  const Estimate* curve = nullptr;
+  if (!figure.estimate.empty()) {
+    const auto estimate = data.estimate(figure.estimate);
+    if (!estimate) return tl::unexpected(estimate.error());
+    curve = *estimate;
+  }
+  const auto maps = data.maps(figure.maps, look.colour_by == ColourBy::kFeatures);
+  if (!maps) return tl::unexpected(maps.error());
+  return comparison_picture(*maps, curve, look).map([&](Picture&& picture) {
+    return Made{std::move(picture), describe(figure.maps)};
+  });
+}
+
+std::string_view name_of(Criterion criterion) {
+  switch (criterion) {
+    case Criterion::kE:
+      return "e";
+    case Criterion::kN:
+      return "n";
+    case Criterion::kRoll:
+      return "roll";
+    case Criterion::kD:
+      break;
+  }
+  return "d";
+}
+
+/// All that one estimate has to show, where the figure does not say what.
+std::vector<Criterion> criteria_of(const CurvesFigure& figure, const Estimate& first) {
+  if (!figure.criteria.empty()) return figure.criteria;
+  const auto has = [&](std::optional<double> CurvePoint::*value) {
+    return std::any_of(first.curve.begin(), first.curve.end(),
+                       [&](const CurvePoint& point) { return (point.*value).has_value(); });
+  };
+  std::vector<Criterion> criteria;
+  if (has(&CurvePoint::d)) criteria.push_back(Criterion::kD);
+  if (has(&CurvePoint::e_m)) criteria.push_back(Criterion::kE);
+  if (has(&CurvePoint::n)) criteria.push_back(Criterion::kN);
+  if (has(&CurvePoint::signed_rotation_rad)) criteria.push_back(Criterion::kRoll);
+  return criteria;
+}
+
+Result<Made> make(const CurvesFigure& figure, const ComparisonOptions& look, FigureData& data) {
+  std::vector<NamedEstimate> estimates;
+  std::string what;
+  for (const std::string& name : figure.estimates) {
+    const auto estimate = data.estimate(name);
+    if (!estimate) return tl::unexpected(estimate.error());
+    estimates.push_back({name, **estimate});
+    what += (what.empty() ? "" : "; ") + name;
+    if ((*estimate)->offset_s) what += fmt::format(": {} ms", offset_label_ms(*(*estimate)->offset_s));
+  }
+  std::vector<Chart> charts;
+  for (const Criterion criterion : criteria_of(figure, estimates[0].estimate)) {
+    const Style style = style_of(look.background);
+    auto chart = estimates.size() == 1 ? curve_chart(estimates[0].estimate, name_of(criterion), {}, style)
+                                       : curves_of_many(estimates, name_of(criterion), style);
+    if (!chart) return tl::unexpected(chart.error());
+    charts.push_back(std::move(*chart));
+  }
+  if (charts.empty()) return failure(ExitCode::kNotIdentifiable, what + ": there is no criterion to draw");
+  return Made{charts_picture(charts, look), what};
+}
+
+double path_height_at(const ComparedMap& map, const Eigen::Vector2d& at_m) {
+  double height_m = 0, nearest_m = 1e300;
+  for (const StampedPose& pose : map.path) {
+    const double distance_m = (pose.position_m.head<2>() - at_m).norm();
+    if (distance_m < nearest_m) nearest_m = distance_m, height_m = pose.position_m.z();
+  }
+  return height_m;
+}
+
+std::optional<CrossSection> fitted_on_sharpest(const CrossSection& rough, std::span<const ComparedMap> maps) {
+  std::optional<CrossSection> sharpest;
+  double least_mm = 1e300;
+  for (const ComparedMap& map : maps) {
+    const auto section = face_fitted(*map.cloud, rough);
+    if (!section) continue;
+    const double width_mm = profile_across(*map.cloud, *section).width_at_half_height_mm.value_or(1e299);
+    if (width_mm < least_mm) least_mm = width_mm, sharpest = section;
+  }
+  return sharpest;
+}
+
+/// The named face, made exact on the map that shows it sharpest; or the best one of all.
+Result<CrossSection> section_of(const ProfileFigure& figure, std::span<const ComparedMap> maps) {
+  std::optional<CrossSection> section;
+  if (figure.at_m) {
+    CrossSection rough;
+    rough.at_m = *figure.at_m;
+    rough.normal_rad = figure.normal_deg * M_PI / 180;
+    rough.length_m = figure.length_m;
+    const double path_m = path_height_at(maps[0], rough.at_m);
+    rough.from_m = path_m + figure.heights->from_m;
+    rough.to_m = path_m + figure.heights->to_m;
+    section = fitted_on_sharpest(rough, maps);
+  } else {
+    std::vector<MapOnPath> on_paths;
+    for (const ComparedMap& map : maps) on_paths.push_back({map.cloud.get(), map.path});
+    if (const auto found = best_section(on_paths)) section = found->section;
+  }
+  if (section) return *section;
+  return failure(ExitCode::kNotIdentifiable, "there is no face with points enough for a profile");
+}
+
+Result<Made> make(const ProfileFigure& figure, const ComparisonOptions& look, FigureData& data) {
+  const auto maps = data.maps(figure.maps, false);
+  if (!maps) return tl::unexpected(maps.error());
+  const auto section = section_of(figure, *maps);
+  if (!section) return tl::unexpected(section.error());
+  std::vector<NamedProfile> profiles;
+  std::string what;
+  for (const ComparedMap& map : *maps) {
+    const std::string name =
+        map.label.empty() ? fmt::format("offset {} ms", offset_label_ms(*map.offset_s)) : map.label;
+    profiles.push_back({name, profile_across(*map.cloud, *section)});
+    const auto width_mm = profiles.back().profile.width_at_half_height_mm;
+    what +=
+        fmt::format("{}{}: {}", what.empty() ? "" : "; ", name,
+                    width_mm ? fmt::format("{:.1f} mm wide at half height", *width_mm) : "too few points");
+  }
+  return Made{profile_picture(*maps, *section, profiles, look), what};
+}
+
+Result<Made> make(const ScanFigure& figure, const ComparisonOptions& look, FigureData& data) {
+  const auto recording = data.recording(figure.recording);
+  if (!recording) return tl::unexpected(recording.error());
+  const auto features = extract_features(**recording, FeatureOptions(), Job());
+  if (!features) return tl::unexpected(features.error());
+  const auto& scans = (*recording)->scans;
+  std::size_t scan = 0;
+  while (scan + 1 < scans.size() && scans[scan].first_beam_s - scans[0].first_beam_s < figure.at_s) ++scan;
+  const auto points = scan_points(**recording, *features, scan);
+  return Made{scan_picture(points, look), fmt::format("{}, {:.3f} s after the first scan", figure.recording,
+                                                      scans[scan].first_beam_s - scans[0].first_beam_s)};
+}
+
+std::string extension_of(PictureFormat format) {
+  return format == PictureFormat::kSvg ? ".svg" : format == PictureFormat::kPdf ? ".pdf" : ".png";
+}
+
+using Said = std::function<void(const std::string&)>;
+
+class FigureMaker {
+ public:
+  FigureMaker(const Recipe& recipe, const std::filesystem::path& folder, const Job& job, const Said& said)
+      : recipe_(recipe),
+        folder_(folder),
+        job_(job),
+        said_(said),
+        data_(recipe, folder / "cache", job, said) {}
+
+  Result<std::vector<std::filesystem::path>> make_all() {
+    const std::size_t count = recipe_.figures.size() + recipe_.tables.size();
+    for (const FigureSpec& figure : recipe_.figures) {
+      if (job_.cancelled()) return failure(ExitCode::kInterrupted, "Interrupted.");
+      job_.report("figures", static_cast<double>(files_.size()) / static_cast<double>(count));
+      if (auto made = write(figure); !made) return tl::unexpected(in_recipe(made.error(), figure.name));
+    }
+    for (const TableSpec& table : recipe_.tables) {
+      if (job_.cancelled()) return failure(ExitCode::kInterrupted, "Interrupted.");
+      if (auto made = write(table); !made) return tl::unexpected(in_recipe(made.error(), table.name));
+    }
+    return std::move(files_);
+  }
+
+ private:
+  Error in_recipe(Error error, const std::string& name) const {
+    error.message = fmt::format("{}: {}: {}", recipe_.path.string(), name, error.message);
+    return error;
+  }
+
+  Result<void> write(const FigureSpec& figure) {
+    const auto made =
+        std::visit([&](const auto& what) { return make(what, figure.look, data_); }, figure.what);
+    if (!made) return tl::unexpected(made.error());
+    const std::vector<PngText> texts{{"Title", figure.look.title.empty() ? figure.name : figure.look.title},
+                                     {"Software", "sweepscope " SWEEPSCOPE_VERSION},
+                                     {"Equation", "t_motor = t_laser + offset"},
+                                     {"Recipe", recipe_.path.filename().string() + ", " + figure.name},
+                                     {"Shows", made->what}};
+    for (const PictureFormat format : figure.formats) {
+      const auto path = folder_ / (figure.name + extension_of(format));
+      if (auto written = write_picture(path, made->picture, texts); !written) return written;
+      keep(path, made->what);
+    }
+    return {};
+  }
+
+  Result<void> write(const TableSpec& spec) {
+    const auto table = figure_table(spec, recipe_, data_);
+    if (!table) return tl::unexpected(table.error());
+    for (const char* extension : {".csv", ".md", ".tex"}) {
+      const auto path = folder_ / (spec.name + extension);
+      if (auto written = write_table(path, *table); !written) return written;
+      keep(path, spec.title);
+    }
+    return {};
+  }
+
+  void keep(const std::filesystem::path& path, const std::string& what) {
+    said_(fmt::format("{}: {}", path.string(), what));
+    files_.push_back(path);
+  }
+
+  const Recipe& recipe_;
+  std::filesystem::path folder_;
+  const Job& job_;
+  const Said& said_;
+  FigureData data_;
+  std::vector<std::filesystem::path> files_;
+};
+
+}  // namespace
+
+Result<std::vector<std::filesystem::path>> make_figures(const Recipe& recipe,
+                                                        const std::filesystem::path& folder, const Job& job,
+                                                        const Said& said) {
+  std::error_code error;
+  std::filesystem::create_directories(folder / "cache", error);
+  if (error) return unreadable(fmt::format("{}: cannot be made: {}", folder.string(), error.message()));
+  return FigureMaker(recipe, folder, job, said).make_all();
+}
+
+}  // namespace sweepscope

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/job.hpp"
+#include "render/figures/recipe.hpp"
+
+namespace sweepscope {
+
+/// Makes a recipe's figures and tables in a folder, which it makes where it is missing: NAME.png and the
+/// like, NAME.csv, NAME.md and NAME.tex. Estimates are kept in its folder `cache`. `said` hears what is being
+/// done, and each file when it is there; files that were finished stay when it fails or is interrupted.
+Result<std::vector<std::filesystem::path>> make_figures(const Recipe& recipe,
+                                                        const std::filesystem::path& folder, const Job& job,
+                                                        const std::function<void(const std::string&)>& said);
+
+}  // namespace sweepscope

@@ -1,0 +1,112 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/offset/estimator.hpp"
+#include "core/recording/read_recording.hpp"
+#include "core/simulation/simulate.hpp"
+#include "render/comparison.hpp"
+
+namespace sweepscope {
+
+/// A recording to read, as the command line would name it.
+struct RecordedFile {
+  std::filesystem::path path;
+  std::optional<std::filesystem::path> rig;
+  std::optional<StampSource> stamps;
+};
+
+/// Where a recipe's data comes from: a file, or a simulation that is made for it.
+struct RecordingSpec {
+  std::variant<RecordedFile, SimulationOptions> source;
+  std::optional<std::pair<double, double>> window_s;
+};
+
+struct EstimateSpec {
+  std::string recording;
+  EstimateOptions options;
+  std::filesystem::path file;  // what `sweepscope estimate --json` wrote; empty: it is computed
+};
+
+/// A map to draw: of a recording at an offset.
+struct MapSpec {
+  std::string recording;
+  double offset_s = 0;
+  std::string label;           // empty: the offset
+  bool features_only = false;  // its edge and plane points alone
+  bool true_poses = false;     // placed by the simulation's own poses and not by LOAM's
+};
+
+enum class PictureFormat { kPng, kSvg, kPdf };
+enum class Criterion { kD, kE, kN, kRoll };
+
+/// Maps side by side, with the criteria below where an estimate is named.
+struct MapsFigure {
+  std::vector<MapSpec> maps;
+  std::string estimate;
+};
+
+/// Criteria over the offset, a chart for each; several estimates in one chart where there are several.
+struct CurvesFigure {
+  std::vector<std::string> estimates;
+  std::vector<Criterion> criteria;
+};
+
+/// Point density across a wall, for each of the maps.
+struct ProfileFigure {
+  std::vector<MapSpec> maps;
+  std::optional<Eigen::Vector2d> at_m;  // a place on the face, in the map frame; none: the face is looked for
+  double normal_deg = 0;                // roughly across the face, 0 along x
+  double length_m = 0.4;
+  std::optional<HeightRange> heights;  // above the sensor's path
+};
+
+/// The edge and plane points of one scan, in the scanner's plane.
+struct ScanFigure {
+  std::string recording;
+  double at_s = 0;  // since the first scan
+};
+
+struct FigureSpec {
+  std::string name;  // of the files
+  std::variant<MapsFigure, CurvesFigure, ProfileFigure, ScanFigure> what;
+  ComparisonOptions look;
+  std::vector<PictureFormat> formats;
+};
+
+/// What a column of a table shows of each of the table's estimates.
+enum class TableValue { kOffset, kSigma, kOffsetByD, kD, kOffsetByN, kOffsetByE, kTruth, kDifference };
+
+struct ColumnSpec {
+  std::string title, unit;
+  std::variant<TableValue, std::vector<std::string>> values;  // or one text for each row
+  int decimals = 2;
+};
+
+struct TableSpec {
+  std::string name;  // of the files
+  std::string title;
+  std::vector<std::string> estimates;  // a row each
+  std::vector<ColumnSpec> columns;
+};
+
+/// What `sweepscope figures` makes: recordings, estimates of their offsets, and figures and tables of both.
+struct Recipe {
+  std::filesystem::path path;
+  std::map<std::string, RecordingSpec> recordings;
+  std::map<std::string, EstimateSpec> estimates;
+  std::vector<FigureSpec> figures;
+  std::vector<TableSpec> tables;
+};
+
+/// Reads a recipe (YAML; see assets/figures). Files that it names are relative to its folder. Unknown keys,
+/// names and impossible values are refused with line and column.
+Result<Recipe> read_recipe(const std::filesystem::path& path);
+
+}  // namespace sweepscope

@@ -1,0 +1,23 @@
+#include "render/vector_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace sweepscope {
+
+Result<void> write_picture(const std::filesystem::path& path, const Picture& picture,
+                           std::span<const PngText> texts) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  if (extension == ".svg") return write_svg(path, picture, texts);
+  if (extension == ".pdf") return write_pdf(path, picture, texts);
+  if (extension != ".png") {
+    return failure(ExitCode::kWrongUsage,
+                   fmt::format("{}: a picture is written as .png, .svg or .pdf", path.string()));
+  }
+  return draw(picture).and_then([&](const Image& image) { return write_png(image, path, texts); });
+}
+
+}  // namespace sweepscope
