@@ -179,9 +179,11 @@ using Said = std::function<void(const std::string&)>;
 
 class FigureMaker {
  public:
-  FigureMaker(const Recipe& recipe, const std::filesystem::path& folder, const Job& job, const Said& said)
+  FigureMaker(const Recipe& recipe, const std::filesystem::path& folder, Canvas& canvas, const Job& job,
+              const Said& said)
       : recipe_(recipe),
         folder_(folder),
+        canvas_(canvas),
         job_(job),
         said_(said),
         data_(recipe, folder / "cache", job, said) {}

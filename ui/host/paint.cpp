@@ -21,23 +21,22 @@ struct Painter {
 
   void operator()(const TextMark& mark) const { paint_text(list, mark, fonts); }
   void operator()(const LineMark& mark) const {
-    for (const LineMark& part : dashes_of(mark)) {
-      const auto points = vecs(part.points);
-      list.AddPolyline(points.data(), static_cast<int>(points.size()), to_imgui(part.colour), 0,
-                       static_cast<float>(part.width_px));
+    for (const LineMark& dash : dashes_of(mark)) {
+      const auto points = vecs(dash.points);
+      list.AddPolyline(points.data(), static_cast<int>(points.size()), to_imgui(mark.colour), 0,
+                       static_cast<float>(mark.width_px));
+    }
+  }
+  void operator()(const AreaMark& mark) const {
+    for (std::size_t i = 1; i < mark.points.size(); ++i) {
+      const PixelPoint &a = mark.points[i - 1], &b = mark.points[i];
+      list.AddQuadFilled(vec(a), vec(b), vec({b.x, mark.base_y}), vec({a.x, mark.base_y}),
+                         to_imgui(mark.colour));
     }
   }
   void operator()(const PolygonMark& mark) const {
     const auto points = vecs(mark.points);
     list.AddConvexPolyFilled(points.data(), static_cast<int>(points.size()), to_imgui(mark.colour));
-  }
-  /// Column by column: the list fills convex shapes alone.
-  void operator()(const AreaMark& mark) const {
-    for (std::size_t i = 1; i < mark.points.size(); ++i) {
-      const PixelPoint a = mark.points[i - 1], b = mark.points[i];
-      list.AddQuadFilled(vec(a), vec(b), vec({b.x, mark.base_y}), vec({a.x, mark.base_y}),
-                         to_imgui(mark.colour));
-    }
   }
 };
 

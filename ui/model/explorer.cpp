@@ -246,12 +246,13 @@ Result<void> Explorer::export_curve(const std::string& path) {
 void Explorer::fit_view() {
   const SolvedMap* map = panes_[0].request ? panes_[0].request->placement.map.get() : provisional_.get();
   if (map == nullptr) return;
+  constexpr double kRoom = 1.12;  // about nearly all points
   const double width_m = map->x_m.to - map->x_m.from, depth_m = map->y_m.to - map->y_m.from;
   Settings next = settings_;
   for (ViewPoint* view : {&next.camera_a, &next.camera_b}) {
     view->centre_m = {(map->x_m.from + map->x_m.to) / 2, (map->y_m.from + map->y_m.to) / 2,
                       (map->z_m.from + map->z_m.to) / 2};
-    view->height_m = std::max({1.15 * width_m, 1.15 * depth_m, 1.0});
+    view->height_m = std::max({kRoom * width_m / pane_aspect_, kRoom * depth_m, 1.0});
     for (double* metre : {&view->centre_m.x(), &view->centre_m.y(), &view->centre_m.z(), &view->height_m})
       *metre = std::round(*metre * 100) / 100;
   }

@@ -81,6 +81,9 @@ class Explorer {
   Result<void> perform(std::string_view line, const std::string& gesture = {});
   std::function<Result<void>(const Call&)> at_window;
 
+  /// Width by height of a map's picture: what fitting the view goes by.
+  void set_pane_aspect(double aspect) { pane_aspect_ = aspect; }
+
   /// While one is held, offsets are previewed and nothing is solved.
   void hold_handle(bool held) { handle_held_ = held; }
 
@@ -149,6 +152,7 @@ class Explorer {
   bool handle_held_ = false;
   bool b_was_set_ = false;  // by a person, since the recording was opened
   bool view_fitted_ = false;
+  double pane_aspect_ = 1;
   std::optional<Settings> session_settings_;  // to take over once the recording is there
   std::optional<Estimate> session_estimate_;
   Background background_;  // last: its threads end before what they use

@@ -47,7 +47,8 @@ void describe_points(const Loaded& loaded, SolvedMap& map) {
   compared.cloud = cloud;
   const std::array all{compared};
   map.sharp_heights = choose_slabs(all, ComparisonOptions());
-  const std::array shown{points_in_slabs(compared, map.sharp_heights)};
+  const std::vector<float> unused(cloud->size());
+  const std::array shown{points_in_slabs(compared, unused, map.sharp_heights)};
   map.x_m = span_of(shown, 0);
   map.y_m = span_of(shown, 1);
   map.z_m = span_of(shown, 2);

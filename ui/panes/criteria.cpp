@@ -5,13 +5,15 @@
 #include <cmath>
 
 #include "core/offset/search_window.hpp"
+#include "render/chart_layout.hpp"
 #include "render/curve_charts.hpp"
 #include "ui/host/paint.hpp"
-#include "ui/panes/chart_axes.hpp"
 #include "ui/panes/widgets.hpp"
 
 namespace sweepscope::ui {
 namespace {
+
+constexpr Colour kUnseen{0, 0, 0, 0};
 
 double offset_ms(const Settings& settings, Side side) {
   return side == Side::kA ? settings.offset_a_ms : settings.offset_b_ms;
@@ -21,13 +23,13 @@ Colour colour_of(const PaneContext& context, Side side) {
   return side == Side::kA ? colour_of_a(context.style) : colour_of_b(context.style);
 }
 
-/// Before there is an estimate: an axis alone, to hold the handles.
+/// Before there is an estimate: what the handles can be moved over.
 Chart empty_chart(const PaneContext& context) {
   const double reach_ms = 1e3 * std::min(search_scale(context.explorer.loaded()->motor).half_width_s, 0.06);
   Chart chart;
   chart.title = "Criteria over the offset";
   chart.x_title = "offset [ms]";
-  chart.series.push_back({"", {-reach_ms, reach_ms}, {std::nullopt, std::nullopt}, context.style.curve});
+  for (const double end : {-reach_ms, reach_ms}) chart.verticals.push_back({end, "", kUnseen});
   for (const Side side : kBothSides) {
     const double at = offset_ms(context.settings(), side);
     chart.verticals.push_back({at, offset_label_ms(at * 1e-3), colour_of(context, side)});
@@ -47,8 +49,7 @@ std::vector<Chart> charts_of(const PaneContext& context) {
   for (Chart& chart : charts) {
     if (!handle) continue;
     // The axis stays as it was when the drag began, or the handle would run away from the mouse.
-    for (const double end : {handle->from_ms, handle->to_ms})
-      chart.verticals.push_back({end, "", {0, 0, 0, 0}, false});
+    for (const double end : {handle->from_ms, handle->to_ms}) chart.verticals.push_back({end, "", kUnseen});
   }
   return charts;
 }
@@ -73,14 +74,19 @@ std::string meaning(const std::string& title) {
   return "Estimate the offset to see d (stationary), or n and e (moving), over the candidates.";
 }
 
-void begin_handle(const PaneContext& context, const ChartAxes& axes) {
-  const double x = axes.to_value(static_cast<double>(ImGui::GetIO().MousePos.x));
-  const double to_a = std::abs(x - context.settings().offset_a_ms),
-               to_b = std::abs(x - context.settings().offset_b_ms);
+/// The offset at a pixel.
+double value_at(const ChartLayout& layout, double px) {
+  return layout.x.from + (px - layout.plot.left) / layout.plot.width * (layout.x.to - layout.x.from);
+}
+
+void begin_handle(const PaneContext& context, const ChartLayout& layout) {
+  const double x = value_at(layout, static_cast<double>(ImGui::GetIO().MousePos.x));
+  const double to_a = std::abs(x - context.settings().offset_a_ms);
+  const double to_b = std::abs(x - context.settings().offset_b_ms);
   // Where both are one, the side that the mouse is on says which.
   const bool a = to_a != to_b ? to_a < to_b : x < context.settings().offset_a_ms;
-  context.transient.handle =
-      Transient::HandleDrag{a ? Side::kA : Side::kB, axes.plot.left, axes.plot.width, axes.from, axes.to};
+  context.transient.handle = Transient::HandleDrag{a ? Side::kA : Side::kB, layout.plot.left,
+                                                   layout.plot.width, layout.x.from, layout.x.to};
   context.begin_gesture();
 }
 
@@ -97,12 +103,12 @@ void drag_handle(const PaneContext& context) {
 }
 
 /// Grips at the feet of the two lines.
-void draw_grips(const PaneContext& context, const ChartAxes& axes) {
+void draw_grips(const PaneContext& context, const ChartLayout& layout) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   for (const Side side : kBothSides) {
     const double at = offset_ms(context.settings(), side);
-    if (at < axes.from || at > axes.to) continue;
-    const auto x = static_cast<float>(axes.to_px(at)), y = static_cast<float>(axes.plot.bottom());
+    if (at < layout.x.from || at > layout.x.to) continue;
+    const auto x = static_cast<float>(layout.x_px(at)), y = static_cast<float>(layout.plot.bottom());
     const float w = context.pxf(7), h = context.pxf(9);
     const ImVec2 points[5] = {{x, y - h * 1.4f},
                               {x + w, y - h * 0.7f},
@@ -122,33 +128,36 @@ void draw_grips(const PaneContext& context, const ChartAxes& axes) {
   }
 }
 
+/// Over the empty chart.
+void draw_hint(const PaneContext& context, const PixelRect& plot) {
+  paint_text(*ImGui::GetWindowDrawList(),
+             {{plot.left + plot.width / 2, plot.top + plot.height * 0.4},
+              "Estimate the offset to see the criteria here. The handles work already.",
+              context.px(13),
+              context.style.faint_text,
+              AlignX::kCentre,
+              AlignY::kMiddle},
+             context.fonts);
+}
+
 void draw_one(const PaneContext& context, const Chart& chart, const PixelRect& place, std::size_t number) {
   const double scale = context.scale * 0.86;
   Drawing drawing;
   add_chart(drawing, place, chart, context.style, scale);
   paint(*ImGui::GetWindowDrawList(), drawing, context.fonts);
-  const ChartAxes axes = axes_of(chart, place, context.style, scale);
-  if (context.explorer.estimate() == nullptr) {
-    paint_text(*ImGui::GetWindowDrawList(),
-               {{axes.plot.left + axes.plot.width / 2, axes.plot.top + axes.plot.height / 2},
-                "Estimate the offset to see d, n and e here. The handles work already.",
-                context.px(13),
-                context.style.faint_text,
-                AlignX::kCentre,
-                AlignY::kMiddle},
-               context.fonts);
-  }
+  const ChartLayout layout = lay_out_chart(chart, place, scale);
+  if (context.explorer.estimate() == nullptr) draw_hint(context, layout.plot);
   const double reach = context.px(12);
   ImGui::SetCursorScreenPos(
-      {static_cast<float>(axes.plot.left - reach), static_cast<float>(axes.plot.top - reach)});
-  ImGui::InvisibleButton(
-      fmt::format("chart {}", number).c_str(),
-      {static_cast<float>(axes.plot.width + 2 * reach), static_cast<float>(axes.plot.height + 2 * reach)});
-  context.anchor(fmt::format("chart {}", number), axes.plot);
-  if (ImGui::IsItemActivated()) begin_handle(context, axes);
+      {static_cast<float>(layout.plot.left - reach), static_cast<float>(layout.plot.top - reach)});
+  ImGui::InvisibleButton(fmt::format("chart {}", number).c_str(),
+                         {static_cast<float>(layout.plot.width + 2 * reach),
+                          static_cast<float>(layout.plot.height + 2 * reach)});
+  context.anchor(fmt::format("chart {}", number), layout.plot);
+  if (ImGui::IsItemActivated()) begin_handle(context, layout);
   if (ImGui::IsItemActive() && context.transient.handle) drag_handle(context);
   if (ImGui::IsItemHovered() || ImGui::IsItemActive()) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
-  if (number == 0) draw_grips(context, axes);
+  if (number == 0) draw_grips(context, layout);
   ImGui::SetCursorScreenPos({static_cast<float>(place.left), static_cast<float>(place.top)});
   ImGui::InvisibleButton(fmt::format("chart title {}", number).c_str(),
                          {static_cast<float>(place.width * 0.6), context.pxf(18)});

@@ -195,6 +195,8 @@ void draw_maps(const PaneContext& context, const PixelRect& place) {
   begin_panel(context, "maps", place, false);
   const Layout layout = context.settings().layout;
   const MapPlaces places = lay_out_maps(place, context.scale, layout);
+  const PixelRect& picture = places.picture_b.width > 0 ? places.picture_b : places.picture_a;
+  context.explorer.set_pane_aspect(picture.width / std::max(picture.height, 1.0));
   if (layout == Layout::kSwipe) {
     const double half = places.header_b.width / 2 - context.px(8);
     draw_header(context, Side::kA, {places.header_b.left, places.header_b.top, half, places.header_b.height});

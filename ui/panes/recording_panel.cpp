@@ -8,6 +8,12 @@
 namespace sweepscope::ui {
 namespace {
 
+/// What the stamps' summary says, or the mean where it has none.
+double rate_hz(const StreamSummary& stream) {
+  if (stream.rate_hz() > 0 || stream.duration_s <= 0) return stream.rate_hz();
+  return static_cast<double>(stream.used - 1) / stream.duration_s;
+}
+
 void recording_rows(const PaneContext& context, const Loaded& loaded) {
   const RecordingSummary& summary = loaded.summary;
   const LaserSummary& laser = summary.laser;
@@ -18,7 +24,7 @@ void recording_rows(const PaneContext& context, const Loaded& loaded) {
       fmt::format("{:.1f} s, the rig {}", laser.duration_s,
                   summary.motion ? "was " + *summary.motion : "perhaps moved"));
   row(context, "laser",
-      fmt::format("{} scans of {} beams, {:.1f} Hz", laser.used, laser.most_beams, laser.rate_hz()));
+      fmt::format("{} scans of {} beams, {:.1f} Hz", laser.used, laser.most_beams, rate_hz(laser)));
   const double usable =
       laser.beams > 0 ? 100.0 * static_cast<double>(laser.usable_beams) / static_cast<double>(laser.beams)
                       : 0;
@@ -115,6 +121,7 @@ void answer(const PaneContext& context, const Estimate& estimate) {
     ImGui::TextDisabled("ms");
     criterion_rows(context, estimate);
     row(context, "from", fmt::format("{} sweeps, {} scans", estimate.sweeps, estimate.scans));
+    ImGui::Dummy({0, context.pxf(2)});
     button(context, "Take it for map B", "take-found");
   } else {
     ImGui::PushFont(context.fonts.heading);

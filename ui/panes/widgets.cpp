@@ -22,6 +22,7 @@ int decimals_for(double step) {
 
 /// "heights" for a person: choices are words of the command, shown with a capital.
 std::string capital(std::string word) {
+  std::replace(word.begin(), word.end(), '-', ' ');
   if (!word.empty() && word[0] >= 'a' && word[0] <= 'z') word[0] = static_cast<char>(word[0] - 'a' + 'A');
   return word;
 }
@@ -135,8 +136,10 @@ void end_panel() {
 void heading(const PaneContext& context, const char* text, bool first) {
   if (!first) {
     ImGui::Dummy({0, context.pxf(5)});
-    ImGui::Separator();
-    ImGui::Dummy({0, context.pxf(1)});
+    const ImVec2 from = ImGui::GetCursorScreenPos();
+    ImGui::GetWindowDrawList()->AddLine(from, {from.x + ImGui::GetContentRegionAvail().x, from.y},
+                                        to_imgui(context.style.frame));
+    ImGui::Dummy({0, context.pxf(6)});
   }
   ImGui::PushFont(context.fonts.bold);
   ImGui::TextUnformatted(text);

@@ -160,14 +160,14 @@ void add_fields_of_maps(std::vector<Command>& all) {
       number({"offset-b", "Offset of map B", "t_motor = t_laser + offset, for the map on the right."},
              &Settings::offset_b_ms, offset));
   all.push_back(
-      choice({"layout", "Layout of the maps",
+      choice({"layout", "Layout",
               "Beside each other; one above the other with a divider to move; one alone; or how far "
               "each point of B lies from its place in A."},
              &Settings::layout, {"side-by-side", "swipe", "a", "b", "difference"}));
   all.push_back(number({"divider", "Divider of the swipe", "How much of the width shows map A."},
                        &Settings::divider, number_of("SHARE", "", 0, 1, 0.05)));
   all.push_back({"linked",
-                 "Linked cameras",
+                 "Linked",
                  "Both maps are seen from the same place; unlink to look at each by itself.",
                  {{.name = "STATE", .kind = Kind::kSwitch}},
                  [](const Settings& s) { return Values{s.linked}; },
@@ -190,7 +190,7 @@ void add_fields_of_display(std::vector<Command>& all) {
                        &Settings::colouring, {"elevation", "intensity", "time", "direction"}));
   all.push_back(table_choice());
   all.push_back(
-      choice({"heights", "Heights shown",
+      choice({"heights", "Heights",
               "Sharp: where an offset shows, 0.8 m and more above or below the sensor's path, without "
               "the ceiling. All: everything. Slab: between two heights above the path."},
              &Settings::heights, {"sharp", "all", "slab"}));
@@ -215,7 +215,7 @@ void add_fields_of_display(std::vector<Command>& all) {
   all.push_back(
       toggle({"criteria", "Criteria", "The criteria over the offset, below the maps."}, &Settings::criteria));
   all.push_back(
-      number({"ui-scale", "Size of the interface", "1 is 100 %, 2 is 200 %; 0: as the display asks."},
+      number({"ui-scale", "Interface size", "1 is 100 %, 2 is 200 %; 0: as the display asks."},
              &Settings::ui_scale, number_of("SCALE", "", 0, 4, 0.25)));
 }
 
@@ -225,7 +225,7 @@ void add_fields_of_tools(std::vector<Command>& all) {
                         "distance, or draw a profile across a wall."},
                        &Settings::tool, {"look", "pick", "measure", "profile"}));
   all.push_back(profile());
-  all.push_back(toggle({"scan-view", "Features of a scan",
+  all.push_back(toggle({"scan-view", "Scan features",
                         "One scan with its edge points and plane points, as in the paper's Figure 2."},
                        &Settings::scan_view));
   all.push_back(number({"scan", "Scan", "Whose features the scan view shows, counted from 0."},
@@ -458,7 +458,7 @@ std::span<const MenuItem> menu_items() {
       {"Tools", "Measure a distance", "tool measure"},
       {"Tools", "Profile across a wall", "tool profile"},
       {"Tools", "", ""},
-      {"Tools", "Features of a scan", "scan-view"},
+      {"Tools", "Scan features", "scan-view"},
       {"Help", "Keys", "help"},
   };
   return all;
