@@ -41,6 +41,17 @@ TEST_F(CompareTest, DrawsTheSameBytesWithNoDisplayAndWithAWrongOne) {
   EXPECT_EQ(none, test::contents_of(folder_ / "wrong.png"));
 }
 
+TEST_F(CompareTest, DrawsTheSameBytesInAWindow) {
+  ASSERT_EQ(run("-u DISPLAY", std::string(kArguments) + " -o memory.png"), 0) << said_;
+  ASSERT_EQ(run("-u DISPLAY -u WAYLAND_DISPLAY xvfb-run -a -s '-screen 0 1280x1024x24'",
+                std::string(kArguments) + " --draw-in window -o window.png"),
+            0)
+      << said_;
+  EXPECT_EQ(test::contents_of(folder_ / "memory.png"), test::contents_of(folder_ / "window.png"));
+  EXPECT_NE(run("-u DISPLAY -u WAYLAND_DISPLAY", std::string(kArguments) + " --draw-in window -o none.png"), 0);
+  EXPECT_FALSE(exists("none.png"));
+}
+
 TEST_F(CompareTest, TheNumberOfThreadsDoesNotChangeTheBytes) {
   ASSERT_EQ(run("LP_NUM_THREADS=0", std::string(kArguments) + " -o one.png"), 0) << said_;
   ASSERT_EQ(run("LP_NUM_THREADS=4", std::string(kArguments) + " -o four.png"), 0) << said_;
