@@ -32,6 +32,7 @@ struct CompareOptions {
   double path_height_m = 0;
   std::string poses;
   bool no_curve = false;
+  std::string draw_in = "offscreen";
   LookTexts look;
 };
 
@@ -150,8 +151,10 @@ Result<void> compare(const CompareOptions& options) {
   if (!compared) return tl::unexpected(compared.error());
   if (given) compared->estimate = std::move(given);
   const Estimate* curve = compared->estimate ? &*compared->estimate : nullptr;
+  const auto canvas = backend(options.draw_in).and_then(make_canvas);
+  if (!canvas) return tl::unexpected(canvas.error());
   return comparison_picture(compared->maps, curve, *picture).and_then([&](const Picture& drawn) {
-    return write_picture(options.output, drawn, comparison_texts(compared->maps, *picture));
+    return write_picture(options.output, drawn, comparison_texts(compared->maps, *picture), **canvas);
   });
 }
 
@@ -180,6 +183,11 @@ void declare(CLI::App& command, CompareOptions& options) {
       .add_option("--path-height-m", options.path_height_m,
                   "With maps: the sensor's height in the map frame, which slabs refer to")
       ->capture_default_str();
+  command
+      .add_option("--draw-in", options.draw_in,
+                  "offscreen, or window, where a picture is seen as it is drawn")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"offscreen", "window"}));
   options.look.declare(command);
 }
 

@@ -14,7 +14,7 @@ namespace sweepscope::app {
 namespace {
 
 struct Options {
-  std::string recipe, folder;
+  std::string recipe, folder, draw_in = "offscreen";
   int threads = 0;
 };
 
@@ -27,8 +27,10 @@ ExitCode run(const Options& options) {
   const auto recipe = read_recipe(options.recipe);
   if (!recipe) return fail(recipe.error());
   const Progress progress;
-  const auto said = [](const std::string& line) { fmt::print(stderr, "{}\n", line); };
-  const auto files = make_figures(*recipe, options.folder, progress.job(), said);
+  const auto said = [&progress](const std::string& line) { progress.say(line); };
+  const auto canvas = backend(options.draw_in).and_then(make_canvas);
+  if (!canvas) return fail(canvas.error());
+  const auto files = make_figures(*recipe, options.folder, **canvas, progress.job(), said);
   if (!files) return fail(files.error());
   for (const auto& file : *files) fmt::print("{}\n", file.string());
   return ExitCode::kDone;
@@ -46,6 +48,11 @@ void add_figures(CLI::App& app, ExitCode& exit_code) {
                    "The folder for pictures and tables; its folder cache keeps the estimates")
       ->type_name("DIR")
       ->required();
+  command
+      ->add_option("--draw-in", options->draw_in,
+                   "offscreen, or window, where pictures are seen as they are drawn")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"offscreen", "window"}));
   command->add_option("--threads", options->threads, "Threads (default: as many as there are processors)")
       ->type_name("N")
       ->check(CLI::Range(1, 1024));

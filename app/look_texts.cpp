@@ -22,7 +22,7 @@ Result<ComparisonOptions> LookTexts::parse() const {
   ComparisonOptions options;
   for (const LookOption& option : look_options()) {
     for (const std::string& text : values.at(option.name)) {
-      if (auto set = option.set(options, text); !set) {
+      if (auto set = set_look(options, option, text); !set) {
         set.error().message.insert(0, "--");
         return tl::unexpected(set.error());
       }

@@ -23,6 +23,8 @@ int run(int argc, char** argv) {
   app::add_map(app, exit_code);
   app::add_compare(app, exit_code);
   app::add_figures(app, exit_code);
+  app::add_report(app, exit_code, {argv + 1, argv + argc});
+  app::add_view(app, exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

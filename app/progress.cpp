@@ -62,6 +62,10 @@ struct Progress::Bar {
     if (drawn) fmt::print(stderr, "\r\x1b[K");
     drawn = false;
   }
+  void say(const std::string& line) {
+    wipe();
+    fmt::print(stderr, "{}\n", line);
+  }
 };
 
 Progress::Progress()
@@ -71,6 +75,10 @@ Progress::Progress()
       })
                           : Job::Sink()) {
   job_.obey(interrupt_flag());
+}
+
+void Progress::say(const std::string& line) const {
+  bar_->say(line);
 }
 
 Progress::~Progress() {

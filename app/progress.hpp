@@ -23,6 +23,8 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
 
   const Job& job() const { return job_; }
+  /// A line on stderr, above the bar.
+  void say(const std::string& line) const;
 
  private:
   struct Bar;

@@ -106,6 +106,19 @@ ValueRange range_of(ColourBy by, std::span<const std::span<const float>> values)
   return {from, at(0.995)};
 }
 
+void leave_out_absent_classes(Colouring& colouring, std::span<const std::span<const float>> values) {
+  std::vector<bool> present(colouring.classes.size(), false);
+  for (const auto& part : values) {
+    for (const float value : part) {
+      if (value >= 0 && value < static_cast<float>(present.size()))
+        present[static_cast<std::size_t>(value)] = true;
+    }
+  }
+  for (std::size_t i = present.size(); i-- > 0;) {
+    if (!present[i]) colouring.classes.erase(colouring.classes.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+}
+
 }  // namespace
 
 std::span<const std::string_view> colour_by_names() {
@@ -151,6 +164,7 @@ Result<Colouring> make_colouring(ColourBy by, std::string_view table,
   colouring.scale.from = shown.from;
   colouring.scale.to = shown.to;
   set_titles(colouring, by);
+  leave_out_absent_classes(colouring, values);
   return colouring;
 }
 

@@ -34,7 +34,9 @@ std::vector<PixelRect> map_places(const PixelRect& row, std::size_t maps, double
 ComparisonLayout lay_out(const ComparisonOptions& options, std::size_t maps, std::size_t charts) {
   const double width = options.width_px, height = options.height_px;
   ComparisonLayout out;
-  const double s = out.scale = std::clamp(std::min(width / 1920, height / 1200), 0.4, 4.0);
+  // Letters are as large as the room allows: a picture with fewer rows has more of it.
+  const double full_height = 700 + (options.with_close_up ? 300 : 0) + (charts > 0 ? 200 : 0);
+  const double s = out.scale = std::clamp(std::min(width / 1920, height / full_height), 0.4, 4.0);
   const auto px = [s](double at_full_size) { return std::round(at_full_size * s); };
   const double margin = out.margin = px(32), gap = px(20);
   out.title = {margin, px(48)};

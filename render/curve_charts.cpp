@@ -166,6 +166,21 @@ void add_one_of_many(Chart& chart, const NamedEstimate& one, Quantity quantity, 
   chart.series.push_back(std::move(series));
 }
 
+Chart marked_chart(const Estimate& estimate, const Quantity& quantity, std::span<const MarkedOffset> marked,
+                   const Style& style) {
+  const std::array<NamedEstimate, 1> alone{{{"", estimate}}};
+  Chart chart = chart_of(estimate, in_readable_unit(quantity, alone), style);
+  chart.x_title = "offset [ms]";
+  chart.absent_name = "failed";
+  mark_offsets(chart, estimate, marked, style);
+  return chart;
+}
+
+Error without_value(std::string_view criterion) {
+  return {ExitCode::kWrongUsage,
+          fmt::format("None of the estimates has a value of the criterion \"{}\"", criterion)};
+}
+
 }  // namespace
 
 std::string offset_label_ms(double offset_s) {
@@ -181,16 +196,19 @@ std::string offset_label_ms(double offset_s) {
 std::vector<Chart> curve_charts(const Estimate& estimate, std::span<const MarkedOffset> marked,
                                 const Style& style) {
   std::vector<Chart> charts;
-  const std::array<NamedEstimate, 1> alone{{{"", estimate}}};
   for (const Quantity& quantity : kQuantities) {
     if (quantity.value == kTheta.value || !has_any(estimate, quantity)) continue;
-    Chart chart = chart_of(estimate, in_readable_unit(quantity, alone), style);
-    chart.x_title = "offset [ms]";
-    chart.absent_name = "failed";
-    mark_offsets(chart, estimate, marked, style);
-    charts.push_back(std::move(chart));
+    charts.push_back(marked_chart(estimate, quantity, marked, style));
   }
   return charts;
+}
+
+Result<Chart> curve_chart(const Estimate& estimate, std::string_view criterion,
+                          std::span<const MarkedOffset> marked, const Style& style) {
+  return quantity_named(criterion).and_then([&](const Quantity& quantity) -> Result<Chart> {
+    if (!has_any(estimate, quantity)) return tl::unexpected(without_value(criterion));
+    return marked_chart(estimate, quantity, marked, style);
+  });
 }
 
 Result<Chart> curves_of_many(std::span<const NamedEstimate> estimates, std::string_view criterion,
@@ -208,9 +226,7 @@ Result<Chart> curves_of_many(std::span<const NamedEstimate> estimates, std::stri
   chart.absent_name = "failed";
   chart.with_zero = quantity.with_zero;
   for (const NamedEstimate& one : estimates) add_one_of_many(chart, one, quantity, normalise, style);
-  if (chart.series.empty())
-    return failure(ExitCode::kWrongUsage,
-                   fmt::format("None of the estimates has a value of the criterion \"{}\"", criterion));
+  if (chart.series.empty()) return tl::unexpected(without_value(criterion));
   return chart;
 }
 

@@ -24,6 +24,11 @@ struct MarkedOffset {
 std::vector<Chart> curve_charts(const Estimate& estimate, std::span<const MarkedOffset> marked,
                                 const Style& style);
 
+/// One of these charts, by the criterion's name ("d", "theta", "e", "n", "roll"). An unknown name, or one
+/// that the estimate has no value of, is ExitCode::kWrongUsage.
+Result<Chart> curve_chart(const Estimate& estimate, std::string_view criterion,
+                          std::span<const MarkedOffset> marked, const Style& style);
+
 /// An estimate beside others.
 struct NamedEstimate {
   std::string name;  // in the legend

@@ -11,8 +11,8 @@
 namespace sweepscope {
 namespace {
 
-tl::unexpected<Error> wrong(const std::string& name, const std::string& text, const std::string& wanted) {
-  return failure(ExitCode::kWrongUsage, fmt::format("{} {}: {}", name, text, wanted));
+tl::unexpected<Error> wrong(const std::string& wanted) {
+  return failure(ExitCode::kWrongUsage, wanted);
 }
 
 /// The numbers of a text such as "1920x1200", or nothing where it is not exactly that many.
@@ -31,16 +31,16 @@ std::optional<std::vector<double>> numbers_of(const std::string& text, char sepa
   return numbers;
 }
 
-Result<bool> switch_of(const std::string& name, const std::string& text) {
+Result<bool> switch_of(const std::string& text) {
   if (text == "true" || text.empty()) return true;
   if (text == "false") return false;
-  return wrong(name, text, "true or false is wanted");
+  return wrong("true or false is wanted");
 }
 
 Result<void> set_size(ComparisonOptions& options, const std::string& text) {
   const auto size = numbers_of(text, 'x', 2);
   if (!size || (*size)[0] < 1 || (*size)[1] < 1 || (*size)[0] > 1e6 || (*size)[1] > 1e6) {
-    return wrong("size", text, "not like 1920x1200");
+    return wrong("not like 1920x1200");
   }
   options.width_px = static_cast<int>((*size)[0]);
   options.height_px = static_cast<int>((*size)[1]);
@@ -50,7 +50,7 @@ Result<void> set_size(ComparisonOptions& options, const std::string& text) {
 Result<void> set_background(ComparisonOptions& options, const std::string& text) {
   const auto found = std::find(kBackgroundNames.begin(), kBackgroundNames.end(), text);
   if (found == kBackgroundNames.end()) {
-    return wrong("background", text, fmt::format("there are {}", fmt::join(kBackgroundNames, ", ")));
+    return wrong(fmt::format("there are {}", fmt::join(kBackgroundNames, ", ")));
   }
   options.background = static_cast<Background>(found - kBackgroundNames.begin());
   return {};
@@ -59,7 +59,7 @@ Result<void> set_background(ComparisonOptions& options, const std::string& text)
 Result<void> set_colour_range(ComparisonOptions& options, const std::string& text) {
   const auto range = numbers_of(text, ':', 2);
   if (!range || !((*range)[0] < (*range)[1])) {
-    return wrong("colour-range", text, "not like 0:40, in the unit of the colouring");
+    return wrong("not like 0:40, in the unit of the colouring");
   }
   options.colour_range = ValueRange{(*range)[0], (*range)[1]};
   return {};
@@ -67,7 +67,7 @@ Result<void> set_colour_range(ComparisonOptions& options, const std::string& tex
 
 Result<void> set_point_size(ComparisonOptions& options, const std::string& text) {
   const auto size = numbers_of(text, ':', 1);
-  if (!size || (*size)[0] < 0.25 || (*size)[0] > 32) return wrong("point-size", text, "0.25 to 32 pixels");
+  if (!size || (*size)[0] < 0.25 || (*size)[0] > 32) return wrong("0.25 to 32 pixels");
   options.point_size_px = (*size)[0];
   return {};
 }
@@ -75,7 +75,7 @@ Result<void> set_point_size(ComparisonOptions& options, const std::string& text)
 Result<void> set_slab(ComparisonOptions& options, const std::string& text) {
   const auto range = numbers_of(text, ':', 2);
   if (!range || !((*range)[0] < (*range)[1])) {
-    return wrong("slab", text, "not like 0.8:3.2, in metres above the sensor's path");
+    return wrong("not like 0.8:3.2, in metres above the sensor's path");
   }
   options.slabs.push_back({(*range)[0], (*range)[1]});
   return {};
@@ -89,7 +89,7 @@ Result<void> set_close_up(ComparisonOptions& options, const std::string& text) {
   }
   const auto region = numbers_of(text, ':', 3);
   if (!region || !((*region)[2] > 0)) {
-    return wrong("close-up", text, "not like 12.5:-3:4 (x, y and height in metres), auto or none");
+    return wrong("not like 12.5:-3:4 (x, y and height in metres), auto or none");
   }
   options.with_close_up = true;
   options.close_up = Region{{(*region)[0], (*region)[1]}, (*region)[2]};
@@ -99,12 +99,12 @@ Result<void> set_close_up(ComparisonOptions& options, const std::string& text) {
 Result<void> set_camera(ComparisonOptions& options, const std::string& text) {
   const auto camera = numbers_of(text, ':', 7);
   const char* wanted = "not like PX:PY:PZ:X:Y:Z:EXTENT, where the camera is and what it looks at";
-  if (!camera || !((*camera)[6] > 0)) return wrong("camera", text, wanted);
+  if (!camera || !((*camera)[6] > 0)) return wrong(wanted);
   Camera set;
   set.position_m = {(*camera)[0], (*camera)[1], (*camera)[2]};
   set.looks_at_m = {(*camera)[3], (*camera)[4], (*camera)[5]};
   const Eigen::Vector3d forward = set.looks_at_m - set.position_m;
-  if (!(forward.norm() > 1e-6)) return wrong("camera", text, "the camera is where it looks at");
+  if (!(forward.norm() > 1e-6)) return wrong("the camera is where it looks at");
   const bool upright = forward.normalized().head<2>().norm() > 1e-3;
   set.up = upright ? Eigen::Vector3d(0, 0, 1) : Eigen::Vector3d(0, 1, 0);
   set.view_height_m = (*camera)[6];
@@ -116,7 +116,7 @@ Result<void> set_camera(ComparisonOptions& options, const std::string& text) {
 Result<void> set_box(ComparisonOptions& options, const std::string& text) {
   const auto box = numbers_of(text, ':', 6);
   if (!box || !((*box)[0] < (*box)[3]) || !((*box)[1] < (*box)[4]) || !((*box)[2] < (*box)[5])) {
-    return wrong("box", text, "not like X0:Y0:Z0:X1:Y1:Z1, the least and the greatest corner in metres");
+    return wrong("not like X0:Y0:Z0:X1:Y1:Z1, the least and the greatest corner in metres");
   }
   options.box = Box{{(*box)[0], (*box)[1], (*box)[2]}, {(*box)[3], (*box)[4], (*box)[5]}};
   return {};
@@ -152,9 +152,7 @@ std::vector<LookOption> declare() {
       {"viewpoint", "NAME", "top, front (along y), right (against x) or isometric (default: top)", false,
        [](Options& o, const std::string& text) { return assign(o.viewpoint, viewpoint(text)); }},
       {"perspective", "", "Far things are smaller (default: parallel lines stay parallel)", false,
-       [](Options& o, const std::string& text) {
-         return assign(o.perspective, switch_of("perspective", text));
-       }},
+       [](Options& o, const std::string& text) { return assign(o.perspective, switch_of(text)); }},
       {"camera", "PX:PY:PZ:X:Y:Z:EXTENT",
        "Instead of a viewpoint: the camera at P looks at X:Y:Z, where the view is EXTENT metres high", false,
        set_camera},
@@ -176,6 +174,13 @@ std::vector<LookOption> declare() {
 std::span<const LookOption> look_options() {
   static const std::vector<LookOption> options = declare();
   return options;
+}
+
+Result<void> set_look(ComparisonOptions& options, const LookOption& option, const std::string& text) {
+  return option.set(options, text).map_error([&](Error error) {
+    error.message = fmt::format("{}{}{}: {}", option.name, text.empty() ? "" : " ", text, error.message);
+    return error;
+  });
 }
 
 const LookOption* find_look_option(std::string_view name) {

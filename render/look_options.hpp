@@ -16,11 +16,14 @@ struct LookOption {
   std::string type;  // what a value looks like: "WxH"; empty: a switch, whose value is true or false
   std::string help;  // a sentence
   bool repeats = false;
-  /// Sets it from text. A value that it does not take is ExitCode::kWrongUsage, with a sentence.
+  /// Sets it from text. A value that it does not take is ExitCode::kWrongUsage, with what is wanted.
   std::function<Result<void>(ComparisonOptions&, const std::string&)> set;
 };
 
 std::span<const LookOption> look_options();
+
+/// Sets the option from text; an error begins with its name and the text.
+Result<void> set_look(ComparisonOptions& options, const LookOption& option, const std::string& text);
 
 /// The option of that name, or null.
 const LookOption* find_look_option(std::string_view name);

@@ -23,6 +23,7 @@
 #include <numeric>
 
 #include "render/gl/vtk_window.hpp"
+#include "render/picture_drawing.hpp"
 #include "render/vtk_drawing.hpp"
 
 namespace sweepscope {
@@ -146,26 +147,30 @@ Result<void> check_size(const Picture& picture) {
                   picture.width_px, picture.height_px, kLeastPictureSidePx, kGreatestPictureSidePx));
 }
 
+int drawn_width_px(const Picture& picture) {
+  return kSupersampling * picture.width_px;
+}
+
+int drawn_height_px(const Picture& picture) {
+  return kSupersampling * picture.height_px;
+}
+
 Image draw_in(vtkRenderWindow& window, const Picture& picture) {
-  const int width_px = picture.width_px * kSupersampling, height_px = picture.height_px * kSupersampling;
-  window.SetSize(width_px, height_px);
   add_flat_layers(window, picture);
   for (const View& view : picture.views) {
     window.AddRenderer(to_renderer(view, picture));
   }
   window.Render();
-  Image pixels = read_pixels(window, width_px, height_px);
+  Image pixels = read_pixels(window, drawn_width_px(picture), drawn_height_px(picture));
   if (is_opaque(picture)) pixels.make_opaque();  // what VTK leaves in alpha depends on its passes
-  window.GetRenderers()->RemoveAllItems();
+  while (vtkRenderer* renderer = window.GetRenderers()->GetFirstRenderer()) window.RemoveRenderer(renderer);
   return shrink_premultiplied(pixels, kSupersampling);
 }
 
 Result<Image> draw(const Picture& picture) {
   return check_size(picture)
-      .and_then([&] {
-        return gl::OffscreenWindow::create(kSupersampling * picture.width_px,
-                                           kSupersampling * picture.height_px);
-      })
+      .and_then(
+          [&] { return gl::OffscreenWindow::create(drawn_width_px(picture), drawn_height_px(picture)); })
       .map([&](gl::OffscreenWindow&& offscreen) { return draw_in(offscreen.window(), picture); });
 }
 

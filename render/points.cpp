@@ -46,9 +46,8 @@ struct Keyed {
   }
 };
 
-}  // namespace
-
-ColouredPoints thin(const ColouredPoints& points, double edge_m) {
+/// The points' cells along a Morton curve, those of one cell in the input's order.
+std::vector<Keyed> keys_along_curve(const ColouredPoints& points, double edge_m) {
   const std::array<float, 3> origin = least_corner(points);
   std::vector<Keyed> keyed(points.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size()), [&](const auto& range) {
@@ -62,12 +61,40 @@ ColouredPoints thin(const ColouredPoints& points, double edge_m) {
     }
   });
   tbb::parallel_sort(keyed.begin(), keyed.end());
+  return keyed;
+}
+
+/// The first point of each cell; a cell is what shares a key without its last `bits`.
+ColouredPoints first_of_cells(const ColouredPoints& points, const std::vector<Keyed>& keyed, int bits) {
   ColouredPoints out;
   for (std::size_t k = 0; k < keyed.size(); ++k) {
-    if (k > 0 && keyed[k].morton == keyed[k - 1].morton) continue;
+    if (k > 0 && keyed[k].morton >> bits == keyed[k - 1].morton >> bits) continue;
     out.add(points.xyz_m[keyed[k].index], points.values[keyed[k].index]);
   }
   return out;
+}
+
+std::size_t count_cells(const std::vector<Keyed>& keyed, int bits) {
+  std::size_t count = keyed.empty() ? 0 : 1;
+  for (std::size_t k = 1; k < keyed.size(); ++k) {
+    count += keyed[k].morton >> bits != keyed[k - 1].morton >> bits ? 1 : 0;
+  }
+  return count;
+}
+
+}  // namespace
+
+ColouredPoints thin(const ColouredPoints& points, double edge_m) {
+  return first_of_cells(points, keys_along_curve(points, edge_m), 0);
+}
+
+ColouredPoints decimated(const ColouredPoints& points, std::size_t most) {
+  constexpr double kFinest_m = 1e-3;
+  constexpr int kBitsPerStep = 3, kMostBits = 60;
+  const std::vector<Keyed> keyed = keys_along_curve(points, kFinest_m);
+  int bits = 0;
+  while (bits < kMostBits && count_cells(keyed, bits) > most) bits += kBitsPerStep;
+  return first_of_cells(points, keyed, bits);
 }
 
 }  // namespace sweepscope

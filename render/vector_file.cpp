@@ -7,7 +7,7 @@
 namespace sweepscope {
 
 Result<void> write_picture(const std::filesystem::path& path, const Picture& picture,
-                           std::span<const PngText> texts) {
+                           std::span<const PngText> texts, Canvas& canvas) {
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
@@ -17,7 +17,14 @@ Result<void> write_picture(const std::filesystem::path& path, const Picture& pic
     return failure(ExitCode::kWrongUsage,
                    fmt::format("{}: a picture is written as .png, .svg or .pdf", path.string()));
   }
-  return draw(picture).and_then([&](const Image& image) { return write_png(image, path, texts); });
+  return canvas.draw(picture).and_then([&](const Image& image) { return write_png(image, path, texts); });
+}
+
+Result<void> write_picture(const std::filesystem::path& path, const Picture& picture,
+                           std::span<const PngText> texts) {
+  return make_canvas(Backend::kOffscreen).and_then([&](const std::unique_ptr<Canvas>& canvas) {
+    return write_picture(path, picture, texts, *canvas);
+  });
 }
 
 }  // namespace sweepscope

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "render/canvas.hpp"
 #include "render/image.hpp"
 #include "render/picture.hpp"
 
@@ -24,7 +25,10 @@ Result<void> write_svg(const std::filesystem::path& path, const Picture& picture
 Result<void> write_pdf(const std::filesystem::path& path, const Picture& picture,
                        std::span<const PngText> texts = {});
 
-/// As PNG, SVG or PDF, by the path's extension; another one is ExitCode::kWrongUsage.
+/// As PNG, SVG or PDF, by the path's extension; another one is ExitCode::kWrongUsage. A PNG is drawn on the
+/// canvas; without one, and what is inside the others, off screen.
+Result<void> write_picture(const std::filesystem::path& path, const Picture& picture,
+                           std::span<const PngText> texts, Canvas& canvas);
 Result<void> write_picture(const std::filesystem::path& path, const Picture& picture,
                            std::span<const PngText> texts = {});
 

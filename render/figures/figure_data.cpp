@@ -174,10 +174,15 @@ Result<void> FigureData::build(const std::string& name, bool true_poses, bool wi
     map.offset_s = offsets_s[k];
     map.cloud = (*built)[k].cloud;
     map.path = std::move((*built)[k].trajectory);
-    if (!with_features) continue;
+    const bool features_only = specs[indices[k]].features_only;
+    if (!with_features && !features_only) continue;
     const auto features = extract_features((*data)->recording, FeatureOptions(), job_);
     if (!features) return tl::unexpected(features.error());
     map.feature_kinds = feature_kinds(*features, *map.cloud);
+    if (!features_only) continue;
+    FeatureCloud cloud = feature_cloud(*map.cloud, map.feature_kinds);
+    map.cloud = std::move(cloud.cloud);
+    map.feature_kinds = std::move(cloud.kinds);
   }
   return {};
 }

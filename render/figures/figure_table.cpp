@@ -1,12 +1,14 @@
 #include "render/figures/figure_table.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace sweepscope {
 namespace {
 
 TableCell ms(std::optional<double> value_s) {
-  return value_s ? TableCell(*value_s * 1e3) : TableCell();
+  // Whole picoseconds: no binary tails such as 9.000000000000002.
+  return value_s ? TableCell(std::round(*value_s * 1e12) / 1e9) : TableCell();
 }
 
 std::optional<double> optimum(const Estimate& estimate, std::string_view criterion,

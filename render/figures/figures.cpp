@@ -87,7 +87,9 @@ Result<Made> make(const CurvesFigure& figure, const ComparisonOptions& look, Fig
   }
   std::vector<Chart> charts;
   for (const Criterion criterion : criteria_of(figure, estimates[0].estimate)) {
-    auto chart = curves_of_many(estimates, name_of(criterion), style_of(look.background));
+    const Style style = style_of(look.background);
+    auto chart = estimates.size() == 1 ? curve_chart(estimates[0].estimate, name_of(criterion), {}, style)
+                                       : curves_of_many(estimates, name_of(criterion), style);
     if (!chart) return tl::unexpected(chart.error());
     charts.push_back(std::move(*chart));
   }
@@ -104,7 +106,19 @@ double path_height_at(const ComparedMap& map, const Eigen::Vector2d& at_m) {
   return height_m;
 }
 
-/// The named face, made exact on the first map; or the best one of all.
+std::optional<CrossSection> fitted_on_sharpest(const CrossSection& rough, std::span<const ComparedMap> maps) {
+  std::optional<CrossSection> sharpest;
+  double least_mm = 1e300;
+  for (const ComparedMap& map : maps) {
+    const auto section = face_fitted(*map.cloud, rough);
+    if (!section) continue;
+    const double width_mm = profile_across(*map.cloud, *section).width_at_half_height_mm.value_or(1e299);
+    if (width_mm < least_mm) least_mm = width_mm, sharpest = section;
+  }
+  return sharpest;
+}
+
+/// The named face, made exact on the map that shows it sharpest; or the best one of all.
 Result<CrossSection> section_of(const ProfileFigure& figure, std::span<const ComparedMap> maps) {
   std::optional<CrossSection> section;
   if (figure.at_m) {
@@ -115,7 +129,7 @@ Result<CrossSection> section_of(const ProfileFigure& figure, std::span<const Com
     const double path_m = path_height_at(maps[0], rough.at_m);
     rough.from_m = path_m + figure.heights->from_m;
     rough.to_m = path_m + figure.heights->to_m;
-    section = face_fitted(*maps[0].cloud, rough);
+    section = fitted_on_sharpest(rough, maps);
   } else {
     std::vector<MapOnPath> on_paths;
     for (const ComparedMap& map : maps) on_paths.push_back({map.cloud.get(), map.path});
@@ -203,7 +217,7 @@ class FigureMaker {
                                      {"Shows", made->what}};
     for (const PictureFormat format : figure.formats) {
       const auto path = folder_ / (figure.name + extension_of(format));
-      if (auto written = write_picture(path, made->picture, texts); !written) return written;
+      if (auto written = write_picture(path, made->picture, texts, canvas_); !written) return written;
       keep(path, made->what);
     }
     return {};
@@ -227,6 +241,7 @@ class FigureMaker {
 
   const Recipe& recipe_;
   std::filesystem::path folder_;
+  Canvas& canvas_;
   const Job& job_;
   const Said& said_;
   FigureData data_;
@@ -236,12 +251,12 @@ class FigureMaker {
 }  // namespace
 
 Result<std::vector<std::filesystem::path>> make_figures(const Recipe& recipe,
-                                                        const std::filesystem::path& folder, const Job& job,
-                                                        const Said& said) {
+                                                        const std::filesystem::path& folder, Canvas& canvas,
+                                                        const Job& job, const Said& said) {
   std::error_code error;
   std::filesystem::create_directories(folder / "cache", error);
   if (error) return unreadable(fmt::format("{}: cannot be made: {}", folder.string(), error.message()));
-  return FigureMaker(recipe, folder, job, said).make_all();
+  return FigureMaker(recipe, folder, canvas, job, said).make_all();
 }
 
 }  // namespace sweepscope

@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/job.hpp"
+#include "render/canvas.hpp"
 #include "render/figures/recipe.hpp"
 
 namespace sweepscope {
@@ -15,7 +16,8 @@ namespace sweepscope {
 /// like, NAME.csv, NAME.md and NAME.tex. Estimates are kept in its folder `cache`. `said` hears what is being
 /// done, and each file when it is there; files that were finished stay when it fails or is interrupted.
 Result<std::vector<std::filesystem::path>> make_figures(const Recipe& recipe,
-                                                        const std::filesystem::path& folder, const Job& job,
+                                                        const std::filesystem::path& folder, Canvas& canvas,
+                                                        const Job& job,
                                                         const std::function<void(const std::string&)>& said);
 
 }  // namespace sweepscope

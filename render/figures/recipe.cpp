@@ -218,7 +218,8 @@ class RecipeReader {
         const std::vector<Node> values = option.repeats ? read_list(node) : std::vector<Node>{node};
         for (const Node& value : values) {
           if (!value.IsScalar()) refuse(value, fmt::format("{} must be a text", option.name));
-          if (const auto set = option.set(look, value.Scalar()); !set) refuse(value, set.error().message);
+          if (const auto set = set_look(look, option, value.Scalar()); !set)
+            refuse(value, set.error().message);
         }
       };
     }
@@ -245,6 +246,11 @@ class RecipeReader {
               has_offset = true;
             }},
            {"label", [&](const Node& v) { map.label = read_text(v, name + ": label"); }},
+           {"points",
+            [&](const Node& v) {
+              map.features_only =
+                  read_choice<bool>(v, name + ": points", {{"all", false}, {"features", true}});
+            }},
            {"poses", [&](const Node& v) {
               map.true_poses = read_choice<bool>(v, name + ": poses", {{"solved", false}, {"truth", true}});
             }}});

@@ -38,8 +38,9 @@ struct EstimateSpec {
 struct MapSpec {
   std::string recording;
   double offset_s = 0;
-  std::string label;        // empty: the offset
-  bool true_poses = false;  // placed by the simulation's own poses and not by LOAM's
+  std::string label;           // empty: the offset
+  bool features_only = false;  // its edge and plane points alone
+  bool true_poses = false;     // placed by the simulation's own poses and not by LOAM's
 };
 
 enum class PictureFormat { kPng, kSvg, kPdf };

@@ -1,34 +1,30 @@
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 
 #include "core/io/cloud_file.hpp"
 #include "core/io/estimate_json.hpp"
-#include "tests/core/io/test_files.hpp"
+#include "tests/app/program.hpp"
 #include "tests/render/synthetic_maps.hpp"
 
 namespace sweepscope {
 namespace {
 
-class CompareTest : public test::FolderTest {
+class CompareTest : public test::ProgramTest {
  protected:
   void SetUp() override {
-    test::FolderTest::SetUp();
+    ProgramTest::SetUp();
     ASSERT_TRUE(write_cloud(folder_ / "wrong.pcd", *test::HallMap(0.03, 20'000).make()));
     ASSERT_TRUE(write_cloud(folder_ / "right.ply", *test::HallMap(0, 20'000).make()));
     ASSERT_TRUE(write_estimate_json(folder_ / "estimate.json", test::stationary_curve()));
   }
 
-  /// Runs `sweepscope compare ARGUMENTS` in the test's folder; returns the exit code and keeps what it said.
+  /// Runs `sweepscope compare ARGUMENTS`; returns the exit code and keeps what it said.
   int run(const std::string& environment, const std::string& arguments) {
-    const std::string command = "cd '" + folder_.string() + "' && env " + environment +
-                                " '" SWEEPSCOPE_EXECUTABLE "' compare " + arguments + " >said.txt 2>&1";
-    const int status = std::system(command.c_str());
-    said_ = test::contents_of(folder_ / "said.txt");
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    const Outcome outcome = ProgramTest::run("compare " + arguments, environment);
+    said_ = outcome.out + outcome.err;
+    return outcome.exit_code;
   }
 
   std::string said_;

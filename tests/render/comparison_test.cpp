@@ -32,9 +32,13 @@ ComparisonOptions small_options() {
 
 Image drawn(const std::vector<ComparedMap>& maps, const ComparisonOptions& options,
             const Estimate* estimate) {
-  const auto image = draw_comparison(maps, estimate, options);
+  const auto image = comparison_picture(maps, estimate, options).and_then(draw);
   EXPECT_TRUE(image.has_value());
   return image.value_or(Image());
+}
+
+std::vector<float> heights_of(const ComparedMap& map) {
+  return *colour_values(map, nullptr, ColourBy::kElevation);
 }
 
 TEST(OffscreenContext, IsDrawnByLlvmpipe) {
@@ -105,10 +109,10 @@ TEST(Comparison, TakesOneToFourMapsAndRefusesMore) {
   for (std::size_t count = 1; count <= 4; ++count) {
     std::vector<ComparedMap> maps;
     for (std::size_t m = 0; m < count; ++m) maps.push_back(two[m % 2]);
-    EXPECT_TRUE(draw_comparison(maps, nullptr, small_options())) << count;
+    EXPECT_TRUE(comparison_picture(maps, nullptr, small_options())) << count;
   }
-  EXPECT_FALSE(draw_comparison(std::vector<ComparedMap>(5), nullptr, small_options()));
-  EXPECT_FALSE(draw_comparison({}, nullptr, small_options()));
+  EXPECT_FALSE(comparison_picture(std::vector<ComparedMap>(5), nullptr, small_options()));
+  EXPECT_FALSE(comparison_picture({}, nullptr, small_options()));
 }
 
 TEST(ComparisonSlabs, ByDefaultTheCeilingIsCutAwayAndTheBlindMiddleToo) {
@@ -118,7 +122,7 @@ TEST(ComparisonSlabs, ByDefaultTheCeilingIsCutAwayAndTheBlindMiddleToo) {
   EXPECT_EQ(slabs[0].to_m, -0.8);
   EXPECT_EQ(slabs[1].from_m, 0.8);
   EXPECT_NEAR(slabs[1].to_m, 2.8, 0.15);  // a quarter of the way to the ceiling is left out
-  for (const auto& point : points_in_slabs(maps[1], slabs).points.xyz_m) {
+  for (const auto& point : points_in_slabs(maps[1], heights_of(maps[1]), slabs).points.xyz_m) {
     EXPECT_LT(point[2], 3.0);
     EXPECT_GT(std::abs(point[2]), 0.79);
   }
@@ -138,15 +142,64 @@ TEST(ComparisonSlabs, HeightsFollowThePathOfTheSensor) {
   map.path = {{0, {0, 0, 0}, Eigen::Quaterniond::Identity()},
               {10, {0, 0, 10}, Eigen::Quaterniond::Identity()}};
   const std::vector<HeightRange> slab{{0.9, 1.1}};
-  EXPECT_EQ(points_in_slabs(map, slab).points.size(), 11U);
+  EXPECT_EQ(points_in_slabs(map, heights_of(map), slab).points.size(), 11U);
   map.path.clear();
-  EXPECT_EQ(points_in_slabs(map, slab).points.size(), 1U);
+  EXPECT_EQ(points_in_slabs(map, heights_of(map), slab).points.size(), 1U);
+}
+
+TEST(Comparison, ABoxLeavesOutWhatIsOutside) {
+  const auto maps = hall_maps(5'000);
+  const Box box{{-2, -2, -1}, {2, 2, 3}};
+  const std::vector<HeightRange> all{{-100, 100}};
+  const auto points = points_in_slabs(maps[0], heights_of(maps[0]), all, box).points;
+  ASSERT_GT(points.size(), 0U);
+  for (const auto& point : points.xyz_m) {
+    EXPECT_LE(std::abs(point[0]), 2);
+    EXPECT_LE(std::abs(point[1]), 2);
+  }
+}
+
+TEST(Comparison, AWhiteBackgroundIsOpaqueAndATransparentOneIsNot) {
+  const auto maps = hall_maps(5'000);
+  ComparisonOptions options = small_options();
+  options.background = Background::kWhite;
+  const Image white = drawn(maps, options, nullptr);
+  EXPECT_TRUE(white.opaque());
+  EXPECT_EQ(white.pixel(2, 2)[0], 255);
+  options.background = Background::kTransparent;
+  const Image transparent = drawn(maps, options, nullptr);
+  EXPECT_EQ(transparent.pixel(2, 2)[3], 0);
+  EXPECT_FALSE(transparent.opaque());
+}
+
+TEST(Comparison, EveryViewpointAndColouringDrawsAnotherPicture) {
+  const auto maps = hall_maps(20'000);
+  std::vector<Image> seen;
+  const auto expect_new = [&](const ComparisonOptions& options) {
+    Image image = drawn(maps, options, nullptr);
+    for (const Image& other : seen) EXPECT_FALSE(compare_images(image, other).passes);
+    seen.push_back(std::move(image));
+  };
+  for (const Viewpoint from :
+       {Viewpoint::kTop, Viewpoint::kFront, Viewpoint::kRight, Viewpoint::kIsometric}) {
+    ComparisonOptions options = small_options();
+    options.viewpoint = from;
+    expect_new(options);
+    options.perspective = true;
+    expect_new(options);
+  }
+  for (const ColourBy by : {ColourBy::kTime, ColourBy::kDirection, ColourBy::kBlur, ColourBy::kDistance}) {
+    ComparisonOptions options = small_options();
+    options.colour_by = by;
+    expect_new(options);
+  }
 }
 
 TEST(CloseUp, FindsThePillarByItself) {
   const auto maps = hall_maps(300'000);
   std::vector<SlabPoints> points;
-  for (const auto& map : maps) points.push_back(points_in_slabs(map, choose_slabs(maps, {})));
+  for (const auto& map : maps)
+    points.push_back(points_in_slabs(map, heights_of(map), choose_slabs(maps, {})));
   const Region region = find_close_up(points, 4, 8);
   EXPECT_NEAR(region.centre_m.x(), 0, 0.5);
   EXPECT_NEAR(region.centre_m.y(), 0, 0.5);

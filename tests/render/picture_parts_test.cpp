@@ -8,7 +8,6 @@
 #include "render/drawing.hpp"
 #include "render/points.hpp"
 #include "render/ticks.hpp"
-#include "render/top_view.hpp"
 #include "tests/render/synthetic_maps.hpp"
 
 namespace sweepscope {
@@ -97,6 +96,26 @@ TEST(Thinning, PutsNeighboursInSpaceNextToEachOther) {
   EXPECT_LT(jumps / 4096, 2);
 }
 
+TEST(Thinning, ADecimatedLevelHasFewPointsEverywhere) {
+  ColouredPoints points;
+  for (int i = 0; i < 100 * 100; ++i) {
+    points.add({0.1F * static_cast<float>(i % 100), 0.1F * static_cast<float>(i / 100), 0}, 0);
+  }
+  const ColouredPoints few = decimated(points, 1000);
+  EXPECT_LE(few.size(), 1000U);
+  EXPECT_GE(few.size(), 1000U / 5);
+  for (const auto& [x0, y0] : {std::pair{0.F, 0.F}, {5.F, 0.F}, {0.F, 5.F}, {5.F, 5.F}}) {
+    std::size_t in_quarter = 0;
+    for (const auto& p : few.xyz_m) {
+      in_quarter += p[0] >= x0 && p[0] < x0 + 5 && p[1] >= y0 && p[1] < y0 + 5 ? 1 : 0;
+    }
+    EXPECT_NEAR(static_cast<double>(in_quarter), static_cast<double>(few.size()) / 4,
+                0.1 * static_cast<double>(few.size()));
+  }
+  EXPECT_EQ(decimated(points, 20'000).size(), points.size());
+  EXPECT_EQ(decimated({}, 10).size(), 0U);
+}
+
 TEST(Text, WidthFollowsTheLettersAndTheirSize) {
   EXPECT_GT(text_width_px("offset", 20), text_width_px("off", 20));
   EXPECT_NEAR(text_width_px("offset θ", 40), 2 * text_width_px("offset θ", 20), 1e-9);
@@ -109,17 +128,6 @@ TEST(Text, ThatIsTooLongIsCutBetweenLetters) {
   EXPECT_LE(text_width_px(cut, 14), 50);
   EXPECT_EQ(cut.substr(cut.size() - 3), "…");
   EXPECT_EQ((cut.size() - 3) % 2, 0U);
-}
-
-TEST(TopView, PutsTheMapsYUpwardsOrTurnedToTheRight) {
-  TopView view{{100, 100, 200, 100}, {10, 20}, 0.1, false};
-  EXPECT_DOUBLE_EQ(view.to_px(10, 20).x, 200);
-  EXPECT_DOUBLE_EQ(view.to_px(11, 20).x, 210);
-  EXPECT_DOUBLE_EQ(view.to_px(10, 21).y, 140);
-  view.turned = true;
-  EXPECT_DOUBLE_EQ(view.to_px(10, 21).x, 210);
-  EXPECT_DOUBLE_EQ(view.to_px(11, 20).y, 160);
-  EXPECT_DOUBLE_EQ(view.half_extent_m().x(), 5);
 }
 
 TEST(CurveCharts, AStationaryCurveHasDWithThetaAndTheRoll) {

@@ -151,7 +151,7 @@ TEST(VectorFiles, ASizeThatCannotBeDrawnIsRefused) {
   picture.width_px = 9000;
   EXPECT_EQ(encode_svg(picture).error().code, ExitCode::kWrongUsage);
   EXPECT_EQ(encode_pdf(picture).error().message,
-            "A picture of 9000 x 200 pixels cannot be written: each side is 64 to 8000 pixels");
+            "A picture of 9000 x 200 pixels cannot be drawn: each side is 64 to 8000 pixels");
 }
 
 class WritePicture : public test::FolderTest {};

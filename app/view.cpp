@@ -1,0 +1,124 @@
+#include <fmt/format.h>
+
+#include <charconv>
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "app/commands.hpp"
+#include "app/offset_texts.hpp"
+#include "app/recording_options.hpp"
+#include "core/io/atomic_file.hpp"
+#include "ui/script/script.hpp"
+#include "ui/window_loop.hpp"
+
+namespace sweepscope::app {
+namespace {
+
+struct ViewOptions {
+  RecordingOptions reading;
+  std::string recording;  // or a session
+  bool headless = false;
+  std::string size = "1600x1000", script, run;
+  double scale = 0;
+};
+
+struct Size {
+  int width_px = 0, height_px = 0;
+};
+
+Result<Size> parse_size(const std::string& text) {
+  Size size;
+  const char *begin = text.data(), *end = begin + text.size();
+  const auto [x, first] = std::from_chars(begin, end, size.width_px);
+  const bool separated = first == std::errc() && x != end && *x == 'x';
+  const auto [after, second] =
+      separated ? std::from_chars(x + 1, end, size.height_px) : std::from_chars_result{x, first};
+  constexpr int kLeast = 320, kGreatest = 8000;
+  if (!separated || second != std::errc() || after != end || size.width_px < kLeast ||
+      size.height_px < kLeast || size.width_px > kGreatest || size.height_px > kGreatest)
+    return failure(ExitCode::kWrongUsage,
+                   fmt::format("--size {}: not like 1600x1000, {} to {} pixels", text, kLeast, kGreatest));
+  return size;
+}
+
+Result<ui::Ui::Options> ui_options(const ViewOptions& options) {
+  ui::Ui::Options out;
+  out.explorer.assume = parse_method(options.reading.assume);
+  out.explorer.reading.stamps = options.reading.stamps;
+  if (options.reading.rig) {
+    auto rig = read_rig(*options.reading.rig);
+    if (!rig) return tl::unexpected(rig.error());
+    out.explorer.reading.rig = std::move(*rig);
+    out.explorer.shell_options += " --rig " + ui::quoted(options.reading.rig->string());
+  }
+  if (options.reading.stamps)
+    out.explorer.shell_options +=
+        *options.reading.stamps == StampSource::kHeader ? " --stamps header" : " --stamps receive";
+  if (options.reading.assume) out.explorer.shell_options += " --assume " + *options.reading.assume;
+  if (options.scale > 0) out.display_scale = options.scale;
+  return out;
+}
+
+/// The script's lines, from a file or from --run; none where neither was given.
+Result<std::optional<ui::Script>> script_of(const ViewOptions& options) {
+  if (options.script.empty() && options.run.empty()) return std::nullopt;
+  if (!options.run.empty())
+    return ui::parse_script(options.run, "--run", true).map([](ui::Script s) {
+      return std::optional(std::move(s));
+    });
+  return read_file(options.script)
+      .and_then([&](const std::string& text) { return ui::parse_script(text, options.script); })
+      .map([](ui::Script s) { return std::optional(std::move(s)); });
+}
+
+Result<void> view(const ViewOptions& options) {
+  const auto size = parse_size(options.size);
+  if (!size) return tl::unexpected(size.error());
+  const auto script = script_of(options);
+  if (!script) return tl::unexpected(script.error());
+  auto with = ui_options(options);
+  if (!with) return tl::unexpected(with.error());
+  const std::string first = options.recording.empty() ? "" : "open " + ui::quoted(options.recording);
+  if (!options.headless)
+    return ui::run_in_window(std::move(*with), size->width_px, size->height_px, first,
+                             *script ? &**script : nullptr);
+  if (!*script) return failure(ExitCode::kWrongUsage, "--headless wants --script F or --run 'LINES'");
+  auto context = gl::make_offscreen_context(size->width_px, size->height_px);
+  if (!context) return tl::unexpected(context.error());
+  return ui::run_headless(**context, std::move(*with), first, **script);
+}
+
+void declare(CLI::App& command, ViewOptions& options) {
+  options.reading.declare_reading(command);
+  options.reading.declare_computing(command);
+  command.remove_option(command.get_option("--window"));  // the explorer has its time window
+  command.add_option("REC", options.recording, "A recording, or a session (.json); default: the start page");
+  command.add_flag("--headless", options.headless,
+                   "Without a display: runs a script on the very same interface");
+  command.add_option("--size", options.size, "Of the window, in pixels")->capture_default_str();
+  command.add_option("--scale", options.scale, "1 is 100 %, 2 is 200 %; default: as the display asks")
+      ->check(CLI::Range(0.5, 4.0));
+  auto* script =
+      command.add_option("--script", options.script, "Lines to carry out: see below")->type_name("F");
+  command.add_option("--run", options.run, "The same, given here, with ; between the lines")
+      ->type_name("LINES")
+      ->excludes(script);
+  command.footer([] { return "\n" + ui::script_help(); });
+}
+
+}  // namespace
+
+void add_view(CLI::App& app, ExitCode& exit_code) {
+  CLI::App* command =
+      app.add_subcommand("view", "The explorer: turn the offset, see the map come into focus");
+  auto options = std::make_shared<ViewOptions>();
+  declare(*command, *options);
+  command->callback([options, &exit_code] {
+    const auto threads = options->reading.limit_threads();
+    if (const auto done = view(*options); !done) exit_code = fail(done.error());
+  });
+}
+
+}  // namespace sweepscope::app

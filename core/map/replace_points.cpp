@@ -1,0 +1,196 @@
+#include "core/map/replace_points.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/geometry/kinematics.hpp"
+
+namespace sweepscope {
+namespace {
+
+using Vector = Eigen::Vector3d;
+
+/// Rotation about a fixed axis by an angle that changes little from call to call: sine and cosine follow by
+/// their addition theorems, exact to 1e-12, and are taken afresh after a larger step.
+class SmoothRotation {
+ public:
+  explicit SmoothRotation(const Vector& axis) : axis_(axis) { restart(0); }
+
+  Vector operator()(double angle_rad, const Vector& p) {
+    double step = angle_rad - base_rad_;
+    if (std::abs(step) > kMostStep_rad) {
+      restart(angle_rad);
+      step = 0;
+    }
+    const double square = step * step;
+    const double sine = step * (1 - square / 6 * (1 - square / 20));
+    const double cosine = 1 - square / 2 * (1 - square / 12 * (1 - square / 30));
+    const double c = cosine_ * cosine - sine_ * sine, s = sine_ * cosine + cosine_ * sine;
+    return c * p + s * axis_.cross(p) + ((1 - c) * axis_.dot(p)) * axis_;
+  }
+
+ private:
+  static constexpr double kMostStep_rad = 0.03;
+
+  void restart(double angle_rad) {
+    base_rad_ = angle_rad;
+    sine_ = std::sin(angle_rad);
+    cosine_ = std::cos(angle_rad);
+  }
+
+  Vector axis_;
+  double base_rad_ = 0, sine_ = 0, cosine_ = 1;
+};
+
+/// A sweep's motion, with what all its points share worked out once.
+class SmoothMotion {
+ public:
+  explicit SmoothMotion(const SweepPose& pose)
+      : SmoothMotion(pose, vector_from_rotation(pose.begin.rotation.conjugate() * pose.end.rotation)) {}
+
+  Vector operator()(const Vector& p_in_base_m, double time_s) {
+    const double u = (time_s - begin_s_) * per_s_;
+    const Vector turned_m = turn_rad_ > 1e-12 ? rotate_(u * turn_rad_, p_in_base_m) : p_in_base_m;
+    return rotation_ * turned_m + from_m_ + u * shift_m_;
+  }
+
+ private:
+  SmoothMotion(const SweepPose& pose, const Vector& turn_rad)
+      : turn_rad_(turn_rad.norm()),
+        rotate_(turn_rad_ > 1e-12 ? Vector(turn_rad / turn_rad_) : Vector::UnitX()),
+        rotation_(pose.begin.rotation.toRotationMatrix()),
+        from_m_(pose.begin.translation_m),
+        shift_m_(pose.end.translation_m - pose.begin.translation_m),
+        begin_s_(pose.begin_s),
+        per_s_(1 / (pose.end_s - pose.begin_s)) {}
+
+  double turn_rad_;
+  SmoothRotation rotate_;
+  Eigen::Matrix3d rotation_;
+  Vector from_m_, shift_m_;
+  double begin_s_, per_s_;
+};
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+
+/// Places points [from, to) of one scan, which `index` names by their number among all beams.
+template <typename Index>
+void place_scan(const Beams& beams, const FixedPath& path, std::size_t scan_number, MotorReader& motor,
+                const Kinematics& kinematics, double offset_s, std::size_t from, std::size_t to,
+                const Index& index, std::span<std::array<float, 3>> xyz_m) {
+  const std::uint32_t sweep = path.sweep_of_scan[scan_number];
+  if (sweep == FixedPath::kNoPose) {
+    for (std::size_t k = from; k < to; ++k) xyz_m[k] = {kNan, kNan, kNan};
+    return;
+  }
+  const LaserScan& scan = beams.recording->scans[scan_number];
+  SmoothRotation base_from_motor(kinematics.axis());
+  SmoothMotion motion(path.sweeps[sweep]);
+  for (std::size_t k = from; k < to; ++k) {
+    const std::size_t i = index(k);
+    const auto& p = beams.p_in_motor_m[i];
+    const double time_s = scan.beam_s(beams.beam[i]);
+    const Vector p_in_base_m = base_from_motor(motor.angle_at(time_s + offset_s), Vector(p[0], p[1], p[2]));
+    const Vector p_m = motion(p_in_base_m, time_s);
+    xyz_m[k] = {static_cast<float>(p_m.x()), static_cast<float>(p_m.y()), static_cast<float>(p_m.z())};
+  }
+}
+
+template <typename Begin, typename Index>
+void place_all(const Beams& beams, const FixedPath& path, double offset_s, const Begin& begin,
+               const Index& index, std::span<std::array<float, 3>> xyz_m) {
+  constexpr std::size_t kScansATime = 32;
+  const std::vector<LaserScan>& scans = beams.recording->scans;
+  const Kinematics kinematics(beams.recording->rig.mount);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, scans.size(), kScansATime), [&](const auto& range) {
+    MotorReader motor(beams.recording->motor);
+    for (std::size_t s = range.begin(); s < range.end(); ++s) {
+      place_scan(beams, path, s, motor, kinematics, offset_s, begin(s), begin(s + 1), index, xyz_m);
+    }
+  });
+}
+
+}  // namespace
+
+Beams collect_beams(const Recording& recording) {
+  const Kinematics kinematics(recording.rig.mount);
+  Beams beams;
+  beams.recording = &recording;
+  beams.first_point.push_back(0);
+  for (std::uint32_t i = 0; i < recording.scans.size(); ++i) {
+    const LaserScan& scan = recording.scans[i];
+    const auto ranges_m = recording.ranges(scan);
+    for (std::uint32_t beam = 0; beam < scan.beams; ++beam) {
+      if (!std::isfinite(ranges_m[beam])) continue;
+      const Eigen::Vector3f p_m =
+          kinematics.point_in_motor(ranges_m[beam], scan.beam_angle_rad(beam)).cast<float>();
+      beams.p_in_motor_m.push_back({p_m.x(), p_m.y(), p_m.z()});
+      beams.scan.push_back(i);
+      beams.beam.push_back(beam);
+    }
+    beams.first_point.push_back(beams.p_in_motor_m.size());
+  }
+  return beams;
+}
+
+std::vector<SweepPose> sweep_poses(std::span<const StampedPose> two_a_sweep) {
+  std::vector<SweepPose> sweeps;
+  for (std::size_t i = 0; i + 1 < two_a_sweep.size(); i += 2) {
+    const StampedPose &a = two_a_sweep[i], &b = two_a_sweep[i + 1];
+    const Pose first{a.orientation, a.position_m}, second{b.orientation, b.position_m};
+    const double half_s = b.time_s - a.time_s;  // they stand a quarter in from either end
+    SweepPose& sweep = sweeps.emplace_back();
+    sweep.sweep = i / 2;
+    sweep.begin_s = a.time_s - half_s / 2;
+    sweep.end_s = b.time_s + half_s / 2;
+    sweep.begin = interpolate(first, second, -0.5);
+    sweep.end = interpolate(first, second, 1.5);
+  }
+  return sweeps;
+}
+
+FixedPath fix_path(const Recording& recording, std::vector<SweepPose> sweeps, std::span<const char> used) {
+  FixedPath path;
+  path.sweeps = std::move(sweeps);
+  path.sweep_of_scan.assign(recording.scans.size(), FixedPath::kNoPose);
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < recording.scans.size(); ++i) {
+    const double middle_s = (recording.scans[i].first_beam_s + recording.scans[i].last_beam_s()) / 2;
+    while (next < path.sweeps.size() && path.sweeps[next].end_s <= middle_s) ++next;
+    if (used[i] && next < path.sweeps.size() && path.sweeps[next].begin_s <= middle_s)
+      path.sweep_of_scan[i] = static_cast<std::uint32_t>(next);
+  }
+  return path;
+}
+
+FixedPath standing_path(const Recording& recording, std::span<const char> used) {
+  if (recording.scans.empty()) return {};
+  SweepPose pose;
+  pose.begin_s = recording.scans.front().first_beam_s - 1;
+  pose.end_s = recording.scans.back().last_beam_s() + 1;
+  return fix_path(recording, {pose}, used);
+}
+
+void replace_points(const Beams& beams, const FixedPath& path, double offset_s,
+                    std::span<std::array<float, 3>> xyz_m) {
+  place_all(
+      beams, path, offset_s, [&](std::size_t scan) { return beams.first_point[scan]; },
+      [](std::size_t k) { return k; }, xyz_m);
+}
+
+void replace_points(const Beams& beams, const FixedPath& path, double offset_s,
+                    std::span<const std::uint32_t> chosen, std::span<std::array<float, 3>> xyz_m) {
+  const auto begin = [&](std::size_t scan) {
+    const auto first = std::lower_bound(chosen.begin(), chosen.end(), beams.first_point[scan],
+                                        [](std::uint32_t a, std::size_t b) { return a < b; });
+    return static_cast<std::size_t>(first - chosen.begin());
+  };
+  place_all(
+      beams, path, offset_s, begin, [&](std::size_t k) { return std::size_t{chosen[k]}; }, xyz_m);
+}
+
+}  // namespace sweepscope

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+
+#include "render/colour_table.hpp"
+#include "render/gl/context.hpp"
+#include "render/image.hpp"
+
+namespace sweepscope::gl {
+
+/// Makes the context current and its default framebuffer the one that is drawn to, all of it in one colour.
+void begin_default_framebuffer(Context& context, Colour colour);
+
+/// What draws with the current context.
+std::string renderer_of_current();
+
+/// What the default framebuffer holds.
+Image read_default_framebuffer(Context& context);
+
+}  // namespace sweepscope::gl

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "core/error.hpp"
+#include "render/gl/context.hpp"
+
+namespace sweepscope::gl {
+
+/// What happens to a window. Places are in its framebuffer's pixels, keys and modifiers as GLFW numbers them.
+struct WindowEvents {
+  std::function<void(double x, double y)> moved;
+  std::function<void(int button, bool down, int modifiers)> pressed;
+  std::function<void(double clicks)> scrolled;
+  std::function<void(int key, bool down, int modifiers)> key;
+  std::function<void(unsigned code_point)> typed;
+  std::function<void(const std::string& path)> dropped;
+  std::function<void()> changed;  // size, scale, or it was uncovered: draw again
+};
+
+enum class Cursor { kArrow, kHand, kText, kResizeX };
+
+/// A window on the desktop with a context of its own.
+class Window : public Context {
+ public:
+  WindowEvents events;
+
+  /// Lets events happen: waits for one, at most so long (0: not at all).
+  virtual void wait(double most_s) = 0;
+  virtual bool should_close() const = 0;
+  /// Of the display: 1 at 100 %.
+  virtual double scale() const = 0;
+  virtual void set_title(const std::string& title) = 0;
+  virtual void set_cursor(Cursor cursor) = 0;
+  virtual std::string clipboard() const = 0;
+  virtual void set_clipboard(const std::string& text) = 0;
+};
+
+/// Fails with a sentence where there is no display, or no OpenGL 3.3 on it. Only on the main thread.
+Result<std::unique_ptr<Window>> make_window(int width_px, int height_px, const std::string& title);
+
+/// Ends a wait() early; from any thread.
+void wake_window();
+
+}  // namespace sweepscope::gl

@@ -1,0 +1,54 @@
+#include "render/report/html.hpp"
+
+#include <fmt/format.h>
+
+#include <boost/archive/iterators/base64_from_binary.hpp>
+#include <boost/archive/iterators/transform_width.hpp>
+
+namespace sweepscope::html {
+namespace {
+
+std::string base64(std::string_view bytes) {
+  using Digits = boost::archive::iterators::base64_from_binary<
+      boost::archive::iterators::transform_width<std::string_view::const_iterator, 6, 8>>;
+  std::string text(Digits(bytes.begin()), Digits(bytes.end()));
+  text.append((3 - bytes.size() % 3) % 3, '=');
+  return text;
+}
+
+}  // namespace
+
+std::string escape(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '&') {
+      out += "&amp;";
+    } else if (c == '<') {
+      out += "&lt;";
+    } else if (c == '>') {
+      out += "&gt;";
+    } else if (c == '"') {
+      out += "&quot;";
+    } else if (static_cast<unsigned char>(c) < 32 && c != '\n') {
+      out += '?';
+    } else {
+      out += c;
+    }
+  }
+  return out;
+}
+
+std::string element(std::string_view name, std::string_view inside) {
+  return fmt::format("<{0}>{1}</{0}>\n", name, inside);
+}
+
+std::string png_image(std::string_view png, std::string_view alternative) {
+  return fmt::format("<img alt=\"{}\" src=\"data:image/png;base64,{}\">", escape(alternative), base64(png));
+}
+
+std::string inline_svg(std::string_view svg) {
+  const std::size_t begin = svg.find("<svg");
+  return std::string(begin == std::string_view::npos ? "" : svg.substr(begin));
+}
+
+}  // namespace sweepscope::html

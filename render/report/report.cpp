@@ -1,0 +1,219 @@
+#include "render/report/report.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string_view>
+
+#include "render/comparison.hpp"
+#include "render/curve_charts.hpp"
+#include "render/figures/figure_pictures.hpp"
+#include "render/report/html.hpp"
+#include "render/vector_file.hpp"
+
+namespace sweepscope {
+namespace {
+
+// Legible on paper and on a phone: one column, pictures that shrink, wide ones that scroll.
+constexpr std::string_view kStyleSheet = R"(
+:root { color-scheme: light; }
+body { margin: 0 auto; max-width: 68rem; padding: 1.5rem 1.25rem 4rem; background: #fff; color: #1a1e24;
+  font: 1rem/1.55 "DejaVu Sans", Verdana, system-ui, sans-serif; }
+h1 { font-size: 1.5rem; margin: 0 0 .25rem; overflow-wrap: anywhere; }
+h2 { font-size: 1.15rem; margin: 2.5rem 0 .75rem; }
+p { max-width: 46rem; }
+.answer { margin: 1.25rem 0; padding: 1rem 1.25rem; border-left: .35rem solid #0072b2; background: #f2f6fa; }
+.answer.refused { border-color: #b77800; background: #fdf7ea; }
+.number { font-size: 2rem; font-weight: bold; }
+.equation, code { font-family: "DejaVu Sans Mono", ui-monospace, monospace; font-size: .95em; }
+table { border-collapse: collapse; margin: .5rem 0; }
+th, td { text-align: left; padding: .3rem 1.25rem .3rem 0; border-bottom: 1px solid #e0e4e9; vertical-align: top; }
+th { font-weight: normal; color: #5c6572; }
+td.number-cell, th.number-cell { text-align: right; font-variant-numeric: tabular-nums; }
+ul.warnings { padding-left: 1.2rem; }
+figure { margin: 1rem 0; overflow-x: auto; }
+figure > img, figure > svg { display: block; width: 100%; height: auto; min-width: 40rem; }
+.charts { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(28rem, 100%), 1fr)); gap: 1rem; }
+.charts > svg { display: block; width: 100%; height: auto; }
+figcaption, .caption { color: #5c6572; font-size: .9rem; margin-top: .4rem; }
+pre { white-space: pre-wrap; overflow-wrap: anywhere; background: #f6f7f9; padding: .75rem 1rem; }
+@media print {
+  body { max-width: none; padding: 0; font-size: 10pt; }
+  figure, .answer, table, .charts > svg { break-inside: avoid; }
+  .charts { grid-template-columns: 1fr 1fr; }
+  figure { overflow: visible; }
+  figure > img, figure > svg { min-width: 0; }
+  h2 { break-after: avoid; }
+}
+)";
+
+std::string offset_text(double offset_s, const std::optional<double>& sigma_s) {
+  std::string text = fmt::format("{}{:.2f} ms", offset_s < 0 ? "−" : "", std::abs(offset_s) * 1e3);
+  if (sigma_s) text += fmt::format(" ± {:.2f} ms", *sigma_s * 1e3);
+  return text;
+}
+
+std::string method_text(const Estimate& estimate) {
+  if (estimate.method == "stationary")
+    return "the offset at which the odometry of a rig that stands still registers least motion (d)";
+  if (estimate.method == "moving")
+    return "the offset at which the points match the map best: least mean distance per match (e), confirmed "
+           "by "
+           "the number of matches (n)";
+  if (estimate.method == "direct")
+    return "the offset as an unknown of the least squares between the sweeps of both directions";
+  return estimate.method;
+}
+
+std::string answer(const Estimate& estimate) {
+  if (!estimate.identifiable || !estimate.offset_s) {
+    std::string reasons;
+    for (const std::string& reason : estimate.reasons) reasons += html::element("li", html::escape(reason));
+    return "<div class=\"answer refused\"><div><b>This recording does not tell the offset.</b></div>" +
+           html::element("ul", reasons) + "</div>\n";
+  }
+  return fmt::format(
+      "<div class=\"answer\"><div class=\"number\">{}</div>\n<div class=\"equation\">t_motor = t_laser + "
+      "offset</div>\n<p>Add it to a laser stamp to read the motor's clock. Found as {}.{}</p></div>\n",
+      offset_text(*estimate.offset_s, estimate.sigma_s), method_text(estimate),
+      estimate.sigma_s ? " The uncertainty is one standard deviation." : "");
+}
+
+std::string criteria_table(const Estimate& estimate) {
+  if (estimate.criteria.empty()) return "";
+  std::string rows =
+      "<tr><th>criterion</th><th class=\"number-cell\">offset</th><th "
+      "class=\"number-cell\">value</th></tr>\n";
+  for (const CriterionOptimum& one : estimate.criteria) {
+    const std::string value = one.name == "e"   ? fmt::format("{:.2f} mm", one.value * 1e3)
+                              : one.name == "n" ? fmt::format("{:.0f} matches", one.value)
+                                                : fmt::format("{:.4g}", one.value);
+    rows += fmt::format(
+        "<tr><td>{}</td><td class=\"number-cell\">{}</td><td class=\"number-cell\">{}</td></tr>\n",
+        html::escape(one.name), offset_text(one.offset_s, std::nullopt), value);
+  }
+  return html::element("table", rows);
+}
+
+std::string row(std::string_view name, const std::string& value) {
+  return fmt::format("<tr><th>{}</th><td>{}</td></tr>\n", name, html::escape(value));
+}
+
+std::string stream_rows(std::string_view name, const StreamSummary& stream) {
+  const std::string gaps =
+      stream.gaps == 0 ? "no gaps"
+                       : fmt::format("{} gaps, the longest {:.3f} s", stream.gaps, stream.longest_gap_s);
+  return row(fmt::format("{} stamps", name),
+             fmt::format("{} time, {:.2f} Hz over {:.2f} s, {}",
+                         stream.stamp == StampSource::kHeader ? "header" : "receive", stream.rate_hz(),
+                         stream.duration_s, gaps));
+}
+
+std::string recorded(const RecordingSummary& summary) {
+  const LaserSummary& laser = summary.laser;
+  const MotorSummary& motor = summary.motor;
+  const double usable =
+      laser.beams > 0 ? 100.0 * static_cast<double>(laser.usable_beams) / static_cast<double>(laser.beams)
+                      : 0;
+  std::string rows =
+      row("laser", fmt::format("{}: {} scans of {} beams, {:.1f} % of them usable, median range {:.2f} m",
+                               laser.topic, laser.used, laser.most_beams, usable, laser.median_range_m));
+  rows += stream_rows("laser", laser);
+  rows += row("motor", fmt::format("{} on {}: {} samples, {:.1f} to {:.1f}°", motor.joint, motor.topic,
+                                   motor.used, motor.least_deg, motor.most_deg));
+  rows += stream_rows("motor", motor);
+  rows += row("sweeps",
+              fmt::format("{} whole, {:.3f} s each, at {:.1f}°/s: 1 ms is {:.3g}°", motor.whole_sweeps(),
+                          motor.median_sweep_s, motor.median_speed_deg_s, motor.deg_per_ms()));
+  if (summary.motion) rows += row("the rig is", *summary.motion);
+  return html::element("table", rows);
+}
+
+std::string warnings_list(const ReportContent& content) {
+  std::string items;
+  for (const auto* list : {&content.recording.warnings, &content.estimate.warnings}) {
+    for (const std::string& warning : *list) items += html::element("li", html::escape(warning));
+  }
+  if (items.empty()) return "<p>None.</p>\n";
+  return "<ul class=\"warnings\">" + items + "</ul>\n";
+}
+
+std::string figure(const std::string& picture, const std::string& caption) {
+  return "<figure>" + picture + html::element("figcaption", html::escape(caption)) + "</figure>\n";
+}
+
+Result<std::string> curves(const Estimate& estimate) {
+  std::string pictures;
+  for (const Chart& chart : curve_charts(estimate, {}, style_of(Background::kWhite))) {
+    ComparisonOptions look;
+    look.background = Background::kWhite;
+    look.width_px = 520;
+    look.height_px = 380;
+    const auto svg = encode_svg(charts_picture(std::span(&chart, 1), look));
+    if (!svg) return svg;
+    pictures += html::inline_svg(*svg);
+  }
+  if (pictures.empty()) return pictures;
+  return html::element("h2", "The criteria over the offset") + "<div class=\"charts\">" + pictures +
+         "</div>\n<p class=\"caption\">Each point is one candidate offset; a larger mark is the criterion's "
+         "best.</p>\n";
+}
+
+Result<std::string> maps(const ReportContent& content) {
+  if (content.maps.empty()) return std::string();
+  ComparisonOptions look;
+  look.background = Background::kLight;
+  look.title = content.recording.name;
+  look.width_px = 1800;
+  look.height_px = 1100;
+  return comparison_picture(content.maps, nullptr, look).and_then(draw).map([](const Image& image) {
+    return html::element("h2", "The map 5 ms off, and at the answer") +
+           figure(html::png_image(encode_png(image), "Two maps from above, side by side"),
+                  "All else is equal. Where the right picture is the sharper one, the answer is the better "
+                  "offset.");
+  });
+}
+
+Result<std::string> profile(const ReportContent& content) {
+  if (!content.section || content.maps.empty()) return std::string();
+  std::vector<NamedProfile> profiles;
+  std::string caption = "Points across one wall";
+  for (const ComparedMap& map : content.maps) {
+    const std::string name = fmt::format("offset {} ms", offset_label_ms(*map.offset_s));
+    profiles.push_back({name, profile_across(*map.cloud, *content.section)});
+    const auto width_mm = profiles.back().profile.width_at_half_height_mm;
+    if (width_mm) caption += fmt::format("; {}: {:.0f} mm wide at half height", name, *width_mm);
+  }
+  ComparisonOptions look;
+  look.background = Background::kLight;
+  look.width_px = 1300;
+  look.height_px = 620;
+  const Picture picture = profile_picture(content.maps, *content.section, profiles, look);
+  return encode_svg(picture).map([&](const std::string& svg) {
+    return html::element("h2", "Profile across the wall that shows it best") +
+           figure(html::inline_svg(svg), caption + ".");
+  });
+}
+
+}  // namespace
+
+Result<std::string> report_html(const ReportContent& content) {
+  const auto curve_part = curves(content.estimate), map_part = maps(content), profile_part = profile(content);
+  for (const auto* part : {&curve_part, &map_part, &profile_part}) {
+    if (!*part) return tl::unexpected(part->error());
+  }
+  const std::string name = html::escape(content.recording.name);
+  return fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+      "<title>{0}: offset between laser and motor</title>\n<style>{1}</style>\n</head>\n<body>\n"
+      "<h1>{0}</h1>\n<p>Offset between the laser scanner's clock and its motor's.</p>\n{2}{3}"
+      "<h2>Warnings</h2>\n{4}{5}{6}{7}<h2>What was recorded</h2>\n{8}"
+      "<h2>How this was made</h2>\n<p>{9} sweeps, {10} scans; sweepscope {11}.</p>\n<pre>{12}</pre>\n"
+      "</body>\n</html>\n",
+      name, kStyleSheet, answer(content.estimate), criteria_table(content.estimate), warnings_list(content),
+      *curve_part, *map_part, *profile_part, recorded(content.recording), content.estimate.sweeps,
+      content.estimate.scans, SWEEPSCOPE_VERSION, html::escape(content.command));
+}
+
+}  // namespace sweepscope

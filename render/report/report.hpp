@@ -1,0 +1,30 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/map/cross_section.hpp"
+#include "core/offset/estimate.hpp"
+#include "core/recording/inspect.hpp"
+#include "render/compared_map.hpp"
+
+namespace sweepscope {
+
+/// What a report tells. The maps are those 5 ms off and at the answer; where there is no answer there are
+/// none.
+struct ReportContent {
+  std::string command;  // as it was typed
+  RecordingSummary recording;
+  Estimate estimate;
+  std::vector<ComparedMap> maps;
+  std::optional<CrossSection> section;  // the face that shows the offset best, where there is one
+};
+
+/// One self-contained HTML page: what was recorded, the answer with its equation and uncertainty or the
+/// reasons why there is none, the criteria, the maps, a profile, warnings, and how it was made. Its pictures
+/// are inside; it holds no clock and no host, needs no network, and can be printed.
+Result<std::string> report_html(const ReportContent& content);
+
+}  // namespace sweepscope

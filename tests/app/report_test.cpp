@@ -1,0 +1,54 @@
+#include <gtest/gtest.h>
+
+#include "tests/app/program.hpp"
+
+namespace sweepscope {
+namespace {
+
+class ReportCommand : public test::ProgramTest {
+ protected:
+  std::string page() const { return test::contents_of(folder_ / "out/report.html"); }
+};
+
+TEST_F(ReportCommand, IsOnePageWithTheAnswerAndItsEvidence) {
+  ASSERT_EQ(run("simulate room-3 -o 'a <room>.bag' --offset-ms 7 --duration-s 4").exit_code, 0);
+  const Outcome outcome = run("report 'a <room>.bag' -o out --threads 2");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.out, "out/report.html\n");
+  const std::string html = page();
+  for (const char* part : {"t_motor = t_laser + offset", "7.0", "What was recorded", "Warnings", "<svg",
+                           "data:image/png;base64,", "sweepscope " SWEEPSCOPE_VERSION,
+                           "sweepscope report 'a &lt;room&gt;.bag' -o out --threads 2"}) {
+    EXPECT_NE(html.find(part), std::string::npos) << part;
+  }
+  EXPECT_EQ(html.find("<room>"), std::string::npos) << "names are escaped";
+  EXPECT_EQ(html.find("src=\"http"), std::string::npos);
+  EXPECT_EQ(html.find("<script"), std::string::npos);
+}
+
+TEST_F(ReportCommand, IsTheSameToTheByteEachTime) {
+  ASSERT_EQ(run("simulate room-3 -o r.bag --duration-s 4").exit_code, 0);
+  ASSERT_EQ(run("report r.bag -o out").exit_code, 0);
+  const std::string first = page();
+  ASSERT_EQ(run("report r.bag -o out").exit_code, 0);
+  EXPECT_EQ(page(), first);
+}
+
+TEST_F(ReportCommand, ARecordingThatCannotAnswerGetsThePageWithTheReasons) {
+  ASSERT_EQ(run("simulate room-1 -o stuck.bag --motor stuck --duration-s 3").exit_code, 0);
+  const Outcome outcome = run("report stuck.bag -o out");
+  EXPECT_EQ(outcome.exit_code, 4);
+  EXPECT_NE(page().find("does not tell the offset"), std::string::npos);
+  EXPECT_NE(page().find("The motor does not move"), std::string::npos);
+}
+
+TEST_F(ReportCommand, AFolderThatCannotBeMadeIsSaidInASentence) {
+  ASSERT_EQ(run("simulate room-1 -o r.bag --duration-s 3").exit_code, 0);
+  std::ofstream(folder_ / "taken") << "a file";
+  const Outcome outcome = run("report r.bag -o taken");
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_NE(outcome.err.find("taken"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace sweepscope

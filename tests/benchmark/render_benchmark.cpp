@@ -1,0 +1,134 @@
+// Drawing against a bare VTK render of the same points. Run by hand: build/bin/sweepscope_render_benchmark
+#include <benchmark/benchmark.h>
+#include <vtkActor.h>
+#include <vtkCamera.h>
+#include <vtkCellArray.h>
+#include <vtkFloatArray.h>
+#include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkRenderer.h>
+#include <vtkTypeInt64Array.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "render/comparison.hpp"
+#include "render/gl/vtk_window.hpp"
+#include "render/picture.hpp"
+#include "tests/render/synthetic_maps.hpp"
+
+namespace sweepscope {
+namespace {
+
+using benchmark::State;
+
+constexpr std::size_t kPoints = 2'000'000;
+
+/// Two maps of a hall, in the order of time, as files hold them.
+const std::vector<ComparedMap>& maps() {
+  static const std::vector<ComparedMap> made = [] {
+    std::vector<ComparedMap> both(2);
+    both[0].cloud = test::HallMap(0.03, kPoints).make();
+    both[1].cloud = test::HallMap(0, kPoints).make();
+    return both;
+  }();
+  return made;
+}
+
+ComparisonOptions all_heights() {
+  ComparisonOptions options;
+  options.slabs = {{-100, 100}};
+  options.with_close_up = false;
+  return options;
+}
+
+vtkSmartPointer<vtkPolyData> bare(const MapCloud& cloud) {
+  vtkNew<vtkFloatArray> xyz;
+  xyz->SetNumberOfComponents(3);
+  vtkNew<vtkUnsignedCharArray> colours;
+  colours->SetNumberOfComponents(3);
+  const auto count = static_cast<vtkIdType>(cloud.size());
+  xyz->SetNumberOfTuples(count);
+  colours->SetNumberOfTuples(count);
+  for (vtkIdType i = 0; i < count; ++i) {
+    const MapPoint& point = cloud[static_cast<std::size_t>(i)];
+    xyz->SetTuple3(i, static_cast<double>(point.x), static_cast<double>(point.y),
+                   static_cast<double>(point.z));
+    const auto level = static_cast<unsigned char>(40 * (static_cast<double>(point.z) + 2));
+    colours->SetTypedComponent(i, 0, level);
+    colours->SetTypedComponent(i, 1, 128);
+    colours->SetTypedComponent(i, 2, 200);
+  }
+  vtkNew<vtkTypeInt64Array> offsets, connectivity;
+  offsets->InsertNextValue(0);
+  offsets->InsertNextValue(count);
+  connectivity->SetNumberOfValues(count);
+  std::iota(connectivity->GetPointer(0), connectivity->GetPointer(0) + count, vtkIdType{0});
+  vtkNew<vtkCellArray> cells;
+  cells->SetData(offsets, connectivity);
+  vtkNew<vtkPoints> points;
+  points->SetData(xyz);
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  data->SetPoints(points);
+  data->SetVerts(cells);
+  data->GetPointData()->SetScalars(colours);
+  return data;
+}
+
+/// One frame of both maps side by side at the size at which pictures are drawn, data conversion included.
+void bare_vtk_render(State& state) {
+  for (auto _ : state) {
+    auto offscreen = gl::OffscreenWindow::create(3840, 2400).value();
+    for (std::size_t m = 0; m < 2; ++m) {
+      vtkNew<vtkPolyDataMapper> mapper;
+      mapper->SetInputData(bare(*maps()[m].cloud));
+      mapper->SetColorModeToDirectScalars();
+      vtkNew<vtkActor> actor;
+      actor->SetMapper(mapper);
+      actor->GetProperty()->LightingOff();
+      actor->GetProperty()->SetPointSize(2);
+      vtkNew<vtkRenderer> renderer;
+      renderer->SetViewport(0.5 * static_cast<double>(m), 0, 0.5 * static_cast<double>(m + 1), 1);
+      renderer->AddActor(actor);
+      renderer->GetActiveCamera()->SetParallelProjection(true);
+      renderer->ResetCamera();
+      offscreen.window().AddRenderer(renderer);
+    }
+    offscreen.window().Render();
+    vtkNew<vtkUnsignedCharArray> pixels;
+    offscreen.window().GetRGBACharPixelData(0, 0, 3839, 2399, 0, pixels);
+    benchmark::DoNotOptimize(pixels->GetPointer(0));
+  }
+}
+
+/// The whole comparison: heights, colours, spatial order, thinning, marks, drawing and shrinking.
+void comparison(State& state) {
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(comparison_picture(maps(), nullptr, all_heights()).and_then(draw).value());
+  }
+}
+
+/// Its drawing alone, from a picture that is made.
+void drawing(State& state) {
+  const Picture picture = comparison_picture(maps(), nullptr, all_heights()).value();
+  for (auto _ : state) benchmark::DoNotOptimize(draw(picture).value());
+}
+
+BENCHMARK(bare_vtk_render)
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime()
+    ->Iterations(5);
+BENCHMARK(comparison)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime()->Iterations(5);
+BENCHMARK(drawing)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime()->Iterations(5);
+
+}  // namespace
+}  // namespace sweepscope
+
+BENCHMARK_MAIN();

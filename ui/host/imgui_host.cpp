@@ -1,0 +1,138 @@
+#include "ui/host/imgui_host.hpp"
+
+#include <backends/imgui_impl_opengl3.h>
+
+#include <algorithm>
+
+#include "render/gl/default_framebuffer.hpp"
+
+namespace sweepscope::ui {
+namespace {
+
+void map_keys(ImGuiIO& io) {
+  const auto map = [&](ImGuiKey_ key, Key code) { io.KeyMap[key] = code; };
+  map(ImGuiKey_Tab, keys::kTab);
+  map(ImGuiKey_LeftArrow, keys::kLeft);
+  map(ImGuiKey_RightArrow, keys::kRight);
+  map(ImGuiKey_UpArrow, keys::kUp);
+  map(ImGuiKey_DownArrow, keys::kDown);
+  map(ImGuiKey_PageUp, keys::kPageUp);
+  map(ImGuiKey_PageDown, keys::kPageDown);
+  map(ImGuiKey_Home, keys::kHome);
+  map(ImGuiKey_End, keys::kEnd);
+  map(ImGuiKey_Delete, keys::kDelete);
+  map(ImGuiKey_Backspace, keys::kBackspace);
+  map(ImGuiKey_Space, keys::kSpace);
+  map(ImGuiKey_Enter, keys::kEnter);
+  map(ImGuiKey_Escape, keys::kEscape);
+  map(ImGuiKey_A, 'A');
+  map(ImGuiKey_C, 'C');
+  map(ImGuiKey_V, 'V');
+  map(ImGuiKey_X, 'X');
+  map(ImGuiKey_Y, 'Y');
+  map(ImGuiKey_Z, 'Z');
+}
+
+void use_modifiers(ImGuiIO& io, unsigned modifiers) {
+  io.KeyShift = (modifiers & kShift) != 0;
+  io.KeyCtrl = (modifiers & kCtrl) != 0;
+  io.KeyAlt = (modifiers & kAlt) != 0;
+}
+
+void feed(ImGuiIO& io, const InputEvent& event) {
+  switch (event.what) {
+    case InputEvent::What::kMove:
+      io.MousePos = {static_cast<float>(event.x), static_cast<float>(event.y)};
+      break;
+    case InputEvent::What::kButton:
+      io.MouseDown[event.button] = event.down;
+      use_modifiers(io, event.modifiers);
+      break;
+    case InputEvent::What::kWheel:
+      io.MouseWheel += static_cast<float>(event.wheel);
+      break;
+    case InputEvent::What::kKey:
+      if (event.key >= 0 && event.key < IM_ARRAYSIZE(io.KeysDown)) io.KeysDown[event.key] = event.down;
+      use_modifiers(io, event.modifiers);
+      break;
+    case InputEvent::What::kText:
+      io.AddInputCharactersUTF8(event.text.c_str());
+      break;
+    case InputEvent::What::kDrop:
+      break;  // the interface's own business
+  }
+}
+
+bool needs_own_frame(const InputEvent& earlier, const InputEvent& later) {
+  using What = InputEvent::What;
+  if (earlier.what == What::kButton) return later.what == What::kButton || later.what == What::kMove;
+  if (earlier.what == What::kMove) return later.what == What::kMove;
+  if (earlier.what == What::kKey) return later.what == What::kKey && later.key == earlier.key;
+  return false;
+}
+
+}  // namespace
+
+std::size_t events_of_next_frame(std::span<const InputEvent> events) {
+  for (std::size_t i = 1; i < events.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (needs_own_frame(events[j], events[i])) return i;
+    }
+  }
+  return events.size();
+}
+
+ImGuiHost::ImGuiHost(gl::Context& context) : context_(context), imgui_(ImGui::CreateContext()) {
+  ImGui::SetCurrentContext(imgui_);
+  ImGuiIO& io = ImGui::GetIO();
+  io.IniFilename = nullptr;
+  io.LogFilename = nullptr;
+  io.MousePos = {-1, -1};
+  io.ClipboardUserData = this;
+  io.SetClipboardTextFn = [](void* host, const char* text) {
+    static_cast<ImGuiHost*>(host)->clipboard = text;
+  };
+  io.GetClipboardTextFn = [](void* host) { return static_cast<ImGuiHost*>(host)->clipboard.c_str(); };
+  map_keys(io);
+  context_.make_current();
+  ImGui_ImplOpenGL3_Init("#version 150");
+}
+
+ImGuiHost::~ImGuiHost() {
+  ImGui::SetCurrentContext(imgui_);
+  context_.make_current();
+  ImGui_ImplOpenGL3_Shutdown();
+  ImGui::DestroyContext(imgui_);
+}
+
+void ImGuiHost::use(Theme theme, double scale) {
+  ImGui::SetCurrentContext(imgui_);
+  if (theme == theme_ && scale == scale_) return;
+  if (scale != scale_) {
+    fonts_ = load_fonts(scale);
+    ImGui_ImplOpenGL3_DestroyFontsTexture();  // made again with the next frame
+    ImGui_ImplOpenGL3_CreateFontsTexture();
+  }
+  apply_theme(style_of(theme), scale);
+  theme_ = theme;
+  scale_ = scale;
+}
+
+void ImGuiHost::begin_frame(std::span<const InputEvent> events, double seconds_since_last) {
+  ImGui::SetCurrentContext(imgui_);
+  ImGuiIO& io = ImGui::GetIO();
+  io.DisplaySize = {static_cast<float>(context_.width_px()), static_cast<float>(context_.height_px())};
+  io.DeltaTime = static_cast<float>(std::max(seconds_since_last, 1e-4));
+  for (const InputEvent& event : events) feed(io, event);
+  context_.make_current();
+  ImGui_ImplOpenGL3_NewFrame();
+  ImGui::NewFrame();
+}
+
+void ImGuiHost::end_frame(Colour background) {
+  ImGui::Render();
+  gl::begin_default_framebuffer(context_, background);
+  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
+
+}  // namespace sweepscope::ui

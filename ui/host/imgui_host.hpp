@@ -1,0 +1,50 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+
+#include "render/gl/context.hpp"
+#include "render/image.hpp"
+#include "ui/host/input.hpp"
+#include "ui/host/theme.hpp"
+
+struct ImGuiContext;
+
+namespace sweepscope::ui {
+
+/// Dear ImGui on an OpenGL context, be there a window behind it or not: it is fed with our own events and
+/// draws into the default framebuffer.
+class ImGuiHost {
+ public:
+  /// The context must outlive it.
+  explicit ImGuiHost(gl::Context& context);
+  ~ImGuiHost();
+  ImGuiHost(const ImGuiHost&) = delete;
+  ImGuiHost& operator=(const ImGuiHost&) = delete;
+
+  /// Fonts, margins and colours for a display's scale; nothing where they are so already.
+  void use(Theme theme, double scale);
+  const Fonts& fonts() const { return fonts_; }
+
+  /// The events must belong into one frame: see split_into_frames.
+  void begin_frame(std::span<const InputEvent> events, double seconds_since_last);
+  /// Draws what the panes made.
+  void end_frame(Colour background);
+
+  /// What copying puts and pasting takes; a window connects it with the system's.
+  std::string clipboard;
+
+ private:
+  gl::Context& context_;
+  ImGuiContext* imgui_;
+  Fonts fonts_;
+  Theme theme_ = Theme::kDark;
+  double scale_ = 0;
+};
+
+/// How many of the events go into the next frame: a press and a release of one button or key need a frame
+/// each.
+std::size_t events_of_next_frame(std::span<const InputEvent> events);
+
+}  // namespace sweepscope::ui

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <imgui.h>
+
+#include "render/drawing.hpp"
+#include "ui/host/theme.hpp"
+
+namespace sweepscope::ui {
+
+/// Paints flat marks on an ImGui draw list: the same charts as in the pictures for reports. Places are the
+/// window's pixels.
+void paint(ImDrawList& list, const Drawing& drawing, const Fonts& fonts);
+
+void paint_text(ImDrawList& list, const TextMark& mark, const Fonts& fonts);
+
+}  // namespace sweepscope::ui

@@ -1,0 +1,157 @@
+#pragma once
+
+#include <array>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/offset/estimate.hpp"
+#include "ui/model/background.hpp"
+#include "ui/model/placed_cloud.hpp"
+#include "ui/state/commands.hpp"
+#include "ui/state/history.hpp"
+
+namespace sweepscope::ui {
+
+enum class Side { kA, kB };
+inline constexpr std::array kBothSides{Side::kA, Side::kB};
+
+/// How far the map of a pane is.
+enum class PaneState {
+  kEmpty,        // no recording
+  kProvisional,  // nothing solved yet: the first second, as if the rig stood still
+  kPreview,      // beams placed along the path that was solved for another offset
+  kSolved,       // odometry and mapping at this very offset
+};
+
+/// What points of a pane are to be placed where, and coloured how.
+struct CloudRequest {
+  Placement placement;
+  CloudLook look;
+  std::optional<Placement> other;  // of the difference: what the distances are taken from
+
+  bool operator==(const CloudRequest&) const = default;
+};
+
+/// What a pane shows.
+struct Pane {
+  PaneState state = PaneState::kEmpty;
+  std::optional<CloudRequest> request;
+  PlacedCloudPtr coarse, full;  // full is null while it is being placed
+  std::string problem;          // why the map could not be solved
+  bool lost = false;
+};
+
+struct Message {
+  enum class Kind { kNote, kError };
+  Kind kind = Kind::kNote;
+  std::string text;
+};
+
+/// Everything of the explorer but pixels: settings and their history, the recording, the maps, the estimate,
+/// and the work in the background. Used by one thread.
+class Explorer {
+ public:
+  struct Options {
+    ReadOptions reading;
+    std::optional<Method> assume;
+    std::string shell_options;  // " --rig F ...", repeated in command lines that are copied
+  };
+  Explorer() : Explorer(Options()) {}
+  explicit Explorer(Options options);
+
+  const Settings& settings() const { return settings_; }
+  const Loaded* loaded() const { return loaded_.get(); }
+  const Estimate* estimate() const { return estimate_ ? &*estimate_ : nullptr; }
+  const Pane& pane(Side side) const { return panes_[static_cast<std::size_t>(side)]; }
+  const std::optional<Message>& message() const { return message_; }
+  bool is_loading() const { return background_.has("load"); }
+  bool can_undo() const { return history_.can_undo(); }
+  bool can_redo() const { return history_.can_redo(); }
+  Background& background() { return background_; }
+  const Background& background() const { return background_; }
+  ColourSpan shown_span() const { return {look_.from, look_.to}; }
+
+  /// Carries out a command; what it does not know itself goes to `at_window`. `gesture`: changes in a row
+  /// with the same one are undone as one.
+  Result<void> perform(const Call& call, const std::string& gesture = {});
+  Result<void> perform(std::string_view line, const std::string& gesture = {});
+  std::function<Result<void>(const Call&)> at_window;
+
+  /// While one is held, offsets are previewed and nothing is solved.
+  void hold_handle(bool held) { handle_held_ = held; }
+
+  /// Once per frame: takes what is finished, and starts what the settings ask for.
+  void update(double seconds_since_last);
+  /// Whether nothing runs and every pane shows all that its settings ask for.
+  bool at_rest() const;
+  void dismiss_message() { message_.reset(); }
+  void say(Message::Kind kind, std::string text) { message_ = Message{kind, std::move(text)}; }
+
+  /// In words, what is shown: the status line.
+  std::string status() const;
+  /// A number or word of the present state, for scripts: see observable_names().
+  std::optional<std::string> observe(std::string_view name) const;
+  static std::vector<std::pair<std::string, std::string>> observables();
+
+  std::string session_json() const;
+  /// The shell command that makes the present picture at this size.
+  std::string command_line(int width_px, int height_px) const;
+
+ private:
+  Result<void> act(const Call& call);
+  Result<void> open(const std::string& path);
+  Result<void> start_loading(const std::string& title, std::function<Result<LoadedPtr>(const Job&)> load);
+  void take(LoadedPtr loaded);
+  void close();
+  Result<void> start_estimate();
+  void take(Estimate estimate);
+  Result<void> save_session(const std::string& path);
+  Result<void> export_cloud(const std::string& side, const std::string& path);
+  Result<void> export_curve(const std::string& path);
+  void change_settings(Settings next, const std::string& gesture);
+  void fit_view();
+
+  bool standing() const;
+  double offset_s(Side side) const;
+  SolvedMapPtr solved_at(double offset_s) const;
+  SolvedMapPtr nearest_solved(double offset_s) const;
+  Pane& pane_of(Side side) { return panes_[static_cast<std::size_t>(side)]; }
+  Placement placement_of(Side side) const;
+  CloudLook wanted_look(const SolvedMap* a, const SolvedMap* b);
+  void update_panes(double seconds_since_last);
+  void show(Side side, CloudRequest request);
+  void start_full(Side side);
+  void update_solving();
+  void keep_solved(std::int64_t offset_ns, Result<SolvedMapPtr> solved);
+
+  Options options_;
+  Settings settings_;
+  History history_;
+  LoadedPtr loaded_;
+  std::optional<Estimate> estimate_;
+  std::optional<Message> message_;
+  std::map<std::int64_t, SolvedMapPtr> solved_;  // by the offset in nanoseconds
+  std::map<std::int64_t, std::string> unsolvable_;
+  std::vector<std::int64_t> solved_order_;  // oldest first
+  SolvedMapPtr provisional_;
+  CloudLook look_;
+  ColourSpan span_;  // of the colouring, for the two maps below
+  Colouring span_colouring_ = Colouring::kElevation;
+  std::array<const SolvedMap*, 2> span_maps_{nullptr, nullptr};
+  std::array<Pane, 2> panes_;
+  std::array<double, 2> rest_s_{0, 0};  // since the pane's coarse points changed
+  std::array<std::string, 2> placing_;  // keys of the jobs that place all points
+  std::size_t placings_ = 0;
+  bool handle_held_ = false;
+  bool b_was_set_ = false;  // by a person, since the recording was opened
+  bool view_fitted_ = false;
+  std::optional<Settings> session_settings_;  // to take over once the recording is there
+  std::optional<Estimate> session_estimate_;
+  Background background_;  // last: its threads end before what they use
+};
+
+}  // namespace sweepscope::ui

@@ -1,0 +1,191 @@
+#include <algorithm>
+#include <cmath>
+
+#include "core/io/atomic_file.hpp"
+#include "ui/model/explorer.hpp"
+
+namespace sweepscope::ui {
+namespace {
+
+constexpr double kRest_s = 0.15;       // after the last change, before all points are placed
+constexpr std::size_t kMostKept = 12;  // solved maps
+
+std::int64_t to_ns(double offset_s) {
+  return static_cast<std::int64_t>(std::llround(offset_s * 1e9));
+}
+
+std::string solve_key(std::int64_t offset_ns) {
+  return "solve " + std::to_string(offset_ns);
+}
+
+}  // namespace
+
+bool Explorer::standing() const {
+  if (options_.assume) return *options_.assume == Method::kStationary;
+  return !loaded_->moving.value_or(false);
+}
+
+double Explorer::offset_s(Side side) const {
+  return (side == Side::kA ? settings_.offset_a_ms : settings_.offset_b_ms) * 1e-3;
+}
+
+SolvedMapPtr Explorer::solved_at(double offset_s) const {
+  const auto found = solved_.find(to_ns(offset_s));
+  return found != solved_.end() ? found->second : nullptr;
+}
+
+SolvedMapPtr Explorer::nearest_solved(double offset_s) const {
+  SolvedMapPtr nearest;
+  for (const auto& [ns, map] : solved_) {
+    if (!nearest || std::abs(map->offset_s - offset_s) < std::abs(nearest->offset_s - offset_s))
+      nearest = map;
+  }
+  return nearest;
+}
+
+Placement Explorer::placement_of(Side side) const {
+  const double offset = offset_s(side);
+  SolvedMapPtr map = standing() ? provisional_ : solved_at(offset);
+  if (!map) map = nearest_solved(offset);
+  if (!map) map = provisional_;
+  return {loaded_, std::move(map), offset};
+}
+
+CloudLook Explorer::wanted_look(const SolvedMap* a, const SolvedMap* b) {
+  const Settings& s = settings_;
+  if (span_maps_[0] != a || span_maps_[1] != b || span_colouring_ != s.colouring) {
+    span_ = colour_span(s.colouring, *loaded_, a, b);
+    span_maps_ = {a, b};
+    span_colouring_ = s.colouring;
+  }
+  return {.colouring = s.colouring,
+          .table = s.table,
+          .from = span_.from,
+          .to = span_.to,
+          .heights = s.heights,
+          .slab_from_m = s.slab_from_m,
+          .slab_to_m = s.slab_to_m,
+          .time_from_s = s.time_from_s,
+          .time_to_s = s.time_to_s};
+}
+
+void Explorer::update(double seconds_since_last) {
+  background_.take_finished();
+  if (!loaded_) {
+    panes_ = {};
+    return;
+  }
+  update_panes(seconds_since_last);
+  update_solving();
+}
+
+void Explorer::update_panes(double seconds_since_last) {
+  const Placement a = placement_of(Side::kA), b = placement_of(Side::kB);
+  look_ = wanted_look(a.map.get(), b.map.get());
+  CloudRequest at_a{a, look_, {}}, at_b{b, look_, {}};
+  if (settings_.layout == Layout::kDifference) {
+    at_b.other = a;
+    const auto& shown = pane(Side::kB).request;
+    const bool same = shown && shown->other && shown->placement == b && *shown->other == a;
+    at_b.look.from = 0;
+    at_b.look.to = same ? shown->look.to : difference_span_mm(b, a);
+    look_ = at_b.look;
+  }
+  show(Side::kA, std::move(at_a));
+  show(Side::kB, std::move(at_b));
+  for (const Side side : kBothSides) {
+    double& rest_s = rest_s_[static_cast<std::size_t>(side)];
+    rest_s += seconds_since_last;
+    if (rest_s >= kRest_s && !handle_held_) start_full(side);
+  }
+}
+
+void Explorer::show(Side side, CloudRequest request) {
+  Pane& pane = pane_of(side);
+  const SolvedMap& map = *request.placement.map;
+  const bool exact = standing() || to_ns(map.offset_s) == to_ns(request.placement.offset_s);
+  pane.state = map.provisional ? PaneState::kProvisional : exact ? PaneState::kSolved : PaneState::kPreview;
+  pane.lost = map.lost;
+  const auto why = unsolvable_.find(to_ns(request.placement.offset_s));
+  pane.problem = why != unsolvable_.end() ? why->second : "";
+  if (pane.request == request) return;
+  const Placement* other = request.other ? &*request.other : nullptr;
+  pane.coarse = std::make_shared<PlacedCloud>(place_cloud(request.placement, request.look, true, other));
+  pane.full = nullptr;
+  pane.request = std::move(request);
+  rest_s_[static_cast<std::size_t>(side)] = 0;
+  background_.cancel(placing_[static_cast<std::size_t>(side)]);
+}
+
+void Explorer::start_full(Side side) {
+  Pane& pane = pane_of(side);
+  std::string& key = placing_[static_cast<std::size_t>(side)];
+  if (pane.full || !pane.request || (!key.empty() && background_.has(key))) return;
+  key = "place " + std::to_string(++placings_);
+  const std::string title = side == Side::kA ? "Placing all points of A" : "Placing all points of B";
+  background_.start("place", key, title, [this, side, request = *pane.request](const Job&) {
+    const Placement* other = request.other ? &*request.other : nullptr;
+    auto cloud = std::make_shared<PlacedCloud>(place_cloud(request.placement, request.look, false, other));
+    return [this, side, request, cloud] {
+      Pane& target = pane_of(side);
+      if (target.request == request) target.full = cloud;
+    };
+  });
+}
+
+void Explorer::update_solving() {
+  if (standing()) return;
+  std::vector<std::int64_t> wanted;
+  for (const Side side : kBothSides) {
+    const std::int64_t ns = to_ns(offset_s(side));
+    if (!solved_.contains(ns) && !unsolvable_.contains(ns) &&
+        std::find(wanted.begin(), wanted.end(), ns) == wanted.end())
+      wanted.push_back(ns);
+  }
+  for (const std::string& key : background_.keys("solve ")) {
+    const bool still =
+        std::any_of(wanted.begin(), wanted.end(), [&](auto ns) { return solve_key(ns) == key; });
+    if (!still) background_.cancel(key);
+  }
+  if (handle_held_) return;
+  for (const std::int64_t ns : wanted) {
+    if (background_.has(solve_key(ns))) continue;
+    const double offset_s = static_cast<double>(ns) * 1e-9;
+    background_.start("solve", solve_key(ns), "Solving the map",
+                      [this, ns, offset_s, loaded = loaded_, assume = options_.assume](const Job& job) {
+                        auto solved =
+                            std::make_shared<Result<SolvedMapPtr>>(solve_map(*loaded, offset_s, assume, job));
+                        return [this, ns, solved] { keep_solved(ns, *solved); };
+                      });
+  }
+}
+
+void Explorer::keep_solved(std::int64_t offset_ns, Result<SolvedMapPtr> solved) {
+  if (!solved) {
+    unsolvable_[offset_ns] = solved.error().message;
+    return;
+  }
+  const bool first = solved_.empty();
+  solved_[offset_ns] = *solved;
+  solved_order_.push_back(offset_ns);
+  if (solved_order_.size() > kMostKept) {
+    solved_.erase(solved_order_.front());
+    solved_order_.erase(solved_order_.begin());
+  }
+  if (!first || view_fitted_) return;
+  update_panes(0);  // the first whole map: its extent is known now
+  fit_view();
+}
+
+bool Explorer::at_rest() const {
+  if (background_.busy()) return false;
+  if (!loaded_) return true;
+  for (const Side side : kBothSides) {
+    const Pane& shown = pane(side);
+    if (!shown.full) return false;
+    if (shown.state != PaneState::kSolved && shown.problem.empty()) return false;
+  }
+  return true;
+}
+
+}  // namespace sweepscope::ui

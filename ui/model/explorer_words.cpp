@@ -1,0 +1,122 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "render/curve_charts.hpp"
+#include "ui/model/explorer.hpp"
+
+namespace sweepscope::ui {
+namespace {
+
+std::string ms(double offset_s) {
+  return offset_label_ms(offset_s) + " ms";
+}
+
+std::string points_in_words(std::size_t count) {
+  if (count >= 1000000) return fmt::format("{:.2f} million points", static_cast<double>(count) / 1e6);
+  if (count >= 1000) return fmt::format("{} thousand points", (count + 500) / 1000);
+  return fmt::format("{} points", count);
+}
+
+std::string shown(const Pane& pane) {
+  if (!pane.request) return "nothing";
+  const Placement& placement = pane.request->placement;
+  const std::string at = ms(placement.offset_s);
+  switch (pane.state) {
+    case PaneState::kEmpty:
+      return "nothing";
+    case PaneState::kProvisional:
+      return "the first second at " + at + ", not solved yet";
+    case PaneState::kPreview:
+      return at + ", previewed along the path solved at " + ms(placement.map->offset_s);
+    case PaneState::kSolved:
+      return at + (pane.lost ? ", where LOAM lost track" : "");
+  }
+  return "";
+}
+
+std::string state_word(const Pane& pane) {
+  constexpr std::array<const char*, 4> kWords{"empty", "provisional", "preview", "solved"};
+  return kWords[static_cast<std::size_t>(pane.state)];
+}
+
+std::string estimate_word(const Estimate* estimate) {
+  if (estimate == nullptr) return "none";
+  return estimate->identifiable ? "found" : "refused";
+}
+
+}  // namespace
+
+std::string Explorer::status() const {
+  if (!loaded_) return is_loading() ? "Opening a recording." : "No recording is open.";
+  const Pane &a = pane(Side::kA), &b = pane(Side::kB);
+  std::string text;
+  switch (settings_.layout) {
+    case Layout::kOnlyA:
+      text = "Map A: " + shown(a);
+      break;
+    case Layout::kOnlyB:
+      text = "Map B: " + shown(b);
+      break;
+    case Layout::kDifference:
+      text = "How far each point of B (" + shown(b) + ") lies from its place in A (" + shown(a) + ")";
+      break;
+    case Layout::kSideBySide:
+    case Layout::kSwipe:
+      text = "A: " + shown(a) + ".  B: " + shown(b);
+      break;
+  }
+  const PlacedCloudPtr& cloud = b.full ? b.full : b.coarse;
+  if (cloud) text += ".  " + points_in_words(cloud->points->size()) + (b.full ? "" : ", thinned");
+  return text + ".";
+}
+
+std::vector<std::pair<std::string, std::string>> Explorer::observables() {
+  return {{"recording", "the name of the recording; empty without one"},
+          {"kind", "stationary, moving or unknown"},
+          {"state-a, state-b", "empty, provisional, preview or solved"},
+          {"points-a, points-b", "how many points the pane shows"},
+          {"estimate", "none, found or refused"},
+          {"found-ms", "the offset found"},
+          {"message", "what the interface says in front of all; empty where nothing"},
+          {"status", "the status line"},
+          {"jobs", "how many jobs run or wait"},
+          {"(a setting)", "its value, as its command takes it: offset-a, layout, table, ..."}};
+}
+
+std::optional<std::string> Explorer::observe(std::string_view name) const {
+  const auto points = [&](Side side) {
+    const PlacedCloudPtr& cloud = pane(side).full ? pane(side).full : pane(side).coarse;
+    return std::to_string(cloud ? cloud->points->size() : 0);
+  };
+  if (name == "recording") return loaded_ ? loaded_->recording.name : "";
+  if (name == "kind")
+    return !loaded_ || !loaded_->moving ? "unknown" : *loaded_->moving ? "moving" : "stationary";
+  if (name == "state-a") return state_word(pane(Side::kA));
+  if (name == "state-b") return state_word(pane(Side::kB));
+  if (name == "points-a") return points(Side::kA);
+  if (name == "points-b") return points(Side::kB);
+  if (name == "estimate") return estimate_word(estimate());
+  if (name == "found-ms")
+    return estimate_ && estimate_->offset_s ? fmt::format("{:.4f}", *estimate_->offset_s * 1e3) : "";
+  if (name == "message") return message_ ? message_->text : "";
+  if (name == "status") return status();
+  if (name == "jobs") return std::to_string(background_.status().size());
+  const Command* command = find_command(name);
+  if (command == nullptr || !command->is_field()) return std::nullopt;
+  std::string words;
+  for (const Value& value : command->get(settings_)) words += (words.empty() ? "" : " ") + to_word(value);
+  return words;
+}
+
+std::string Explorer::command_line(int width_px, int height_px) const {
+  std::string lines;
+  if (loaded_ && loaded_->shell.empty()) lines += loaded_->source + "; wait loaded; ";
+  for (const std::string& line : lines_to_reach(settings_)) lines += line + "; ";
+  if (estimate_) lines += "estimate; ";
+  return fmt::format(
+      "sweepscope view {}{} --headless --size {}x{} --run '{}wait solved; screenshot picture.png'",
+      loaded_ ? loaded_->shell : "", options_.shell_options, width_px, height_px, lines);
+}
+
+}  // namespace sweepscope::ui

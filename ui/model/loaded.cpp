@@ -1,0 +1,51 @@
+#include "ui/model/loaded.hpp"
+
+#include <fmt/format.h>
+
+#include "core/offset/motion_test.hpp"
+#include "core/simulation/simulate.hpp"
+#include "ui/state/value.hpp"
+
+namespace sweepscope::ui {
+namespace {
+
+Result<LoadedPtr> finish(std::shared_ptr<Loaded> loaded, const Job& job) {
+  job.report("looking at it", 0);
+  loaded->summary = inspect(loaded->recording);
+  loaded->motor = find_sweeps(loaded->recording.motor);
+  loaded->beams = collect_beams(loaded->recording);
+  const auto motion = test_motion(loaded->recording, job);
+  if (!motion) return tl::unexpected(motion.error());
+  if (motion->answered()) {
+    loaded->moving = motion->moving();
+    loaded->summary.motion = motion->moving() ? "moving" : "stationary";
+  }
+  return LoadedPtr(std::move(loaded));
+}
+
+}  // namespace
+
+Result<LoadedPtr> load_file(const std::filesystem::path& path, const ReadOptions& options, const Job& job) {
+  auto recording = read_recording(path, options, job);
+  if (!recording) return tl::unexpected(recording.error());
+  auto loaded = std::make_shared<Loaded>();
+  loaded->source = "open " + ui::quoted(path.string());
+  loaded->shell = ui::quoted(path.string());
+  loaded->recording = std::move(*recording);
+  return finish(std::move(loaded), job);
+}
+
+Result<LoadedPtr> load_sample(const std::string& scene, double seconds, const Job& job) {
+  SimulationOptions options;
+  options.scene = scene;
+  if (seconds > 0) options.duration_s = seconds;
+  auto simulation = simulate(options, job);
+  if (!simulation) return tl::unexpected(simulation.error());
+  auto loaded = std::make_shared<Loaded>();
+  loaded->source = "sample " + scene + (seconds > 0 ? fmt::format(" {}", seconds) : "");
+  loaded->recording = std::move(simulation->recording);
+  loaded->truth_s = options.offset_s;
+  return finish(std::move(loaded), job);
+}
+
+}  // namespace sweepscope::ui

@@ -1,0 +1,95 @@
+#include "ui/model/solved_map.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "core/offset/search_window.hpp"
+#include "render/comparison_points.hpp"
+
+namespace sweepscope::ui {
+namespace {
+
+constexpr std::size_t kMostChosen = 100000;
+
+std::vector<float> path_heights(const Recording& recording, const FixedPath& path) {
+  std::vector<float> heights_m(recording.scans.size(), 0);
+  for (std::size_t i = 0; i < heights_m.size(); ++i) {
+    if (path.sweep_of_scan[i] == FixedPath::kNoPose) continue;
+    const SweepPose& sweep = path.sweeps[path.sweep_of_scan[i]];
+    const double u = (recording.scans[i].first_beam_s - sweep.begin_s) / (sweep.end_s - sweep.begin_s);
+    heights_m[i] = static_cast<float>(sweep.at(u).translation_m.z());
+  }
+  return heights_m;
+}
+
+SolvedMap::Span span_of(std::span<const SlabPoints> points, std::size_t axis) {
+  const Bounds bounds = bounds_of(points, axis, 0.01);
+  return {bounds.from, bounds.to};
+}
+
+/// Fills what follows from the path.
+void describe_points(const Loaded& loaded, SolvedMap& map) {
+  map.path_height_m = path_heights(loaded.recording, map.path);
+  std::vector<std::array<float, 3>> places(loaded.beams.size());
+  replace_points(loaded.beams, map.path, map.offset_s, places);
+  map.order = order_for_drawing(places, kMostChosen);
+  ComparedMap compared;
+  compared.path = map.trajectory;
+  auto cloud = MapCloud::Ptr(new MapCloud);
+  for (const std::uint32_t i : map.order.chosen) {
+    MapPoint point{};
+    point.x = places[i][0];
+    point.y = places[i][1];
+    point.z = places[i][2];
+    point.time_s = loaded.beams.time_s(i);
+    cloud->push_back(point);
+  }
+  compared.cloud = cloud;
+  const std::array all{compared};
+  map.sharp_heights = choose_slabs(all, ComparisonOptions());
+  const std::array shown{points_in_slabs(compared, map.sharp_heights)};
+  map.x_m = span_of(shown, 0);
+  map.y_m = span_of(shown, 1);
+  map.z_m = span_of(shown, 2);
+}
+
+}  // namespace
+
+Result<SolvedMapPtr> solve_map(const Loaded& loaded, double offset_s, std::optional<Method> assume,
+                               const Job& job) {
+  MapOptions options;
+  options.assume = assume;
+  const std::array offsets_s{offset_s};
+  auto built = build_maps(loaded.recording, offsets_s, options, job);
+  if (!built) return tl::unexpected(built.error());
+  OffsetMap& solved = built->front();
+  auto map = std::make_shared<SolvedMap>();
+  map->offset_s = offset_s;
+  map->lost = solved.lost;
+  map->trajectory = std::move(solved.trajectory);
+  const std::vector<char> used = scans_covered(loaded.recording, offset_s, offset_s);
+  map->path = solved.moving ? fix_path(loaded.recording, sweep_poses(map->trajectory), used)
+                            : standing_path(loaded.recording, used);
+  solved.cloud = nullptr;
+  describe_points(loaded, *map);
+  return SolvedMapPtr(std::move(map));
+}
+
+SolvedMapPtr provisional_map(const Loaded& loaded, double offset_s) {
+  constexpr double kShown_s = 1;
+  auto map = std::make_shared<SolvedMap>();
+  map->offset_s = offset_s;
+  map->provisional = loaded.moving.value_or(false);
+  std::vector<char> used = scans_covered(loaded.recording, offset_s, offset_s);
+  const auto first = std::find(used.begin(), used.end(), 1) - used.begin();
+  for (std::size_t i = 0; map->provisional && i < used.size(); ++i) {
+    const std::size_t from = std::min<std::size_t>(static_cast<std::size_t>(first), used.size() - 1);
+    if (loaded.recording.scans[i].first_beam_s > loaded.recording.scans[from].first_beam_s + kShown_s)
+      used[i] = 0;
+  }
+  map->path = standing_path(loaded.recording, used);
+  describe_points(loaded, *map);
+  return map;
+}
+
+}  // namespace sweepscope::ui

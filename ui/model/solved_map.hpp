@@ -1,0 +1,37 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/map/offset_map.hpp"
+#include "render/comparison.hpp"
+#include "ui/model/loaded.hpp"
+#include "ui/model/spatial_order.hpp"
+
+namespace sweepscope::ui {
+
+/// A path along which beams are placed, and what drawing them wants to know of the map at that offset.
+struct SolvedMap {
+  double offset_s = 0;
+  bool provisional = false;  // not solved: the rig as if it stood still, its first second alone
+  bool lost = false;         // LOAM lost track
+  FixedPath path;
+  std::vector<float> path_height_m;  // of each scan, in the map frame
+  std::vector<StampedPose> trajectory;
+  DrawOrder order;
+  std::vector<HeightRange> sharp_heights;  // above the path: where an offset shows, without the ceiling
+  struct Span {
+    double from = 0, to = 1;
+  };
+  Span x_m, y_m, z_m;  // of nearly all points that sharp heights show
+};
+using SolvedMapPtr = std::shared_ptr<const SolvedMap>;
+
+/// Odometry and mapping at an offset: seconds of work for a moving rig, none for one that stood still.
+Result<SolvedMapPtr> solve_map(const Loaded& loaded, double offset_s, std::optional<Method> assume,
+                               const Job& job);
+
+/// What can be shown before anything is solved.
+SolvedMapPtr provisional_map(const Loaded& loaded, double offset_s);
+
+}  // namespace sweepscope::ui

@@ -1,0 +1,180 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/offset/search_window.hpp"
+#include "render/curve_charts.hpp"
+#include "ui/host/paint.hpp"
+#include "ui/panes/chart_axes.hpp"
+#include "ui/panes/widgets.hpp"
+
+namespace sweepscope::ui {
+namespace {
+
+double offset_ms(const Settings& settings, Side side) {
+  return side == Side::kA ? settings.offset_a_ms : settings.offset_b_ms;
+}
+
+Colour colour_of(const PaneContext& context, Side side) {
+  return side == Side::kA ? colour_of_a(context.style) : colour_of_b(context.style);
+}
+
+/// Before there is an estimate: an axis alone, to hold the handles.
+Chart empty_chart(const PaneContext& context) {
+  const double reach_ms = 1e3 * std::min(search_scale(context.explorer.loaded()->motor).half_width_s, 0.06);
+  Chart chart;
+  chart.title = "Criteria over the offset";
+  chart.x_title = "offset [ms]";
+  chart.series.push_back({"", {-reach_ms, reach_ms}, {std::nullopt, std::nullopt}, context.style.curve});
+  for (const Side side : kBothSides) {
+    const double at = offset_ms(context.settings(), side);
+    chart.verticals.push_back({at, offset_label_ms(at * 1e-3), colour_of(context, side)});
+  }
+  return chart;
+}
+
+std::vector<Chart> charts_of(const PaneContext& context) {
+  const Estimate* estimate = context.explorer.estimate();
+  const std::array marked{
+      MarkedOffset{offset_ms(context.settings(), Side::kA) * 1e-3, colour_of_a(context.style)},
+      MarkedOffset{offset_ms(context.settings(), Side::kB) * 1e-3, colour_of_b(context.style)}};
+  std::vector<Chart> charts;
+  if (estimate != nullptr) charts = curve_charts(*estimate, marked, context.style);
+  if (charts.empty()) charts.push_back(empty_chart(context));
+  const auto& handle = context.transient.handle;
+  for (Chart& chart : charts) {
+    if (!handle) continue;
+    // The axis stays as it was when the drag began, or the handle would run away from the mouse.
+    for (const double end : {handle->from_ms, handle->to_ms})
+      chart.verticals.push_back({end, "", {0, 0, 0, 0}, false});
+  }
+  return charts;
+}
+
+/// What the chart's title means, with its equation.
+std::string meaning(const std::string& title) {
+  if (title.starts_with("Motion"))
+    return "d = √(t² + c θ²), equation 3: the motion that odometry sees between sweeps of a rig that stood "
+           "still, "
+           "from the translation t (equation 1) and the rotation θ (equation 2). Least at the offset.";
+  if (title.starts_with("Mean distance"))
+    return "e, equation 7: the mean distance of the matches from their line or plane on the map. Least at "
+           "the offset.";
+  if (title.starts_with("Matches"))
+    return "n, equation 6: edge and plane points that lie on the map, nearer than the gates of equations 4 "
+           "and 5. "
+           "Greatest at the offset.";
+  if (title.starts_with("Alternating"))
+    return "The roll by which sweeps to and fro disagree: twice the motor's speed times the offset's error. "
+           "Zero at "
+           "the offset.";
+  return "Estimate the offset to see d (stationary), or n and e (moving), over the candidates.";
+}
+
+void begin_handle(const PaneContext& context, const ChartAxes& axes) {
+  const double x = axes.to_value(static_cast<double>(ImGui::GetIO().MousePos.x));
+  const double to_a = std::abs(x - context.settings().offset_a_ms),
+               to_b = std::abs(x - context.settings().offset_b_ms);
+  // Where both are one, the side that the mouse is on says which.
+  const bool a = to_a != to_b ? to_a < to_b : x < context.settings().offset_a_ms;
+  context.transient.handle =
+      Transient::HandleDrag{a ? Side::kA : Side::kB, axes.plot.left, axes.plot.width, axes.from, axes.to};
+  context.begin_gesture();
+}
+
+void drag_handle(const PaneContext& context) {
+  const Transient::HandleDrag& handle = *context.transient.handle;
+  const double share =
+      (static_cast<double>(ImGui::GetIO().MousePos.x) - handle.plot_left) / handle.plot_width;
+  const double at_ms = handle.from_ms + std::clamp(share, 0.0, 1.0) * (handle.to_ms - handle.from_ms);
+  const double step_ms = handle.to_ms - handle.from_ms > 20 ? 0.1 : 0.01;
+  const char* command = handle.side == Side::kA ? "offset-a" : "offset-b";
+  context.perform(
+      Call{find_command(command), {std::round(std::round(at_ms / step_ms) * step_ms * 1e4) / 1e4}},
+      context.transient.gesture);
+}
+
+/// Grips at the feet of the two lines.
+void draw_grips(const PaneContext& context, const ChartAxes& axes) {
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  for (const Side side : kBothSides) {
+    const double at = offset_ms(context.settings(), side);
+    if (at < axes.from || at > axes.to) continue;
+    const auto x = static_cast<float>(axes.to_px(at)), y = static_cast<float>(axes.plot.bottom());
+    const float w = context.pxf(7), h = context.pxf(9);
+    const ImVec2 points[5] = {{x, y - h * 1.4f},
+                              {x + w, y - h * 0.7f},
+                              {x + w, y + h * 0.5f},
+                              {x - w, y + h * 0.5f},
+                              {x - w, y - h * 0.7f}};
+    list.AddConvexPolyFilled(points, 5, to_imgui(colour_of(context, side)));
+    ImGui::PushFont(context.fonts.small);
+    const char* letter = side == Side::kA ? "A" : "B";
+    const ImVec2 size = ImGui::CalcTextSize(letter);
+    list.AddText({std::round(x - size.x / 2), std::round(y - h * 0.15f - size.y / 2)},
+                 to_imgui(context.style.page), letter);
+    ImGui::PopFont();
+    context.anchor(side == Side::kA ? "handle a" : "handle b",
+                   {static_cast<double>(x - w), static_cast<double>(y - h), static_cast<double>(2 * w),
+                    static_cast<double>(1.5f * h)});
+  }
+}
+
+void draw_one(const PaneContext& context, const Chart& chart, const PixelRect& place, std::size_t number) {
+  const double scale = context.scale * 0.86;
+  Drawing drawing;
+  add_chart(drawing, place, chart, context.style, scale);
+  paint(*ImGui::GetWindowDrawList(), drawing, context.fonts);
+  const ChartAxes axes = axes_of(chart, place, context.style, scale);
+  if (context.explorer.estimate() == nullptr) {
+    paint_text(*ImGui::GetWindowDrawList(),
+               {{axes.plot.left + axes.plot.width / 2, axes.plot.top + axes.plot.height / 2},
+                "Estimate the offset to see d, n and e here. The handles work already.",
+                context.px(13),
+                context.style.faint_text,
+                AlignX::kCentre,
+                AlignY::kMiddle},
+               context.fonts);
+  }
+  const double reach = context.px(12);
+  ImGui::SetCursorScreenPos(
+      {static_cast<float>(axes.plot.left - reach), static_cast<float>(axes.plot.top - reach)});
+  ImGui::InvisibleButton(
+      fmt::format("chart {}", number).c_str(),
+      {static_cast<float>(axes.plot.width + 2 * reach), static_cast<float>(axes.plot.height + 2 * reach)});
+  context.anchor(fmt::format("chart {}", number), axes.plot);
+  if (ImGui::IsItemActivated()) begin_handle(context, axes);
+  if (ImGui::IsItemActive() && context.transient.handle) drag_handle(context);
+  if (ImGui::IsItemHovered() || ImGui::IsItemActive()) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+  if (number == 0) draw_grips(context, axes);
+  ImGui::SetCursorScreenPos({static_cast<float>(place.left), static_cast<float>(place.top)});
+  ImGui::InvisibleButton(fmt::format("chart title {}", number).c_str(),
+                         {static_cast<float>(place.width * 0.6), context.pxf(18)});
+  tooltip(context, meaning(chart.title));
+}
+
+}  // namespace
+
+void draw_criteria(const PaneContext& context, const PixelRect& place) {
+  if (place.height <= 0) return;
+  begin_panel(context, "criteria", place, false);
+  const std::vector<Chart> charts = charts_of(context);
+  const double margin = context.px(12), gap = context.px(22), least = context.px(250);
+  const double room = place.width - 2 * margin;
+  const auto shown = std::min<std::size_t>(
+      charts.size(), std::max<std::size_t>(1, static_cast<std::size_t>((room + gap) / (least + gap))));
+  const double width = (room - gap * static_cast<double>(shown - 1)) / static_cast<double>(shown);
+  for (std::size_t i = 0; i < shown; ++i) {
+    draw_one(context, charts[i],
+             {std::round(place.left + margin + static_cast<double>(i) * (width + gap)),
+              std::round(place.top + context.px(8)), width, place.height - context.px(10)},
+             i);
+  }
+  if (context.transient.handle && !ImGui::IsMouseDown(0)) context.transient.handle.reset();
+  context.explorer.hold_handle(context.transient.handle.has_value() || ImGui::IsAnyItemActive());
+  end_panel();
+}
+
+}  // namespace sweepscope::ui

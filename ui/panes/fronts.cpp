@@ -1,0 +1,257 @@
+#include <imgui.h>
+
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "ui/host/input.hpp"
+#include "ui/panes/widgets.hpp"
+
+namespace sweepscope::ui {
+namespace {
+
+/// A window in front of everything, with a veil over the rest.
+void begin_front(const PaneContext& context, const char* name, const PixelRect& whole, double width,
+                 double height, double from_top = 0.16) {
+  const double w = std::min(context.px(width), whole.width - context.px(24));
+  const double h = std::min(context.px(height), whole.height - context.px(24));
+  const double top =
+      std::max(context.px(12), std::min(whole.height * from_top, whole.height - h - context.px(12)));
+  ImGui::SetNextWindowPos({0, 0});
+  ImGui::SetNextWindowSize({static_cast<float>(whole.width), static_cast<float>(whole.height)});
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, IM_COL32(0, 0, 0, 110));
+  ImGui::Begin((std::string(name) + " veil").c_str(), nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                   ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
+  if (ImGui::IsWindowHovered() && ImGui::IsMouseClicked(0)) context.perform("dismiss");
+  ImGui::End();
+  ImGui::PopStyleColor();
+  ImGui::SetNextWindowPos(
+      {static_cast<float>(std::round((whole.width - w) / 2)), static_cast<float>(std::round(top))});
+  ImGui::SetNextWindowSize({static_cast<float>(w), static_cast<float>(h)});
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyleColorVec4(ImGuiCol_PopupBg));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(context.pxf(18), context.pxf(16)));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, context.pxf(6));
+  if (context.transient.just_opened) ImGui::SetNextWindowFocus();
+  ImGui::Begin(name, nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
+  ImGui::PopStyleVar(3);
+  ImGui::PopStyleColor();
+}
+
+void end_front() {
+  ImGui::End();
+}
+
+struct Entry {
+  std::string title, line, chord;
+  bool takes_words = false;  // the line is completed in the palette before it is run
+};
+
+std::vector<Entry> all_entries() {
+  std::vector<Entry> entries;
+  for (const MenuItem& item : menu_items()) {
+    if (!item.line.empty()) entries.push_back({item.title, item.line, chord_of(item.line), false});
+  }
+  for (const Command& command : commands()) {
+    const bool plain = command.parameters.empty();
+    if (plain &&
+        std::any_of(entries.begin(), entries.end(), [&](const Entry& e) { return e.line == command.name; }))
+      continue;
+    std::string usage;
+    for (const Parameter& parameter : command.parameters) usage += " " + parameter.name;
+    entries.push_back({command.title + usage, command.name, chord_of(command.name), !plain});
+  }
+  return entries;
+}
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+/// Every word of the query occurs in the entry.
+bool matches(const Entry& entry, const std::string& query) {
+  const std::string text = lower(entry.title + " " + entry.line);
+  const auto words = split_words(query);
+  if (!words) return false;
+  return std::all_of(words->begin(), words->end(),
+                     [&](const std::string& word) { return text.find(lower(word)) != std::string::npos; });
+}
+
+void run_entry(const PaneContext& context, const Entry& entry) {
+  if (entry.takes_words) {
+    context.transient.palette_query = entry.line + " ";
+    context.transient.just_opened = true;
+    return;
+  }
+  context.transient.palette = false;
+  context.perform(entry.line);
+}
+
+/// A whole command with its arguments was typed: it is run as it stands.
+bool run_typed(const PaneContext& context) {
+  if (!parse_call(context.transient.palette_query)) return false;
+  const std::string line = context.transient.palette_query;
+  context.transient.palette = false;
+  context.perform(line);
+  return true;
+}
+
+void palette_list(const PaneContext& context, const std::vector<Entry>& found) {
+  Transient& transient = context.transient;
+  ImGui::BeginChild("found");
+  const float right = ImGui::GetWindowContentRegionMax().x;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const bool chosen = static_cast<int>(i) == transient.palette_choice;
+    ImGui::PushID(static_cast<int>(i));
+    if (ImGui::Selectable(found[i].title.c_str(), chosen)) run_entry(context, found[i]);
+    if (chosen) ImGui::SetScrollHereY(0.5f);
+    context.anchor_last("palette " + found[i].line);
+    ImGui::SameLine(right * 0.62f);
+    ImGui::TextDisabled("%s", found[i].line.c_str());
+    if (!found[i].chord.empty()) {
+      ImGui::SameLine(right - ImGui::CalcTextSize(found[i].chord.c_str()).x - context.pxf(4));
+      ImGui::TextUnformatted(found[i].chord.c_str());
+    }
+    ImGui::PopID();
+  }
+  if (found.empty())
+    ImGui::TextDisabled("No command has these words. A whole line such as \"offset-a 19\" is run by Enter.");
+  ImGui::EndChild();
+}
+
+}  // namespace
+
+void draw_palette(const PaneContext& context, const PixelRect& whole) {
+  Transient& transient = context.transient;
+  if (!transient.palette) return;
+  begin_front(context, "palette", whole, 660, 420, 0.1);
+  std::vector<Entry> found;
+  const std::string before = transient.palette_query;
+  for (const Entry& entry : all_entries()) {
+    if (matches(entry, before)) found.push_back(entry);
+  }
+  const int last = std::max(0, static_cast<int>(found.size()) - 1);
+  if (ImGui::IsKeyPressed(keys::kDown)) ++transient.palette_choice;
+  if (ImGui::IsKeyPressed(keys::kUp)) --transient.palette_choice;
+  transient.palette_choice = std::clamp(transient.palette_choice, 0, last);
+  if (transient.just_opened) ImGui::SetKeyboardFocusHere();
+  ImGui::SetNextItemWidth(-1e-3f);
+  const bool entered = ImGui::InputTextWithHint(
+      "##query", "Search, or type a command", &transient.palette_query, ImGuiInputTextFlags_EnterReturnsTrue);
+  if (transient.palette_query != before) transient.palette_choice = 0;
+  ImGui::Dummy({0, context.pxf(2)});
+  palette_list(context, found);
+  end_front();
+  if (!entered || run_typed(context)) return;
+  if (!found.empty())
+    run_entry(context, found[static_cast<std::size_t>(transient.palette_choice)]);
+  else
+    context.perform(transient.palette_query);
+}
+
+void draw_help(const PaneContext& context, const PixelRect& whole) {
+  if (!context.transient.help) return;
+  begin_front(context, "keys", whole, 780, 560, 0.1);
+  ImGui::PushFont(context.fonts.heading);
+  ImGui::TextUnformatted("Keys");
+  ImGui::PopFont();
+  ImGui::TextDisabled(
+      "Drag to turn, drag with the right button or Shift to move, wheel to zoom. Every command: Ctrl+P.");
+  ImGui::Dummy({0, context.pxf(4)});
+  const auto all = shortcuts();
+  const std::size_t rows = (all.size() + 1) / 2;
+  ImGui::PushFont(context.fonts.small);
+  if (ImGui::BeginTable("keys", 4, ImGuiTableFlags_SizingFixedFit)) {
+    for (const float width : {92.0f, 270.0f, 92.0f, 270.0f})
+      ImGui::TableSetupColumn("", 0, width * static_cast<float>(context.scale));
+    for (std::size_t r = 0; r < rows; ++r) {
+      ImGui::TableNextRow(0, context.pxf(17));
+      for (const std::size_t i : {r, r + rows}) {
+        ImGui::TableNextColumn();
+        if (i < all.size()) ImGui::TextUnformatted(all[i].chord.c_str());
+        ImGui::TableNextColumn();
+        if (i >= all.size()) continue;
+        const auto item = std::find_if(menu_items().begin(), menu_items().end(),
+                                       [&](const MenuItem& m) { return m.line == all[i].line; });
+        const Command* command = find_command(all[i].line.substr(0, all[i].line.find(' ')));
+        const std::string rest = all[i].line.substr(std::min(all[i].line.size(), command->name.size()));
+        ImGui::TextDisabled("%s", (item != menu_items().end() ? item->title : command->title + rest).c_str());
+      }
+    }
+    ImGui::EndTable();
+  }
+  ImGui::PopFont();
+  end_front();
+}
+
+void draw_ask(const PaneContext& context, const PixelRect& whole) {
+  Transient& transient = context.transient;
+  if (!transient.asks_for) return;
+  const Command& command = *find_command(*transient.asks_for);
+  begin_front(context, "ask", whole, 520, 172, 0.22);
+  ImGui::PushFont(context.fonts.heading);
+  ImGui::TextUnformatted(command.title.c_str());
+  ImGui::PopFont();
+  ImGui::TextDisabled("%s", command.help.c_str());
+  if (transient.just_opened) ImGui::SetKeyboardFocusHere();
+  ImGui::SetNextItemWidth(-1e-3f);
+  const bool entered = ImGui::InputTextWithHint("##file", "A file, or drop one here", &transient.asked_text,
+                                                ImGuiInputTextFlags_EnterReturnsTrue);
+  context.anchor_last("ask file");
+  ImGui::Dummy({0, context.pxf(2)});
+  const bool confirmed = ImGui::Button("OK", {context.pxf(100), 0});
+  context.anchor_last("button ok");
+  ImGui::SameLine();
+  if (ImGui::Button("Cancel", {context.pxf(100), 0})) transient.asks_for.reset();
+  end_front();
+  if ((!entered && !confirmed) || transient.asked_text.empty() || !transient.asks_for) return;
+  const std::string before = command.name == "export-cloud" ? " b " : " ";
+  transient.asks_for.reset();
+  context.perform(command.name + before + ui::quoted(transient.asked_text));
+}
+
+void draw_message(const PaneContext& context, const PixelRect& whole) {
+  const auto& message = context.explorer.message();
+  if (!message) return;
+  const bool error = message->kind == Message::Kind::kError;
+  const double width = std::min(context.px(620), whole.width - context.px(40));
+  const auto wrap = static_cast<float>(width - context.px(130));
+  ImGui::PushFont(context.fonts.body);
+  const double text_height =
+      static_cast<double>(ImGui::CalcTextSize(message->text.c_str(), nullptr, false, wrap).y);
+  ImGui::PopFont();
+  const double height = text_height + context.px(error ? 52 : 28);
+  const PixelRect place{std::round((whole.width - width) / 2), context.px(44), width, height};
+  ImGui::SetNextWindowPos({static_cast<float>(place.left), static_cast<float>(place.top)});
+  ImGui::SetNextWindowSize({static_cast<float>(place.width), static_cast<float>(place.height)});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, context.pxf(5));
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyleColorVec4(ImGuiCol_PopupBg));
+  const Colour mark = error ? colour_of_a(context.style) : colour_of_b(context.style);
+  ImGui::PushStyleColor(ImGuiCol_Border, to_imgui(mark));
+  ImGui::Begin("message", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                   ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
+  ImGui::PopStyleColor(2);
+  ImGui::PopStyleVar(2);
+  if (error) {
+    ImGui::PushFont(context.fonts.bold);
+    ImGui::TextUnformatted("That did not work");
+    ImGui::PopFont();
+  }
+  ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + wrap);
+  ImGui::TextUnformatted(message->text.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::SetCursorPos({static_cast<float>(place.width - context.px(92)), context.pxf(10)});
+  if (ImGui::SmallButton("Dismiss")) context.explorer.dismiss_message();
+  context.anchor_last("button dismiss");
+  context.anchor("message", place);
+  ImGui::End();
+}
+
+}  // namespace sweepscope::ui

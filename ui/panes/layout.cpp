@@ -1,0 +1,55 @@
+#include "ui/panes/layout.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sweepscope::ui {
+namespace {
+
+/// Whole pixels, or pictures would be blurred.
+PixelRect snapped(const PixelRect& rect) {
+  const double left = std::round(rect.left), top = std::round(rect.top);
+  return {left, top, std::max(0.0, std::round(rect.right()) - left),
+          std::max(0.0, std::round(rect.bottom()) - top)};
+}
+
+}  // namespace
+
+Places lay_out(double width_px, double height_px, double scale, const Settings& settings,
+               bool has_recording) {
+  const double menu = 30 * scale, status = 28 * scale;
+  const bool panels = settings.panels && has_recording && width_px > 760 * scale;
+  const double left = panels ? std::min(292 * scale, 0.24 * width_px) : 0;
+  const double right = panels ? std::min(244 * scale, 0.2 * width_px) : 0;
+  const double middle = height_px - menu - status;
+  const bool criteria = settings.criteria && has_recording && middle > 420 * scale;
+  const double below = criteria ? std::clamp(0.29 * middle, 190 * scale, 300 * scale) : 0;
+  Places places;
+  places.menu = snapped({0, 0, width_px, menu});
+  places.status = snapped({0, height_px - status, width_px, status});
+  places.left = snapped({0, menu, left, middle});
+  places.right = snapped({width_px - right, menu, right, middle});
+  places.maps = snapped({left, menu, width_px - left - right, middle - below});
+  places.criteria = snapped({left, height_px - status - below, width_px - left - right, below});
+  return places;
+}
+
+MapPlaces lay_out_maps(const PixelRect& maps, double scale, Layout layout) {
+  const double margin = 10 * scale, header = 34 * scale;
+  const PixelRect inner{maps.left + margin, maps.top, maps.width - 2 * margin, maps.height - margin};
+  const double width = layout == Layout::kSideBySide ? (inner.width - margin) / 2 : inner.width;
+  MapPlaces places;
+  const auto pane = [&](double left, PixelRect& above, PixelRect& picture) {
+    above = snapped({left, inner.top, width, header});
+    picture = snapped({left, inner.top + header, width, inner.height - header});
+  };
+  if (layout != Layout::kOnlyB && layout != Layout::kDifference)
+    pane(inner.left, places.header_a, places.picture_a);
+  if (layout == Layout::kSideBySide)
+    pane(inner.left + width + margin, places.header_b, places.picture_b);
+  else if (layout != Layout::kOnlyA)
+    pane(inner.left, places.header_b, places.picture_b);
+  return places;
+}
+
+}  // namespace sweepscope::ui

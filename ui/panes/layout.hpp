@@ -1,0 +1,22 @@
+#pragma once
+
+#include "render/drawing.hpp"
+#include "ui/state/settings.hpp"
+
+namespace sweepscope::ui {
+
+/// Where the parts of the interface are, in pixels. A part that is not shown has no width.
+struct Places {
+  PixelRect menu, left, right, maps, criteria, status;
+};
+
+/// For a drawing of this size; `scale` is 1 at 100 %. Without a recording there are no side panels.
+Places lay_out(double width_px, double height_px, double scale, const Settings& settings, bool has_recording);
+
+/// The panes of the maps: each has a header above its picture. B's is empty where only one is shown.
+struct MapPlaces {
+  PixelRect header_a, picture_a, header_b, picture_b;
+};
+MapPlaces lay_out_maps(const PixelRect& maps, double scale, Layout layout);
+
+}  // namespace sweepscope::ui

@@ -1,0 +1,249 @@
+#include "ui/panes/map_tools.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "render/ticks.hpp"
+#include "ui/host/paint.hpp"
+#include "ui/model/picking.hpp"
+#include "ui/panes/widgets.hpp"
+
+namespace sweepscope::ui {
+namespace {
+
+PixelPoint mouse() {
+  const ImVec2 at = ImGui::GetIO().MousePos;
+  return {static_cast<double>(at.x), static_cast<double>(at.y)};
+}
+
+void set_view(const PaneContext& context, Side side, const ViewPoint& view) {
+  const bool b = side == Side::kB && !context.settings().linked;
+  const auto millimetres = [](double metres) { return std::round(metres * 1e4) / 1e4; };
+  const Call call{find_command(b ? "camera-b" : "camera-a"),
+                  {millimetres(view.centre_m.x()), millimetres(view.centre_m.y()),
+                   millimetres(view.centre_m.z()), millimetres(view.height_m),
+                   std::round(view.turn_deg * 100) / 100, std::round(view.elevation_deg * 100) / 100}};
+  context.perform(call, context.transient.gesture);
+  context.transient.camera_moved_s = 0;
+}
+
+bool any_activated() {
+  return ImGui::IsItemClicked(0) || ImGui::IsItemClicked(1) || ImGui::IsItemClicked(2);
+}
+
+void drag_camera(const PaneContext& context, Side side, const PixelRect& picture) {
+  if (any_activated()) context.begin_gesture();
+  if (!ImGui::IsItemActive()) return;
+  const ImVec2 delta = ImGui::GetIO().MouseDelta;
+  if (delta.x == 0 && delta.y == 0) return;
+  const double right = static_cast<double>(delta.x), down = static_cast<double>(delta.y);
+  const ViewPoint& view = view_of(context.settings(), side);
+  const bool left = ImGui::IsMouseDown(0);
+  if (left && context.settings().tool != Tool::kLook) return;
+  if (left && !ImGui::GetIO().KeyShift)
+    set_view(context, side, turned(view, right / context.scale, down / context.scale));
+  else
+    set_view(context, side, moved(view, right, down, picture.height));
+}
+
+void zoom(const PaneContext& context, Side side, const PixelRect& picture) {
+  const double wheel = static_cast<double>(ImGui::GetIO().MouseWheel);
+  if (!ImGui::IsItemHovered() || wheel == 0) return;
+  if (context.transient.camera_moved_s > 0.5) context.begin_gesture();
+  set_view(context, side, zoomed(view_of(context.settings(), side), std::pow(1.15, wheel), mouse(), picture));
+}
+
+const PlacedCloud* shown_cloud(const PaneContext& context, Side side) {
+  const Pane& pane = context.explorer.pane(side);
+  return pane.full ? pane.full.get() : pane.coarse.get();
+}
+
+void pick(const PaneContext& context, Side side, const PixelRect& picture) {
+  const PlacedCloud* cloud = shown_cloud(context, side);
+  if (cloud == nullptr || !ImGui::IsItemClicked(0)) return;
+  const auto found =
+      pick_point(*cloud, projection_of(context.settings(), side, picture), mouse(), context.px(12));
+  Transient& transient = context.transient;
+  if (!found) {
+    transient.picked.reset();
+    return;
+  }
+  const auto& p = cloud->points->xyz_m[*found];
+  const Eigen::Vector3d place_m(p[0], p[1], p[2]);
+  if (context.settings().tool == Tool::kPick) {
+    transient.picked = PickedPoint{side, cloud->beams[*found], place_m};
+    return;
+  }
+  if (transient.measured_m.size() == 2) transient.measured_m.clear();
+  transient.measured_m.push_back(place_m);
+}
+
+void draw_profile_line(const PaneContext& context, Side side, const PixelRect& picture) {
+  Transient& transient = context.transient;
+  const Projection projection = projection_of(context.settings(), side, picture);
+  const Eigen::Vector2d here = projection.under(mouse()).head<2>();
+  if (ImGui::IsItemClicked(0)) {
+    transient.profile_from_m = here;
+    context.begin_gesture();
+  }
+  if (!transient.profile_from_m || !ImGui::IsItemActive()) {
+    transient.profile_from_m.reset();
+    return;
+  }
+  const auto round = [](double metres) { return std::round(metres * 1e3) / 1e3; };
+  const Eigen::Vector2d& from = *transient.profile_from_m;
+  context.perform(
+      Call{find_command("profile"), {round(from.x()), round(from.y()), round(here.x()), round(here.y())}},
+      transient.gesture);
+}
+
+/// A line with dark edges, legible on any colour.
+void outlined(ImDrawList& list, const std::vector<ImVec2>& points, ImU32 colour, float width) {
+  const auto count = static_cast<int>(points.size());
+  list.AddPolyline(points.data(), count, IM_COL32(0, 0, 0, 150), 0, width + 2);
+  list.AddPolyline(points.data(), count, colour, 0, width);
+}
+
+std::optional<ImVec2> to_screen(const Projection& projection, const Eigen::Vector3d& p_m) {
+  const auto at = projection.to_px(p_m);
+  if (!at) return std::nullopt;
+  return ImVec2{static_cast<float>(at->x), static_cast<float>(at->y)};
+}
+
+void draw_path(const PaneContext& context, Side side, const Projection& projection) {
+  const auto& request = context.explorer.pane(side).request;
+  if (!context.settings().trajectory || !request) return;
+  std::vector<ImVec2> points;
+  for (const StampedPose& pose : request->placement.map->trajectory) {
+    if (const auto at = to_screen(projection, pose.position_m)) points.push_back(*at);
+  }
+  if (points.size() < 2) return;
+  ImGui::GetWindowDrawList()->AddPolyline(points.data(), static_cast<int>(points.size()),
+                                          IM_COL32(255, 255, 255, 190), 0, context.pxf(1.2));
+}
+
+/// Bottom left: a round length. Only where all of the picture has one scale.
+void draw_scale_bar(const PaneContext& context, const PixelRect& picture, const Projection& projection) {
+  if (context.settings().perspective) return;
+  const double metres = round_length(0.22 * picture.width * projection.metres_per_px());
+  const double length_px = metres / projection.metres_per_px();
+  const double x = picture.left + context.px(16), y = picture.bottom() - context.px(18);
+  const std::string label =
+      metres < 0.995 ? fmt::format("{:g} cm", metres * 100) : fmt::format("{:g} m", metres);
+  const double text_px = text_width_px(label, context.px(11));
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddRectFilled(
+      {static_cast<float>(x - context.px(8)), static_cast<float>(y - context.px(11))},
+      {static_cast<float>(x + length_px + text_px + context.px(18)), static_cast<float>(y + context.px(11))},
+      IM_COL32(10, 12, 15, 170), context.pxf(3));
+  Drawing bar;
+  const Colour white{255, 255, 255};
+  bar.line({x, y}, {x + length_px, y}, context.px(1.5), white);
+  for (const double end : {x, x + length_px})
+    bar.line({end, y - context.px(4)}, {end, y + context.px(4)}, context.px(1.5), white);
+  bar.add(TextMark{
+      {x + length_px + context.px(8), y}, label, context.px(11), white, AlignX::kLeft, AlignY::kMiddle});
+  paint(list, bar, context.fonts);
+}
+
+void draw_measure(const PaneContext& context, const Projection& projection) {
+  const auto& ends = context.transient.measured_m;
+  std::vector<ImVec2> points;
+  for (const Eigen::Vector3d& end : ends) {
+    if (const auto at = to_screen(projection, end)) points.push_back(*at);
+  }
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  if (points.size() == 2) outlined(list, points, IM_COL32_WHITE, context.pxf(1.5));
+  for (const ImVec2& point : points) {
+    list.AddCircleFilled(point, context.pxf(5), IM_COL32(0, 0, 0, 160));
+    list.AddCircle(point, context.pxf(4.5), IM_COL32_WHITE, 0, context.pxf(1.5));
+  }
+}
+
+void draw_picked(const PaneContext& context, Side side, const Projection& projection) {
+  if (!context.transient.picked) return;
+  const auto& request = context.explorer.pane(side).request;
+  if (!request) return;
+  const std::array chosen{context.transient.picked->beam};
+  std::array<std::array<float, 3>, 1> place{};
+  const Placement& placement = request->placement;
+  replace_points(placement.loaded->beams, placement.map->path, placement.offset_s, chosen, place);
+  if (!std::isfinite(place[0][0])) return;
+  const auto at = to_screen(projection, {place[0][0], place[0][1], place[0][2]});
+  if (!at) return;
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddCircle(*at, context.pxf(8), IM_COL32(0, 0, 0, 180), 0, context.pxf(4));
+  list.AddCircle(*at, context.pxf(8), IM_COL32_WHITE, 0, context.pxf(2));
+}
+
+void draw_profile(const PaneContext& context, const Projection& projection, double z_m) {
+  const Settings& s = context.settings();
+  if (s.profile_from_m == s.profile_to_m) return;
+  const auto from = to_screen(projection, {s.profile_from_m.x(), s.profile_from_m.y(), z_m});
+  const auto to = to_screen(projection, {s.profile_to_m.x(), s.profile_to_m.y(), z_m});
+  if (!from || !to) return;
+  outlined(*ImGui::GetWindowDrawList(), {*from, *to}, IM_COL32_WHITE, context.pxf(1.5));
+  for (const ImVec2& end : {*from, *to})
+    ImGui::GetWindowDrawList()->AddCircleFilled(end, context.pxf(3.5), IM_COL32_WHITE);
+}
+
+}  // namespace
+
+const ViewPoint& view_of(const Settings& settings, Side side) {
+  return side == Side::kA ? settings.camera_a : settings.camera_b;
+}
+
+Projection projection_of(const Settings& settings, Side side, const PixelRect& picture) {
+  return {view_of(settings, side), settings.perspective, picture};
+}
+
+void use_mouse(const PaneContext& context, Side side, const PixelRect& picture) {
+  drag_camera(context, side, picture);
+  zoom(context, side, picture);
+  const Tool tool = context.settings().tool;
+  if (tool == Tool::kPick || tool == Tool::kMeasure) pick(context, side, picture);
+  if (tool == Tool::kProfile) draw_profile_line(context, side, picture);
+  if (tool != Tool::kLook && ImGui::IsItemHovered()) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
+}
+
+void draw_overlays(const PaneContext& context, Side side, const PixelRect& picture) {
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.PushClipRect({static_cast<float>(picture.left), static_cast<float>(picture.top)},
+                    {static_cast<float>(picture.right()), static_cast<float>(picture.bottom())}, true);
+  const Projection projection = projection_of(context.settings(), side, picture);
+  draw_path(context, side, projection);
+  draw_profile(context, projection, view_of(context.settings(), side).centre_m.z());
+  draw_measure(context, projection);
+  draw_picked(context, side, projection);
+  draw_scale_bar(context, picture, projection);
+  list.PopClipRect();
+}
+
+void draw_cards(const PaneContext& context, const PixelRect& maps) {
+  const Transient& transient = context.transient;
+  const Explorer& explorer = context.explorer;
+  std::vector<std::pair<std::string, std::string>> rows;
+  const auto &a = explorer.pane(Side::kA).request, &b = explorer.pane(Side::kB).request;
+  if (context.settings().tool == Tool::kPick && transient.picked && a && b)
+    rows = describe_beam(a->placement, b->placement, transient.picked->beam);
+  if (context.settings().tool == Tool::kMeasure && transient.measured_m.size() == 2) {
+    const Eigen::Vector3d apart_m = transient.measured_m[1] - transient.measured_m[0];
+    rows = {{"distance", fmt::format("{:.3f} m", apart_m.norm())},
+            {"level", fmt::format("{:.3f} m", apart_m.head<2>().norm())},
+            {"height", fmt::format("{:+.3f} m", apart_m.z())}};
+  }
+  if (rows.empty()) return;
+  const double height = context.px(22) + static_cast<double>(rows.size()) * context.px(20);
+  const PixelRect place{maps.left + context.px(24), maps.top + context.px(48), context.px(270), height};
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyleColorVec4(ImGuiCol_PopupBg));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, context.pxf(5));
+  ImGui::SetNextWindowBgAlpha(0.92f);
+  begin_panel(context, "card", place, true, true);
+  for (const auto& [name, value] : rows) row(context, name.c_str(), value);
+  end_panel();
+  ImGui::PopStyleVar();
+  ImGui::PopStyleColor();
+}
+
+}  // namespace sweepscope::ui

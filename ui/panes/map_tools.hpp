@@ -1,0 +1,18 @@
+#pragma once
+
+#include "ui/model/view_camera.hpp"
+#include "ui/panes/pane_context.hpp"
+
+namespace sweepscope::ui {
+
+/// What the mouse does on the picture of a map; call right after the widget that covers it.
+void use_mouse(const PaneContext& context, Side side, const PixelRect& picture);
+
+/// The sensor's path, the scale bar, and the marks of the tools, above the picture of a map.
+void draw_overlays(const PaneContext& context, Side side, const PixelRect& picture);
+
+/// How a pane looks at its map.
+const ViewPoint& view_of(const Settings& settings, Side side);
+Projection projection_of(const Settings& settings, Side side, const PixelRect& picture);
+
+}  // namespace sweepscope::ui

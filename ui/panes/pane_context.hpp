@@ -1,0 +1,91 @@
+#pragma once
+
+#include <imgui.h>
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/live_view.hpp"
+#include "ui/host/theme.hpp"
+#include "ui/model/explorer.hpp"
+#include "ui/panes/layout.hpp"
+
+namespace sweepscope::ui {
+
+/// A point that was asked where it comes from.
+struct PickedPoint {
+  Side side = Side::kA;
+  std::uint32_t beam = 0;
+  Eigen::Vector3d place_m{0, 0, 0};
+};
+
+/// What the interface remembers besides the settings: nothing of it is worth keeping.
+struct Transient {
+  bool palette = false, help = false, quit = false;
+  std::string palette_query;
+  int palette_choice = 0;
+  std::optional<std::string> asks_for;  // the command whose file is asked for
+  std::string asked_text;
+  bool just_opened = false;  // the thing in front takes the keyboard
+  std::optional<PickedPoint> picked;
+  std::vector<Eigen::Vector3d> measured_m;        // none, one end, or both
+  std::optional<Eigen::Vector2d> profile_from_m;  // while a profile is drawn
+  std::string gesture;                            // of the drag that goes on
+  int gestures = 0;
+  struct HandleDrag {
+    Side side = Side::kA;
+    double plot_left = 0, plot_width = 1, from_ms = 0, to_ms = 1;  // the axis as it was at the start
+  };
+  std::optional<HandleDrag> handle;
+  double camera_moved_s = 1e9;  // ago
+  ImGuiID resting_on = 0;       // the widget whose tooltip comes next
+  double resting_since_s = 0;
+  std::vector<std::string> recent;
+  std::vector<std::string> dropped;  // files, in this frame
+};
+
+/// What every pane is drawn with.
+struct PaneContext {
+  Explorer& explorer;
+  Transient& transient;
+  const Fonts& fonts;
+  const Style& style;
+  double scale;
+  std::array<LiveView*, 2> views;
+  /// Names of places that scripts can click: "button estimate", "handle a", "map b", ...
+  std::map<std::string, PixelRect>& anchors;
+
+  const Settings& settings() const { return explorer.settings(); }
+  double px(double at_100_percent) const { return at_100_percent * scale; }
+  float pxf(double at_100_percent) const { return static_cast<float>(at_100_percent * scale); }
+  /// Carries out a command line; what is wrong with it is told to the person.
+  void perform(const std::string& line, const std::string& gesture = {}) const;
+  void perform(const Call& call, const std::string& gesture = {}) const;
+  /// A new name for a drag that begins.
+  std::string begin_gesture() const;
+  void anchor(const std::string& name, const PixelRect& rect) const { anchors[name] = rect; }
+  /// The last widget's place.
+  void anchor_last(const std::string& name) const;
+};
+
+/// Each pane is drawn into its part of the interface, once per frame.
+void draw_menu_bar(const PaneContext& context, const PixelRect& place);
+void draw_status_bar(const PaneContext& context, const PixelRect& place);
+void draw_start_page(const PaneContext& context, const PixelRect& place);
+void draw_loading_page(const PaneContext& context, const PixelRect& place);
+void draw_recording_panel(const PaneContext& context, const PixelRect& place);
+void draw_display_panel(const PaneContext& context, const PixelRect& place);
+void draw_maps(const PaneContext& context, const PixelRect& place);
+void draw_criteria(const PaneContext& context, const PixelRect& place);
+/// The card of a point that was asked, and of a distance that was measured.
+void draw_cards(const PaneContext& context, const PixelRect& maps);
+/// What lies in front: the palette, the keys, a dialog, a message.
+void draw_palette(const PaneContext& context, const PixelRect& whole);
+void draw_help(const PaneContext& context, const PixelRect& whole);
+void draw_ask(const PaneContext& context, const PixelRect& whole);
+void draw_message(const PaneContext& context, const PixelRect& whole);
+
+}  // namespace sweepscope::ui

@@ -1,0 +1,82 @@
+#include <algorithm>
+#include <filesystem>
+
+#include "ui/panes/widgets.hpp"
+
+namespace sweepscope::ui {
+namespace {
+
+void centred_window(const PaneContext& context, const char* name, const PixelRect& place, double width,
+                    double height) {
+  const double w = std::min(context.px(width), place.width - context.px(40));
+  const double h = std::min(context.px(height), place.height - context.px(20));
+  begin_panel(context, name,
+              {std::round(place.left + (place.width - w) / 2),
+               std::round(place.top + (place.height - h) / 2.4), w, h});
+}
+
+void sample_button(const PaneContext& context, const char* title, const char* text, const std::string& line) {
+  ImGui::BeginGroup();
+  button(context, title, line, context.px(200));
+  ImGui::EndGroup();
+  ImGui::SameLine(0, context.pxf(14));
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextDisabled("%s", text);
+}
+
+void recent_files(const PaneContext& context) {
+  heading(context, "Recent");
+  if (context.transient.recent.empty()) {
+    ImGui::TextDisabled("Recordings that you open are listed here.");
+    return;
+  }
+  for (const std::string& path : context.transient.recent) {
+    if (ImGui::Selectable(std::filesystem::path(path).filename().c_str()))
+      context.perform("open " + ui::quoted(path));
+    context.anchor_last("recent " + path);
+    tooltip(context, path);
+  }
+}
+
+}  // namespace
+
+void draw_start_page(const PaneContext& context, const PixelRect& place) {
+  centred_window(context, "start", place, 620, 430);
+  ImGui::PushFont(context.fonts.title);
+  ImGui::TextUnformatted("sweepscope");
+  ImGui::PopFont();
+  ImGui::PushTextWrapPos(0);
+  ImGui::TextDisabled(
+      "Turn the time offset between a laser scanner and its motor, and see the map come into focus.");
+  ImGui::PopTextWrapPos();
+  heading(context, "Open a recording");
+  button(context, "Open …", "ask open", context.px(200), true);
+  ImGui::SameLine(0, context.pxf(14));
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextDisabled("or drop a ROS 1 bag onto this window");
+  heading(context, "Or try a simulated one; its true offset is 24 ms");
+  sample_button(context, "A room", "standing still, 4.5 s", "sample room-1");
+  sample_button(context, "A metro station", "20 s of a walk around a pillar", "sample metro-station 20");
+  recent_files(context);
+  end_panel();
+}
+
+void draw_loading_page(const PaneContext& context, const PixelRect& place) {
+  centred_window(context, "loading", place, 420, 150);
+  for (const JobStatus& job : context.explorer.background().status()) {
+    if (job.key != "load") continue;
+    ImGui::PushFont(context.fonts.heading);
+    ImGui::TextUnformatted(job.title.c_str());
+    ImGui::PopFont();
+    ImGui::Dummy({0, context.pxf(4)});
+    progress_bar(context, job.fraction);
+    const std::string left = time_left(job.seconds_left);
+    ImGui::TextDisabled("%s%s%s", job.phase.empty() ? "beginning" : job.phase.c_str(),
+                        left.empty() ? "" : ", ", left.c_str());
+  }
+  ImGui::Dummy({0, context.pxf(4)});
+  button(context, "Cancel", "cancel", context.px(110));
+  end_panel();
+}
+
+}  // namespace sweepscope::ui

@@ -1,0 +1,235 @@
+#include "ui/panes/widgets.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sweepscope::ui {
+namespace {
+
+ImVec2 corner(const PixelRect& rect) {
+  return {static_cast<float>(rect.left), static_cast<float>(rect.top)};
+}
+
+/// As many decimals as the step needs.
+int decimals_for(double step) {
+  if (step <= 0) return 2;
+  int decimals = 0;
+  while (decimals < 4 && std::abs(step - std::round(step)) > 1e-9) step *= 10, ++decimals;
+  return decimals;
+}
+
+/// "heights" for a person: choices are words of the command, shown with a capital.
+std::string capital(std::string word) {
+  if (!word.empty() && word[0] >= 'a' && word[0] <= 'z') word[0] = static_cast<char>(word[0] - 'a' + 'A');
+  return word;
+}
+
+std::string format_of(const Parameter& parameter) {
+  const std::string unit = parameter.unit == "%" ? " %%" : parameter.unit.empty() ? "" : " " + parameter.unit;
+  return fmt::format("%.{}f{}", decimals_for(parameter.step), unit);
+}
+
+/// Where the widget begins: after the column of titles.
+void begin_row(const PaneContext& context, const Command& command) {
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(command.title.c_str());
+  tooltip(context, command.help);
+  const float column = ImGui::GetWindowContentRegionMin().x + ImGui::GetWindowContentRegionWidth() * 0.46f;
+  ImGui::SameLine(column);
+  ImGui::SetNextItemWidth(-1e-3f);
+}
+
+void choice_field(const PaneContext& context, const Command& command) {
+  begin_row(context, command);
+  const std::string now = to_word(command.get(context.settings())[0]);
+  if (ImGui::BeginCombo(("##" + command.name).c_str(), capital(now).c_str())) {
+    for (const std::string& choice : command.parameters[0].choices) {
+      if (ImGui::Selectable(capital(choice).c_str(), choice == now))
+        context.perform(command.name + " " + choice);
+      context.anchor_last(command.name + " " + choice);
+    }
+    ImGui::EndCombo();
+  }
+}
+
+void switch_field(const PaneContext& context, const Command& command) {
+  begin_row(context, command);
+  bool on = std::get<bool>(command.get(context.settings())[0]);
+  if (ImGui::Checkbox(("##" + command.name).c_str(), &on))
+    context.perform(command.name + (on ? " on" : " off"));
+}
+
+/// One slider, or drag boxes side by side where there are several numbers.
+void number_field(const PaneContext& context, const Command& command) {
+  begin_row(context, command);
+  const std::vector<Value> values = command.get(context.settings());
+  const auto count = static_cast<float>(values.size());
+  const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
+  const float width = (ImGui::GetContentRegionAvail().x - gap * (count - 1)) / count;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const Parameter& parameter = command.parameters[i];
+    double number = std::get<double>(values[i]);
+    const std::string id = fmt::format("##{}{}", command.name, i);
+    if (i > 0) ImGui::SameLine(0, gap);
+    ImGui::SetNextItemWidth(width);
+    const bool narrow = parameter.greatest - parameter.least < 100;
+    const bool edited =
+        narrow && values.size() == 1
+            ? ImGui::SliderScalar(id.c_str(), ImGuiDataType_Double, &number, &parameter.least,
+                                  &parameter.greatest, format_of(parameter).c_str())
+            : ImGui::DragScalar(id.c_str(), ImGuiDataType_Double, &number,
+                                static_cast<float>(std::max(parameter.step, 1e-3)) * 0.2f, &parameter.least,
+                                &parameter.greatest, format_of(parameter).c_str());
+    if (ImGui::IsItemActivated()) context.begin_gesture();
+    if (!edited) continue;
+    Call call{&command, values};
+    const double step = parameter.step > 0 ? parameter.step : 1e-3;
+    call.values[i] = std::clamp(std::round(std::round(number / step) * step * 1e6) / 1e6, parameter.least,
+                                parameter.greatest);
+    context.perform(call, context.transient.gesture);
+  }
+}
+
+}  // namespace
+
+void PaneContext::perform(const std::string& line, const std::string& gesture) const {
+  if (const auto done = explorer.perform(line, gesture); !done)
+    explorer.say(Message::Kind::kError, done.error().message);
+}
+
+void PaneContext::perform(const Call& call, const std::string& gesture) const {
+  if (const auto done = explorer.perform(call, gesture); !done)
+    explorer.say(Message::Kind::kError, done.error().message);
+}
+
+std::string PaneContext::begin_gesture() const {
+  transient.gesture = "drag " + std::to_string(++transient.gestures);
+  return transient.gesture;
+}
+
+void PaneContext::anchor_last(const std::string& name) const {
+  const ImVec2 from = ImGui::GetItemRectMin(), to = ImGui::GetItemRectMax();
+  anchor(name, {from.x, from.y, to.x - from.x, to.y - from.y});
+}
+
+void begin_panel(const PaneContext& context, const char* name, const PixelRect& place, bool padded,
+                 bool above) {
+  ImGui::SetNextWindowPos(corner(place));
+  ImGui::SetNextWindowSize({static_cast<float>(place.width), static_cast<float>(place.height)});
+  const float margin = padded ? context.pxf(14) : 0;
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(margin, padded ? context.pxf(10) : 0));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
+  ImGui::Begin(name, nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                   ImGuiWindowFlags_NoNav |
+                   (above ? ImGuiWindowFlags_NoFocusOnAppearing : ImGuiWindowFlags_NoBringToFrontOnFocus));
+  ImGui::PopStyleVar(2);
+}
+
+void end_panel() {
+  ImGui::End();
+}
+
+void heading(const PaneContext& context, const char* text, bool first) {
+  if (!first) {
+    ImGui::Dummy({0, context.pxf(5)});
+    ImGui::Separator();
+    ImGui::Dummy({0, context.pxf(1)});
+  }
+  ImGui::PushFont(context.fonts.bold);
+  ImGui::TextUnformatted(text);
+  ImGui::PopFont();
+}
+
+void row(const PaneContext& context, const char* name, const std::string& value) {
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(context.pxf(8), context.pxf(4)));
+  ImGui::TextDisabled("%s", name);
+  ImGui::SameLine(ImGui::GetWindowContentRegionMin().x + context.pxf(78));
+  ImGui::PushTextWrapPos(0);
+  ImGui::TextUnformatted(value.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::PopStyleVar();
+}
+
+void field(const PaneContext& context, const char* name) {
+  const Command& command = *find_command(name);
+  switch (command.parameters[0].kind) {
+    case Kind::kChoice:
+      choice_field(context, command);
+      break;
+    case Kind::kSwitch:
+      switch_field(context, command);
+      break;
+    case Kind::kNumber:
+      number_field(context, command);
+      break;
+    case Kind::kText:
+      break;
+  }
+  context.anchor_last(command.name);
+  tooltip(context, command.help);
+}
+
+bool button(const PaneContext& context, const char* title, const std::string& line, double width_px,
+            bool primary) {
+  const float width = width_px > 0 ? static_cast<float>(width_px) : -1e-3f;
+  if (primary) {
+    const Colour fill = colour_of_b(context.style);
+    ImGui::PushStyleColor(ImGuiCol_Button, to_imgui(fill));
+    ImGui::PushStyleColor(ImGuiCol_ButtonHovered, to_imgui(fill, 0.85));
+    ImGui::PushStyleColor(ImGuiCol_ButtonActive, to_imgui(fill, 0.7));
+    ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(context.style.page));
+  }
+  const bool pressed = ImGui::Button((std::string(title) + "##" + line).c_str(), {width, 0});
+  if (primary) ImGui::PopStyleColor(4);
+  context.anchor_last("button " + line);
+  if (pressed) context.perform(line);
+  if (const Command* command = find_command(line.substr(0, line.find(' ')))) {
+    const std::string chord = chord_of(line);
+    tooltip(context, command->help + (chord.empty() ? "" : "  [" + chord + "]"));
+  }
+  return pressed;
+}
+
+void tooltip(const PaneContext& context, const std::string& text) {
+  constexpr float kDelay_s = 0.5f;
+  if (!ImGui::IsItemHovered() || context.transient.handle) return;
+  // ImGui 1.86 has no delay of its own.
+  ImGuiID& resting_on = context.transient.resting_on;
+  double& since_s = context.transient.resting_since_s;
+  const ImGuiID id = ImGui::GetID((text + std::to_string(ImGui::GetItemRectMin().y)).c_str());
+  if (id != resting_on) {
+    resting_on = id;
+    since_s = ImGui::GetTime();
+  }
+  if (ImGui::GetTime() - since_s < static_cast<double>(kDelay_s)) return;
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(context.pxf(10), context.pxf(7)));
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(context.pxf(330));
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+  ImGui::PopStyleVar();
+}
+
+void progress_bar(const PaneContext& context, double fraction) {
+  const ImVec2 from = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x, height = context.pxf(5);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const float done = width * static_cast<float>(std::clamp(fraction, 0.0, 1.0));
+  list.AddRectFilled(from, {from.x + width, from.y + height}, to_imgui(context.style.frame), height / 2);
+  if (done > height)
+    list.AddRectFilled(from, {from.x + done, from.y + height}, to_imgui(colour_of_b(context.style)),
+                       height / 2);
+  ImGui::Dummy({width, height});
+}
+
+std::string time_left(double seconds) {
+  if (seconds < 0) return "";
+  const auto whole = static_cast<long>(std::ceil(seconds));
+  return fmt::format("{}:{:02} left", whole / 60, whole % 60);
+}
+
+}  // namespace sweepscope::ui

@@ -1,0 +1,366 @@
+#include "ui/script/script.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <thread>
+
+#include "render/image_difference.hpp"
+#include "ui/host/imgui_host.hpp"
+
+namespace sweepscope::ui {
+namespace {
+
+constexpr double kFrame_s = 1.0 / 60;
+
+tl::unexpected<Error> wrong(std::string message) {
+  return failure(ExitCode::kWrongUsage, std::move(message));
+}
+
+tl::unexpected<Error> unmet(std::string message) {
+  return failure(ExitCode::kImageDiffers, std::move(message));
+}
+
+std::optional<double> number(const std::string& word) {
+  const auto value = parse_value({.name = "number"}, word);
+  return value ? std::optional(std::get<double>(*value)) : std::nullopt;
+}
+
+std::optional<int> button_named(const std::string& name) {
+  if (name == "left") return 0;
+  if (name == "right") return 1;
+  if (name == "middle") return 2;
+  return std::nullopt;
+}
+
+/// Words of one line while it is carried out.
+class Words {
+ public:
+  explicit Words(const std::vector<std::string>& words) : words_(words) {}
+  bool any() const { return next_ < words_.size(); }
+  std::string take() { return any() ? words_[next_++] : std::string(); }
+  std::string peek() const { return any() ? words_[next_] : std::string(); }
+  std::string rest() {
+    std::string text;
+    while (any()) text += (text.empty() ? "" : " ") + take();
+    return text;
+  }
+
+ private:
+  const std::vector<std::string>& words_;
+  std::size_t next_ = 1;
+};
+
+class Runner {
+ public:
+  Runner(Ui& ui, double most_s) : ui_(ui), most_s_(most_s) {}
+
+  Result<void> run(const Script::Line& line) {
+    using Step = Result<void> (Runner::*)(Words&);
+    static const std::map<std::string, Step> kSteps{{"click", &Runner::click},
+                                                    {"double-click", &Runner::double_click},
+                                                    {"mouse", &Runner::mouse},
+                                                    {"drag", &Runner::drag},
+                                                    {"wheel", &Runner::wheel},
+                                                    {"key", &Runner::key},
+                                                    {"type", &Runner::type},
+                                                    {"drop", &Runner::drop},
+                                                    {"frames", &Runner::frames},
+                                                    {"wait", &Runner::wait},
+                                                    {"screenshot", &Runner::screenshot},
+                                                    {"expect", &Runner::expect},
+                                                    {"hover", &Runner::hover}};
+    const auto step = kSteps.find(line.words[0]);
+    if (step == kSteps.end()) {
+      auto done = ui_.explorer().perform(line.text);
+      settle();
+      return done;
+    }
+    Words words(line.words);
+    auto done = (this->*step->second)(words);
+    if (done && words.any()) return wrong("too many words: " + words.rest());
+    return done;
+  }
+
+ private:
+  void pump(std::span<const InputEvent> events) {
+    do {
+      const std::size_t now = events_of_next_frame(events);
+      ui_.frame(events.first(now), kFrame_s);
+      events = events.subspan(now);
+    } while (!events.empty());
+  }
+  /// ImGui wants a frame or two to place what is new.
+  void settle() {
+    for (int i = 0; i < 3; ++i) ui_.frame({}, kFrame_s);
+  }
+  void send(std::vector<InputEvent> events) {
+    pump(events);
+    settle();
+  }
+
+  /// "X Y", or the middle of something with a name; "at SHARE SHARE" after a name is a place within it.
+  Result<PixelPoint> place(Words& words) {
+    const std::string first = words.take();
+    if (const auto x = number(first)) {
+      const auto y = number(words.take());
+      if (!y) return wrong("a place is X Y in pixels, or a name");
+      return PixelPoint{*x, *y};
+    }
+    const auto rect = ui_.anchor(first);
+    if (!rect) {
+      std::string names;
+      for (const std::string& name : ui_.anchor_names()) names += (names.empty() ? "" : ", ") + name;
+      return wrong(fmt::format("nothing here is called \"{}\"; there are: {}", first, names));
+    }
+    double across = 0.5, down = 0.5;
+    if (words.peek() == "at") {
+      words.take();
+      const auto x = number(words.take()), y = number(words.take());
+      if (!x || !y) return wrong("\"at\" wants two shares, such as 0.2 0.5");
+      across = *x;
+      down = *y;
+    }
+    return PixelPoint{std::round(rect->left + across * rect->width),
+                      std::round(rect->top + down * rect->height)};
+  }
+
+  Result<void> hover(Words& words) {
+    return place(words).map([&](PixelPoint at) {
+      send({InputEvent::move(at.x, at.y)});
+      for (int i = 0; i < 60; ++i) ui_.frame({}, kFrame_s);
+    });
+  }
+
+  Result<void> click(Words& words) {
+    return place(words).map([&](PixelPoint at) {
+      send({InputEvent::move(at.x, at.y)});
+      send({InputEvent::press(0, true), InputEvent::press(0, false)});
+    });
+  }
+
+  Result<void> double_click(Words& words) {
+    return place(words).map([&](PixelPoint at) {
+      send({InputEvent::move(at.x, at.y)});
+      send({InputEvent::press(0, true), InputEvent::press(0, false), InputEvent::press(0, true),
+            InputEvent::press(0, false)});
+    });
+  }
+
+  Result<void> mouse(Words& words) {
+    const std::string what = words.take();
+    if (what == "move") {
+      return place(words).map([&](PixelPoint at) { send({InputEvent::move(at.x, at.y)}); });
+    }
+    const auto button = button_named(words.any() ? words.take() : "left");
+    if (!button || (what != "down" && what != "up"))
+      return wrong("mouse move PLACE, mouse down|up [left|right|middle]");
+    send({InputEvent::press(*button, what == "down")});
+    return {};
+  }
+
+  /// In ten moves, as a hand does.
+  Result<void> drag(Words& words) {
+    const auto from = place(words);
+    if (!from) return tl::unexpected(from.error());
+    std::optional<PixelPoint> to;
+    if (words.peek() == "by") {
+      words.take();
+      const auto x = number(words.take()), y = number(words.take());
+      if (!x || !y) return wrong("drag FROM by X Y");
+      to = PixelPoint{from->x + *x, from->y + *y};
+    } else if (words.peek() == "to") {
+      words.take();
+      const auto there = place(words);
+      if (!there) return tl::unexpected(there.error());
+      to = *there;
+    } else {
+      return wrong("drag FROM to PLACE, or drag FROM by X Y");
+    }
+    const auto button = button_named(words.any() ? words.take() : "left");
+    if (!button) return wrong("the button is left, right or middle");
+    send({InputEvent::move(from->x, from->y)});
+    send({InputEvent::press(*button, true)});
+    for (int i = 1; i <= 10; ++i)
+      send({InputEvent::move(std::round(from->x + (to->x - from->x) * i / 10),
+                             std::round(from->y + (to->y - from->y) * i / 10))});
+    send({InputEvent::press(*button, false)});
+    return {};
+  }
+
+  Result<void> wheel(Words& words) {
+    const auto clicks = number(words.take());
+    if (!clicks) return wrong("wheel wants a number of clicks; up is positive");
+    send({InputEvent::scroll(*clicks)});
+    return {};
+  }
+
+  Result<void> key(Words& words) {
+    const std::string text = words.take();
+    const auto chord = parse_chord(text);
+    if (!chord)
+      return wrong(fmt::format("\"{}\" is no key; keys are such as A, 7, Space or Ctrl+Shift+Z", text));
+    send({InputEvent::stroke(chord->key, true, chord->modifiers),
+          InputEvent::stroke(chord->key, false, chord->modifiers)});
+    send({InputEvent::stroke(chord->key, false, 0)});
+    return {};
+  }
+
+  Result<void> type(Words& words) {
+    send({InputEvent::words(words.rest())});
+    return {};
+  }
+
+  Result<void> drop(Words& words) {
+    send({InputEvent::drop(words.rest())});
+    return {};
+  }
+
+  Result<void> frames(Words& words) {
+    const auto count = number(words.take());
+    if (!count || *count < 0 || *count > 1e6) return wrong("frames wants a number");
+    for (int i = 0; i < static_cast<int>(*count); ++i) ui_.frame({}, kFrame_s);
+    return {};
+  }
+
+  Result<void> wait_until(const std::function<bool()>& there, const std::string& what, double most_s) {
+    const auto begin = std::chrono::steady_clock::now();
+    while (!there()) {
+      ui_.frame({}, kFrame_s);
+      if (std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() > most_s)
+        return unmet(fmt::format("{} did not come within {} s", what, most_s));
+      if (ui_.explorer().background().busy()) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    settle();
+    return {};
+  }
+
+  Result<void> wait(Words& words) {
+    const Explorer& explorer = ui_.explorer();
+    const std::string what = words.take();
+    const double most_s = words.any() ? number(words.take()).value_or(most_s_) : most_s_;
+    if (what == "loaded") return wait_until([&] { return !explorer.is_loading(); }, what, most_s);
+    if (what == "estimated")
+      return wait_until([&] { return !explorer.background().has("estimate"); }, what, most_s);
+    if (what != "solved") return wrong("wait loaded, wait estimated or wait solved");
+    ui_.frame({}, kFrame_s);
+    return wait_until([&] { return explorer.at_rest() && ui_.pictures_done(); }, what, most_s);
+  }
+
+  /// The interface as it is, its pictures drawn to the end.
+  Image picture() {
+    for (int i = 0; i < 600 && !ui_.pictures_done(); ++i) ui_.frame({}, kFrame_s);
+    ui_.frame({}, kFrame_s);
+    return ui_.screenshot();
+  }
+
+  Result<void> screenshot(Words& words) { return write_png(picture(), words.take()); }
+
+  Result<void> expect(Words& words) {
+    const std::string name = words.take();
+    if (name == "picture") return expect_picture(words.take());
+    const auto now = ui_.explorer().observe(name);
+    if (!now) return wrong(fmt::format("\"{}\" cannot be observed; see view --help", name));
+    const std::string relation = words.take();
+    if (relation == "is" || relation == "contains") {
+      const std::string wanted = words.rest();
+      const bool met = relation == "is" ? *now == wanted : now->find(wanted) != std::string::npos;
+      if (!met)
+        return unmet(fmt::format("expected {} {} \"{}\", and it is \"{}\"", name, relation, wanted, *now));
+      return {};
+    }
+    if (relation != "near" && relation != "above" && relation != "below")
+      return wrong("expect NAME is|contains|near|above|below VALUE");
+    const auto value = number(*now), wanted = number(words.take());
+    if (!wanted) return wrong("expect NAME near|above|below wants a number");
+    const double within = relation == "near" ? number(words.take()).value_or(1e-9) : 0;
+    const bool met = value && (relation == "near"    ? std::abs(*value - *wanted) <= within
+                               : relation == "above" ? *value > *wanted
+                                                     : *value < *wanted);
+    if (!met) return unmet(fmt::format("expected {} {} {}, and it is \"{}\"", name, relation, *wanted, *now));
+    return {};
+  }
+
+  Result<void> expect_picture(const std::string& path) {
+    const Image actual = picture();
+    const auto expected = read_png(path);
+    if (!expected) {
+      (void)write_png(actual, path + ".actual.png");
+      return unmet(fmt::format("{}; what was drawn is in {}.actual.png", expected.error().message, path));
+    }
+    const ImageDifference difference = compare_images(actual, *expected);
+    if (difference.passes) return {};
+    (void)write_png(actual, path + ".actual.png");
+    return unmet(fmt::format("the picture differs from {}: {}; what was drawn is in {}.actual.png", path,
+                             describe(difference), path));
+  }
+
+  Ui& ui_;
+  double most_s_;
+};
+
+}  // namespace
+
+Result<Script> parse_script(std::string_view text, std::string_view name, bool semicolons) {
+  Script script{std::string(name), {}};
+  int number = 0;
+  while (!text.empty()) {
+    ++number;
+    const std::size_t end = std::min(text.find_first_of(semicolons ? ";\n" : "\n"), text.size());
+    const std::string_view line = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    auto words = split_words(line);
+    if (!words) return wrong(fmt::format("{}:{}: {}", name, number, words.error().message));
+    if (!words->empty()) script.lines.push_back({number, std::move(*words), std::string(line)});
+  }
+  return script;
+}
+
+Result<void> run_script(Ui& ui, const Script& script, double most_s) {
+  Runner runner(ui, most_s);
+  ui.frame({}, kFrame_s);
+  for (const Script::Line& line : script.lines) {
+    const auto done = runner.run(line);
+    if (!done)
+      return failure(done.error().code,
+                     fmt::format("{}:{}: {}", script.name, line.number, done.error().message));
+    if (ui.wants_quit()) break;
+  }
+  return {};
+}
+
+std::string script_help() {
+  std::string text =
+      "A script is a list of lines; # begins a comment. Besides the commands below:\n"
+      "  click PLACE, double-click PLACE, hover PLACE      PLACE: X Y in pixels, or a name in quotes, such "
+      "as\n"
+      "                                                    \"map a\", \"handle b\", \"button estimate\", "
+      "\"chart 0\" at 0.2 0.5\n"
+      "  drag PLACE to PLACE [BUTTON], drag PLACE by X Y   BUTTON: left, right or middle\n"
+      "  mouse move PLACE, mouse down|up [BUTTON], wheel CLICKS\n"
+      "  key CHORD, type TEXT, drop FILE                   CHORD: H, 7, Space, Ctrl+Shift+Z ...\n"
+      "  wait loaded|estimated|solved [SECONDS], frames N\n"
+      "  screenshot FILE.png                               the whole interface\n"
+      "  expect NAME is|contains TEXT, expect NAME near VALUE WITHIN, expect NAME above|below VALUE\n"
+      "  expect picture FILE.png                           the same picture, within the limits for pictures\n"
+      "What can be expected:\n";
+  for (const auto& [name, meaning] : Explorer::observables())
+    text += fmt::format("  {:<20} {}\n", name, meaning);
+  text += "Commands (those that hold a setting turn it over or move on without an argument):\n";
+  for (const Command& command : commands()) {
+    std::string usage = command.name;
+    for (const Parameter& parameter : command.parameters)
+      usage += parameter.optional ? " [" + parameter.name + "]" : " " + parameter.name;
+    std::string words;
+    for (const Parameter& parameter : command.parameters) {
+      if (parameter.kind == Kind::kChoice) words += " " + parameter.name + ": " + describe(parameter) + ".";
+    }
+    text += fmt::format("  {:<34} {}{}\n", usage, command.help, words);
+  }
+  return text;
+}
+
+}  // namespace sweepscope::ui

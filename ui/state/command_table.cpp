@@ -1,0 +1,467 @@
+#include <algorithm>
+#include <cmath>
+
+#include "ui/state/commands.hpp"
+
+namespace sweepscope::ui {
+namespace {
+
+using Values = std::vector<Value>;
+
+Parameter number_of(std::string name, std::string unit, double least, double greatest, double step) {
+  return {
+      .name = std::move(name), .unit = std::move(unit), .least = least, .greatest = greatest, .step = step};
+}
+Parameter choice_of(std::string name, std::vector<std::string> choices) {
+  return {.name = std::move(name), .kind = Kind::kChoice, .choices = std::move(choices)};
+}
+Parameter text_of(std::string name) {
+  return {.name = std::move(name), .kind = Kind::kText};
+}
+
+/// What every command says of itself.
+struct Words {
+  std::string name, title, help;
+};
+
+Command number(Words words, double Settings::*field, Parameter parameter) {
+  return {words.name,
+          words.title,
+          words.help,
+          {std::move(parameter)},
+          [field](const Settings& s) { return Values{s.*field}; },
+          [field](Settings& s, const Values& v) { s.*field = std::get<double>(v[0]); }};
+}
+
+Command numbers(Words words, double Settings::*from, double Settings::*to, Parameter first,
+                Parameter second) {
+  return {words.name,
+          words.title,
+          words.help,
+          {std::move(first), std::move(second)},
+          [=](const Settings& s) {
+            return Values{s.*from, s.*to};
+          },
+          [=](Settings& s, const Values& v) {
+            s.*from = std::get<double>(v[0]);
+            s.*to = std::get<double>(v[1]);
+          }};
+}
+
+Command toggle(Words words, bool Settings::*field) {
+  return {words.name,
+          words.title,
+          words.help,
+          {{.name = "STATE", .kind = Kind::kSwitch}},
+          [field](const Settings& s) { return Values{s.*field}; },
+          [field](Settings& s, const Values& v) { s.*field = std::get<bool>(v[0]); }};
+}
+
+template <typename Enum>
+Command choice(Words words, Enum Settings::*field, std::vector<std::string> names) {
+  const auto index = [names](const std::string& name) {
+    return std::find(names.begin(), names.end(), name) - names.begin();
+  };
+  return {words.name,
+          words.title,
+          words.help,
+          {choice_of("WHICH", names)},
+          [field, names](const Settings& s) { return Values{names[static_cast<std::size_t>(s.*field)]}; },
+          [field, index](Settings& s, const Values& v) {
+            s.*field = static_cast<Enum>(index(std::get<std::string>(v[0])));
+          }};
+}
+
+Command table_choice() {
+  return {"table",
+          "Colour table",
+          "Viridis and cividis are safe for colour-blind eyes and for grey print; turbo shows finer steps.",
+          {choice_of("WHICH", {"viridis", "cividis", "turbo", "grey"})},
+          [](const Settings& s) { return Values{s.table}; },
+          [](Settings& s, const Values& v) { s.table = std::get<std::string>(v[0]); }};
+}
+
+Command camera(Words words, ViewPoint Settings::*field) {
+  return {words.name,
+          words.title,
+          words.help,
+          {number_of("X", "m", -1e5, 1e5, 0), number_of("Y", "m", -1e5, 1e5, 0),
+           number_of("Z", "m", -1e5, 1e5, 0), number_of("HEIGHT", "m", 0.01, 1e5, 0),
+           number_of("TURN", "°", -360, 360, 5), number_of("ELEVATION", "°", -90, 90, 5)},
+          [field](const Settings& s) {
+            const ViewPoint& v = s.*field;
+            return Values{v.centre_m.x(), v.centre_m.y(), v.centre_m.z(),
+                          v.height_m,     v.turn_deg,     v.elevation_deg};
+          },
+          [field](Settings& s, const Values& v) {
+            const auto at = [&](std::size_t i) { return std::get<double>(v[i]); };
+            s.*field = {{at(0), at(1), at(2)}, at(3), at(4), at(5)};
+          }};
+}
+
+Command profile() {
+  const auto place = [](const char* name) { return number_of(name, "m", -1e5, 1e5, 0); };
+  return {"profile",
+          "Profile line",
+          "The line across a wall, in the map frame, along which the densities of both maps are compared. "
+          "From and to the same place: none.",
+          {place("X1"), place("Y1"), place("X2"), place("Y2")},
+          [](const Settings& s) {
+            return Values{s.profile_from_m.x(), s.profile_from_m.y(), s.profile_to_m.x(), s.profile_to_m.y()};
+          },
+          [](Settings& s, const Values& v) {
+            const auto at = [&](std::size_t i) { return std::get<double>(v[i]); };
+            s.profile_from_m = {at(0), at(1)};
+            s.profile_to_m = {at(2), at(3)};
+          }};
+}
+
+Command edit(Words words, std::vector<Parameter> parameters,
+             std::function<void(Settings&, const Values&)> set) {
+  return {words.name, words.title, words.help, std::move(parameters), {}, std::move(set)};
+}
+
+Command action(Words words, std::vector<Parameter> parameters = {}) {
+  return {words.name, words.title, words.help, std::move(parameters)};
+}
+
+template <typename Change>
+void for_both_cameras(Settings& s, const Change& change) {
+  change(s.camera_a);
+  change(s.camera_b);
+}
+
+void look(Settings& s, const std::string& from) {
+  for_both_cameras(s, [&](ViewPoint& view) {
+    view.elevation_deg = from == "top" ? 90 : from == "isometric" ? 35.264 : 0;
+    if (from == "right") view.turn_deg = 90;
+    if (from == "front") view.turn_deg = 0;
+    if (from == "isometric") view.turn_deg = 45;
+    if (from == "top") view.turn_deg = 0;
+  });
+}
+
+void pan(Settings& s, double right, double up) {
+  for_both_cameras(s, [&](ViewPoint& view) {
+    const double turn = view.turn_deg * M_PI / 180, tilt = view.elevation_deg * M_PI / 180;
+    const Eigen::Vector3d to_right(std::cos(turn), std::sin(turn), 0);
+    const Eigen::Vector3d to_top(-std::sin(turn) * std::sin(tilt), std::cos(turn) * std::sin(tilt),
+                                 std::cos(tilt));
+    view.centre_m += view.height_m * (right * to_right + up * to_top);
+  });
+}
+
+void add_fields_of_maps(std::vector<Command>& all) {
+  const Parameter offset = number_of("OFFSET", "ms", -10000, 10000, 0.1);
+  all.push_back(
+      number({"offset-a", "Offset of map A", "t_motor = t_laser + offset, for the map on the left."},
+             &Settings::offset_a_ms, offset));
+  all.push_back(
+      number({"offset-b", "Offset of map B", "t_motor = t_laser + offset, for the map on the right."},
+             &Settings::offset_b_ms, offset));
+  all.push_back(
+      choice({"layout", "Layout of the maps",
+              "Beside each other; one above the other with a divider to move; one alone; or how far "
+              "each point of B lies from its place in A."},
+             &Settings::layout, {"side-by-side", "swipe", "a", "b", "difference"}));
+  all.push_back(number({"divider", "Divider of the swipe", "How much of the width shows map A."},
+                       &Settings::divider, number_of("SHARE", "", 0, 1, 0.05)));
+  all.push_back({"linked",
+                 "Linked cameras",
+                 "Both maps are seen from the same place; unlink to look at each by itself.",
+                 {{.name = "STATE", .kind = Kind::kSwitch}},
+                 [](const Settings& s) { return Values{s.linked}; },
+                 [](Settings& s, const Values& v) {
+                   s.linked = std::get<bool>(v[0]);
+                   if (s.linked) s.camera_b = s.camera_a;
+                 }});
+  all.push_back(toggle({"perspective", "Perspective", "Near things larger; off: the same scale everywhere."},
+                       &Settings::perspective));
+  all.push_back(camera({"camera-a", "Camera of map A", "Where it looks, how much it shows, and from where."},
+                       &Settings::camera_a));
+  all.push_back(camera({"camera-b", "Camera of map B", "Where it looks, how much it shows, and from where."},
+                       &Settings::camera_b));
+}
+
+void add_fields_of_display(std::vector<Command>& all) {
+  all.push_back(choice({"colouring", "Colour by",
+                        "Elevation in the map; the laser's intensity; the time of the beam; or the direction "
+                        "that the motor turned in."},
+                       &Settings::colouring, {"elevation", "intensity", "time", "direction"}));
+  all.push_back(table_choice());
+  all.push_back(
+      choice({"heights", "Heights shown",
+              "Sharp: where an offset shows, 0.8 m and more above or below the sensor's path, without "
+              "the ceiling. All: everything. Slab: between two heights above the path."},
+             &Settings::heights, {"sharp", "all", "slab"}));
+  all.push_back(numbers({"slab", "Slab", "The heights above the sensor's path that are shown."},
+                        &Settings::slab_from_m, &Settings::slab_to_m, number_of("FROM", "m", -50, 50, 0.1),
+                        number_of("TO", "m", -50, 50, 0.1)));
+  all.push_back(number({"point-size", "Point size", "In pixels, before the display's scale."},
+                       &Settings::point_size_px, number_of("SIZE", "px", 1, 8, 0.5)));
+  all.push_back(choice({"backdrop", "Background", "Behind the points: as the theme has it, black or white."},
+                       &Settings::backdrop, {"theme", "black", "white"}));
+  all.push_back(toggle({"trajectory", "Sensor's path", "The way of the sensor, as it was solved for map B."},
+                       &Settings::trajectory));
+  all.push_back(
+      numbers({"time-window", "Time window",
+               "Only beams of this part of the recording, in seconds since the first scan. Both 0: all."},
+              &Settings::time_from_s, &Settings::time_to_s, number_of("FROM", "s", 0, 1e6, 0.5),
+              number_of("TO", "s", 0, 1e6, 0.5)));
+  all.push_back(choice({"theme", "Theme", "Dark for the screen, light for paper and bright rooms."},
+                       &Settings::theme, {"dark", "light"}));
+  all.push_back(
+      toggle({"panels", "Side panels", "The panels to the left and right of the maps."}, &Settings::panels));
+  all.push_back(
+      toggle({"criteria", "Criteria", "The criteria over the offset, below the maps."}, &Settings::criteria));
+  all.push_back(
+      number({"ui-scale", "Size of the interface", "1 is 100 %, 2 is 200 %; 0: as the display asks."},
+             &Settings::ui_scale, number_of("SCALE", "", 0, 4, 0.25)));
+}
+
+void add_fields_of_tools(std::vector<Command>& all) {
+  all.push_back(choice({"tool", "Tool",
+                        "What a click on a map does: look about, ask a point where it comes from, measure a "
+                        "distance, or draw a profile across a wall."},
+                       &Settings::tool, {"look", "pick", "measure", "profile"}));
+  all.push_back(profile());
+  all.push_back(toggle({"scan-view", "Features of a scan",
+                        "One scan with its edge points and plane points, as in the paper's Figure 2."},
+                       &Settings::scan_view));
+  all.push_back(number({"scan", "Scan", "Whose features the scan view shows, counted from 0."},
+                       &Settings::scan, number_of("NUMBER", "", 0, 1e7, 1)));
+  all.push_back(choice(
+      {"search", "Search", "Automatic: coarse to fine about 0 ms. Range: the candidates that you name."},
+      &Settings::search, {"automatic", "range"}));
+  all.push_back(
+      Command{"search-range",
+              "Candidates",
+              "The offsets to try, from, to and by how much, as the paper does from 19 to 29 ms by 1 ms.",
+              {number_of("FROM", "ms", -10000, 10000, 1), number_of("TO", "ms", -10000, 10000, 1),
+               number_of("STEP", "ms", 0.001, 1000, 0.1)},
+              [](const Settings& s) {
+                return Values{s.search_from_ms, s.search_to_ms, s.search_step_ms};
+              },
+              [](Settings& s, const Values& v) {
+                s.search_from_ms = std::get<double>(v[0]);
+                s.search_to_ms = std::get<double>(v[1]);
+                s.search_step_ms = std::get<double>(v[2]);
+              }});
+  all.push_back(
+      choice({"method", "Method",
+              "Stationary: where odometry sees the least motion d (equation 3). Moving: where the map is "
+              "clearest, by matches n and their distance e (equations 6 and 7). Automatic: what the "
+              "motion test says."},
+             &Settings::method, {"automatic", "stationary", "moving"}));
+  all.push_back(
+      choice({"fit", "Fit",
+              "None: the best candidate. Parabola: the extremum of a parabola through those within 3 ms."},
+             &Settings::fit, {"automatic", "none", "parabola"}));
+}
+
+void add_edits(std::vector<Command>& all) {
+  all.push_back(edit({"nudge", "Move an offset", "Adds to the offset of map A or B."},
+                     {choice_of("MAP", {"a", "b"}), number_of("BY", "ms", -1000, 1000, 0.1)},
+                     [](Settings& s, const Values& v) {
+                       double& offset_ms = std::get<std::string>(v[0]) == "a" ? s.offset_a_ms : s.offset_b_ms;
+                       offset_ms = std::round((offset_ms + std::get<double>(v[1])) * 1e4) / 1e4;
+                     }));
+  all.push_back(edit({"swap", "Swap A and B", "Exchanges the two offsets."}, {},
+                     [](Settings& s, const Values&) { std::swap(s.offset_a_ms, s.offset_b_ms); }));
+  all.push_back(
+      edit({"flip", "Flip between A and B", "Shows one map alone, and the other at the next press."}, {},
+           [](Settings& s, const Values&) {
+             s.layout = s.layout == Layout::kOnlyA ? Layout::kOnlyB : Layout::kOnlyA;
+           }));
+  all.push_back(edit({"look", "Look from", "Turns the cameras."},
+                     {choice_of("FROM", {"front", "right", "top", "isometric"})},
+                     [](Settings& s, const Values& v) { look(s, std::get<std::string>(v[0])); }));
+  all.push_back(edit({"zoom", "Zoom", "By a factor; above 1 comes nearer."},
+                     {number_of("FACTOR", "", 0.01, 100, 1.25)}, [](Settings& s, const Values& v) {
+                       for_both_cameras(s, [&](ViewPoint& view) {
+                         view.height_m = std::clamp(view.height_m / std::get<double>(v[0]), 0.02, 1e4);
+                       });
+                     }));
+  all.push_back(
+      edit({"pan", "Move the view", "By parts of its height, to the right and up."},
+           {number_of("RIGHT", "", -10, 10, 0.1), number_of("UP", "", -10, 10, 0.1)},
+           [](Settings& s, const Values& v) { pan(s, std::get<double>(v[0]), std::get<double>(v[1])); }));
+  all.push_back(edit({"turn", "Turn the view", "About the vertical, and up or down."},
+                     {number_of("ABOUT", "°", -360, 360, 15), number_of("UP", "°", -180, 180, 15)},
+                     [](Settings& s, const Values& v) {
+                       for_both_cameras(s, [&](ViewPoint& view) {
+                         view.turn_deg = std::remainder(view.turn_deg + std::get<double>(v[0]), 360);
+                         view.elevation_deg =
+                             std::clamp(view.elevation_deg + std::get<double>(v[1]), -90.0, 90.0);
+                       });
+                     }));
+}
+
+void add_actions(std::vector<Command>& all) {
+  const std::vector<std::string> scenes{"room-1",   "room-2",      "room-3",        "room-4",
+                                        "room-5",   "room-6",      "metro-station", "parking-area",
+                                        "cemetery", "lecture-room"};
+  all.push_back(
+      action({"open", "Open a recording", "A ROS 1 bag, or a session saved before."}, {text_of("FILE")}));
+  all.push_back(
+      action({"sample", "Open a simulated sample",
+              "A recording whose true offset is known to be 24 ms: a room, or the first seconds of a walk."},
+             {choice_of("SCENE", scenes),
+              {.name = "SECONDS", .unit = "s", .least = 1, .greatest = 300, .optional = true}}));
+  all.push_back(action({"close", "Close the recording", "Back to the start page."}));
+  all.push_back(action({"fit-view", "Fit the view", "Shows the whole map."}));
+  all.push_back(action({"estimate", "Estimate the offset", "Searches the offset, in the background."}));
+  all.push_back(action({"cancel", "Cancel", "Stops everything that runs in the background."}));
+  all.push_back(action({"take-found", "Take the offset found", "Sets map B to the offset that was found."}));
+  all.push_back(action({"undo", "Undo", "Takes back the last change of a setting."}));
+  all.push_back(action({"redo", "Redo", "Makes it again."}));
+  all.push_back(
+      action({"save-session", "Save the session", "The recording's name, all settings and the estimate."},
+             {text_of("FILE")}));
+  all.push_back(action({"copy-command", "Copy as command line",
+                        "The shell command that makes this picture, into the clipboard."}));
+  all.push_back(
+      action({"export-picture", "Export the picture", "As PNG: everything, or the maps alone."},
+             {text_of("FILE"),
+              {.name = "WHAT", .kind = Kind::kChoice, .choices = {"everything", "maps"}, .optional = true}}));
+  all.push_back(action({"export-cloud", "Export a map's points", "As PCD or PLY, by the file's ending."},
+                       {choice_of("MAP", {"a", "b"}), text_of("FILE")}));
+  all.push_back(action({"export-curve", "Export the criteria", "As CSV or JSON, by the file's ending."},
+                       {text_of("FILE")}));
+  all.push_back(action({"palette", "All commands", "A list to search and to choose from."}));
+  all.push_back(action({"help", "Keys", "The list of keys."}));
+  all.push_back(
+      action({"dismiss", "Close what is in front", "The palette, a dialog, a message, or the tool."}));
+  all.push_back(action(
+      {"ask", "Ask for a file", "Shows the dialog that asks for a command's file."},
+      {choice_of("COMMAND", {"open", "save-session", "export-picture", "export-cloud", "export-curve"})}));
+  all.push_back(action({"quit", "Quit", "Ends the program."}));
+}
+
+std::vector<Command> make_commands() {
+  std::vector<Command> all;
+  add_fields_of_maps(all);
+  add_fields_of_display(all);
+  add_fields_of_tools(all);
+  add_edits(all);
+  add_actions(all);
+  return all;
+}
+
+}  // namespace
+
+std::span<const Command> commands() {
+  static const std::vector<Command> all = make_commands();
+  return all;
+}
+
+std::span<const Shortcut> shortcuts() {
+  static const std::vector<Shortcut> all{
+      {"Ctrl+O", "ask open"},
+      {"Ctrl+S", "ask save-session"},
+      {"Ctrl+E", "ask export-picture"},
+      {"Ctrl+C", "copy-command"},
+      {"Ctrl+Z", "undo"},
+      {"Ctrl+Shift+Z", "redo"},
+      {"Ctrl+Y", "redo"},
+      {"Ctrl+P", "palette"},
+      {"Ctrl+Q", "quit"},
+      {"H", "help"},
+      {"Escape", "dismiss"},
+      {"E", "estimate"},
+      {"X", "cancel"},
+      {"G", "take-found"},
+      {"1", "look front"},
+      {"3", "look right"},
+      {"7", "look top"},
+      {"9", "look isometric"},
+      {"0", "fit-view"},
+      {"Plus", "zoom 1.25"},
+      {"Minus", "zoom 0.8"},
+      {"Left", "pan -0.1 0"},
+      {"Right", "pan 0.1 0"},
+      {"Up", "pan 0 0.1"},
+      {"Down", "pan 0 -0.1"},
+      {"Shift+Left", "turn -15 0"},
+      {"Shift+Right", "turn 15 0"},
+      {"Shift+Up", "turn 0 15"},
+      {"Shift+Down", "turn 0 -15"},
+      {"Comma", "nudge a -0.1"},
+      {"Period", "nudge a 0.1"},
+      {"Shift+Comma", "nudge a -1"},
+      {"Shift+Period", "nudge a 1"},
+      {"K", "nudge b -0.1"},
+      {"L", "nudge b 0.1"},
+      {"Shift+K", "nudge b -1"},
+      {"Shift+L", "nudge b 1"},
+      {"Space", "flip"},
+      {"B", "layout side-by-side"},
+      {"S", "layout swipe"},
+      {"D", "layout difference"},
+      {"U", "linked"},
+      {"Q", "perspective"},
+      {"C", "colouring"},
+      {"V", "table"},
+      {"Z", "heights"},
+      {"T", "theme"},
+      {"F", "scan-view"},
+      {"I", "tool pick"},
+      {"M", "tool measure"},
+      {"P", "tool profile"},
+      {"Tab", "panels"},
+      {"Shift+Tab", "criteria"},
+      {"J", "trajectory"},
+  };
+  return all;
+}
+
+std::span<const MenuItem> menu_items() {
+  static const std::vector<MenuItem> all{
+      {"File", "Open …", "ask open"},
+      {"File", "Sample: a room, standing still", "sample room-1"},
+      {"File", "Sample: a metro station, 20 s of walking", "sample metro-station 20"},
+      {"File", "Save the session …", "ask save-session"},
+      {"File", "", ""},
+      {"File", "Export the picture …", "ask export-picture"},
+      {"File", "Export the points of map B …", "ask export-cloud"},
+      {"File", "Export the criteria …", "ask export-curve"},
+      {"File", "Copy as command line", "copy-command"},
+      {"File", "", ""},
+      {"File", "Close the recording", "close"},
+      {"File", "Quit", "quit"},
+      {"Edit", "Undo", "undo"},
+      {"Edit", "Redo", "redo"},
+      {"Edit", "", ""},
+      {"Edit", "All commands …", "palette"},
+      {"Offset", "Estimate", "estimate"},
+      {"Offset", "Take the offset found for B", "take-found"},
+      {"Offset", "Swap A and B", "swap"},
+      {"Offset", "Cancel what runs", "cancel"},
+      {"View", "Side by side", "layout side-by-side"},
+      {"View", "Swipe", "layout swipe"},
+      {"View", "Flip between A and B", "flip"},
+      {"View", "Difference", "layout difference"},
+      {"View", "", ""},
+      {"View", "From the front", "look front"},
+      {"View", "From the right", "look right"},
+      {"View", "From above", "look top"},
+      {"View", "Isometric", "look isometric"},
+      {"View", "Fit the view", "fit-view"},
+      {"View", "Perspective", "perspective"},
+      {"View", "Linked cameras", "linked"},
+      {"View", "", ""},
+      {"View", "Side panels", "panels"},
+      {"View", "Criteria", "criteria"},
+      {"View", "Dark or light", "theme"},
+      {"Tools", "Look about", "tool look"},
+      {"Tools", "Ask a point", "tool pick"},
+      {"Tools", "Measure a distance", "tool measure"},
+      {"Tools", "Profile across a wall", "tool profile"},
+      {"Tools", "", ""},
+      {"Tools", "Features of a scan", "scan-view"},
+      {"Help", "Keys", "help"},
+  };
+  return all;
+}
+
+}  // namespace sweepscope::ui

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "core/error.hpp"
+#include "core/offset/estimate.hpp"
+#include "ui/state/settings.hpp"
+
+namespace sweepscope::ui {
+
+/// What is kept between two runs: what was looked at, how, and the estimate where there was one.
+struct Session {
+  std::string source;  // the line that opens the recording: `open FILE` or `sample SCENE`
+  Settings settings;
+  std::optional<Estimate> estimate;
+};
+
+/// A JSON object (schema "sweepscope.session/1"): a key for each field command, in their order. The same
+/// session gives the same bytes.
+std::string session_to_json(const Session& session);
+
+/// Reads it back. Keys that are missing keep their defaults, unknown ones are passed over; a value that does
+/// not fit is ExitCode::kUnreadableInput with a sentence that names `name` and the key.
+Result<Session> parse_session(std::string_view text, std::string_view name);
+
+}  // namespace sweepscope::ui

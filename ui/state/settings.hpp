@@ -1,0 +1,67 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+
+namespace sweepscope::ui {
+
+/// From where a pane looks at its map: at `centre_m`, from `elevation_deg` above the horizon (90: from
+/// above), turned by `turn_deg` about the vertical; `height_m` of the scene fill the pane's height.
+struct ViewPoint {
+  Eigen::Vector3d centre_m{0, 0, 0};
+  double height_m = 20;
+  double turn_deg = 0;
+  double elevation_deg = 90;
+
+  bool operator==(const ViewPoint&) const = default;
+};
+
+enum class Layout { kSideBySide, kSwipe, kOnlyA, kOnlyB, kDifference };
+enum class Colouring { kElevation, kIntensity, kTime, kDirection };
+enum class Heights { kSharp, kAll, kSlab };
+enum class Theme { kDark, kLight };
+enum class Backdrop { kTheme, kBlack, kWhite };
+enum class Tool { kLook, kPick, kMeasure, kProfile };
+enum class Search { kAutomatic, kRange };
+enum class SearchMethod { kAutomatic, kStationary, kMoving };
+enum class SearchFit { kAutomatic, kNone, kParabola };
+
+/// Everything that a person can set in the explorer, and that a session keeps. Data alone; each field has
+/// one command (commands.hpp) that sets it.
+struct Settings {
+  double offset_a_ms = 0, offset_b_ms = 0;
+
+  Layout layout = Layout::kSideBySide;
+  double divider = 0.5;  // of a swipe, from the pane's left edge
+  bool linked = true;    // the cameras of both panes
+  bool perspective = false;
+  ViewPoint camera_a, camera_b;
+
+  Colouring colouring = Colouring::kElevation;
+  std::string table = "viridis";
+  Heights heights = Heights::kSharp;
+  double slab_from_m = 0.8, slab_to_m = 2.5;  // above the sensor's path
+  double point_size_px = 2;
+  Backdrop backdrop = Backdrop::kTheme;
+  bool trajectory = true;
+  double time_from_s = 0, time_to_s = 0;  // since the first scan; both 0: all of the recording
+
+  Tool tool = Tool::kLook;
+  Eigen::Vector2d profile_from_m{0, 0}, profile_to_m{0, 0};  // both the same: none
+  bool scan_view = false;
+  double scan = 0;  // whose features the scan view shows
+
+  Search search = Search::kAutomatic;
+  double search_from_ms = 19, search_to_ms = 29, search_step_ms = 1;
+  SearchMethod method = SearchMethod::kAutomatic;
+  SearchFit fit = SearchFit::kAutomatic;
+
+  Theme theme = Theme::kDark;
+  bool panels = true;  // to the left and right of the maps
+  bool criteria = true;
+  double ui_scale = 0;  // 0: what the display asks for
+
+  bool operator==(const Settings&) const = default;
+};
+
+}  // namespace sweepscope::ui

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "core/error.hpp"
+
+namespace sweepscope::ui {
+
+/// What a command's parameter holds: a number, a switch, or words.
+using Value = std::variant<double, bool, std::string>;
+
+enum class Kind { kNumber, kSwitch, kChoice, kText };
+
+/// A parameter of a command, declared once: parsing, help, sliders and menus follow from it.
+struct Parameter {
+  std::string name;
+  Kind kind = Kind::kNumber;
+  std::string unit = {};
+  double least = -1e9, greatest = 1e9, step = 0;  // of a number; step: what a slider or key moves by
+  std::vector<std::string> choices = {};
+  bool optional = false;
+};
+
+/// The value that a word stands for. A word that does not fit is ExitCode::kWrongUsage with a sentence that
+/// says what would.
+Result<Value> parse_value(const Parameter& parameter, std::string_view word);
+
+/// The word that parse_value reads back to the same value.
+std::string to_word(const Value& value);
+
+/// The words of a line: separated by spaces, with "double quotes" around a word that holds any; # begins a
+/// comment.
+Result<std::vector<std::string>> split_words(std::string_view line);
+
+/// A word as split_words wants it: in quotes where it holds spaces, a quote or #, or nothing.
+std::string quoted(const std::string& word);
+
+/// "19 to 29 ms", "on or off", "dark or light": for help.
+std::string describe(const Parameter& parameter);
+
+}  // namespace sweepscope::ui

@@ -1,0 +1,246 @@
+#include "ui/ui.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/gl/default_framebuffer.hpp"
+#include "ui/host/imgui_host.hpp"
+#include "ui/panes/pane_context.hpp"
+#include "ui/recent.hpp"
+
+namespace sweepscope::ui {
+
+struct Ui::Parts {
+  Parts(gl::Context& gl_context, Options with)
+      : options(std::move(with)),
+        context(gl_context),
+        explorer(options.explorer),
+        host(gl_context),
+        view_a(gl_context),
+        view_b(gl_context) {
+    transient.recent = read_recent(options.recent_list);
+    explorer.at_window = [this](const Call& call) { return act(call); };
+  }
+
+  double scale() const {
+    const double wanted = explorer.settings().ui_scale;
+    return wanted > 0 ? wanted : options.display_scale;
+  }
+  const Style& style() const { return style_of(explorer.settings().theme); }
+  bool something_in_front() const {
+    return transient.palette || transient.help || transient.asks_for.has_value();
+  }
+
+  Result<void> act(const Call& call);
+  void open_front(const std::string& name, const Call& call);
+  void dismiss();
+  void use_keys(std::span<const InputEvent> events);
+  void use_drops(std::span<const InputEvent> events);
+  void draw(const PaneContext& panes);
+  void remember_opened();
+  void write_picture();
+
+  Options options;
+  gl::Context& context;
+  Explorer explorer;
+  ImGuiHost host;
+  LiveView view_a, view_b;
+  Transient transient;
+  std::map<std::string, PixelRect> anchors;
+  std::string remembered;  // the source that the recent list knows already
+  std::optional<Call> picture_asked;
+};
+
+Result<void> Ui::Parts::act(const Call& call) {
+  const std::string& name = call.command->name;
+  if (name == "quit") transient.quit = true;
+  if (name == "palette" || name == "help" || name == "ask") open_front(name, call);
+  if (name == "dismiss") dismiss();
+  if (name == "copy-command") {
+    host.clipboard = explorer.command_line(context.width_px(), context.height_px());
+    explorer.say(Message::Kind::kNote, "Copied: " + host.clipboard);
+  }
+  if (name == "export-picture") picture_asked = call;  // written once the frame is drawn
+  return {};
+}
+
+void Ui::Parts::open_front(const std::string& name, const Call& call) {
+  const bool palette_was = transient.palette, help_was = transient.help;
+  transient.palette = transient.help = false;
+  transient.asks_for.reset();
+  if (name == "palette") transient.palette = !palette_was;
+  if (name == "help") transient.help = !help_was;
+  if (name == "ask") transient.asks_for = call.text(0);
+  transient.palette_query.clear();
+  transient.palette_choice = 0;
+  transient.asked_text.clear();
+  transient.just_opened = true;
+}
+
+void Ui::Parts::dismiss() {
+  if (something_in_front()) {
+    transient.palette = transient.help = false;
+    transient.asks_for.reset();
+  } else if (explorer.message()) {
+    explorer.dismiss_message();
+  } else if (explorer.settings().tool != Tool::kLook) {
+    (void)explorer.perform("tool look");
+    transient.picked.reset();
+    transient.measured_m.clear();
+  } else if (explorer.settings().scan_view) {
+    (void)explorer.perform("scan-view off");
+  }
+}
+
+void Ui::Parts::use_keys(std::span<const InputEvent> events) {
+  for (const InputEvent& event : events) {
+    if (event.what != InputEvent::What::kKey || !event.down) continue;
+    const Chord chord{event.key, event.modifiers};
+    const bool always = event.key == keys::kEscape || (event.modifiers & kCtrl) != 0;
+    const bool typing = ImGui::GetIO().WantTextInput;
+    if ((typing || something_in_front()) && !always) continue;
+    if (typing && event.key != 'P' && event.key != 'Q' && event.key != keys::kEscape) continue;
+    for (const Shortcut& shortcut : shortcuts()) {
+      if (parse_chord(shortcut.chord) != chord) continue;
+      if (const auto done = explorer.perform(shortcut.line, "key " + shortcut.line); !done)
+        explorer.say(Message::Kind::kError, done.error().message);
+    }
+  }
+}
+
+void Ui::Parts::use_drops(std::span<const InputEvent> events) {
+  for (const InputEvent& event : events) {
+    if (event.what != InputEvent::What::kDrop) continue;
+    transient.asks_for.reset();
+    if (const auto done = explorer.perform("open " + ui::quoted(event.text)); !done)
+      explorer.say(Message::Kind::kError, done.error().message);
+  }
+}
+
+void Ui::Parts::draw(const PaneContext& panes) {
+  const double width = context.width_px(), height = context.height_px();
+  const bool open = explorer.loaded() != nullptr;
+  const Places places = lay_out(width, height, panes.scale, explorer.settings(), open);
+  const PixelRect whole{0, 0, width, height};
+  if (open) {
+    draw_recording_panel(panes, places.left);
+    draw_maps(panes, places.maps);
+    draw_criteria(panes, places.criteria);
+    draw_display_panel(panes, places.right);
+    draw_cards(panes, places.maps);
+  } else if (explorer.is_loading()) {
+    draw_loading_page(panes, places.maps);
+  } else {
+    draw_start_page(panes, places.maps);
+  }
+  draw_status_bar(panes, places.status);
+  draw_menu_bar(panes, places.menu);
+  const bool opened = transient.just_opened;
+  draw_palette(panes, whole);
+  draw_help(panes, whole);
+  draw_ask(panes, whole);
+  if (opened) transient.just_opened = false;
+  draw_message(panes, whole);
+}
+
+void Ui::Parts::remember_opened() {
+  const Loaded* loaded = explorer.loaded();
+  if (loaded == nullptr || loaded->source == remembered) return;
+  remembered = loaded->source;
+  const auto call = parse_call(remembered);
+  if (call && call->command->name == "open")
+    transient.recent = remember_recent(options.recent_list, transient.recent, call->text(0));
+}
+
+void Ui::Parts::write_picture() {
+  const Call asked = *picture_asked;
+  picture_asked.reset();
+  Image image = gl::read_default_framebuffer(context);
+  if (asked.text(1) == "maps" && explorer.loaded() != nullptr) {
+    const PixelRect maps =
+        lay_out(context.width_px(), context.height_px(), scale(), explorer.settings(), true).maps;
+    Image part(static_cast<int>(maps.width), static_cast<int>(maps.height));
+    for (int y = 0; y < part.height_px; ++y)
+      std::copy_n(image.pixel(static_cast<int>(maps.left), static_cast<int>(maps.top) + y),
+                  3 * static_cast<std::size_t>(part.width_px), part.pixel(0, y));
+    image = std::move(part);
+  }
+  const auto written = write_png(image, asked.text(0));
+  explorer.say(written ? Message::Kind::kNote : Message::Kind::kError,
+               written ? "The picture is saved in " + asked.text(0) + "." : written.error().message);
+}
+
+Ui::Ui(gl::Context& context, Options options)
+    : parts_(std::make_unique<Parts>(context, std::move(options))) {}
+Ui::~Ui() = default;
+
+Explorer& Ui::explorer() {
+  return parts_->explorer;
+}
+
+const Explorer& Ui::explorer() const {
+  return parts_->explorer;
+}
+
+void Ui::frame(std::span<const InputEvent> events, double seconds_since_last) {
+  Parts& p = *parts_;
+  p.host.use(p.explorer.settings().theme, p.scale());
+  p.use_keys(events);
+  p.use_drops(events);
+  p.transient.camera_moved_s += seconds_since_last;
+  p.explorer.update(seconds_since_last);
+  p.remember_opened();
+  p.host.begin_frame(events, seconds_since_last);
+  p.anchors.clear();
+  const double scale = p.scale();
+  const PaneContext panes{p.explorer, p.transient, p.host.fonts(), p.style(), scale, {&p.view_a, &p.view_b},
+                          p.anchors};
+  p.draw(panes);
+  p.host.end_frame(p.style().page);
+  if (p.picture_asked) p.write_picture();
+}
+
+Image Ui::screenshot() {
+  return gl::read_default_framebuffer(parts_->context);
+}
+
+bool Ui::wants_quit() const {
+  return parts_->transient.quit;
+}
+
+bool Ui::pictures_done() const {
+  const Parts& p = *parts_;
+  if (p.transient.camera_moved_s < 0.5) return false;
+  if (p.explorer.loaded() == nullptr) return true;
+  const Layout layout = p.explorer.settings().layout;
+  const bool a = layout != Layout::kOnlyB && layout != Layout::kDifference, b = layout != Layout::kOnlyA;
+  return (!a || p.view_a.done()) && (!b || p.view_b.done());
+}
+
+bool Ui::animates() const {
+  const Parts& p = *parts_;
+  return !pictures_done() || p.explorer.background().busy() || p.transient.just_opened ||
+         !p.explorer.at_rest();
+}
+
+std::optional<PixelRect> Ui::anchor(const std::string& name) const {
+  const auto found = parts_->anchors.find(name);
+  if (found == parts_->anchors.end()) return std::nullopt;
+  return found->second;
+}
+
+std::vector<std::string> Ui::anchor_names() const {
+  std::vector<std::string> names;
+  for (const auto& [name, place] : parts_->anchors) names.push_back(name);
+  return names;
+}
+
+std::string& Ui::clipboard() {
+  return parts_->host.clipboard;
+}
+
+void Ui::set_display_scale(double scale) {
+  parts_->options.display_scale = scale;
+}
+
+}  // namespace sweepscope::ui

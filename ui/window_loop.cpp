@@ -1,0 +1,158 @@
+#include "ui/window_loop.hpp"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "render/gl/window.hpp"
+#include "ui/host/imgui_host.hpp"
+#include "ui/recent.hpp"
+
+namespace sweepscope::ui {
+namespace {
+
+std::string utf8(unsigned code) {
+  std::string text;
+  const auto add = [&](unsigned byte) { text += static_cast<char>(byte); };
+  if (code < 0x80) {
+    add(code);
+  } else if (code < 0x800) {
+    add(0xC0 | code >> 6);
+    add(0x80 | (code & 0x3F));
+  } else {
+    add(0xE0 | (code >> 12 & 0x0F));
+    add(0x80 | (code >> 6 & 0x3F));
+    add(0x80 | (code & 0x3F));
+  }
+  return text;
+}
+
+/// What the window reported and no frame has used yet.
+class EventQueue {
+ public:
+  explicit EventQueue(gl::Window& window) {
+    window.events.moved = [this](double x, double y) {
+      // Of moves in a row only the last one counts.
+      if (!events_.empty() && events_.back().what == InputEvent::What::kMove) events_.pop_back();
+      events_.push_back(InputEvent::move(x, y));
+    };
+    window.events.pressed = [this](int button, bool down, int modifiers) {
+      events_.push_back(InputEvent::press(button, down, static_cast<unsigned>(modifiers) & 7));
+    };
+    window.events.scrolled = [this](double clicks) { events_.push_back(InputEvent::scroll(clicks)); };
+    window.events.key = [this](int key, bool down, int modifiers) {
+      events_.push_back(InputEvent::stroke(key, down, static_cast<unsigned>(modifiers) & 7));
+    };
+    window.events.typed = [this](unsigned code) { events_.push_back(InputEvent::words(utf8(code))); };
+    window.events.dropped = [this](const std::string& path) { events_.push_back(InputEvent::drop(path)); };
+    window.events.changed = [this] { changed_ = true; };
+  }
+
+  bool any() const { return !events_.empty() || changed_; }
+  std::vector<InputEvent> take_for_frame() {
+    changed_ = false;
+    const std::size_t count = events_of_next_frame(events_);
+    std::vector<InputEvent> now(events_.begin(), events_.begin() + static_cast<std::ptrdiff_t>(count));
+    events_.erase(events_.begin(), events_.begin() + static_cast<std::ptrdiff_t>(count));
+    return now;
+  }
+
+ private:
+  std::vector<InputEvent> events_;
+  bool changed_ = true;
+};
+
+void use_cursor(gl::Window& window) {
+  switch (ImGui::GetMouseCursor()) {
+    case ImGuiMouseCursor_Hand:
+      return window.set_cursor(gl::Cursor::kHand);
+    case ImGuiMouseCursor_TextInput:
+      return window.set_cursor(gl::Cursor::kText);
+    case ImGuiMouseCursor_ResizeEW:
+      return window.set_cursor(gl::Cursor::kResizeX);
+    default:
+      return window.set_cursor(gl::Cursor::kArrow);
+  }
+}
+
+/// The system's clipboard and ours hold the same, whichever changed.
+class ClipboardLink {
+ public:
+  void before(gl::Window& window, Ui& ui) { ui.clipboard() = last_ = window.clipboard(); }
+  void after(gl::Window& window, Ui& ui) {
+    if (ui.clipboard() != last_) window.set_clipboard(ui.clipboard());
+  }
+
+ private:
+  std::string last_;
+};
+
+void loop(gl::Window& window, Ui& ui) {
+  using Clock = std::chrono::steady_clock;
+  constexpr int kFramesAfterEvent = 4;  // ImGui settles within them
+  constexpr double kTooltip_s = 0.7;    // a tooltip comes while the mouse rests
+  EventQueue queue(window);
+  ClipboardLink clipboard;
+  auto last = Clock::now(), last_event = last;
+  int frames_due = kFramesAfterEvent;
+  while (!window.should_close() && !ui.wants_quit()) {
+    const double since_event_s = std::chrono::duration<double>(Clock::now() - last_event).count();
+    const bool busy = frames_due > 0 || ui.animates() || since_event_s < kTooltip_s;
+    window.wait(busy ? 1.0 / 60 : 1.0);
+    if (queue.any()) {
+      frames_due = kFramesAfterEvent;
+      last_event = Clock::now();
+    } else if (!busy) {
+      continue;
+    }
+    const auto now = Clock::now();
+    const double seconds = std::clamp(std::chrono::duration<double>(now - last).count(), 1e-3, 0.25);
+    last = now;
+    ui.set_display_scale(window.scale());
+    clipboard.before(window, ui);
+    ui.frame(queue.take_for_frame(), seconds);
+    clipboard.after(window, ui);
+    window.present();
+    use_cursor(window);
+    frames_due = std::max(0, frames_due - 1);
+  }
+}
+
+}  // namespace
+
+Result<void> run_in_window(Ui::Options options, int width_px, int height_px, const std::string& first_line,
+                           const Script* script) {
+  auto window = gl::make_window(width_px, height_px, "sweepscope");
+  if (!window) return tl::unexpected(window.error());
+  (*window)->make_current();
+  options.recent_list = recent_list_path();
+  const double wanted_scale = options.display_scale;
+  if (wanted_scale == 1) options.display_scale = (*window)->scale();
+  Ui ui(**window, std::move(options));
+  ui.explorer().background().on_progress(gl::wake_window);
+  if (!first_line.empty()) {
+    if (const auto done = ui.explorer().perform(first_line); !done)
+      ui.explorer().say(Message::Kind::kError, done.error().message);
+  }
+  if (script != nullptr) {
+    if (auto done = run_script(ui, *script); !done) return done;
+  }
+  loop(**window, ui);
+  return {};
+}
+
+Result<void> run_headless(gl::Context& context, Ui::Options options, const std::string& first_line,
+                          const Script& script) {
+  Ui ui(context, std::move(options));
+  if (!first_line.empty()) {
+    if (auto done = ui.explorer().perform(first_line); !done) return done;
+    Script wait{script.name, {{0, {"wait", "loaded"}, "wait loaded"}}};
+    if (auto done = run_script(ui, wait); !done) return done;
+    if (ui.explorer().loaded() == nullptr && ui.explorer().message())
+      return unreadable(ui.explorer().message()->text);
+  }
+  return run_script(ui, script);
+}
+
+}  // namespace sweepscope::ui
