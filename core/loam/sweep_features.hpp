@@ -30,6 +30,7 @@ struct PlacedSweep {
 /// What a candidate offset is tried on: everything that does not depend on the offset.
 struct OffsetProblem {
   const Recording* recording = nullptr;
+  FeatureOptions feature_options;  // by which they were picked
   std::shared_ptr<const FeatureSet> features;
   MotorMotion motor;
   std::vector<char> scan_used;  // per scan: 1 where the motor track covers it at every offset searched
