@@ -363,10 +363,12 @@ AlternatingRoll take_out_alternating_roll(const std::vector<SweepPose>& sweeps,
     return roll_rad[k] - smooth_rad;
   };
   std::vector<double> away_rad;  // a wrong offset turns the pose against the sweep
-  for (std::size_t k = std::max<std::size_t>(2, std::size_t(settling_sweeps)); k + 2 < count; ++k)
+  const std::size_t settled = std::max<std::size_t>(2, std::size_t(settling_sweeps));
+  for (std::size_t k = settled + 2 < count ? settled : 2; k + 2 < count; ++k) {
     away_rad.push_back(-sweeps[k].direction * alternation_rad(k));
-  if (away_rad.empty())
-    for (std::size_t k = 2; k + 2 < count; ++k) away_rad.push_back(-sweeps[k].direction * alternation_rad(k));
+    result.sweep_s.push_back((sweeps[k].begin_s + sweeps[k].end_s) / 2);
+    result.sweep_roll_rad.push_back(2 * away_rad.back());
+  }
   // The middle four fifths: a sweep that slipped does not count.
   std::sort(away_rad.begin(), away_rad.end());
   const std::size_t cut = away_rad.size() / 10;

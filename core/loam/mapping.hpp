@@ -78,8 +78,10 @@ Result<TrackedWalk> track(const std::vector<PlacedSweep>& sweeps, const Eigen::V
 
 /// The roll about the motor's axis that alternates from sweep to sweep, and the walk without it.
 struct AlternatingRoll {
-  double signed_rotation_rad = 0;  // from one sweep to the next; near 2 omega (offset - truth)
-  std::vector<SweepPose> sweeps;   // with the alternation taken out
+  double signed_rotation_rad = 0;               // from one sweep to the next; near 2 omega (offset - truth)
+  std::vector<SweepPose> sweeps;                // with the alternation taken out
+  std::vector<double> sweep_s, sweep_roll_rad;  // each judged sweep's middle (laser clock) and share: their
+                                                // mean, without the outermost tenths, is the roll
 };
 
 /// Takes the alternation out of the sweeps' middle poses with the filter [-1 4 10 4 -1] / 16, which keeps

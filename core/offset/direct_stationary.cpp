@@ -5,22 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/loam/least_squares.hpp"
+
 namespace sweepscope {
 namespace {
 
 constexpr double kCoarseCap_m = 0.3;
-
-// The lines of each sweep, in the order of the motor's angle.
-std::vector<LinePool> pools_by_sweep(const StillPoints& points) {
-  std::vector<LinePool> pools;
-  for (const LinePool& pool : points.pool) {
-    for (const std::uint32_t line : pool) {
-      if (points.sweep[line] >= pools.size()) pools.resize(points.sweep[line] + 1);
-      pools[points.sweep[line]].push_back(line);
-    }
-  }
-  return pools;
-}
 
 struct CoarseSum {
   double sum_m = 0;
@@ -47,7 +37,8 @@ void add_differences(const StillGrid& grid, const StillPoints& points, std::size
   }
 }
 
-std::optional<double> coarse_cost_m(const StillGrid& grid, const StillPatchOptions& patches, double offset_s) {
+std::optional<double> coarse_cost_m(const StillGrid& grid, const StillPatchOptions& patches,
+                                    double offset_s) {
   const StillPoints points = place_still(grid, offset_s, StillDetail::kAngles);
   const std::vector<LinePool> pools = pools_by_sweep(points);
   CoarseSum total;
@@ -63,6 +54,7 @@ std::optional<double> coarse_cost_m(const StillGrid& grid, const StillPatchOptio
 
 struct Residual {
   double jacobian_m_s = 0, distance_m = 0;
+  float lever_m = 0, reach_m = 0;
 };
 
 // One line's points against the other direction's patches.
@@ -74,37 +66,49 @@ struct LineResiduals {
 class Linearisation {
  public:
   Linearisation(const StillGrid& grid, const StillPatchOptions& patches, double offset_s)
-      : grid_(grid), patches_(patches), points_(place_still(grid, offset_s, StillDetail::kPoints)) {}
+      : grid_(grid),
+        patches_(patches),
+        axis_(grid.problem->recording->rig.mount.axis.normalized()),
+        points_(place_still(grid, offset_s, StillDetail::kPoints)) {}
 
   const StillPoints& points() const { return points_; }
 
-  // All lines against the pools.
-  std::vector<LineResiduals> residuals(const std::array<LinePool, 2>& pools,
-                                       const std::vector<char>& left_out) const {
-    const Eigen::Vector3d axis = grid_.problem->recording->rig.mount.axis.normalized();
+  /// All lines against the other direction's, without those that are `left_out`.
+  std::vector<LineResiduals> residuals(const std::vector<char>& left_out = {}) const {
+    std::array<LinePool, 2> pools = points_.pool;
+    for (LinePool& pool : pools)
+      std::erase_if(pool, [&](std::uint32_t line) { return !left_out.empty() && left_out[line]; });
     std::vector<LineResiduals> found(points_.lines());
     tbb::parallel_for(std::size_t{0}, points_.lines(), [&](std::size_t line) {
       if (points_.sweep[line] == kNoSweep || (!left_out.empty() && left_out[line])) return;
-      StillNeighbours neighbours(points_, pools[points_.direction[line] > 0 ? 0 : 1], patches_);
-      LineResiduals& of_line = found[line];
-      for (std::size_t bin = 0; bin < points_.bins; ++bin) {
-        const std::size_t cell = line * points_.bins + bin;
-        if (!points_.placed[cell]) continue;
-        ++of_line.features;
-        const StillPatch patch = neighbours.patch(points_.angle_rad[cell], bin, grid_.range_m[cell]);
-        if (!patch.found) continue;
-        const Eigen::Vector3d& p_m = points_.p_m[cell];
-        of_line.residuals.push_back(
-            {(points_.speed_rad_s[cell] - patch.speed_rad_s) * patch.normal.dot(axis.cross(p_m)),
-             patch.normal.dot(p_m - patch.centre_m)});
-      }
+      found[line] = of_line(line, pools[points_.direction[line] > 0 ? 0 : 1]);
     });
     return found;
   }
 
  private:
+  LineResiduals of_line(std::size_t line, const LinePool& pool) const {
+    LineResiduals found;
+    StillNeighbours neighbours(points_, pool, patches_);
+    for (std::size_t bin = 0; bin < points_.bins; ++bin) {
+      const std::size_t cell = line * points_.bins + bin;
+      if (!points_.placed[cell]) continue;
+      ++found.features;
+      const StillPatch patch = neighbours.patch(points_.angle_rad[cell], bin, grid_.range_m[cell]);
+      if (!patch.found) continue;
+      const Eigen::Vector3d& p_m = points_.p_m[cell];
+      const Eigen::Vector3d turned_m = axis_.cross(p_m);
+      const double lever_m = patch.normal.dot(turned_m);
+      found.residuals.push_back({(points_.speed_rad_s[cell] - patch.speed_rad_s) * lever_m,
+                                 patch.normal.dot(p_m - patch.centre_m), float(lever_m),
+                                 float(turned_m.norm())});
+    }
+    return found;
+  }
+
   const StillGrid& grid_;
   const StillPatchOptions& patches_;
+  Eigen::Vector3d axis_;
   StillPoints points_;
 };
 
@@ -118,18 +122,118 @@ double robust_deviation_m(const std::vector<LineResiduals>& lines) {
   return 1.4826 * double(*middle);
 }
 
-StationarySums summed(const std::vector<LineResiduals>& lines, double loss_width_m) {
-  StationarySums sums;
-  for (const LineResiduals& line : lines) {
-    sums.features += line.features;
-    sums.matches += line.residuals.size();
-    for (const auto& [jacobian_m_s, distance_m] : line.residuals) {
-      const double ratio = distance_m / loss_width_m, weight = 1 / (1 + ratio * ratio);
-      sums.jj += weight * jacobian_m_s * jacobian_m_s;
-      sums.jr += weight * jacobian_m_s * distance_m;
+struct Sums {
+  double jj = 0, jr = 0;  // weighted
+  std::size_t features = 0, matches = 0;
+
+  void add(const LineResiduals& line, double loss_width_m) {
+    features += line.features;
+    matches += line.residuals.size();
+    for (const Residual& residual : line.residuals) {
+      const double weight = cauchy_weight(residual.distance_m, loss_width_m);
+      jj += weight * residual.jacobian_m_s * residual.jacobian_m_s;
+      jr += weight * residual.jacobian_m_s * residual.distance_m;
     }
   }
+};
+
+Sums summed(const std::vector<LineResiduals>& lines, double loss_width_m) {
+  Sums sums;
+  for (const LineResiduals& line : lines) sums.add(line, loss_width_m);
   return sums;
+}
+
+// Which part each line belongs to, kNoSweep where none.
+struct Parts {
+  std::vector<std::size_t> of_line;
+  std::size_t count = 0;
+};
+
+Parts blocks_of_sweeps(const StillPoints& points, std::size_t most) {
+  std::vector<std::size_t> sweeps;
+  for (const std::size_t sweep : points.sweep)
+    if (sweep != kNoSweep && (sweeps.empty() || sweeps.back() != sweep)) sweeps.push_back(sweep);
+  Parts parts{std::vector<std::size_t>(points.lines(), kNoSweep), std::min(most, sweeps.size())};
+  for (std::size_t line = 0; line < points.lines(); ++line) {
+    if (points.sweep[line] == kNoSweep) continue;
+    const auto place = std::lower_bound(sweeps.begin(), sweeps.end(), points.sweep[line]) - sweeps.begin();
+    parts.of_line[line] = std::size_t(place) * parts.count / sweeps.size();
+  }
+  return parts;
+}
+
+Parts sectors_of_angle(const StillPoints& points, std::size_t count) {
+  const std::size_t middle = points.bins / 2;
+  std::vector<double> angles_rad;
+  for (std::size_t line = 0; line < points.lines(); ++line)
+    if (points.sweep[line] != kNoSweep) angles_rad.push_back(points.angle_rad[line * points.bins + middle]);
+  std::sort(angles_rad.begin(), angles_rad.end());
+  Parts parts{std::vector<std::size_t>(points.lines(), kNoSweep), count};
+  for (std::size_t line = 0; line < points.lines(); ++line) {
+    if (points.sweep[line] == kNoSweep) continue;
+    const auto place = std::lower_bound(angles_rad.begin(), angles_rad.end(),
+                                        points.angle_rad[line * points.bins + middle]) -
+                       angles_rad.begin();
+    parts.of_line[line] = std::size_t(place) * count / angles_rad.size();
+  }
+  return parts;
+}
+
+// The offset without each part, a step from the answer.
+std::vector<double> offsets_without(const Linearisation& at, const Parts& parts, double offset_s,
+                                    double loss_width_m) {
+  std::vector<double> offsets_s;
+  for (std::size_t part = 0; part < parts.count; ++part) {
+    std::vector<char> left_out(parts.of_line.size());
+    for (std::size_t line = 0; line < left_out.size(); ++line) left_out[line] = parts.of_line[line] == part;
+    const Sums sums = summed(at.residuals(left_out), loss_width_m);
+    if (sums.jj > 0) offsets_s.push_back(offset_s - sums.jr / sums.jj);
+  }
+  return offsets_s;
+}
+
+// What each block's points ask for. They are held against all blocks' patches, which stay where they are: so
+// they must go twice as far.
+void fill_blocks(const Linearisation& at, const StillGrid& grid, const std::vector<LineResiduals>& lines,
+                 const Parts& blocks, double loss_width_m, StationaryDirect& result) {
+  std::vector<Sums> sums(blocks.count);
+  std::vector<double> time_s(blocks.count, 0.0), count(blocks.count, 0.0);
+  for (std::size_t line = 0; line < lines.size(); ++line) {
+    const std::size_t block = blocks.of_line[line];
+    if (block == kNoSweep) continue;
+    sums[block].add(lines[line], loss_width_m);
+    time_s[block] += grid.time_s[line * at.points().bins];
+    count[block] += 1;
+  }
+  for (std::size_t block = 0; block < blocks.count; ++block) {
+    if (!(sums[block].jj > 0)) continue;
+    result.block_s.push_back(time_s[block] / count[block]);
+    result.block_offset_s.push_back(result.offset_s - 2 * sums[block].jr / sums[block].jj);
+  }
+}
+
+void fill_levers(const std::vector<LineResiduals>& lines, StationaryDirect& result) {
+  double lever_m2 = 0, reach_m2 = 0;
+  for (const LineResiduals& line : lines) {
+    for (const Residual& residual : line.residuals) {
+      lever_m2 += double(residual.lever_m) * residual.lever_m;
+      reach_m2 += double(residual.reach_m) * residual.reach_m;
+    }
+  }
+  const double n = std::max(1.0, double(result.matches));
+  result.lever_m = std::sqrt(lever_m2 / n);
+  result.reach_m = std::sqrt(reach_m2 / n);
+}
+
+// Sweeps are the parts where there are enough of them.
+void resample(const StillGrid& grid, const Linearisation& at, const std::vector<LineResiduals>& lines,
+              double loss_width_m, StationaryDirect& result) {
+  constexpr std::size_t kMostParts = 10, kLeastBlocks = 6, kSectors = 8;
+  const Parts blocks = blocks_of_sweeps(at.points(), kMostParts);
+  const Parts parts = blocks.count < kLeastBlocks ? sectors_of_angle(at.points(), kSectors) : blocks;
+  result.without_part_s = offsets_without(at, parts, result.offset_s, loss_width_m);
+  fill_blocks(at, grid, lines, blocks, loss_width_m, result);
+  fill_levers(lines, result);
 }
 
 }  // namespace
@@ -140,7 +244,7 @@ std::vector<CurvePoint> stationary_coarse_curve(const StillGrid& grid, const std
   std::vector<CurvePoint> curve(offsets_s.size());
   tbb::parallel_for(std::size_t{0}, offsets_s.size(), [&](std::size_t i) {
     curve[i].offset_s = offsets_s[i];
-    if (!job.cancelled()) curve[i].d = coarse_cost_m(grid, patches, offsets_s[i]);
+    if (!job.cancelled()) curve[i].capped_cost_m = coarse_cost_m(grid, patches, offsets_s[i]);
   });
   return curve;
 }
@@ -151,19 +255,26 @@ StationaryDirect solve_stationary(const StillGrid& grid, double first_offset_s,
   StationaryDirect result;
   result.offset_s = first_offset_s;
   double loss_width_m = options.first_loss_width_m;
+  bool narrowed = false;
   for (; result.iterations < options.most_iterations && !job.cancelled(); ++result.iterations) {
     const Linearisation at(grid, patches, result.offset_s);
-    const auto residuals = at.residuals(at.points().pool, {});
-    const StationarySums sums = summed(residuals, loss_width_m);
+    const std::vector<LineResiduals> lines = at.residuals();
+    const Sums sums = summed(lines, loss_width_m);
     result.features = sums.features;
     result.matches = sums.matches;
-    if (sums.matches < 100 || !(sums.jj > 0)) return result;
+    if (sums.matches < options.least_matches || !(sums.jj > 0)) return result;
     const double step_s = -sums.jr / sums.jj;
+    result.residual_m = robust_deviation_m(lines);
+    result.converged = narrowed && std::abs(step_s) < options.step_tolerance_s;
+    const bool last = result.converged || result.iterations + 1 == options.most_iterations;
     result.offset_s += step_s;
-    result.residual_m = robust_deviation_m(residuals);
-    loss_width_m = std::max(options.least_loss_width_m, options.loss_widths * result.residual_m);
-    result.converged = std::abs(step_s) < options.step_tolerance_s;
-    if (result.converged) break;
+    if (last) {
+      resample(grid, at, lines, loss_width_m, result);
+      break;
+    }
+    const double width_m = std::max(options.least_loss_width_m, options.loss_widths * result.residual_m);
+    narrowed = width_m > 0.7 * loss_width_m;
+    loss_width_m = std::min(width_m, loss_width_m);
   }
   return result;
 }

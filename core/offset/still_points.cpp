@@ -95,6 +95,17 @@ StillPoints place_still(const StillGrid& grid, double offset_s, StillDetail deta
   return points;
 }
 
+std::vector<LinePool> pools_by_sweep(const StillPoints& points) {
+  std::vector<LinePool> pools;
+  for (const LinePool& pool : points.pool) {
+    for (const std::uint32_t line : pool) {
+      if (points.sweep[line] >= pools.size()) pools.resize(points.sweep[line] + 1);
+      pools[points.sweep[line]].push_back(line);
+    }
+  }
+  return pools;
+}
+
 StillPatchOptions still_patch_options(const OffsetProblem& problem) {
   StillPatchOptions options;
   options.least_gap_rad = std::max(0.2 * problem.line_spacing_rad, 0.6 * kDegree);

@@ -50,6 +50,9 @@ struct StillPoints {
 enum class StillDetail { kAngles, kPoints };
 StillPoints place_still(const StillGrid& grid, double offset_s, StillDetail detail);
 
+/// The lines of each sweep by its index, in the order of the motor's angle.
+std::vector<LinePool> pools_by_sweep(const StillPoints& points);
+
 /// How a point's neighbours are chosen. Lines as near to each other as encoder steps tell nothing of a
 /// surface's slope, so they keep a distance.
 struct StillPatchOptions {

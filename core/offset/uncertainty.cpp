@@ -52,7 +52,8 @@ std::optional<Trend> trend_of(const std::vector<double>& times, const std::vecto
   const double spread = squares_about(times, time);
   if (!(spread > 0)) return std::nullopt;
   Trend trend;
-  for (std::size_t i = 0; i < times.size(); ++i) trend.slope += (times[i] - time) * (values[i] - value) / spread;
+  for (std::size_t i = 0; i < times.size(); ++i)
+    trend.slope += (times[i] - time) * (values[i] - value) / spread;
   double residuals = 0;
   for (std::size_t i = 0; i < times.size(); ++i) {
     const double left = values[i] - value - trend.slope * (times[i] - time);
