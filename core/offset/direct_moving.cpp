@@ -35,6 +35,11 @@ OffsetProblem beginning_of(const OffsetProblem& problem, double offset_s, std::s
   return part;
 }
 
+std::optional<double> sigma_of_roll(const std::vector<double>& sweep_roll_rad) {
+  constexpr std::size_t kLeastLength = 8, kMostBlocks = 20;
+  return block_sigma(sweep_roll_rad, kLeastLength, kMostBlocks);
+}
+
 MovingPass moving_pass(const OffsetProblem& problem, double offset_s, const MappingOptions& options,
                        const Job& job) {
   MovingPass pass;
@@ -72,7 +77,7 @@ MovingDirect solve_moving(const OffsetProblem& problem, double first_offset_s,
   result.sweep_s = last.sweep_s;
   for (const double roll_rad : last.sweep_roll_rad)
     result.sweep_offset_s.push_back(last.offset_s - roll_rad / nominal_rad_s);
-  result.sigma_s = block_sigma(result.sweep_offset_s, 16, 20);
+  result.sigma_s = sigma_of_roll(result.sweep_offset_s);
   return result;
 }
 

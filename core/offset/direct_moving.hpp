@@ -30,6 +30,9 @@ struct MovingPass {
   double roll_rad = 0;
   std::vector<double> sweep_s, sweep_roll_rad;  // per sweep: the middle's time, and its own share of the roll
 };
+/// The standard deviation of a pass's roll, from blocks of its sweeps.
+std::optional<double> sigma_of_roll(const std::vector<double>& sweep_roll_rad);
+
 MovingPass moving_pass(const OffsetProblem& problem, double offset_s, const MappingOptions& options,
                        const Job& job);
 

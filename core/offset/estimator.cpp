@@ -9,11 +9,13 @@
 #include <numbers>
 
 #include "core/offset/direct.hpp"
+#include "core/offset/direct_moving.hpp"
 #include "core/offset/motion_test.hpp"
 #include "core/offset/moving.hpp"
 #include "core/offset/search_window.hpp"
 #include "core/offset/stationary.hpp"
 #include "core/offset/still_motion.hpp"
+#include "core/offset/uncertainty.hpp"
 
 namespace sweepscope {
 namespace {
@@ -199,6 +201,9 @@ class Search {
       const std::size_t most = index_of_greatest(result_.curve, &CurvePoint::n);
       const CriterionOptimum greatest = named("n", &CurvePoint::n, most, reach_s);
       compare_criteria(greatest.offset_s, least.offset_s);
+      const std::size_t cheapest = index_of_least(result_.curve, &CurvePoint::capped_cost_m);
+      if (cheapest < result_.curve.size())
+        named("capped_cost", &CurvePoint::capped_cost_m, cheapest, reach_s);
     }
     if (result_.curve.size() > 2 && (best == 0 || best + 1 == result_.curve.size()))
       result_.reasons.push_back(
@@ -211,7 +216,7 @@ class Search {
     result_.identifiable = result_.reasons.empty();
     if (!result_.identifiable) return;
     result_.offset_s = least.offset_s;
-    if (!moving()) result_.sigma_s = sigma_of_pairs(least.offset_s);
+    result_.sigma_s = moving() ? sigma_of_walk(least.offset_s) : sigma_of_pairs(least.offset_s, fits);
     if (moving() &&
         (problem_.recording->scans.back().first_beam_s - problem_.recording->scans.front().first_beam_s) < 20)
       result_.warnings.push_back(
@@ -264,7 +269,9 @@ class Search {
                       *result_.curve[best].translation_m));
   }
 
-  std::optional<double> sigma_of_pairs(double offset_s) const {
+  // What each pair of sweeps says by itself scatters. Neighbouring pairs share a sweep, so the mean's
+  // variance is twice that of as many independent ones; the least of a grid of candidates adds its step's.
+  std::optional<double> sigma_of_pairs(double offset_s, bool fits) const {
     std::vector<double> errors_s;
     for (const PairMotion& motion : pair_motions(problem_, offset_s, odometry_))
       if (std::find(pairs_.begin(), pairs_.end(), motion.sweep) != pairs_.end())
@@ -274,7 +281,25 @@ class Search {
     double mean_s = 0, squares_s2 = 0;
     for (const double error_s : errors_s) mean_s += error_s / n;
     for (const double error_s : errors_s) squares_s2 += (error_s - mean_s) * (error_s - mean_s);
-    return std::sqrt(squares_s2 / (n - 1) / n);
+    const double step_s = fits ? 0 : step_about(offset_s);
+    return std::hypot(student_factor(n / 2) * std::sqrt(2 * squares_s2 / (n - 1) / n),
+                      step_s / std::sqrt(12.0));
+  }
+
+  // The spacing of the candidates about an offset.
+  double step_about(double offset_s) const {
+    double least_s = scale_.unit_s;
+    for (const CurvePoint& point : result_.curve)
+      if (point.offset_s != offset_s) least_s = std::min(least_s, std::abs(point.offset_s - offset_s));
+    return least_s;
+  }
+
+  // The roll that n and e are counted without is as uncertain as its share in each sweep scatters.
+  std::optional<double> sigma_of_walk(double offset_s) const {
+    const MovingPass pass = moving_pass(problem_, offset_s, options_.mapping, job_);
+    const auto sigma_rad = sigma_of_roll(pass.sweep_roll_rad);
+    if (!pass.tracked || !sigma_rad) return std::nullopt;
+    return *sigma_rad / (2 * problem_.motor.median_speed_rad_s);
   }
 
   const EstimateOptions& options_;

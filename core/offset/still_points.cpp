@@ -152,29 +152,38 @@ StillPatch StillNeighbours::patch(double angle_rad, std::size_t bin, double rang
   StillPatch patch;
   seek(angle_rad, bin);
   count_ = 0;
-  const int below = collect(angle_rad, bin, -1), above = collect(angle_rad, bin, 1);
+  const int below = collect(angle_rad, bin, -1), points_below = count_;
+  const int above = collect(angle_rad, bin, 1), points_above = count_ - points_below;
   if (below == 0 || above == 0 || below + above < 3 || count_ < 6) return patch;
-  const Eigen::Vector3d origin = points_.p_m[near_[0]];
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
-  double speed_rad_s = 0;
+  // The sides weigh so that the patch's centre comes to lie at the point's own motor angle: off it, the noise
+  // of the normal would enter residual and lever alike and pull the offset.
+  double down_rad = 0, up_rad = 0;
   for (int i = 0; i < count_; ++i) {
-    const Eigen::Vector3d d = points_.p_m[near_[std::size_t(i)]] - origin;
-    sum += d;
-    squares.noalias() += d * d.transpose();
-    speed_rad_s += points_.speed_rad_s[near_[std::size_t(i)]];
+    const double away_rad = points_.angle_rad[near_[std::size_t(i)]] - angle_rad;
+    (i < points_below ? down_rad : up_rad) +=
+        std::abs(away_rad) / (i < points_below ? points_below : points_above);
   }
-  const double n = count_;
-  const Eigen::Vector3d mean = sum / n;
+  const double both_rad = std::max(1e-9, down_rad + up_rad);
+  const double weight_below = up_rad / both_rad / points_below,
+               weight_above = down_rad / both_rad / points_above;
+  const Eigen::Vector3d origin = points_.p_m[near_[0]];
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  for (int i = 0; i < count_; ++i) {
+    const double weight = i < points_below ? weight_below : weight_above;
+    const Eigen::Vector3d d = points_.p_m[near_[std::size_t(i)]] - origin;
+    mean += weight * d;
+    squares.noalias() += weight * d * d.transpose();
+    patch.speed_rad_s += weight * points_.speed_rad_s[near_[std::size_t(i)]];
+  }
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-  solver.computeDirect(squares / n - mean * mean.transpose());
+  solver.computeDirect(squares - mean * mean.transpose());
   const double thickness_m = std::max(options_.thickness_m, options_.thickness_slope * range_m);
   const double flat = solver.eigenvalues()[0], wide = solver.eigenvalues()[1];
   if (!(flat < thickness_m * thickness_m) || !(wide > 4 * flat)) return patch;
   patch.found = true;
   patch.centre_m = origin + mean;
   patch.normal = solver.eigenvectors().col(0);
-  patch.speed_rad_s = speed_rad_s / n;
   return patch;
 }
 
