@@ -19,12 +19,13 @@ struct Options {
 };
 
 std::string criterion_line(const CriterionOptimum& criterion) {
-  const bool is_n = criterion.name == "n";
-  const std::string value = is_n                    ? fmt::format("{:.0f} matches", criterion.value)
-                            : criterion.name == "e" ? fmt::format("{:.2f} mm", criterion.value * 1e3)
-                                                    : fmt::format("{:.4f}", criterion.value);
-  return fmt::format("  {} {:<8} {:>9.3f} ms   ({})\n", criterion.name, is_n ? "greatest" : "least",
-                     criterion.offset_s * 1e3, value);
+  const std::string value = criterion.name == "n"   ? fmt::format("{:.0f} matches", criterion.value)
+                            : criterion.name == "d" ? fmt::format("{:.4f}", criterion.value)
+                                                    : fmt::format("{:.2f} mm", criterion.value * 1e3);
+  const std::string where = criterion.name == "direct" ? "direct"
+                            : criterion.name == "n"    ? "n greatest"
+                                                       : criterion.name + " least";
+  return fmt::format("  {:<10} {:>9.3f} ms   ({})\n", where, criterion.offset_s * 1e3, value);
 }
 
 void print_answer(const Estimate& estimate) {
@@ -38,6 +39,7 @@ void print_answer(const Estimate& estimate) {
   }
   fmt::print("method   {}, {} sweeps, {} scans, {} candidates\n", estimate.method, estimate.sweeps,
              estimate.scans, estimate.curve.size());
+  if (!estimate.kind.empty()) fmt::print("kind     {}: {}\n", estimate.kind, estimate.kind_reason);
   for (const CriterionOptimum& criterion : estimate.criteria) fmt::print("{}", criterion_line(criterion));
   for (const std::string& warning : estimate.warnings) fmt::print(stderr, "warning: {}\n", warning);
 }
@@ -75,11 +77,11 @@ void declare_method(CLI::App& command, Options& options) {
   command
       .add_option_function<std::string>(
           "--method", [&estimate](const std::string& text) { estimate.method = parse_method(text); },
+          "direct: the offset as an unknown of the least squares, for rigs that stood still and for walks; "
           "stationary: where odometry sees least motion (d); moving: where the map is clearest (n, e). "
-          "Default: what "
-          "the motion test says")
+          "Default: stationary or moving, as the motion test says")
       ->type_name("M")
-      ->check(CLI::IsMember({"stationary", "moving"}));
+      ->check(CLI::IsMember({"stationary", "moving", "direct"}));
   command
       .add_option_function<std::string>(
           "--fit",

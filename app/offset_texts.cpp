@@ -42,6 +42,7 @@ std::optional<OffsetsAround> parse_around_ms(const std::string& text) {
 
 std::optional<Method> parse_method(const std::optional<std::string>& text) {
   if (!text) return std::nullopt;
+  if (*text == "direct") return Method::kDirect;
   return *text == "moving" ? Method::kMoving : Method::kStationary;
 }
 

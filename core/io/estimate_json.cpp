@@ -22,12 +22,13 @@ struct CurveColumn {
   const char* key;
   std::optional<double> CurvePoint::*value;
 };
-constexpr std::array<CurveColumn, 6> kCurveColumns{{{"d", &CurvePoint::d},
+constexpr std::array<CurveColumn, 7> kCurveColumns{{{"d", &CurvePoint::d},
                                                     {"translation_m", &CurvePoint::translation_m},
                                                     {"rotation_rad", &CurvePoint::rotation_rad},
                                                     {"signed_rotation_rad", &CurvePoint::signed_rotation_rad},
                                                     {"n", &CurvePoint::n},
-                                                    {"e_m", &CurvePoint::e_m}}};
+                                                    {"e_m", &CurvePoint::e_m},
+                                                    {"capped_cost_m", &CurvePoint::capped_cost_m}}};
 
 /// To 1e-9 ms, so that 0.0239 s is written 23.9 and not 23.900000000000002.
 double to_ms(double seconds) {
@@ -86,6 +87,13 @@ std::optional<double> optional_number(const Json& object, const char* key, const
   return found->get<double>();
 }
 
+std::string optional_text(const Json& object, const char* key) {
+  const auto found = object.find(key);
+  if (found == object.end() || found->is_null()) return {};
+  if (!found->is_string()) throw BadValue(std::string(key) + " is neither a text nor null");
+  return found->get<std::string>();
+}
+
 std::optional<double> optional_seconds(const Json& object, const char* key) {
   const auto milliseconds = optional_number(object, key);
   return milliseconds ? std::optional(*milliseconds / 1e3) : std::nullopt;
@@ -129,6 +137,9 @@ Estimate estimate_from_json(const Json& document) {
   estimate.identifiable = required<bool>(document, "identifiable");
   estimate.offset_s = optional_seconds(document, "offset_ms");
   estimate.sigma_s = optional_seconds(document, "sigma_ms");
+  estimate.drift_ppm = optional_number(document, "drift_ppm");
+  estimate.kind = optional_text(document, "kind");
+  estimate.kind_reason = optional_text(document, "kind_reason");
   estimate.warnings = required<std::vector<std::string>>(document, "warnings");
   estimate.reasons = required<std::vector<std::string>>(document, "reasons");
   estimate.criteria = criteria_from_json(member(document, "criteria", ""));
@@ -152,6 +163,9 @@ std::string estimate_to_json(const Estimate& estimate, Timing timing) {
   const bool found = estimate.identifiable;
   document["offset_ms"] = found ? milliseconds_or_null(estimate.offset_s) : Json(nullptr);
   document["sigma_ms"] = found ? milliseconds_or_null(estimate.sigma_s) : Json(nullptr);
+  document["drift_ppm"] = number_or_null(estimate.drift_ppm);
+  document["kind"] = estimate.kind.empty() ? Json(nullptr) : Json(estimate.kind);
+  document["kind_reason"] = estimate.kind_reason.empty() ? Json(nullptr) : Json(estimate.kind_reason);
   document["warnings"] = estimate.warnings;
   document["reasons"] = estimate.reasons;
   document["criteria"] = Json::object();
@@ -190,7 +204,7 @@ Result<Estimate> read_estimate_json(const std::filesystem::path& path) {
 }
 
 std::string curve_to_csv(const Estimate& estimate) {
-  std::string text = "offset_ms,d,translation_m,rotation_rad,signed_rotation_rad,n,e_m\n";
+  std::string text = "offset_ms,d,translation_m,rotation_rad,signed_rotation_rad,n,e_m,capped_cost_m\n";
   for (const CurvePoint& point : estimate.curve) {
     text += fmt::format("{}", to_ms(point.offset_s));
     for (const CurveColumn& column : kCurveColumns) {

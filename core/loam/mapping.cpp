@@ -13,7 +13,7 @@ struct SweepMaps {
   FeatureMap edges, planes;
 
   void insert(const PlacedSweep& sweep, const SweepPose& pose) {
-    const SweepMotion motion(pose.begin, pose.end);
+    const SweepMotion motion = pose.motion();
     for (const PlacedFeature& feature : sweep.edges)
       edges.insert(motion(feature.p_in_base_m, feature.u).cast<float>(), feature.line, sweep.direction);
     for (const PlacedFeature& feature : sweep.planes)
@@ -86,9 +86,9 @@ class SweepMatcher {
         edges_(sweep.edges.size()) {}
 
   // Adds the matches at the given poses to the equations; counts them too.
-  MatchCount linearise(const Pose& begin, const Pose& end, const Eigen::Vector3d& pivot_m,
-                       SweepEquations& equations) {
-    const SweepMotion motion(begin, end);
+  MatchCount linearise(const SweepPose& pose, SweepEquations& equations) {
+    const SweepMotion motion = pose.motion();
+    const Eigen::Vector3d pivot_m = pose.pivot_m();
     MatchCount count;
     for (std::size_t i = 0; i < planes_.size(); ++i) {
       const PlacedFeature& feature = sweep_.planes[i];
@@ -147,7 +147,7 @@ class SweepMatcher {
 
 // A soft tie: the sum of signed pose steps plus a residual is near zero, rotation and translation alike.
 struct Tie {
-  Eigen::Matrix<double, 6, 12> jacobian = Eigen::Matrix<double, 6, 12>::Zero();
+  Eigen::Matrix<double, 6, 18> jacobian = Eigen::Matrix<double, 6, 18>::Zero();
   Vector6d residual;
 
   // How a pose's step about the pivot moves the pose itself.
@@ -159,7 +159,7 @@ struct Tie {
     jacobian.block<3, 3>(3, 6 * block) += sign * cross;
     jacobian.block<3, 3>(3, 6 * block + 3) += sign * Eigen::Matrix3d::Identity();
   }
-  void add_to(Matrix12d& a, Vector12d& g, double sigma) const {
+  void add_to(Matrix18d& a, Vector18d& g, double sigma) const {
     a.noalias() += jacobian.transpose() * jacobian / (sigma * sigma);
     g.noalias() += jacobian.transpose() * residual / (sigma * sigma);
   }
@@ -229,12 +229,13 @@ class Tracker {
     const SweepPose last = walk_.sweeps.back();
     MatchCount count;
     for (int iteration = 0; iteration < options_.most_iterations; ++iteration) {
-      const Eigen::Vector3d pivot_m = (pose.begin.translation_m + pose.end.translation_m) / 2;
+      const Eigen::Vector3d pivot_m = pose.pivot_m();
       SweepEquations equations;
-      count = matcher.linearise(pose.begin, pose.end, pivot_m, equations);
-      const Vector12d step = step_of(equations, last, pose, pivot_m);
+      count = matcher.linearise(pose, equations);
+      const Vector18d step = step_of(equations, last, pose, pivot_m);
       pose.begin = stepped(pose.begin, step.head<6>(), pivot_m);
-      pose.end = stepped(pose.end, step.tail<6>(), pivot_m);
+      pose.end = stepped(pose.end, step.segment<6>(6), pivot_m);
+      pose.bend += step.tail<6>();
       if (step.cwiseAbs().maxCoeff() < options_.step_tolerance) break;
     }
     pose.features = count.features;
@@ -248,10 +249,13 @@ class Tracker {
     return jumps_ < kUnknownJumps ? options_.first_tie_sigma : options_.tie_sigma;
   }
 
-  Vector12d step_of(const SweepEquations& equations, const SweepPose& last, const SweepPose& pose,
+  Vector18d step_of(const SweepEquations& equations, const SweepPose& last, const SweepPose& pose,
                     const Eigen::Vector3d& pivot_m) const {
-    Matrix12d a = equations.matrix();
-    Vector12d g = equations.gradient();
+    Matrix18d a = equations.matrix();
+    Vector18d g = equations.gradient();
+    const double bend_weight = 1 / (options_.bend_sigma * options_.bend_sigma);
+    a.diagonal().tail<6>().array() += bend_weight;
+    g.tail<6>() += bend_weight * pose.bend;
     Tie joint;
     joint.moves(0, pose.begin, pivot_m, 1);
     joint.residual = difference(pose.begin, joined_to(last, pose.direction));
@@ -351,22 +355,20 @@ AlternatingRoll take_out_alternating_roll(const std::vector<SweepPose>& sweeps,
   result.sweeps = sweeps;
   const std::size_t count = sweeps.size();
   if (count < 5) return result;
-  std::vector<double> roll_rad(count, 0.0);
+  std::vector<double> jump_rad(count, 0.0);  // from each sweep's predecessor
   for (std::size_t k = 1; k < count; ++k) {
-    const Eigen::Quaterniond turn = sweeps[k - 1].middle().rotation.conjugate() * sweeps[k].middle().rotation;
-    roll_rad[k] = roll_rad[k - 1] + motor_axis.dot(vector_from_rotation(turn));
+    const Eigen::Quaterniond turn = sweeps[k - 1].end.rotation.conjugate() * sweeps[k].begin.rotation;
+    jump_rad[k] = motor_axis.dot(vector_from_rotation(turn));
   }
-  const auto alternation_rad = [&](std::size_t k) {
-    const double smooth_rad =
-        (-roll_rad[k - 2] + 4 * roll_rad[k - 1] + 10 * roll_rad[k] + 4 * roll_rad[k + 1] - roll_rad[k + 2]) /
-        16;
-    return roll_rad[k] - smooth_rad;
-  };
-  std::vector<double> away_rad;  // a wrong offset turns the pose against the sweep
-  for (std::size_t k = std::max<std::size_t>(2, std::size_t(settling_sweeps)); k + 2 < count; ++k)
-    away_rad.push_back(-sweeps[k].direction * alternation_rad(k));
-  if (away_rad.empty())
-    for (std::size_t k = 2; k + 2 < count; ++k) away_rad.push_back(-sweeps[k].direction * alternation_rad(k));
+  const std::size_t settled = std::max<std::size_t>(2, std::size_t(settling_sweeps));
+  std::vector<double> away_rad;
+  for (std::size_t k = settled + 2 < count ? settled : 2; k + 1 < count; ++k) {
+    const double alternating_rad = (-jump_rad[k - 1] + 2 * jump_rad[k] - jump_rad[k + 1]) / 4;
+    // A wrong offset turns the pose against the sweep.
+    away_rad.push_back(-sweeps[k].direction * alternating_rad / 2);
+    result.sweep_s.push_back(sweeps[k].begin_s);
+    result.sweep_roll_rad.push_back(2 * away_rad.back());
+  }
   // The middle four fifths: a sweep that slipped does not count.
   std::sort(away_rad.begin(), away_rad.end());
   const std::size_t cut = away_rad.size() / 10;
@@ -391,7 +393,7 @@ MatchCount count_matches(const std::vector<PlacedSweep>& sweeps, const std::vect
     if (k >= std::size_t(options.settling_sweeps)) {
       const SearchRule rule =
           rule_for(options, true, sweeps[k].direction > 0 ? SweepFilter::kBackward : SweepFilter::kForward);
-      const SweepMotion motion(poses[k].begin, poses[k].end);
+      const SweepMotion motion = poses[k].motion();
       for (const PlacedFeature& feature : sweeps[k].planes) {
         if (!feature.sharp) continue;
         const Eigen::Vector3d p_m = motion(feature.p_in_base_m, feature.u);

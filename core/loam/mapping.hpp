@@ -7,6 +7,7 @@
 #include "core/loam/feature_map.hpp"
 #include "core/loam/matching.hpp"
 #include "core/loam/sweep_features.hpp"
+#include "core/loam/sweep_motion.hpp"
 
 namespace sweepscope {
 
@@ -22,6 +23,7 @@ struct MappingOptions {
   bool expects_jump = true;  // learn the jump; else a sweep begins where the last one ended, as in LOAM ...
   double continuous_tie_sigma = 0.005;  // ... rad and m, to within this
   double jump_gain = 0.05;              // of a new jump in the mean of all
+  double bend_sigma = 0.02;             // rad and m: how far a sweep's motion bends
   double twist_change_sigma = 0.08;     // rad and m per sweep: how freely the motion changes
   int most_iterations = 6;
   double step_tolerance = 5e-4;  // m and rad
@@ -40,9 +42,12 @@ struct SweepPose {
   int direction = 0;
   double begin_s = 0, end_s = 0;  // laser clock
   Pose begin, end;
+  Vector6d bend = Vector6d::Zero();  // between them, see SweepMotion
   std::size_t features = 0, matches = 0;
 
-  Pose at(double u) const { return interpolate(begin, end, u); }
+  SweepMotion motion() const { return SweepMotion(begin, end, bend); }
+  Eigen::Vector3d pivot_m() const { return (begin.translation_m + end.translation_m) / 2; }
+  Pose at(double u) const { return stepped(interpolate(begin, end, u), bend_at(u) * bend, pivot_m()); }
   Pose middle() const { return at(0.5); }
 };
 
@@ -78,12 +83,16 @@ Result<TrackedWalk> track(const std::vector<PlacedSweep>& sweeps, const Eigen::V
 
 /// The roll about the motor's axis that alternates from sweep to sweep, and the walk without it.
 struct AlternatingRoll {
-  double signed_rotation_rad = 0;  // from one sweep to the next; near 2 omega (offset - truth)
-  std::vector<SweepPose> sweeps;   // with the alternation taken out
+  double signed_rotation_rad = 0;               // from one sweep to the next; near 2 omega (offset - truth)
+  std::vector<SweepPose> sweeps;                // with the alternation taken out
+  std::vector<double> sweep_s, sweep_roll_rad;  // each judged sweep's middle (laser clock) and share: their
+                                                // mean, without the outermost tenths, is the roll
 };
 
-/// Takes the alternation out of the sweeps' middle poses with the filter [-1 4 10 4 -1] / 16, which keeps
-/// quadratics.
+/// Measures the roll by which the pose jumps to and fro at the reversals, the end of one sweep against the
+/// begin of the next, through the filter [-1 2 -1] / 4 that passes nothing of a quadratic roll, and turns it
+/// back. Jumps and not the sweeps' middles: a walker sways at much the motor's own frequency, but does not
+/// jump.
 AlternatingRoll take_out_alternating_roll(const std::vector<SweepPose>& sweeps,
                                           const Eigen::Vector3d& motor_axis, int settling_sweeps);
 

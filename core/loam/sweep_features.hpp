@@ -32,8 +32,9 @@ struct OffsetProblem {
   const Recording* recording = nullptr;
   std::shared_ptr<const FeatureSet> features;
   MotorMotion motor;
-  std::vector<char> scan_used;  // per scan: 1 where the motor track covers it at every offset searched
-  double line_spacing_rad = 0;  // by which the motor turns from one scan to the next
+  std::vector<char> scan_used;       // per scan: 1 where the motor track covers it at every offset searched
+  double line_spacing_rad = 0;       // by which the motor turns from one scan to the next
+  FeatureOptions feature_options{};  // by which the features were picked
 };
 
 /// Places the features of every sweep at an offset: t_motor = t_laser + offset. Features within a reversal's

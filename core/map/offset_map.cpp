@@ -35,7 +35,7 @@ class BeamPlacer {
         offset_s_(offset_s) {}
 
   void place(const LaserScan& scan, const SweepPose& pose, MapCloud& cloud) {
-    const SweepMotion motion(pose.begin, pose.end);
+    const SweepMotion motion = pose.motion();
     const auto ranges_m = recording_.ranges(scan);
     for (std::uint32_t beam = 0; beam < scan.beams; ++beam) {
       if (!std::isfinite(ranges_m[beam])) continue;

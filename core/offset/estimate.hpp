@@ -17,11 +17,13 @@ struct CurvePoint {
   std::optional<double> signed_rotation_rad;  // about the motor's axis, alternating in sign; 0 at the offset
   std::optional<double> n;                    // equation 6, matches
   std::optional<double> e_m;                  // equation 7, mean distance per match
+  std::optional<double> capped_cost_m;  // mean distance over a fixed set of features, in which a miss pays
+                                        // the cap
 };
 
 /// Where one criterion has its extremum, and its value there.
 struct CriterionOptimum {
-  std::string name;  // "d", "n" or "e"
+  std::string name;  // "d", "n", "e", "capped_cost" or "direct"
   double offset_s = 0;
   double value = 0;
 };
@@ -29,10 +31,13 @@ struct CriterionOptimum {
 /// The answer to "what is the offset?", with its evidence. t_motor = t_laser + offset.
 struct Estimate {
   std::string recording;
-  std::string method;  // "stationary" or "moving"
+  std::string method;  // "stationary", "moving" or "direct"
+  std::string kind;  // what the rig was taken for: "stationary" or "moving"; empty where that was not judged
+  std::string kind_reason;  // why: a sentence
   bool identifiable = false;
   std::optional<double> offset_s;
   std::optional<double> sigma_s;
+  std::optional<double> drift_ppm;  // by how much the motor's clock runs faster than the laser's, as measured
   std::vector<std::string> warnings;
   std::vector<std::string> reasons;  // why it is not identifiable, whole sentences
   std::vector<CriterionOptimum> criteria;

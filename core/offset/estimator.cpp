@@ -6,17 +6,34 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
+#include <numbers>
 
+#include "core/offset/direct.hpp"
+#include "core/offset/direct_moving.hpp"
 #include "core/offset/motion_test.hpp"
 #include "core/offset/moving.hpp"
 #include "core/offset/search_window.hpp"
 #include "core/offset/stationary.hpp"
+#include "core/offset/still_motion.hpp"
+#include "core/offset/uncertainty.hpp"
 
 namespace sweepscope {
 namespace {
 
 double cpu_now_s() {
   return double(std::clock()) / CLOCKS_PER_SEC;
+}
+
+const char* name_of(Method method) {
+  switch (method) {
+    case Method::kStationary:
+      return "stationary";
+    case Method::kMoving:
+      return "moving";
+    case Method::kDirect:
+      return "direct";
+  }
+  return "";
 }
 
 double rounded_to(double value, double step) {
@@ -35,7 +52,7 @@ class Search {
   }
 
   Result<Estimate> run() {
-    result_.method = options_.method == Method::kMoving ? "moving" : "stationary";
+    result_.method = name_of(options_.method.value_or(Method::kStationary));
     result_.reasons = motor_reasons(problem_.recording->motor, problem_.motor);
     if (!result_.reasons.empty()) return std::move(result_);
     scale_ = search_scale(problem_.motor);
@@ -47,6 +64,7 @@ class Search {
     if (!offsets_s) return tl::unexpected(offsets_s.error());
     if (!prepare(offsets_s->front(), offsets_s->back())) return interrupted();
     if (!result_.reasons.empty()) return std::move(result_);
+    if (options_.method == Method::kDirect) return directly();
 
     Curve curve([this](double offset_s, const Job& job) { return candidate(offset_s, job); });
     const bool finished = by_default ? coarse_to_fine(curve, *offsets_s) : compute(curve, *offsets_s);
@@ -57,8 +75,15 @@ class Search {
   }
 
  private:
-  bool moving() const { return method_ == Method::kMoving; }
+  // As what the sweeps are treated.
+  bool moving() const { return (method_ == Method::kDirect ? kind_ : method_) == Method::kMoving; }
   CurveValue decisive() const { return moving() ? &CurvePoint::e_m : &CurvePoint::d; }
+
+  Result<Estimate> directly() {
+    estimate_directly(problem_, coarse_, moving(), options_.mapping, job_, result_);
+    if (job_.cancelled()) return interrupted();
+    return std::move(result_);
+  }
 
   Estimate interrupted() {
     result_.interrupted = true;
@@ -81,28 +106,39 @@ class Search {
           "Fewer than two sweeps have both scans and motor samples at every offset searched.");
       return true;
     }
-    choose_method(test_motion(placed, problem_.motor, odometry_));
+    coarse_ = search_coarsely(problem_, {least_s, greatest_s}, scale_, job_);
+    judge_kind(test_motion(still_grid(problem_), coarse_offset_s(least_s, greatest_s)));
     return !job_.cancelled();
   }
 
-  void choose_method(const MotionTest& test) {
-    Method kind = Method::kStationary;
+  double coarse_offset_s(double least_s, double greatest_s) const {
+    return coarse_.best ? coarse_.offset_s() : (least_s + greatest_s) / 2;
+  }
+
+  void judge_kind(const MotionTest& test) {
+    kind_ = Method::kStationary;
     if (options_.assume) {
-      kind = *options_.assume;
+      kind_ = *options_.assume;
+      result_.kind_reason = "As assumed.";
     } else if (test.answered()) {
-      kind = test.moving() ? Method::kMoving : Method::kStationary;
-    } else if (!options_.method) {
-      result_.warnings.push_back(
-          "Too short to tell whether the rig stood still: it is taken to have stood still.");
+      kind_ = test.moving() ? Method::kMoving : Method::kStationary;
+      result_.kind_reason = fmt::format(
+          "{} of {} pairs of sweeps of the same direction lie apart; at the median by {:.3f} m and {:.2f} "
+          "deg.",
+          test.moved, test.pairs, test.median_translation_m,
+          test.median_rotation_rad * 180 / std::numbers::pi);
+    } else {
+      result_.kind_reason = "Too short to tell whether the rig stood still: it is taken to have stood still.";
+      if (options_.method != Method::kMoving) result_.warnings.push_back(result_.kind_reason);
     }
-    method_ = options_.method.value_or(kind);
-    result_.method = moving() ? "moving" : "stationary";
-    if (!moving() && kind == Method::kMoving)
-      result_.reasons.push_back(
-          fmt::format("The rig moved: {} of {} pairs of sweeps of the same direction do not fall on each "
-                      "other. Use --method moving, "
-                      "or --assume stationary if it did stand still.",
-                      test.moved, test.pairs));
+    result_.kind = name_of(kind_);
+    method_ = options_.method.value_or(kind_);
+    result_.method = name_of(method_);
+    if (method_ == Method::kStationary && kind_ == Method::kMoving)
+      result_.reasons.push_back(fmt::format(
+          "The rig moved: {} of {} pairs of sweeps of the same direction do not fall on each other. Use "
+          "--method moving, or --assume stationary if it did stand still.",
+          test.moved, test.pairs));
     const std::size_t least_sweeps = std::size_t(options_.mapping.settling_sweeps) + 12;
     if (moving() && result_.sweeps < least_sweeps)
       result_.reasons.push_back(
@@ -124,15 +160,14 @@ class Search {
   }
 
   bool compute(Curve& curve, const std::vector<double>& offsets_s) {
-    if (!moving()) choose_pairs(coarse_stationary(offsets_s));
+    if (!moving()) choose_pairs(coarse_offset_s(offsets_s.front(), offsets_s.back()));
     return curve.compute(offsets_s, job_);
   }
 
   // Coarse over the whole window, then steps of a unit about the valley, then tenths of a unit about its
   // ground.
   bool coarse_to_fine(Curve& curve, const std::vector<double>& window_s) {
-    double centre_s = moving() ? coarse_moving(window_s) : coarse_stationary(window_s);
-    if (job_.cancelled()) return false;
+    double centre_s = coarse_offset_s(window_s.front(), window_s.back());
     if (!moving()) choose_pairs(centre_s);
     constexpr int kMostMoves = 5;
     for (int move = 0; move < kMostMoves; ++move) {
@@ -147,51 +182,6 @@ class Search {
     }
     const double step_s = scale_.unit_s / 10;
     return curve.compute(offsets_of({{centre_s - 20 * step_s, centre_s + 20 * step_s, step_s}}), job_);
-  }
-
-  double coarse_stationary(const std::vector<double>& window_s) const {
-    constexpr double kCap_m = 0.2;
-    return least_cost_offset(window_s, 4 * scale_.unit_s, [&](double offset_s) {
-      return stationary_coarse_cost_m(problem_, offset_s, odometry_, kCap_m);
-    });
-  }
-
-  // On the first sweeps only; then Newton's steps on the signed alternating roll, which is linear in the
-  // offset.
-  double coarse_moving(const std::vector<double>& window_s) const {
-    constexpr std::size_t kSweeps = 40;
-    OffsetProblem part = problem_;
-    const std::vector<std::size_t> sweep_of = assign_sweeps(part.recording->scans, part.motor.sweeps, 0);
-    for (std::size_t i = 0; i < part.scan_used.size(); ++i)
-      if (sweep_of[i] != kNoSweep && sweep_of[i] >= kSweeps) part.scan_used[i] = 0;
-    double offset_s = least_cost_offset(window_s, 10 * scale_.unit_s, [&](double candidate_s) {
-      return moving_coarse_cost_m(part, candidate_s, options_.mapping, Job::part_of(job_));
-    });
-    for (int step = 0; step < 2; ++step) {
-      const CurvePoint point =
-          moving_candidate(part, offset_s, Scoring::kTwoStage, options_.mapping, Job::part_of(job_));
-      if (!point.signed_rotation_rad) break;
-      const double most_s = 10 * scale_.unit_s;
-      offset_s -=
-          std::clamp(*point.signed_rotation_rad / (2 * problem_.motor.median_speed_rad_s), -most_s, most_s);
-      offset_s = std::clamp(offset_s, window_s.front(), window_s.back());
-    }
-    return offset_s;
-  }
-
-  template <typename Cost>
-  double least_cost_offset(const std::vector<double>& window_s, double step_s, const Cost& cost) const {
-    const std::vector<double> offsets_s = offsets_of({{window_s.front(), window_s.back(), step_s}});
-    CurveValue value = &CurvePoint::d;
-    Curve curve([&](double offset_s, const Job&) {
-      CurvePoint point;
-      point.offset_s = offset_s;
-      point.*value = cost(offset_s);
-      return point;
-    });
-    curve.compute(offsets_s, job_);
-    const std::size_t best = index_of_least(curve.points(), value);
-    return best < curve.points().size() ? curve.points()[best].offset_s : offsets_s[offsets_s.size() / 2];
   }
 
   void conclude() {
@@ -211,6 +201,9 @@ class Search {
       const std::size_t most = index_of_greatest(result_.curve, &CurvePoint::n);
       const CriterionOptimum greatest = named("n", &CurvePoint::n, most, reach_s);
       compare_criteria(greatest.offset_s, least.offset_s);
+      const std::size_t cheapest = index_of_least(result_.curve, &CurvePoint::capped_cost_m);
+      if (cheapest < result_.curve.size())
+        named("capped_cost", &CurvePoint::capped_cost_m, cheapest, reach_s);
     }
     if (result_.curve.size() > 2 && (best == 0 || best + 1 == result_.curve.size()))
       result_.reasons.push_back(
@@ -223,7 +216,7 @@ class Search {
     result_.identifiable = result_.reasons.empty();
     if (!result_.identifiable) return;
     result_.offset_s = least.offset_s;
-    if (!moving()) result_.sigma_s = sigma_of_pairs(least.offset_s);
+    result_.sigma_s = moving() ? sigma_of_walk(least.offset_s) : sigma_of_pairs(least.offset_s, fits);
     if (moving() &&
         (problem_.recording->scans.back().first_beam_s - problem_.recording->scans.front().first_beam_s) < 20)
       result_.warnings.push_back(
@@ -276,7 +269,9 @@ class Search {
                       *result_.curve[best].translation_m));
   }
 
-  std::optional<double> sigma_of_pairs(double offset_s) const {
+  // What each pair of sweeps says by itself scatters. Neighbouring pairs share a sweep, so the mean's
+  // variance is twice that of as many independent ones; the least of a grid of candidates adds its step's.
+  std::optional<double> sigma_of_pairs(double offset_s, bool fits) const {
     std::vector<double> errors_s;
     for (const PairMotion& motion : pair_motions(problem_, offset_s, odometry_))
       if (std::find(pairs_.begin(), pairs_.end(), motion.sweep) != pairs_.end())
@@ -286,7 +281,25 @@ class Search {
     double mean_s = 0, squares_s2 = 0;
     for (const double error_s : errors_s) mean_s += error_s / n;
     for (const double error_s : errors_s) squares_s2 += (error_s - mean_s) * (error_s - mean_s);
-    return std::sqrt(squares_s2 / (n - 1) / n);
+    const double step_s = fits ? 0 : step_about(offset_s);
+    return std::hypot(student_factor(n / 2) * std::sqrt(2 * squares_s2 / (n - 1) / n),
+                      step_s / std::sqrt(12.0));
+  }
+
+  // The spacing of the candidates about an offset.
+  double step_about(double offset_s) const {
+    double least_s = scale_.unit_s;
+    for (const CurvePoint& point : result_.curve)
+      if (point.offset_s != offset_s) least_s = std::min(least_s, std::abs(point.offset_s - offset_s));
+    return least_s;
+  }
+
+  // The roll that n and e are counted without is as uncertain as its share in each sweep scatters.
+  std::optional<double> sigma_of_walk(double offset_s) const {
+    const MovingPass pass = moving_pass(problem_, offset_s, options_.mapping, job_);
+    const auto sigma_rad = sigma_of_roll(pass.sweep_roll_rad);
+    if (!pass.tracked || !sigma_rad) return std::nullopt;
+    return *sigma_rad / (2 * problem_.motor.median_speed_rad_s);
   }
 
   const EstimateOptions& options_;
@@ -294,7 +307,8 @@ class Search {
   OffsetProblem problem_;
   OdometryOptions odometry_;
   SearchScale scale_;
-  Method method_ = Method::kStationary;
+  CoarseSearch coarse_;
+  Method kind_ = Method::kStationary, method_ = Method::kStationary;
   std::vector<std::size_t> pairs_;
   Estimate result_;
 };

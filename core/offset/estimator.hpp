@@ -13,7 +13,7 @@
 
 namespace sweepscope {
 
-enum class Method { kStationary, kMoving };
+enum class Method { kStationary, kMoving, kDirect };
 enum class Fit { kNone, kParabola };
 enum class Scoring { kTwoStage, kLoam };
 
@@ -31,8 +31,9 @@ struct EstimateOptions {
   MappingOptions mapping;
 };
 
-/// Finds the offset between laser and motor, t_motor = t_laser + offset, by the paper's methods: `stationary`
-/// (section 3.2) or `moving` (section 3.3). A recording that cannot answer gives an Estimate with
+/// Finds the offset between laser and motor, t_motor = t_laser + offset, by the paper's methods, `stationary`
+/// (section 3.2) or `moving` (section 3.3), or directly, as an unknown of the least squares itself (`direct`,
+/// for rigs that stood still and for walks). A recording that cannot answer gives an Estimate with
 /// identifiable false and the reasons. Errors: ExitCode::kWrongUsage for a range wider than the motor allows
 /// or without a candidate.
 ///

@@ -18,6 +18,7 @@ CurvePoint moving_candidate(const OffsetProblem& problem, double offset_s, Scori
   const MatchCount count =
       scoring == Scoring::kLoam ? walk->count : count_matches(sweeps, roll.sweeps, options);
   point.signed_rotation_rad = roll.signed_rotation_rad;
+  if (count.features > 0) point.capped_cost_m = count.capped_cost_m();
   point.n = static_cast<double>(count.matches);
   if (count.matches > 0) point.e_m = count.mean_distance_m();
   return point;

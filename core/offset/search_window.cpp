@@ -89,6 +89,7 @@ Result<OffsetProblem> prepare_problem(const Recording& recording, double least_s
   if (!features) return tl::unexpected(features.error());
   OffsetProblem problem;
   problem.recording = &recording;
+  problem.feature_options = options;
   problem.features = std::make_shared<const FeatureSet>(std::move(*features));
   problem.motor = find_sweeps(recording.motor);
   problem.scan_used = scans_covered(recording, least_s, greatest_s);

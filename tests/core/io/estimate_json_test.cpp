@@ -9,6 +9,8 @@ Estimate stationary_estimate() {
   Estimate estimate;
   estimate.recording = "room-1.bag";
   estimate.method = "stationary";
+  estimate.kind = "stationary";
+  estimate.kind_reason = "As assumed.";
   estimate.identifiable = true;
   estimate.offset_s = 0.0239;
   estimate.sigma_s = 0.00005;
@@ -38,6 +40,9 @@ TEST(EstimateJson, HasTheDocumentedKeysInTheDocumentedOrder) {
   "identifiable": true,
   "offset_ms": 23.9,
   "sigma_ms": 0.05,
+  "drift_ppm": null,
+  "kind": "stationary",
+  "kind_reason": "As assumed.",
   "warnings": [],
   "reasons": [],
   "criteria": {
@@ -54,7 +59,8 @@ TEST(EstimateJson, HasTheDocumentedKeysInTheDocumentedOrder) {
       "rotation_rad": 0.049,
       "signed_rotation_rad": -0.048,
       "n": null,
-      "e_m": null
+      "e_m": null,
+      "capped_cost_m": null
     },
     {
       "offset_ms": 20.1,
@@ -63,7 +69,8 @@ TEST(EstimateJson, HasTheDocumentedKeysInTheDocumentedOrder) {
       "rotation_rad": null,
       "signed_rotation_rad": null,
       "n": null,
-      "e_m": null
+      "e_m": null,
+      "capped_cost_m": null
     }
   ],
   "sweeps": 8,
@@ -95,6 +102,8 @@ TEST(EstimateJson, ReadsBackWhatItWrote) {
   Estimate written = stationary_estimate();
   written.curve[1].n = 12345;
   written.curve[1].e_m = 0.0123;
+  written.curve[1].capped_cost_m = 0.04;
+  written.drift_ppm = -12.5;
   written.warnings = {"n and e are 1.2 ms apart."};
   const auto read = parse_estimate_json(estimate_to_json(written), "a.json");
   ASSERT_TRUE(read);
@@ -131,9 +140,9 @@ TEST(EstimateJson, ANameThatIsNotUtf8StillMakesADocument) {
 
 TEST(CurveCsv, NamesUnitsAndLeavesAbsentValuesEmpty) {
   EXPECT_EQ(curve_to_csv(stationary_estimate()),
-            "offset_ms,d,translation_m,rotation_rad,signed_rotation_rad,n,e_m\n"
-            "19.1,0.05,0.01,0.049,-0.048,,\n"
-            "20.1,,,,,,\n");
+            "offset_ms,d,translation_m,rotation_rad,signed_rotation_rad,n,e_m,capped_cost_m\n"
+            "19.1,0.05,0.01,0.049,-0.048,,,\n"
+            "20.1,,,,,,,\n");
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/loam/sweep_motion.hpp"
+#include "core/loam/mapping.hpp"
 #include "tests/core/engine_fixtures.hpp"
 
 namespace sweepscope {
@@ -76,6 +76,18 @@ TEST(SweepMotion, IsTheInterpolatedPose) {
   for (const double u : {-0.1, 0.0, 0.4, 1.0})
     EXPECT_NEAR((motion(p_m, u) - interpolate(begin, end, u) * p_m).norm(), 0, 1e-12) << u;
   EXPECT_NEAR((SweepMotion(begin, begin)(p_m, 0.7) - begin * p_m).norm(), 0, 1e-12);
+}
+
+TEST(SweepMotion, BendsInTheMiddleAndNotAtTheEnds) {
+  SweepPose pose;
+  pose.end.translation_m = {2, 0, 0};
+  pose.bend << 0.01, 0, 0, 0, 0, 0.02;  // rolls 0.01 rad about the way's middle and rises 2 cm
+  const Vector3d p_m(0, 5, 0);
+  EXPECT_NEAR((pose.motion()(p_m, 0) - p_m).norm(), 0, 1e-12);
+  EXPECT_NEAR((pose.motion()(p_m, 1) - Vector3d(2, 5, 0)).norm(), 0, 1e-12);
+  EXPECT_NEAR((pose.motion()(p_m, 0.5) - Vector3d(1, 5, 0.05 + 0.02)).norm(), 0, 1e-12);
+  for (const double u : {0.0, 0.3, 0.5, 1.0})
+    EXPECT_NEAR((pose.at(u) * p_m - pose.motion()(p_m, u)).norm(), 0, 3e-4) << u;
 }
 
 }  // namespace

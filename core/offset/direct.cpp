@@ -1,0 +1,187 @@
+#include "core/offset/direct.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/offset/candidates.hpp"
+#include "core/offset/direct_moving.hpp"
+#include "core/offset/direct_stationary.hpp"
+#include "core/offset/identifiability.hpp"
+#include "core/offset/still_motion.hpp"
+#include "core/offset/uncertainty.hpp"
+
+namespace sweepscope {
+namespace {
+
+constexpr std::size_t kCoarseSweeps = 40;
+
+void add(std::vector<std::string>& to, const Remark& remark) {
+  if (remark) to.push_back(*remark);
+}
+
+double duration_s(const OffsetProblem& problem) {
+  const auto& scans = problem.recording->scans;
+  return scans.back().first_beam_s - scans.front().first_beam_s;
+}
+
+// Every second of the window's candidates, then those beside the best.
+std::vector<double> every_second(const std::vector<double>& offsets_s) {
+  std::vector<double> chosen_s;
+  for (std::size_t i = 0; i < offsets_s.size(); i += 2) chosen_s.push_back(offsets_s[i]);
+  if (chosen_s.back() != offsets_s.back()) chosen_s.push_back(offsets_s.back());
+  return chosen_s;
+}
+
+void sort_into(std::vector<CurvePoint>& curve, const std::vector<CurvePoint>& more) {
+  for (const CurvePoint& point : more)
+    if (std::none_of(curve.begin(), curve.end(), [&](const auto& p) { return p.offset_s == point.offset_s; }))
+      curve.push_back(point);
+  std::sort(curve.begin(), curve.end(), [](const auto& a, const auto& b) { return a.offset_s < b.offset_s; });
+}
+
+// Between neighbouring candidates the halves must agree, or the scatter hides something.
+std::optional<double> widened_by_halves(std::optional<double> sigma_s, const std::vector<double>& series_s,
+                                        Estimate& result) {
+  if (!sigma_s || series_s.size() < 4) return sigma_s;
+  double halves_s[2] = {0, 0};
+  const std::size_t middle = series_s.size() / 2;
+  for (std::size_t i = 0; i < series_s.size(); ++i)
+    halves_s[i < middle ? 0 : 1] += series_s[i] / double(i < middle ? middle : series_s.size() - middle);
+  const double half_apart_s = std::abs(halves_s[1] - halves_s[0]) / 2;
+  if (half_apart_s < 3 * *sigma_s) return sigma_s;
+  result.warnings.push_back(fmt::format("The halves of the recording disagree: {:.3f} ms and {:.3f} ms.",
+                                        halves_s[0] * 1e3, halves_s[1] * 1e3));
+  return half_apart_s;
+}
+
+void answer(double offset_s, std::optional<double> sigma_s, double value, const SearchScale& scale,
+            const std::vector<double>& window_s, Estimate& result) {
+  result.criteria.push_back({"direct", offset_s, value});
+  if (offset_s < window_s.front() || offset_s > window_s.back())
+    result.reasons.push_back(fmt::format(
+        "The offset would lie beyond the edge of the searched range, at {:.1f} ms.", offset_s * 1e3));
+  add(result.reasons, sigma_reason(sigma_s, scale));
+  result.identifiable = result.reasons.empty();
+  if (!result.identifiable) return;
+  result.offset_s = offset_s;
+  result.sigma_s = sigma_s;
+}
+
+void judge_drift(const std::vector<double>& times_s, const std::vector<double>& offsets_s, double recorded_s,
+                 std::optional<double> sigma_s, Estimate& result) {
+  const auto trend = trend_of(times_s, offsets_s);
+  if (!trend) return;
+  result.drift_ppm = trend->slope * 1e6;
+  add(result.reasons, drift_reason(*trend, recorded_s, sigma_s.value_or(0)));
+}
+
+void estimate_standing(const OffsetProblem& problem, double coarse_s, const std::vector<double>& window_s,
+                       const SearchScale& scale, const Job& job, Estimate& result) {
+  const StillGrid grid = still_grid(problem);
+  const StationaryDirect found = solve_stationary(grid, coarse_s, {}, job);
+  if (found.matches < StationaryDirectOptions().least_matches) {
+    result.reasons.push_back(fmt::format("Only {} of {} points lie on surfaces that the other direction saw.",
+                                         found.matches, found.features));
+    return;
+  }
+  if (!found.converged) result.warnings.push_back("The least squares did not settle.");
+  add(result.reasons, lever_reason(found.lever_m, found.reach_m));
+  add(result.reasons,
+      standing_reason(shift_from_first_to_last(grid, found.offset_s), problem.features->range_noise_m));
+  add(result.warnings, few_matches_warning(found.matches, found.features));
+  std::optional<double> sigma_s = jackknife_sigma(found.without_part_s);
+  judge_drift(found.block_s, found.block_offset_s, duration_s(problem), sigma_s, result);
+  sigma_s = widened_by_halves(sigma_s, found.block_offset_s, result);
+  answer(found.offset_s, sigma_s, found.residual_m, scale, window_s, result);
+}
+
+void judge_walk(const MovingDirect& found, Estimate& result) {
+  if (!found.converged) result.warnings.push_back("Newton's steps did not settle.");
+  constexpr double kLeastSlope = 0.3;
+  if (found.slope_of_nominal < kLeastSlope)
+    result.reasons.push_back(fmt::format(
+        "The scene gives no lever: turning the motor's angle by 1 deg turns the tracked sweeps by {:.2f} "
+        "deg only.",
+        found.slope_of_nominal));
+  const auto &below = found.curve[0].e_m, &here = found.curve[1].e_m, &above = found.curve[2].e_m;
+  if (!here)
+    result.reasons.push_back("LOAM lost track at the offset that the alternating roll points to.");
+  else if ((below && *below < *here) || (above && *above < *here))
+    result.reasons.push_back(
+        fmt::format("The map is not clearest at the offset that the alternating roll points to: e is {:.1f} "
+                    "mm there, and {:.1f} "
+                    "and {:.1f} mm to its sides.",
+                    *here * 1e3, below.value_or(0) * 1e3, above.value_or(0) * 1e3));
+}
+
+void estimate_walking(const OffsetProblem& problem, double coarse_s, const std::vector<double>& window_s,
+                      const SearchScale& scale, const MappingOptions& mapping, const Job& job,
+                      Estimate& result) {
+  MovingDirectOptions options;
+  options.mapping = mapping;
+  options.most_step_s = 10 * scale.unit_s;
+  options.side_s = 3 * scale.unit_s;
+  const MovingDirect found = solve_moving(problem, coarse_s, options, job);
+  if (job.cancelled()) return;
+  if (found.lost) {
+    result.reasons.push_back("LOAM lost track.");
+    return;
+  }
+  sort_into(result.curve, found.curve);
+  judge_walk(found, result);
+  std::optional<double> sigma_s = found.sigma_s;
+  judge_drift(found.sweep_s, found.sweep_offset_s, duration_s(problem), sigma_s, result);
+  sigma_s = widened_by_halves(sigma_s, found.sweep_offset_s, result);
+  answer(found.offset_s, sigma_s, found.curve[1].e_m.value_or(0), scale, window_s, result);
+}
+
+}  // namespace
+
+CoarseSearch search_coarsely(const OffsetProblem& problem, const std::vector<double>& window_s,
+                             const SearchScale& scale, const Job& job) {
+  const double middle_s = (window_s.front() + window_s.back()) / 2;
+  const OffsetProblem part = beginning_of(problem, middle_s, kCoarseSweeps);
+  const StillGrid grid = still_grid(part);
+  CoarseSearch search;
+  const auto compute = [&](const std::vector<double>& offsets_s) {
+    sort_into(search.curve, stationary_coarse_curve(grid, offsets_s, job));
+    const std::size_t best = index_of_least(search.curve, &CurvePoint::capped_cost_m);
+    if (best < search.curve.size()) search.best = best;
+  };
+  const std::vector<double> all_s = offsets_of({{window_s.front(), window_s.back(), scale.unit_s}});
+  compute(every_second(all_s));
+  if (!search.best) return search;
+  const double best_s = search.offset_s();
+  std::vector<double> beside_s;
+  for (const double offset_s : all_s)
+    if (std::abs(offset_s - best_s) < 1.5 * scale.unit_s) beside_s.push_back(offset_s);
+  compute(beside_s);
+  return search;
+}
+
+void estimate_directly(const OffsetProblem& problem, const CoarseSearch& coarse, bool moving,
+                       const MappingOptions& mapping, const Job& job, Estimate& result) {
+  const SearchScale scale = search_scale(problem.motor);
+  result.curve = coarse.curve;
+  if (!coarse.best) {
+    result.reasons.push_back(
+        "Sweeps of opposite directions hardly see the same surfaces at any candidate offset.");
+    return;
+  }
+  const std::vector<double> window_s{coarse.curve.front().offset_s, coarse.curve.back().offset_s};
+  add(result.reasons, edge_reason(coarse.curve, *coarse.best));
+  add(result.reasons, flat_reason(coarse.curve, *coarse.best));
+  add(result.reasons, rival_reason(coarse.curve, *coarse.best, scale));
+  add(result.warnings, aliased_warning(*problem.recording, problem.motor));
+  add(result.warnings, encoder_warning(problem.recording->motor));
+  add(result.warnings, slow_motor_warning(problem.motor));
+  if (!result.reasons.empty()) return;
+  if (moving)
+    estimate_walking(problem, coarse.offset_s(), window_s, scale, mapping, job, result);
+  else
+    estimate_standing(problem, coarse.offset_s(), window_s, scale, job, result);
+}
+
+}  // namespace sweepscope

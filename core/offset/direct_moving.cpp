@@ -1,0 +1,84 @@
+#include "core/offset/direct_moving.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/offset/moving.hpp"
+#include "core/offset/uncertainty.hpp"
+
+namespace sweepscope {
+namespace {
+
+// n and e at the answer and to both sides of it.
+std::vector<CurvePoint> sides(const OffsetProblem& problem, double offset_s,
+                              const MovingDirectOptions& options, const Job& job) {
+  const OffsetProblem part = beginning_of(problem, offset_s, options.verified_sweeps);
+  const Job quiet = Job::part_of(job);
+  std::vector<CurvePoint> curve(3);
+  tbb::parallel_for(std::size_t{0}, curve.size(), [&](std::size_t i) {
+    curve[i] = moving_candidate(part, offset_s + (double(i) - 1) * options.side_s, Scoring::kTwoStage,
+                                options.mapping, quiet);
+  });
+  return curve;
+}
+
+}  // namespace
+
+OffsetProblem beginning_of(const OffsetProblem& problem, double offset_s, std::size_t most_sweeps) {
+  OffsetProblem part = problem;
+  const std::vector<std::size_t> sweep_of = assign_sweeps(part.recording->scans, part.motor.sweeps, offset_s);
+  for (std::size_t i = 0; i < part.scan_used.size(); ++i)
+    if (sweep_of[i] != kNoSweep && sweep_of[i] >= most_sweeps) part.scan_used[i] = 0;
+  return part;
+}
+
+std::optional<double> sigma_of_roll(const std::vector<double>& sweep_roll_rad) {
+  constexpr std::size_t kLeastLength = 8, kMostBlocks = 20;
+  return block_sigma(sweep_roll_rad, kLeastLength, kMostBlocks);
+}
+
+MovingPass moving_pass(const OffsetProblem& problem, double offset_s, const MappingOptions& options,
+                       const Job& job) {
+  MovingPass pass;
+  pass.offset_s = offset_s;
+  const Eigen::Vector3d axis = problem.recording->rig.mount.axis.normalized();
+  const auto walk = track(place_sweeps(problem, offset_s), axis, options, job);
+  if (!walk || walk->lost) return pass;
+  AlternatingRoll roll = take_out_alternating_roll(walk->sweeps, axis, options.settling_sweeps);
+  pass.tracked = !roll.sweep_s.empty();
+  pass.roll_rad = roll.signed_rotation_rad;
+  pass.sweep_s = std::move(roll.sweep_s);
+  pass.sweep_roll_rad = std::move(roll.sweep_roll_rad);
+  return pass;
+}
+
+MovingDirect solve_moving(const OffsetProblem& problem, double first_offset_s,
+                          const MovingDirectOptions& options, const Job& job) {
+  MovingDirect result;
+  result.offset_s = first_offset_s;
+  const double nominal_rad_s = 2 * problem.motor.median_speed_rad_s;
+  for (int i = 0; i < options.most_passes && !result.converged; ++i) {
+    result.passes.push_back(moving_pass(problem, result.offset_s, options.mapping, job));
+    const MovingPass& pass = result.passes.back();
+    result.lost = !pass.tracked;
+    if (result.lost || job.cancelled()) return result;
+    const double step_s = -pass.roll_rad / nominal_rad_s;
+    result.offset_s += std::clamp(step_s, -options.most_step_s, options.most_step_s);
+    result.converged = std::abs(step_s) < options.step_tolerance_s;
+  }
+  result.curve = sides(problem, result.offset_s, options, job);
+  const auto &below = result.curve.front().signed_rotation_rad,
+             &above = result.curve.back().signed_rotation_rad;
+  if (below && above) result.slope_of_nominal = (*above - *below) / (2 * options.side_s * nominal_rad_s);
+  const MovingPass& last = result.passes.back();
+  result.sweep_s = last.sweep_s;
+  for (const double roll_rad : last.sweep_roll_rad)
+    result.sweep_offset_s.push_back(last.offset_s - roll_rad / nominal_rad_s);
+  result.sigma_s = sigma_of_roll(result.sweep_offset_s);
+  return result;
+}
+
+}  // namespace sweepscope

@@ -1,0 +1,282 @@
+#include "core/offset/direct_stationary.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/loam/least_squares.hpp"
+
+namespace sweepscope {
+namespace {
+
+constexpr double kCoarseCap_m = 0.3;
+
+struct CoarseSum {
+  double sum_m = 0;
+  std::size_t count = 0, asked = 0;
+};
+
+// Differences between a line's ranges and another sweep's at the same motor angle and beam. On a plane
+// 1 / r goes as A cos(angle) + B sin(angle), which two lines tell.
+void add_differences(const StillGrid& grid, const StillPoints& points, std::size_t line, const LinePool& pool,
+                     const StillPatchOptions& patches, CoarseSum& total) {
+  StillNeighbours neighbours(points, pool, patches);
+  for (std::size_t bin = line % 2; bin < points.bins; bin += 2) {
+    const std::size_t cell = line * points.bins + bin;
+    if (!points.placed[cell]) continue;
+    ++total.asked;
+    const double angle_rad = points.angle_rad[cell];
+    const auto [found, below, above] = neighbours.bracket(angle_rad, bin);
+    if (!found) continue;
+    const double up = angle_rad - points.angle_rad[below], down = points.angle_rad[above] - angle_rad;
+    const double inverse_range = (std::sin(down) / grid.range_m[below] + std::sin(up) / grid.range_m[above]) /
+                                 std::max(1e-9, std::sin(up + down));
+    total.sum_m += std::min(std::abs(grid.range_m[cell] - 1 / inverse_range), kCoarseCap_m);
+    ++total.count;
+  }
+}
+
+std::optional<double> coarse_cost_m(const StillGrid& grid, const StillPatchOptions& patches,
+                                    double offset_s) {
+  const StillPoints points = place_still(grid, offset_s, StillDetail::kAngles);
+  const std::vector<LinePool> pools = pools_by_sweep(points);
+  CoarseSum total;
+  for (std::size_t line = 0; line < points.lines(); ++line) {
+    const std::size_t sweep = points.sweep[line];
+    if (sweep == kNoSweep) continue;
+    if (sweep > 0) add_differences(grid, points, line, pools[sweep - 1], patches, total);
+    if (sweep + 1 < pools.size()) add_differences(grid, points, line, pools[sweep + 1], patches, total);
+  }
+  if (total.count < 100 || 5 * total.count < total.asked) return std::nullopt;
+  return total.sum_m / double(total.count);
+}
+
+struct Residual {
+  double jacobian_m_s = 0, distance_m = 0;
+  float lever_m = 0, reach_m = 0;
+};
+
+// One line's points against the other direction's patches.
+struct LineResiduals {
+  std::vector<Residual> residuals;
+  std::size_t features = 0;
+};
+
+class Linearisation {
+ public:
+  Linearisation(const StillGrid& grid, const StillPatchOptions& patches, double offset_s)
+      : grid_(grid),
+        patches_(patches),
+        axis_(grid.problem->recording->rig.mount.axis.normalized()),
+        points_(place_still(grid, offset_s, StillDetail::kPoints)) {}
+
+  const StillPoints& points() const { return points_; }
+
+  /// All lines against the other direction's, without those that are `left_out`.
+  std::vector<LineResiduals> residuals(const std::vector<char>& left_out = {}) const {
+    std::array<LinePool, 2> pools = points_.pool;
+    for (LinePool& pool : pools)
+      std::erase_if(pool, [&](std::uint32_t line) { return !left_out.empty() && left_out[line]; });
+    std::vector<LineResiduals> found(points_.lines());
+    tbb::parallel_for(std::size_t{0}, points_.lines(), [&](std::size_t line) {
+      if (points_.sweep[line] == kNoSweep || (!left_out.empty() && left_out[line])) return;
+      found[line] = of_line(line, pools[points_.direction[line] > 0 ? 0 : 1]);
+    });
+    return found;
+  }
+
+ private:
+  LineResiduals of_line(std::size_t line, const LinePool& pool) const {
+    LineResiduals found;
+    StillNeighbours neighbours(points_, pool, patches_);
+    for (std::size_t bin = 0; bin < points_.bins; ++bin) {
+      const std::size_t cell = line * points_.bins + bin;
+      if (!points_.placed[cell]) continue;
+      ++found.features;
+      const StillPatch patch = neighbours.patch(points_.angle_rad[cell], bin, grid_.range_m[cell]);
+      if (!patch.found) continue;
+      const Eigen::Vector3d& p_m = points_.p_m[cell];
+      const Eigen::Vector3d turned_m = axis_.cross(p_m);
+      const double lever_m = patch.normal.dot(turned_m);
+      found.residuals.push_back({(points_.speed_rad_s[cell] - patch.speed_rad_s) * lever_m,
+                                 patch.normal.dot(p_m - patch.centre_m), float(lever_m),
+                                 float(turned_m.norm())});
+    }
+    return found;
+  }
+
+  const StillGrid& grid_;
+  const StillPatchOptions& patches_;
+  Eigen::Vector3d axis_;
+  StillPoints points_;
+};
+
+double robust_deviation_m(const std::vector<LineResiduals>& lines) {
+  std::vector<float> sizes_m;
+  for (const LineResiduals& line : lines)
+    for (const Residual& residual : line.residuals) sizes_m.push_back(float(std::abs(residual.distance_m)));
+  if (sizes_m.empty()) return 0;
+  const auto middle = sizes_m.begin() + std::ptrdiff_t(sizes_m.size() / 2);
+  std::nth_element(sizes_m.begin(), middle, sizes_m.end());
+  return 1.4826 * double(*middle);
+}
+
+struct Sums {
+  double jj = 0, jr = 0;  // weighted
+  std::size_t features = 0, matches = 0;
+
+  void add(const LineResiduals& line, double loss_width_m) {
+    features += line.features;
+    matches += line.residuals.size();
+    for (const Residual& residual : line.residuals) {
+      const double weight = cauchy_weight(residual.distance_m, loss_width_m);
+      jj += weight * residual.jacobian_m_s * residual.jacobian_m_s;
+      jr += weight * residual.jacobian_m_s * residual.distance_m;
+    }
+  }
+};
+
+Sums summed(const std::vector<LineResiduals>& lines, double loss_width_m) {
+  Sums sums;
+  for (const LineResiduals& line : lines) sums.add(line, loss_width_m);
+  return sums;
+}
+
+// Which part each line belongs to, kNoSweep where none.
+struct Parts {
+  std::vector<std::size_t> of_line;
+  std::size_t count = 0;
+};
+
+Parts blocks_of_sweeps(const StillPoints& points, std::size_t most) {
+  std::vector<std::size_t> sweeps;
+  for (const std::size_t sweep : points.sweep)
+    if (sweep != kNoSweep && (sweeps.empty() || sweeps.back() != sweep)) sweeps.push_back(sweep);
+  Parts parts{std::vector<std::size_t>(points.lines(), kNoSweep), std::min(most, sweeps.size())};
+  for (std::size_t line = 0; line < points.lines(); ++line) {
+    if (points.sweep[line] == kNoSweep) continue;
+    const auto place = std::lower_bound(sweeps.begin(), sweeps.end(), points.sweep[line]) - sweeps.begin();
+    parts.of_line[line] = std::size_t(place) * parts.count / sweeps.size();
+  }
+  return parts;
+}
+
+Parts sectors_of_angle(const StillPoints& points, std::size_t count) {
+  const std::size_t middle = points.bins / 2;
+  std::vector<double> angles_rad;
+  for (std::size_t line = 0; line < points.lines(); ++line)
+    if (points.sweep[line] != kNoSweep) angles_rad.push_back(points.angle_rad[line * points.bins + middle]);
+  std::sort(angles_rad.begin(), angles_rad.end());
+  Parts parts{std::vector<std::size_t>(points.lines(), kNoSweep), count};
+  for (std::size_t line = 0; line < points.lines(); ++line) {
+    if (points.sweep[line] == kNoSweep) continue;
+    const auto place = std::lower_bound(angles_rad.begin(), angles_rad.end(),
+                                        points.angle_rad[line * points.bins + middle]) -
+                       angles_rad.begin();
+    parts.of_line[line] = std::size_t(place) * count / angles_rad.size();
+  }
+  return parts;
+}
+
+// The offset without each part, a step from the answer.
+std::vector<double> offsets_without(const Linearisation& at, const Parts& parts, double offset_s,
+                                    double loss_width_m) {
+  std::vector<double> offsets_s;
+  for (std::size_t part = 0; part < parts.count; ++part) {
+    std::vector<char> left_out(parts.of_line.size());
+    for (std::size_t line = 0; line < left_out.size(); ++line) left_out[line] = parts.of_line[line] == part;
+    const Sums sums = summed(at.residuals(left_out), loss_width_m);
+    if (sums.jj > 0) offsets_s.push_back(offset_s - sums.jr / sums.jj);
+  }
+  return offsets_s;
+}
+
+// What each block's points ask for. They are held against all blocks' patches, which stay where they are: so
+// they must go twice as far.
+void fill_blocks(const Linearisation& at, const StillGrid& grid, const std::vector<LineResiduals>& lines,
+                 const Parts& blocks, double loss_width_m, StationaryDirect& result) {
+  std::vector<Sums> sums(blocks.count);
+  std::vector<double> time_s(blocks.count, 0.0), count(blocks.count, 0.0);
+  for (std::size_t line = 0; line < lines.size(); ++line) {
+    const std::size_t block = blocks.of_line[line];
+    if (block == kNoSweep) continue;
+    sums[block].add(lines[line], loss_width_m);
+    time_s[block] += grid.time_s[line * at.points().bins];
+    count[block] += 1;
+  }
+  for (std::size_t block = 0; block < blocks.count; ++block) {
+    if (!(sums[block].jj > 0)) continue;
+    result.block_s.push_back(time_s[block] / count[block]);
+    result.block_offset_s.push_back(result.offset_s - 2 * sums[block].jr / sums[block].jj);
+  }
+}
+
+void fill_levers(const std::vector<LineResiduals>& lines, StationaryDirect& result) {
+  double lever_m2 = 0, reach_m2 = 0;
+  for (const LineResiduals& line : lines) {
+    for (const Residual& residual : line.residuals) {
+      lever_m2 += double(residual.lever_m) * residual.lever_m;
+      reach_m2 += double(residual.reach_m) * residual.reach_m;
+    }
+  }
+  const double n = std::max(1.0, double(result.matches));
+  result.lever_m = std::sqrt(lever_m2 / n);
+  result.reach_m = std::sqrt(reach_m2 / n);
+}
+
+// Sweeps are the parts where there are enough of them.
+void resample(const StillGrid& grid, const Linearisation& at, const std::vector<LineResiduals>& lines,
+              double loss_width_m, StationaryDirect& result) {
+  constexpr std::size_t kMostParts = 10, kLeastBlocks = 6, kSectors = 8;
+  const Parts blocks = blocks_of_sweeps(at.points(), kMostParts);
+  const Parts parts = blocks.count < kLeastBlocks ? sectors_of_angle(at.points(), kSectors) : blocks;
+  result.without_part_s = offsets_without(at, parts, result.offset_s, loss_width_m);
+  fill_blocks(at, grid, lines, blocks, loss_width_m, result);
+  fill_levers(lines, result);
+}
+
+}  // namespace
+
+std::vector<CurvePoint> stationary_coarse_curve(const StillGrid& grid, const std::vector<double>& offsets_s,
+                                                const Job& job) {
+  const StillPatchOptions patches = still_patch_options(*grid.problem);
+  std::vector<CurvePoint> curve(offsets_s.size());
+  tbb::parallel_for(std::size_t{0}, offsets_s.size(), [&](std::size_t i) {
+    curve[i].offset_s = offsets_s[i];
+    if (!job.cancelled()) curve[i].capped_cost_m = coarse_cost_m(grid, patches, offsets_s[i]);
+  });
+  return curve;
+}
+
+StationaryDirect solve_stationary(const StillGrid& grid, double first_offset_s,
+                                  const StationaryDirectOptions& options, const Job& job) {
+  const StillPatchOptions patches = still_patch_options(*grid.problem);
+  StationaryDirect result;
+  result.offset_s = first_offset_s;
+  double loss_width_m = options.first_loss_width_m;
+  bool narrowed = false;
+  for (; result.iterations < options.most_iterations && !job.cancelled(); ++result.iterations) {
+    const Linearisation at(grid, patches, result.offset_s);
+    const std::vector<LineResiduals> lines = at.residuals();
+    const Sums sums = summed(lines, loss_width_m);
+    result.features = sums.features;
+    result.matches = sums.matches;
+    if (sums.matches < options.least_matches || !(sums.jj > 0)) return result;
+    const double step_s = -sums.jr / sums.jj;
+    result.residual_m = robust_deviation_m(lines);
+    result.converged = narrowed && std::abs(step_s) < options.step_tolerance_s;
+    const bool last = result.converged || result.iterations + 1 == options.most_iterations;
+    result.offset_s += step_s;
+    if (last) {
+      resample(grid, at, lines, loss_width_m, result);
+      break;
+    }
+    const double width_m = std::max(options.least_loss_width_m, options.loss_widths * result.residual_m);
+    narrowed = width_m > 0.7 * loss_width_m;
+    loss_width_m = std::min(width_m, loss_width_m);
+  }
+  return result;
+}
+
+}  // namespace sweepscope

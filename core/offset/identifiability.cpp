@@ -1,0 +1,137 @@
+#include "core/offset/identifiability.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace sweepscope {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+double median_of(std::vector<double> values) {
+  if (values.empty()) return 0;
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+double median_cost(const std::vector<CurvePoint>& coarse) {
+  std::vector<double> costs;
+  for (const CurvePoint& point : coarse)
+    if (point.capped_cost_m) costs.push_back(*point.capped_cost_m);
+  return median_of(costs);
+}
+
+}  // namespace
+
+Remark edge_reason(const std::vector<CurvePoint>& coarse, std::size_t best) {
+  if (best > 0 && best + 1 < coarse.size()) return std::nullopt;
+  return fmt::format(
+      "The least cost lies on the edge of the searched range, at {:.1f} ms: the offset lies beyond it, or "
+      "nowhere.",
+      coarse[best].offset_s * 1e3);
+}
+
+Remark rival_reason(const std::vector<CurvePoint>& coarse, std::size_t best, const SearchScale& scale) {
+  constexpr double kApart = 8;   // units
+  constexpr double kLike = 0.2;  // of the least one's depth
+  const double least_m = *coarse[best].capped_cost_m, depth_m = median_cost(coarse) - least_m;
+  for (std::size_t i = 1; i + 1 < coarse.size(); ++i) {
+    const auto &before = coarse[i - 1].capped_cost_m, &here = coarse[i].capped_cost_m,
+               &after = coarse[i + 1].capped_cost_m;
+    if (!before || !here || !after || !(*here < *before) || !(*here <= *after)) continue;
+    if (std::abs(coarse[i].offset_s - coarse[best].offset_s) < kApart * scale.unit_s) continue;
+    if (*here - least_m < kLike * depth_m)
+      return fmt::format("Two offsets fit about equally well: {:.0f} ms and {:.0f} ms.",
+                         coarse[best].offset_s * 1e3, coarse[i].offset_s * 1e3);
+  }
+  return std::nullopt;
+}
+
+Remark flat_reason(const std::vector<CurvePoint>& coarse, std::size_t best) {
+  constexpr double kLeastDepth = 0.15;
+  const double least_m = *coarse[best].capped_cost_m, median_m = median_cost(coarse);
+  if (median_m - least_m > kLeastDepth * median_m) return std::nullopt;
+  return fmt::format(
+      "The scene gives no lever: sweeps of opposite directions fit each other about equally well at every "
+      "offset "
+      "({:.1f} mm apart at the best, {:.1f} mm at the median).",
+      least_m * 1e3, median_m * 1e3);
+}
+
+Remark drift_reason(const Trend& trend, double duration_s, double sigma_s) {
+  const double apart_s = std::abs(trend.slope) * duration_s;
+  const double chance_s = 3 * trend.sigma * duration_s;
+  if (apart_s < std::max({1e-3, 3 * sigma_s, chance_s})) return std::nullopt;
+  return fmt::format("The clocks drift apart by {:.0f} ppm: by {:.1f} ms over these {:.1f} s.",
+                     trend.slope * 1e6, trend.slope * duration_s * 1e3, duration_s);
+}
+
+Remark lever_reason(double lever_m, double reach_m) {
+  constexpr double kLeastLever = 0.05;
+  if (lever_m > kLeastLever * reach_m) return std::nullopt;
+  return fmt::format(
+      "The scene gives no lever: turning the motor's angle by 1 deg lifts the points off their surfaces by "
+      "{:.1f} mm "
+      "only.",
+      lever_m * kDegree * 1e3);
+}
+
+Remark standing_reason(const std::optional<SweepShift>& shift, double range_noise_m) {
+  if (!shift) return std::nullopt;
+  const double most_m = 0.012 + 0.6 * range_noise_m, most_rad = 0.01 + 0.2 * range_noise_m;
+  if (shift->translation_m < most_m && shift->rotation_rad < most_rad) return std::nullopt;
+  return fmt::format("The rig moved: its last sweep lies {:.0f} mm and {:.1f} deg from its first.",
+                     shift->translation_m * 1e3, shift->rotation_rad / kDegree);
+}
+
+Remark sigma_reason(std::optional<double> sigma_s, const SearchScale& scale) {
+  if (!sigma_s) return std::string("There is too little information to tell how sure an answer would be.");
+  if (*sigma_s < scale.unit_s) return std::nullopt;
+  return fmt::format("There is too little information: the offset could be told to +- {:.1f} ms only.",
+                     *sigma_s * 1e3);
+}
+
+Remark aliased_warning(const Recording& recording, const MotorMotion& motor) {
+  std::vector<double> periods_s;
+  for (std::size_t i = 1; i < recording.scans.size(); ++i)
+    periods_s.push_back(recording.scans[i].first_beam_s - recording.scans[i - 1].first_beam_s);
+  const double period_s = median_of(periods_s);
+  if (!(period_s > 0) || motor.sweeps.size() < 4) return std::nullopt;
+  const double scans = motor.median_sweep_s / period_s;
+  const double sweeps = double(motor.sweeps.size());
+  // Over all sweeps the angles shift by less than a quarter of a line's spacing.
+  if (std::abs(scans - std::round(scans)) * sweeps > 0.25 || scans > 60) return std::nullopt;
+  return fmt::format(
+      "A sweep takes {:.0f} scans almost exactly: every sweep sees the same angles, so few surfaces are seen "
+      "twice.",
+      std::round(scans));
+}
+
+Remark encoder_warning(const MotorTrack& track) {
+  std::vector<double> spacings_s;
+  for (std::size_t i = 1; i < track.time_s.size(); ++i)
+    spacings_s.push_back(track.time_s[i] - track.time_s[i - 1]);
+  const double median_s = median_of(spacings_s);
+  std::vector<double> off_s;
+  for (const double spacing_s : spacings_s) off_s.push_back(std::abs(spacing_s - median_s));
+  const double jitter_s = 1.4826 * median_of(off_s);
+  if (jitter_s < 0.2 * median_s) return std::nullopt;
+  return fmt::format("The encoder's samples come unevenly: every {:.1f} ms +- {:.1f} ms.", median_s * 1e3,
+                     jitter_s * 1e3);
+}
+
+Remark slow_motor_warning(const MotorMotion& motor) {
+  const double turned_deg = motor.median_speed_rad_s * 1e-3 / kDegree;
+  if (turned_deg > 0.1) return std::nullopt;
+  return fmt::format("The motor turns slowly: 1 ms is only {:.3f} deg here.", turned_deg);
+}
+
+Remark few_matches_warning(std::size_t matches, std::size_t features) {
+  if (10 * matches > features) return std::nullopt;
+  return fmt::format("Only {} of {} features were matched.", matches, features);
+}
+
+}  // namespace sweepscope

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/offset/estimate.hpp"
+#include "core/offset/search_window.hpp"
+#include "core/offset/still_motion.hpp"
+#include "core/offset/uncertainty.hpp"
+
+namespace sweepscope {
+
+/// Reasons why a recording cannot tell its offset and warnings where it tells little, each a whole sentence
+/// for a person; empty where there is nothing to say.
+using Remark = std::optional<std::string>;
+
+/// The least cost of a coarse curve lies at its end, or a second minimum is nearly as deep, or it has none.
+Remark edge_reason(const std::vector<CurvePoint>& coarse, std::size_t best);
+Remark rival_reason(const std::vector<CurvePoint>& coarse, std::size_t best, const SearchScale& scale);
+Remark flat_reason(const std::vector<CurvePoint>& coarse, std::size_t best);
+
+/// The clocks drift apart by more than max(1 ms, 3 sigma) over the recording, and by more than chance.
+Remark drift_reason(const Trend& trend, double duration_s, double sigma_s);
+/// The scene's surfaces hardly move when the motor's angle is turned: n . (a x p) is small against |a x p|.
+Remark lever_reason(double lever_m, double reach_m);
+/// A rig taken to stand still whose last sweep does not lie where its first one did.
+Remark standing_reason(const std::optional<SweepShift>& shift, double range_noise_m);
+/// Sigma is larger than what the motor's speed should allow.
+Remark sigma_reason(std::optional<double> sigma_s, const SearchScale& scale);
+
+/// The sweep takes a whole number of scans: both directions see the same angles.
+Remark aliased_warning(const Recording& recording, const MotorMotion& motor);
+/// The encoder's samples come unevenly.
+Remark encoder_warning(const MotorTrack& track);
+Remark slow_motor_warning(const MotorMotion& motor);
+Remark few_matches_warning(std::size_t matches, std::size_t features);
+
+}  // namespace sweepscope

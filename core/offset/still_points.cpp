@@ -1,0 +1,190 @@
+#include "core/offset/still_points.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace sweepscope {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kSpeedSpan_s = 0.010;  // the motor's speed is taken over this much to either side
+
+// Bins as wide as the spacing of the features, so that a bin holds at most one of a scan.
+std::size_t beams_per_bin(const FeatureOptions& options) {
+  return std::size_t(std::max(1, options.map_spacing));
+}
+
+}  // namespace
+
+StillGrid still_grid(const OffsetProblem& problem) {
+  const auto& scans = problem.recording->scans;
+  const FeatureList& planes = problem.features->planes;
+  const FeatureOptions& options = problem.feature_options;
+  StillGrid grid;
+  grid.problem = &problem;
+  std::uint32_t beams = 0;
+  for (const LaserScan& scan : scans) beams = std::max(beams, scan.beams);
+  grid.bins = beams / beams_per_bin(options) + 1;
+  for (std::size_t i = 0; i < scans.size(); ++i)
+    if (problem.scan_used[i]) grid.scan.push_back(std::uint32_t(i));
+  grid.feature.assign(grid.lines() * grid.bins, StillGrid::kNone);
+  grid.time_s.resize(grid.lines() * grid.bins);
+  grid.range_m.resize(grid.lines() * grid.bins);
+  const double half = options.half_window;
+  for (std::size_t line = 0; line < grid.lines(); ++line) {
+    const std::size_t scan = grid.scan[line], first = line * grid.bins;
+    for (std::size_t bin = 0; bin < grid.bins; ++bin)
+      grid.time_s[first + bin] = scans[scan].beam_s(half + (double(bin) + 0.5) * options.map_spacing);
+    for (std::size_t i = planes.scan_begin[scan]; i < planes.scan_begin[scan + 1]; ++i) {
+      const Feature& feature = planes.features[i];
+      const std::size_t bin = (feature.beam - std::size_t(half)) / beams_per_bin(options);
+      grid.feature[first + bin] = std::uint32_t(i);
+      grid.time_s[first + bin] = feature.time_s;
+      grid.range_m[first + bin] = feature.range_m;
+    }
+  }
+  return grid;
+}
+
+StillPoints place_still(const StillGrid& grid, double offset_s, StillDetail detail) {
+  const OffsetProblem& problem = *grid.problem;
+  const Kinematics kinematics(problem.recording->rig.mount);
+  MotorReader motor(problem.recording->motor), before(problem.recording->motor),
+      after(problem.recording->motor);
+  const std::vector<std::size_t> sweep_of =
+      assign_sweeps(problem.recording->scans, problem.motor.sweeps, offset_s);
+  StillPoints points;
+  points.bins = grid.bins;
+  points.offset_s = offset_s;
+  points.sweep.assign(grid.lines(), kNoSweep);
+  points.direction.assign(grid.lines(), 0);
+  points.angle_rad.resize(grid.feature.size());
+  points.placed.assign(grid.feature.size(), 0);
+  if (detail == StillDetail::kPoints) {
+    points.speed_rad_s.resize(grid.feature.size());
+    points.p_m.resize(grid.feature.size());
+  }
+  for (std::size_t line = 0; line < grid.lines(); ++line) {
+    points.sweep[line] = sweep_of[grid.scan[line]];
+    if (points.sweep[line] == kNoSweep) continue;
+    const Sweep& sweep = problem.motor.sweeps[points.sweep[line]];
+    points.direction[line] = sweep.direction;
+    for (std::size_t cell = line * grid.bins; cell < (line + 1) * grid.bins; ++cell) {
+      const double motor_s = grid.time_s[cell] + offset_s;
+      points.angle_rad[cell] = motor.angle_at(motor_s);
+      if (grid.feature[cell] == StillGrid::kNone) continue;
+      if (motor_s < sweep.steady_begin_s || motor_s > sweep.steady_end_s) continue;
+      points.placed[cell] = 1;
+      if (detail == StillDetail::kAngles) continue;
+      points.p_m[cell] = kinematics.base_from_motor(
+          problem.features->planes.features[grid.feature[cell]].p_in_motor_m.cast<double>(),
+          points.angle_rad[cell]);
+      points.speed_rad_s[cell] =
+          float((after.angle_at(motor_s + kSpeedSpan_s) - before.angle_at(motor_s - kSpeedSpan_s)) /
+                (2 * kSpeedSpan_s));
+    }
+    points.pool[sweep.direction > 0 ? 1 : 0].push_back(std::uint32_t(line));
+  }
+  const std::size_t middle = grid.bins / 2;
+  for (LinePool& pool : points.pool)
+    std::stable_sort(pool.begin(), pool.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return points.angle_rad[a * grid.bins + middle] < points.angle_rad[b * grid.bins + middle];
+    });
+  return points;
+}
+
+std::vector<LinePool> pools_by_sweep(const StillPoints& points) {
+  std::vector<LinePool> pools;
+  for (const LinePool& pool : points.pool) {
+    for (const std::uint32_t line : pool) {
+      if (points.sweep[line] >= pools.size()) pools.resize(points.sweep[line] + 1);
+      pools[points.sweep[line]].push_back(line);
+    }
+  }
+  return pools;
+}
+
+StillPatchOptions still_patch_options(const OffsetProblem& problem) {
+  StillPatchOptions options;
+  options.least_gap_rad = std::max(0.2 * problem.line_spacing_rad, 0.6 * kDegree);
+  options.reach_rad = std::max(1.6 * problem.line_spacing_rad, 4 * options.least_gap_rad);
+  options.thickness_m += problem.features->range_noise_m;
+  return options;
+}
+
+void StillNeighbours::seek(double angle_rad, std::size_t bin) {
+  while (next_ < pool_.size() && points_.angle_rad[cell(next_, bin)] < angle_rad) ++next_;
+  while (next_ > 0 && points_.angle_rad[cell(next_ - 1, bin)] >= angle_rad) --next_;
+}
+
+StillNeighbours::Pair StillNeighbours::bracket(double angle_rad, std::size_t bin) {
+  seek(angle_rad, bin);
+  if (next_ == 0 || next_ == pool_.size()) return {};
+  const Pair pair{true, cell(next_ - 1, bin), cell(next_, bin)};
+  if (!points_.placed[pair.below] || !points_.placed[pair.above]) return {};
+  if (points_.angle_rad[pair.above] - points_.angle_rad[pair.below] > options_.reach_rad) return {};
+  return pair;
+}
+
+// Adds the points of the lines on one side of the angle; gives how many lines had any.
+int StillNeighbours::collect(double angle_rad, std::size_t bin, int step) {
+  const std::size_t first_bin = bin > 0 ? bin - 1 : bin, last_bin = std::min(bin + 1, points_.bins - 1);
+  int lines = 0;
+  double last_rad = 0;
+  for (std::size_t place = step > 0 ? next_ : next_ - 1;
+       place < pool_.size() && lines < options_.lines_per_side; place += std::size_t(step)) {
+    const double away_rad = step * (points_.angle_rad[cell(place, bin)] - angle_rad);
+    if (away_rad > options_.reach_rad) break;
+    if (lines > 0 && away_rad - last_rad < options_.least_gap_rad) continue;
+    const int before = count_;
+    for (std::size_t b = first_bin; b <= last_bin; ++b)
+      if (const std::size_t c = cell(place, b); points_.placed[c]) near_[std::size_t(count_++)] = c;
+    if (count_ == before) continue;
+    ++lines;
+    last_rad = away_rad;
+  }
+  return lines;
+}
+
+StillPatch StillNeighbours::patch(double angle_rad, std::size_t bin, double range_m) {
+  StillPatch patch;
+  seek(angle_rad, bin);
+  count_ = 0;
+  const int below = collect(angle_rad, bin, -1), points_below = count_;
+  const int above = collect(angle_rad, bin, 1), points_above = count_ - points_below;
+  if (below == 0 || above == 0 || below + above < 3 || count_ < 6) return patch;
+  // The sides weigh so that the patch's centre comes to lie at the point's own motor angle: off it, the noise
+  // of the normal would enter residual and lever alike and pull the offset.
+  double down_rad = 0, up_rad = 0;
+  for (int i = 0; i < count_; ++i) {
+    const double away_rad = points_.angle_rad[near_[std::size_t(i)]] - angle_rad;
+    (i < points_below ? down_rad : up_rad) +=
+        std::abs(away_rad) / (i < points_below ? points_below : points_above);
+  }
+  const double both_rad = std::max(1e-9, down_rad + up_rad);
+  const double weight_below = up_rad / both_rad / points_below,
+               weight_above = down_rad / both_rad / points_above;
+  const Eigen::Vector3d origin = points_.p_m[near_[0]];
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  for (int i = 0; i < count_; ++i) {
+    const double weight = i < points_below ? weight_below : weight_above;
+    const Eigen::Vector3d d = points_.p_m[near_[std::size_t(i)]] - origin;
+    mean += weight * d;
+    squares.noalias() += weight * d * d.transpose();
+    patch.speed_rad_s += weight * points_.speed_rad_s[near_[std::size_t(i)]];
+  }
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  solver.computeDirect(squares - mean * mean.transpose());
+  const double thickness_m = std::max(options_.thickness_m, options_.thickness_slope * range_m);
+  const double flat = solver.eigenvalues()[0], wide = solver.eigenvalues()[1];
+  if (!(flat < thickness_m * thickness_m) || !(wide > 4 * flat)) return patch;
+  patch.found = true;
+  patch.centre_m = origin + mean;
+  patch.normal = solver.eigenvectors().col(0);
+  return patch;
+}
+
+}  // namespace sweepscope

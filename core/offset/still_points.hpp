@@ -1,0 +1,102 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/geometry/kinematics.hpp"
+#include "core/loam/sweep_features.hpp"
+
+namespace sweepscope {
+
+/// A rig that stands still measures one range per motor angle and beam, whatever the direction of turning.
+/// Its plane points therefore lie in a grid of scan lines (rows) and bins of beams (columns), and a point's
+/// neighbours are the same bins of the lines next to it in motor angle: found by counting, without a tree.
+struct StillGrid {
+  static constexpr std::uint32_t kNone = 0xffffffffu;
+  const OffsetProblem* problem = nullptr;
+  std::size_t bins = 0;
+  std::vector<std::uint32_t> scan;     // per line, index into Recording::scans
+  std::vector<std::uint32_t> feature;  // per cell, index into the plane features; kNone where there is none
+  std::vector<double> time_s;          // per cell, laser clock
+  std::vector<float> range_m;          // per cell
+  std::size_t lines() const { return scan.size(); }
+};
+
+/// The grid of the scans that are used. The problem must outlive it.
+StillGrid still_grid(const OffsetProblem& problem);
+
+/// The scan lines of some sweeps of one direction, in the order of their motor angle.
+using LinePool = std::vector<std::uint32_t>;
+
+/// The grid's points at one offset. Cells within a reversal's unsteady part are not `placed`.
+struct StillPoints {
+  std::size_t bins = 0;
+  double offset_s = 0;
+  std::vector<std::size_t> sweep;    // per line; kNoSweep where the line belongs to none
+  std::vector<int> direction;        // per line
+  std::vector<double> angle_rad;     // per cell, the motor's
+  std::vector<float> speed_rad_s;    // per cell, the motor's, signed
+  std::vector<Eigen::Vector3d> p_m;  // per cell, base frame
+  std::vector<char> placed;          // per cell
+  std::array<LinePool, 2> pool;      // all lines turning down, up
+
+  std::size_t lines() const { return sweep.size(); }
+  const LinePool& against(int turning) const { return pool[turning > 0 ? 0 : 1]; }
+};
+
+/// What of the points is worked out: the coarse search needs no coordinates.
+enum class StillDetail { kAngles, kPoints };
+StillPoints place_still(const StillGrid& grid, double offset_s, StillDetail detail);
+
+/// The lines of each sweep by its index, in the order of the motor's angle.
+std::vector<LinePool> pools_by_sweep(const StillPoints& points);
+
+/// How a point's neighbours are chosen. Lines as near to each other as encoder steps tell nothing of a
+/// surface's slope, so they keep a distance.
+struct StillPatchOptions {
+  double least_gap_rad = 0;  // between neighbouring lines of a patch
+  double reach_rad = 0;      // of lines to either side of the point
+  int lines_per_side = 3;
+  double thickness_m = 0.006;      // a patch's points lie this near to its plane (rms) ...
+  double thickness_slope = 0.003;  // ... or this much of the range
+};
+StillPatchOptions still_patch_options(const OffsetProblem& problem);
+
+/// A plane through the points round one cell, on at least three scan lines and on both sides of it.
+struct StillPatch {
+  bool found = false;
+  Eigen::Vector3d centre_m, normal;
+  double speed_rad_s = 0;  // the motor's mean speed while its points were measured
+};
+
+/// Goes through a line's cells in order and finds each one's neighbours among the lines of a pool.
+class StillNeighbours {
+ public:
+  StillNeighbours(const StillPoints& points, const LinePool& pool, const StillPatchOptions& options)
+      : points_(points), pool_(pool), options_(options) {}
+
+  /// The lines next below and above a motor angle at a bin, both with a point there and within reach.
+  struct Pair {
+    bool found = false;
+    std::size_t below = 0, above = 0;  // cells
+  };
+  Pair bracket(double angle_rad, std::size_t bin);
+  StillPatch patch(double angle_rad, std::size_t bin, double range_m);
+
+ private:
+  void seek(double angle_rad, std::size_t bin);
+  std::size_t cell(std::size_t place, std::size_t bin) const { return pool_[place] * points_.bins + bin; }
+  int collect(double angle_rad, std::size_t bin, int step);
+
+  static constexpr int kMostPoints = 24;
+  const StillPoints& points_;
+  const LinePool& pool_;
+  const StillPatchOptions& options_;
+  std::size_t next_ = 0;  // the first of the pool's lines at or above the angle
+  std::array<std::size_t, kMostPoints> near_;
+  int count_ = 0;
+};
+
+}  // namespace sweepscope

@@ -1,0 +1,66 @@
+#include "core/offset/uncertainty.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace sweepscope {
+namespace {
+
+double mean_of(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values) sum += value;
+  return sum / double(values.size());
+}
+
+double squares_about(const std::vector<double>& values, double mean) {
+  double sum = 0;
+  for (const double value : values) sum += (value - mean) * (value - mean);
+  return sum;
+}
+
+}  // namespace
+
+double student_factor(double degrees_of_freedom) {
+  const double nu = std::max(1.0, degrees_of_freedom);
+  return 1 + 0.5 / nu + 0.25 / (nu * nu);
+}
+
+std::optional<double> jackknife_sigma(const std::vector<double>& without_part) {
+  if (without_part.size() < 3) return std::nullopt;
+  const double n = double(without_part.size());
+  const double variance = (n - 1) / n * squares_about(without_part, mean_of(without_part));
+  return student_factor(n - 1) * std::sqrt(variance);
+}
+
+std::optional<double> block_sigma(const std::vector<double>& series, std::size_t least_length,
+                                  std::size_t most_blocks) {
+  const std::size_t blocks = std::min(most_blocks, series.size() / std::max<std::size_t>(1, least_length));
+  if (blocks < 3) return std::nullopt;
+  std::vector<double> means(blocks, 0.0);
+  for (std::size_t b = 0; b < blocks; ++b) {
+    const std::size_t from = series.size() * b / blocks, to = series.size() * (b + 1) / blocks;
+    for (std::size_t i = from; i < to; ++i) means[b] += series[i] / double(to - from);
+  }
+  const double n = double(blocks);
+  return student_factor(n - 1) * std::sqrt(squares_about(means, mean_of(means)) / (n - 1) / n);
+}
+
+std::optional<Trend> trend_of(const std::vector<double>& times, const std::vector<double>& values) {
+  if (times.size() < 4 || times.size() != values.size()) return std::nullopt;
+  const double n = double(times.size()), time = mean_of(times), value = mean_of(values);
+  const double spread = squares_about(times, time);
+  if (!(spread > 0)) return std::nullopt;
+  Trend trend;
+  for (std::size_t i = 0; i < times.size(); ++i)
+    trend.slope += (times[i] - time) * (values[i] - value) / spread;
+  double residuals = 0;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const double left = values[i] - value - trend.slope * (times[i] - time);
+    residuals += left * left;
+  }
+  trend.sigma = student_factor(n - 2) * std::sqrt(residuals / (n - 2) / spread);
+  return trend;
+}
+
+}  // namespace sweepscope

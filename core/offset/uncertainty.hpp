@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+namespace sweepscope {
+
+/// By how much a standard deviation estimated with few degrees of freedom must be widened so that 68 % of the
+/// truths lie within: Student's t at one sigma, by Cornish and Fisher's expansion. 1.31 for 2, 1.08 for 7.
+double student_factor(double degrees_of_freedom);
+
+/// The standard deviation of an estimate from what it becomes without each of its parts in turn (the
+/// delete-one jackknife), Student's factor included. Absent for fewer than three parts.
+std::optional<double> jackknife_sigma(const std::vector<double>& without_part);
+
+/// The standard deviation of the mean of a series whose neighbours err together, from the means of blocks of
+/// neighbours, Student's factor included. There are at most `most_blocks`, each of at least `least_length`
+/// values; absent for fewer than three.
+std::optional<double> block_sigma(const std::vector<double>& series, std::size_t least_length,
+                                  std::size_t most_blocks);
+
+/// The slope of a series of (time, value) by least squares and its standard deviation from the residuals.
+struct Trend {
+  double slope = 0, sigma = 0;
+};
+std::optional<Trend> trend_of(const std::vector<double>& times, const std::vector<double>& values);
+
+}  // namespace sweepscope

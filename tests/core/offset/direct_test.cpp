@@ -1,0 +1,152 @@
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include "core/io/estimate_json.hpp"
+#include "core/offset/estimator.hpp"
+#include "tests/core/engine_fixtures.hpp"
+
+namespace sweepscope {
+namespace {
+
+using test::kMs;
+
+Estimate directly(const Recording& recording, EstimateOptions options = {}) {
+  options.method = Method::kDirect;
+  return estimate(recording, options, Job()).value();
+}
+
+Recording made(SimulationOptions options) {
+  return simulate(options, Job()).value().recording;
+}
+
+void expect_refused(const Estimate& estimate, const std::string& why) {
+  EXPECT_FALSE(estimate.identifiable);
+  EXPECT_FALSE(estimate.offset_s);
+  const auto says = [&](const std::string& reason) { return reason.find(why) != std::string::npos; };
+  EXPECT_TRUE(std::any_of(estimate.reasons.begin(), estimate.reasons.end(), says))
+      << why << " is not in: " << testing::PrintToString(estimate.reasons);
+}
+
+// Truth, sweep, noise and the most that the answer may be off.
+struct Standing {
+  double truth_s, sweep_s, noise_m, most_error_s;
+};
+
+class DirectInARoom : public testing::TestWithParam<Standing> {};
+
+TEST_P(DirectInARoom, FindsTheOffsetAndKnowsHowWell) {
+  const Standing& given = GetParam();
+  SimulationOptions options;
+  options.scene = "room-3";
+  options.offset_s = given.truth_s;
+  options.sweep_s = given.sweep_s;
+  options.noise_m = given.noise_m;
+  const Estimate found = directly(made(options));
+  EXPECT_EQ(found.method, "direct");
+  EXPECT_EQ(found.kind, "stationary");
+  ASSERT_TRUE(found.identifiable) << testing::PrintToString(found.reasons);
+  EXPECT_NEAR(*found.offset_s, given.truth_s, given.most_error_s);
+  EXPECT_GT(*found.sigma_s, 0);
+  EXPECT_LT(*found.sigma_s, given.most_error_s);
+  ASSERT_EQ(found.criteria.size(), 1u);
+  EXPECT_EQ(found.criteria[0].name, "direct");
+  EXPECT_EQ(found.criteria[0].offset_s, *found.offset_s);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    TruthsSweepsAndNoise, DirectInARoom,
+    testing::Values(Standing{-53 * kMs, 0.5, 0.01, 0.05 * kMs}, Standing{24 * kMs, 0.5, 0.01, 0.05 * kMs},
+                    Standing{3.7 * kMs, 0.513, 0.01, 0.05 * kMs}, Standing{57 * kMs, 0.513, 0.01, 0.05 * kMs},
+                    Standing{24 * kMs, 0.3, 0.01, 0.05 * kMs}, Standing{24 * kMs, 0.8, 0.03, 0.15 * kMs},
+                    Standing{-8 * kMs, 0.5, 0.03, 0.15 * kMs}));
+
+TEST(Direct, FindsTheOffsetOfAWalkAndKnowsHowWell) {
+  const Estimate found = directly(test::simulated("metro-station", 0.024, 30).recording);
+  EXPECT_EQ(found.method, "direct");
+  EXPECT_EQ(found.kind, "moving");
+  ASSERT_TRUE(found.identifiable) << testing::PrintToString(found.reasons);
+  EXPECT_NEAR(*found.offset_s, 0.024, 0.3 * kMs);
+  EXPECT_NEAR(*found.offset_s, 0.024, 3 * *found.sigma_s);
+  EXPECT_LT(*found.sigma_s, 0.6 * kMs);
+}
+
+TEST(Direct, AWalkFarFromZeroIsFoundToo) {
+  const Estimate found = directly(test::simulated("metro-station", -0.047, 20).recording);
+  ASSERT_TRUE(found.identifiable) << testing::PrintToString(found.reasons);
+  EXPECT_NEAR(*found.offset_s, -0.047, 1 * kMs);
+}
+
+TEST(Direct, TheJsonIsTheSameForOneAndTwoThreads) {
+  const auto json = [](const Recording& recording, std::size_t threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    return estimate_to_json(directly(recording), Timing::kNull);
+  };
+  EXPECT_EQ(json(test::room(0.0037), 1), json(test::room(0.0037), 2));
+  const Recording& walk = test::simulated("metro-station", 0.024, 12).recording;
+  EXPECT_EQ(json(walk, 1), json(walk, 2));
+}
+
+// Rigs that tilt and yaw, with the laser off the axis, recorded by hand.
+class DirectOnOtherRigs : public testing::TestWithParam<Eigen::Vector3d> {};
+
+TEST_P(DirectOnOtherRigs, FindsTheOffset) {
+  test::Bench bench;
+  bench.mesh = test::hall();
+  bench.noise_m = 0.01;
+  bench.offset_s = 0.017;
+  bench.mount.axis = GetParam();
+  bench.mount.laser_in_motor_xyz_m = {0.06, 0.02, 0.05};
+  if (GetParam().z() == 1) bench.mount.laser_in_motor_rpy_deg = {90, 0, 0};
+  const Estimate found = directly(bench.record());
+  ASSERT_TRUE(found.identifiable) << testing::PrintToString(found.reasons);
+  EXPECT_NEAR(*found.offset_s, 0.017, 0.06 * kMs);
+}
+
+INSTANTIATE_TEST_SUITE_P(RollTiltYaw, DirectOnOtherRigs,
+                         testing::Values(Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(),
+                                         Eigen::Vector3d::UnitZ()));
+
+TEST(DirectRefuses, ARigThatWasNudged) {
+  SimulationOptions options;
+  options.nudge_m = 0.03;
+  expect_refused(directly(made(options)), "The rig moved");
+}
+
+TEST(DirectRefuses, ClocksThatDriftApartAndSaysByHowMuch) {
+  SimulationOptions options;
+  options.duration_s = 10;
+  options.clock_drift_ppm = 500;
+  const Estimate found = directly(made(options));
+  expect_refused(found, "drift apart");
+  EXPECT_NEAR(found.drift_ppm.value_or(0), 500, 30);
+}
+
+TEST(DirectRefuses, AnOffsetBeyondTheRange) {
+  EstimateOptions options;
+  options.ranges = {{26 * kMs, 40 * kMs, 1 * kMs}};
+  expect_refused(directly(test::room(0.024), options), "edge of the searched range");
+}
+
+// A tube about the motor's axis looks the same whatever the motor's angle.
+TEST(DirectRefuses, ASceneWithoutALever) {
+  test::Bench bench;
+  bench.mesh = simulation::rod({-12, 0, 0}, {12, 0, 0}, 1.6, 0.5, 180);
+  bench.noise_m = 0.01;
+  EstimateOptions options;
+  options.assume = Method::kStationary;
+  expect_refused(directly(bench.record(), options), "no lever");
+}
+
+TEST(DirectRefuses, NothingOnGoodRecordings) {
+  for (const char* scene : {"room-1", "room-2", "room-4", "room-5", "room-6"})
+    for (const double sweep_s : {0.3, 0.8}) {
+      SimulationOptions options;
+      options.scene = scene;
+      options.sweep_s = sweep_s;
+      const Estimate found = directly(made(options));
+      EXPECT_TRUE(found.identifiable) << scene << testing::PrintToString(found.reasons);
+    }
+}
+
+}  // namespace
+}  // namespace sweepscope

@@ -1,0 +1,99 @@
+#include "core/offset/identifiability.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace sweepscope {
+namespace {
+
+constexpr double kMs = 1e-3;
+const SearchScale kScale{1 * kMs, 60 * kMs, 250 * kMs};
+
+// Capped cost over -30 to 30 ms by 1 ms.
+template <typename Cost>
+std::vector<CurvePoint> curve_of(const Cost& cost_of_ms) {
+  std::vector<CurvePoint> curve;
+  for (int ms = -30; ms <= 30; ++ms) {
+    CurvePoint& point = curve.emplace_back();
+    point.offset_s = ms * kMs;
+    point.capped_cost_m = cost_of_ms(double(ms));
+  }
+  return curve;
+}
+
+double valley(double ms, double at_ms, double depth_m) {
+  return -depth_m * std::exp(-(ms - at_ms) * (ms - at_ms) / 18);
+}
+
+TEST(RivalReason, ASecondValleyThatIsNearlyAsDeepIsNamed) {
+  const auto two = curve_of([](double ms) { return 0.3 + valley(ms, -10, 0.2) + valley(ms, 12, 0.19); });
+  const Remark reason = rival_reason(two, 20, kScale);
+  ASSERT_TRUE(reason);
+  EXPECT_NE(reason->find("-10 ms and 12 ms"), std::string::npos) << *reason;
+}
+
+TEST(RivalReason, AShallowOneIsNot) {
+  EXPECT_FALSE(rival_reason(
+      curve_of([](double ms) { return 0.3 + valley(ms, -10, 0.2) + valley(ms, 12, 0.1); }), 20, kScale));
+}
+
+TEST(EdgeReason, IsGivenAtBothEndsOnly) {
+  const auto falling = curve_of([](double ms) { return 0.3 - 0.001 * ms; });
+  EXPECT_TRUE(edge_reason(falling, 60));
+  EXPECT_TRUE(edge_reason(falling, 0));
+  EXPECT_FALSE(edge_reason(falling, 30));
+}
+
+TEST(FlatReason, IsGivenWhereTheValleyIsShallow) {
+  EXPECT_TRUE(flat_reason(curve_of([](double ms) { return 0.3 + valley(ms, 0, 0.02); }), 30));
+  EXPECT_FALSE(flat_reason(curve_of([](double ms) { return 0.3 + valley(ms, 0, 0.1); }), 30));
+}
+
+TEST(DriftReason, NeedsAMillisecondAndThreeSigma) {
+  const Trend trend{200e-6, 1e-6};
+  EXPECT_TRUE(drift_reason(trend, 10, 0.1 * kMs));
+  EXPECT_NE(drift_reason(trend, 10, 0.1 * kMs)->find("200 ppm"), std::string::npos);
+  EXPECT_FALSE(drift_reason(trend, 4, 0.1 * kMs)) << "0.8 ms";
+  EXPECT_FALSE(drift_reason(trend, 10, 0.7 * kMs)) << "less than three sigma";
+  EXPECT_FALSE(drift_reason({200e-6, 100e-6}, 10, 0.1 * kMs)) << "chance";
+}
+
+TEST(SigmaReason, IsJudgedByTheMotorsSpeed) {
+  EXPECT_TRUE(sigma_reason(2 * kMs, kScale));
+  EXPECT_FALSE(sigma_reason(2 * kMs, SearchScale{20 * kMs, 260 * kMs, 2}));
+  EXPECT_TRUE(sigma_reason(std::nullopt, kScale));
+}
+
+TEST(Warnings, NameASweepOfAWholeNumberOfScans) {
+  Recording recording;
+  for (int i = 0; i < 160; ++i) {
+    LaserScan& scan = recording.scans.emplace_back();
+    scan.first_beam_s = i * 0.025;
+  }
+  MotorMotion motor;
+  motor.sweeps.resize(8);
+  motor.median_sweep_s = 0.5;
+  EXPECT_TRUE(aliased_warning(recording, motor));
+  motor.median_sweep_s = 0.513;
+  EXPECT_FALSE(aliased_warning(recording, motor));
+}
+
+TEST(Warnings, NameAnUnevenEncoderAndASlowMotor) {
+  MotorTrack even, uneven;
+  for (int i = 0; i < 100; ++i) {
+    even.time_s.push_back(i * 0.01);
+    uneven.time_s.push_back(i * 0.01 + (i * 7 % 10) * 0.001);
+  }
+  EXPECT_FALSE(encoder_warning(even));
+  EXPECT_TRUE(encoder_warning(uneven));
+  MotorMotion motor;
+  motor.median_speed_rad_s = 6.28;
+  EXPECT_FALSE(slow_motor_warning(motor));
+  motor.median_speed_rad_s = 0.33;
+  ASSERT_TRUE(slow_motor_warning(motor));
+  EXPECT_NE(slow_motor_warning(motor)->find("0.019 deg"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace sweepscope

@@ -1,0 +1,55 @@
+#include "core/offset/uncertainty.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace sweepscope {
+namespace {
+
+TEST(StudentFactor, IsTheQuantileAtOneSigma) {
+  // t with nu degrees of freedom at probability 0.8413, from tables.
+  EXPECT_NEAR(student_factor(2), 1.321, 0.02);
+  EXPECT_NEAR(student_factor(5), 1.111, 0.005);
+  EXPECT_NEAR(student_factor(30), 1.017, 0.001);
+}
+
+// Without value i the mean of n values is (sum - x_i) / (n - 1), and the jackknife must give s / sqrt(n).
+TEST(Jackknife, OfAMeanIsItsStandardError) {
+  const std::vector<double> values{1.0, 4.0, 2.5, 3.0, 7.0};
+  const double sum = 17.5, mean = 3.5;
+  std::vector<double> without;
+  double squares = 0;
+  for (const double value : values) {
+    without.push_back((sum - value) / 4);
+    squares += (value - mean) * (value - mean);
+  }
+  EXPECT_NEAR(*jackknife_sigma(without), student_factor(4) * std::sqrt(squares / 4 / 5), 1e-12);
+  EXPECT_FALSE(jackknife_sigma({1.0, 2.0}));
+}
+
+TEST(BlockSigma, SeesThatNeighboursErrTogether) {
+  std::vector<double> alone, together;
+  for (int i = 0; i < 200; ++i) {
+    alone.push_back(i * 7 % 11 - 5.0);
+    together.push_back((i / 10) * 7 % 11 - 5.0);  // ten at a time
+  }
+  EXPECT_GT(*block_sigma(together, 10, 20), 2 * *block_sigma(alone, 10, 20));
+  EXPECT_FALSE(block_sigma(alone, 100, 20));
+}
+
+TEST(TrendOf, IsTheSlopeAndItsDoubt) {
+  std::vector<double> times, straight, bent;
+  for (int i = 0; i < 10; ++i) {
+    times.push_back(i);
+    straight.push_back(3 + 0.5 * i);
+    bent.push_back(3 + 0.5 * i + (i % 2 == 0 ? 1 : -1));
+  }
+  EXPECT_NEAR(trend_of(times, straight)->slope, 0.5, 1e-12);
+  EXPECT_NEAR(trend_of(times, straight)->sigma, 0, 1e-12);
+  EXPECT_NEAR(trend_of(times, bent)->slope, 0.5, 2 * trend_of(times, bent)->sigma);
+  EXPECT_FALSE(trend_of({1, 2, 3}, {1, 2, 3}));
+}
+
+}  // namespace
+}  // namespace sweepscope
