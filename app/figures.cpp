@@ -9,6 +9,7 @@
 #include "app/commands.hpp"
 #include "app/progress.hpp"
 #include "app/recording_options.hpp"
+#include "render/look_options.hpp"
 
 namespace sweepscope::app {
 namespace {
@@ -36,10 +37,38 @@ ExitCode run(const Options& options) {
   return ExitCode::kDone;
 }
 
+/// The recipe's keys, for those who write one.
+std::string recipe_keys() {
+  std::string text =
+      "A recipe is YAML with these keys, names being yours:\n"
+      "  recordings: {NAME: {file: REC, rig: F, stamps: header|receive, window_s: [A, B]}}\n"
+      "        or  {NAME: {simulate: SCENE, offset_ms, seed, duration_s, noise_mm, dropout, sweep_s}}\n"
+      "  estimates:  {NAME: {recording: NAME, method, assume, fit, scoring, ranges_ms: [[FROM, TO, STEP], "
+      "...]}}\n"
+      "  figures:    {NAME: {kind: ..., formats: [png, svg, pdf], and how it looks}}\n"
+      "    kind: maps     maps: [{recording, offset_ms, label, points: all|features, poses: solved|truth}, "
+      "...];\n"
+      "                   estimate: its criteria below; each-own-view: true for maps of different places\n"
+      "    kind: curves   estimates: NAME or [NAME, ...]; criteria: [d, e, n, roll]\n"
+      "    kind: profile  maps; at_m: [X, Y], normal_deg, length_m, heights_m: [FROM, TO] above the path\n"
+      "                   (without at_m the wall that shows the offset best is looked for)\n"
+      "    kind: scan     recording, at_s\n"
+      "  tables:     {NAME: {title, estimates: [NAME, ...], columns: [{title, unit, decimals, and\n"
+      "                   value: offset|sigma|offset-by-d|d|offset-by-n|offset-by-e|truth|difference,\n"
+      "                   or values: [a text for each row]}]}}\n"
+      "  look:       how all figures look, unless one says otherwise:\n";
+  for (const LookOption& option : look_options()) {
+    text += fmt::format("    {:<14} {:<18} {}\n", option.name,
+                        option.type.empty() ? "true|false" : option.type, option.help);
+  }
+  return text;
+}
+
 }  // namespace
 
 void add_figures(CLI::App& app, ExitCode& exit_code) {
   CLI::App* command = app.add_subcommand("figures", "Make the figures and tables that a recipe lists");
+  command->footer(recipe_keys);
   auto options = std::make_shared<Options>();
   command->add_option("RECIPE", options->recipe, "A recipe (YAML), such as assets/figures/quick.yaml")
       ->required();

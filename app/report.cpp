@@ -75,7 +75,10 @@ Result<ReportContent> gather(const Options& options) {
 Result<void> write(const ReportContent& content, const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error) return unreadable(fmt::format("{}: cannot be made: {}", folder.string(), error.message()));
+  if (error) {
+    return failure(ExitCode::kWrongUsage,
+                   fmt::format("{}: cannot be made: {}", folder.string(), error.message()));
+  }
   return report_html(content)
       .and_then([&](const std::string& page) { return write_file(folder / "report.html", page); })
       .and_then(

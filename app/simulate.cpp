@@ -43,8 +43,8 @@ std::string summary(const Simulation& simulation, const std::filesystem::path& o
 Result<Simulation> simulate_into(const SimulationOptions& options, const std::filesystem::path& output) {
   const std::filesystem::path folder = std::filesystem::absolute(output).parent_path();
   if (!std::filesystem::is_directory(folder))
-    return unreadable(
-        fmt::format("{}: cannot be written: there is no folder {}", output.string(), folder.string()));
+    return failure(ExitCode::kWrongUsage, fmt::format("{}: cannot be written: there is no folder {}",
+                                                      output.string(), folder.string()));
   const Progress progress;
   auto simulation = simulate(options, progress.job());
   if (!simulation) return simulation;

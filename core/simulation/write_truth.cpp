@@ -3,10 +3,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <system_error>
 
+#include "core/io/atomic_file.hpp"
 #include "core/simulation/write_bag.hpp"
 
 namespace sweepscope {
@@ -42,19 +41,6 @@ Json options_json(const SimulationOptions& o) {
           {"backlash_deg", tidy(o.backlash_deg)},
           {"clock_drift_ppm", tidy(o.clock_drift_ppm)},
           {"nudge_mm", tidy(o.nudge_m * 1e3)}};
-}
-
-Result<void> write_file(const std::filesystem::path& path, const std::string& text) {
-  const std::filesystem::path part = path.string() + ".part";
-  std::ofstream out(part, std::ios::binary);
-  out << text;
-  out.close();
-  std::error_code error;
-  if (out) std::filesystem::rename(part, path, error);
-  if (out && !error) return {};
-  std::error_code ignored;
-  std::filesystem::remove(part, ignored);
-  return unreadable(fmt::format("{}: cannot be written", path.string()));
 }
 
 std::filesystem::path stem_of(std::filesystem::path bag_path) {

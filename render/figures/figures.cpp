@@ -257,7 +257,10 @@ Result<std::vector<std::filesystem::path>> make_figures(const Recipe& recipe,
                                                         const Job& job, const Said& said) {
   std::error_code error;
   std::filesystem::create_directories(folder / "cache", error);
-  if (error) return unreadable(fmt::format("{}: cannot be made: {}", folder.string(), error.message()));
+  if (error) {
+    return failure(ExitCode::kWrongUsage,
+                   fmt::format("{}: cannot be made: {}", folder.string(), error.message()));
+  }
   return FigureMaker(recipe, folder, canvas, job, said).make_all();
 }
 

@@ -46,7 +46,7 @@ TEST_F(ReportCommand, AFolderThatCannotBeMadeIsSaidInASentence) {
   ASSERT_EQ(run("simulate room-1 -o r.bag --duration-s 3").exit_code, 0);
   std::ofstream(folder_ / "taken") << "a file";
   const Outcome outcome = run("report r.bag -o taken");
-  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_NE(outcome.err.find("taken"), std::string::npos);
 }
 
