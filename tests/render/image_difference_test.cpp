@@ -144,8 +144,8 @@ INSTANTIATE_TEST_SUITE_P(Pictures, SpoiledBaseline,
                          testing::Values("maps-two-moving-curve.png", "maps-four.png", "colour-by-time.png",
                                          "view-isometric.png", "figure-curves-standing.png",
                                          "figure-profile.png", "figure-scan.png"),
-                         [](const auto& info) {
-                           std::string name = info.param;
+                         [](const auto& test) {
+                           std::string name = test.param;
                            std::replace_if(
                                name.begin(), name.end(), [](char c) { return c == '-' || c == '.'; }, '_');
                            return name;
