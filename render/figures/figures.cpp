@@ -112,7 +112,8 @@ std::optional<CrossSection> fitted_on_sharpest(const CrossSection& rough, std::s
   for (const ComparedMap& map : maps) {
     const auto section = face_fitted(*map.cloud, rough);
     if (!section) continue;
-    const double width_mm = profile_across(*map.cloud, *section).width_at_half_height_mm.value_or(1e299);
+    // Not at half height: of a doubled face a fit can lean on one layer and leave the other below half.
+    const double width_mm = profile_across(*map.cloud, *section).integral_width_mm.value_or(1e299);
     if (width_mm < least_mm) least_mm = width_mm, sharpest = section;
   }
   return sharpest;
