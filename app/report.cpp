@@ -52,6 +52,20 @@ Result<void> add_maps(ReportContent& content, const Recording& recording, const 
   return {};
 }
 
+/// The paper's criteria by whole milliseconds, 5 to either side of the answer.
+Result<void> add_criteria(ReportContent& content, const Recording& recording, const Job& job) {
+  if (content.estimate.method != "direct") return {};
+  const double about_s = std::round(*content.estimate.offset_s * 1e3) * 1e-3;
+  EstimateOptions wanted;
+  wanted.method = content.estimate.kind == "moving" ? Method::kMoving : Method::kStationary;
+  wanted.ranges = {{about_s - kOff_s, about_s + kOff_s, 1e-3}};
+  auto found = estimate(recording, wanted, job);
+  if (!found) return tl::unexpected(found.error());
+  if (found->interrupted) return failure(ExitCode::kInterrupted, "Interrupted while computing the criteria.");
+  content.by_paper = std::move(*found);
+  return {};
+}
+
 Result<ReportContent> gather(const Options& options) {
   const Progress progress;
   const auto recording = options.recording.read(progress.job());
@@ -69,7 +83,9 @@ Result<ReportContent> gather(const Options& options) {
   if (found->interrupted) return failure(ExitCode::kInterrupted, "Interrupted while looking for the offset.");
   content.estimate = std::move(*found);
   if (!content.estimate.identifiable || !content.estimate.offset_s) return content;
-  return add_maps(content, *recording, options, progress.job()).map([&] { return std::move(content); });
+  return add_criteria(content, *recording, progress.job())
+      .and_then([&] { return add_maps(content, *recording, options, progress.job()); })
+      .map([&] { return std::move(content); });
 }
 
 Result<void> write(const ReportContent& content, const std::filesystem::path& folder) {
