@@ -36,8 +36,9 @@ OffsetProblem beginning_of(const OffsetProblem& problem, double offset_s, std::s
 }
 
 std::optional<double> sigma_of_roll(const std::vector<double>& sweep_roll_rad) {
-  constexpr std::size_t kLeastLength = 8, kMostBlocks = 20;
-  return block_sigma(sweep_roll_rad, kLeastLength, kMostBlocks);
+  constexpr std::size_t kLength = 8, kLeastLength = 3, kBlocks = 6, kMostBlocks = 20;
+  const std::size_t length = std::clamp(sweep_roll_rad.size() / kBlocks, kLeastLength, kLength);
+  return block_sigma(sweep_roll_rad, length, kMostBlocks);
 }
 
 MovingPass moving_pass(const OffsetProblem& problem, double offset_s, const MappingOptions& options,

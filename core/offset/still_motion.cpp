@@ -18,7 +18,7 @@ struct PointOnPlane {
 };
 
 Pose registered(const std::vector<PointOnPlane>& matches) {
-  constexpr double kLeastEigenvalue = 0.003;  // per match: below, the scene does not tell
+  constexpr double kLeastEigenvalue = 0.015;  // per match: below, the scene does not tell
   Pose pose;
   double loss_width_m = 0.5;
   for (int iteration = 0; iteration < 12; ++iteration) {

@@ -108,7 +108,7 @@ INSTANTIATE_TEST_SUITE_P(RollTiltYaw, DirectOnOtherRigs,
 
 TEST(DirectRefuses, ARigThatWasNudged) {
   SimulationOptions options;
-  options.nudge_m = 0.03;
+  options.nudge_m = 0.06;
   expect_refused(directly(made(options)), "The rig moved");
 }
 
