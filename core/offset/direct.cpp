@@ -137,8 +137,8 @@ void estimate_walking(const OffsetProblem& problem, double coarse_s, const std::
   sort_into(result.curve, found.curve);
   judge_walk(found, result);
   std::optional<double> sigma_s = found.sigma_s;
-  judge_drift(found.sweep_s, found.sweep_offset_s, duration_s(problem), sigma_s, result);
-  sigma_s = widened_by_halves(sigma_s, found.sweep_offset_s, result);
+  judge_drift(found.block_s, found.block_offset_s, duration_s(problem), sigma_s, result);
+  sigma_s = widened_by_halves(sigma_s, found.block_offset_s, result);
   answer(found.offset_s, sigma_s, found.curve[1].e_m.value_or(0), scale, window_s, result);
 }
 

@@ -25,6 +25,29 @@ std::vector<CurvePoint> sides(const OffsetProblem& problem, double offset_s,
   return curve;
 }
 
+constexpr std::size_t kMostBlocks = 20;
+
+// Of sweeps: long enough for what sways slowly, short enough to be several.
+std::size_t block_length(std::size_t sweeps) {
+  constexpr std::size_t kLength = 8, kLeastLength = 3, kBlocks = 6;
+  return std::clamp(sweeps / kBlocks, kLeastLength, kLength);
+}
+
+void fill_blocks(const MovingPass& pass, double nominal_rad_s, MovingDirect& result) {
+  const std::size_t sweeps = pass.sweep_s.size(),
+                    blocks = std::min(kMostBlocks, sweeps / block_length(sweeps));
+  for (std::size_t b = 0; b < blocks; ++b) {
+    const std::size_t from = sweeps * b / blocks, to = sweeps * (b + 1) / blocks;
+    double time_s = 0, roll_rad = 0;
+    for (std::size_t k = from; k < to; ++k) {
+      time_s += pass.sweep_s[k] / double(to - from);
+      roll_rad += pass.sweep_roll_rad[k] / double(to - from);
+    }
+    result.block_s.push_back(time_s);
+    result.block_offset_s.push_back(pass.offset_s - roll_rad / nominal_rad_s);
+  }
+}
+
 }  // namespace
 
 OffsetProblem beginning_of(const OffsetProblem& problem, double offset_s, std::size_t most_sweeps) {
@@ -36,9 +59,7 @@ OffsetProblem beginning_of(const OffsetProblem& problem, double offset_s, std::s
 }
 
 std::optional<double> sigma_of_roll(const std::vector<double>& sweep_roll_rad) {
-  constexpr std::size_t kLength = 8, kLeastLength = 3, kBlocks = 6, kMostBlocks = 20;
-  const std::size_t length = std::clamp(sweep_roll_rad.size() / kBlocks, kLeastLength, kLength);
-  return block_sigma(sweep_roll_rad, length, kMostBlocks);
+  return block_sigma(sweep_roll_rad, block_length(sweep_roll_rad.size()), kMostBlocks);
 }
 
 MovingPass moving_pass(const OffsetProblem& problem, double offset_s, const MappingOptions& options,
@@ -75,10 +96,8 @@ MovingDirect solve_moving(const OffsetProblem& problem, double first_offset_s,
              &above = result.curve.back().signed_rotation_rad;
   if (below && above) result.slope_of_nominal = (*above - *below) / (2 * options.side_s * nominal_rad_s);
   const MovingPass& last = result.passes.back();
-  result.sweep_s = last.sweep_s;
-  for (const double roll_rad : last.sweep_roll_rad)
-    result.sweep_offset_s.push_back(last.offset_s - roll_rad / nominal_rad_s);
-  result.sigma_s = sigma_of_roll(result.sweep_offset_s);
+  if (const auto sigma_rad = sigma_of_roll(last.sweep_roll_rad)) result.sigma_s = *sigma_rad / nominal_rad_s;
+  fill_blocks(last, nominal_rad_s, result);
   return result;
 }
 

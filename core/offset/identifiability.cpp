@@ -83,9 +83,9 @@ Remark lever_reason(double lever_m, double reach_m) {
 Remark standing_reason(const std::optional<SweepShift>& shift, double range_noise_m) {
   if (!shift) return std::nullopt;
   const double most_m = 0.02 + 0.6 * range_noise_m, most_rad = 0.01 + 0.2 * range_noise_m;
-  if (shift->translation_m < most_m && shift->rotation_rad < most_rad) return std::nullopt;
+  if (shift->translation_m < most_m && shift->tilt_rad < most_rad) return std::nullopt;
   return fmt::format("The rig moved: its last sweep lies {:.0f} mm and {:.1f} deg from its first.",
-                     shift->translation_m * 1e3, shift->rotation_rad / kDegree);
+                     shift->translation_m * 1e3, shift->tilt_rad / kDegree);
 }
 
 double encoder_sigma_s(const MotorTrack& track, double speed_rad_s) {
