@@ -139,6 +139,10 @@ void estimate_walking(const OffsetProblem& problem, double coarse_s, const std::
   std::optional<double> sigma_s = found.sigma_s;
   judge_drift(found.block_s, found.block_offset_s, duration_s(problem), sigma_s, result);
   sigma_s = widened_by_halves(sigma_s, found.block_offset_s, result);
+  if (std::abs(found.offset_s - found.roll_offset_s) > std::max(0.3 * scale.unit_s, 3 * sigma_s.value_or(0)))
+    result.warnings.push_back(
+        fmt::format("The alternating roll is zero at {:.2f} ms, e is least at {:.2f} ms.",
+                    found.roll_offset_s * 1e3, found.offset_s * 1e3));
   answer(found.offset_s, sigma_s, found.curve[1].e_m.value_or(0), scale, window_s, result);
 }
 

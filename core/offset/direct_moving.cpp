@@ -15,14 +15,23 @@ namespace {
 // n and e at the answer and to both sides of it.
 std::vector<CurvePoint> sides(const OffsetProblem& problem, double offset_s,
                               const MovingDirectOptions& options, const Job& job) {
-  const OffsetProblem part = beginning_of(problem, offset_s, options.verified_sweeps);
   const Job quiet = Job::part_of(job);
   std::vector<CurvePoint> curve(3);
   tbb::parallel_for(std::size_t{0}, curve.size(), [&](std::size_t i) {
-    curve[i] = moving_candidate(part, offset_s + (double(i) - 1) * options.side_s, Scoring::kTwoStage,
+    curve[i] = moving_candidate(problem, offset_s + (double(i) - 1) * options.side_s, Scoring::kTwoStage,
                                 options.mapping, quiet);
   });
   return curve;
+}
+
+// Where the parabola through e below, at and above an offset is least; the offset itself where there is none.
+double least_e_offset_s(const std::vector<CurvePoint>& curve, double side_s) {
+  const double here_s = curve[1].offset_s;
+  const auto &below = curve[0].e_m, &here = curve[1].e_m, &above = curve[2].e_m;
+  if (!below || !here || !above) return here_s;
+  const double bend_m = *below + *above - 2 * *here;
+  if (!(bend_m > 0) || *below < *here || *above < *here) return here_s;
+  return here_s + 0.5 * side_s * (*below - *above) / bend_m;
 }
 
 constexpr std::size_t kMostBlocks = 20;
@@ -91,7 +100,9 @@ MovingDirect solve_moving(const OffsetProblem& problem, double first_offset_s,
     result.offset_s += std::clamp(step_s, -options.most_step_s, options.most_step_s);
     result.converged = std::abs(step_s) < options.step_tolerance_s;
   }
-  result.curve = sides(problem, result.offset_s, options, job);
+  result.roll_offset_s = result.offset_s;
+  result.curve = sides(problem, result.roll_offset_s, options, job);
+  result.offset_s = least_e_offset_s(result.curve, options.side_s);
   const auto &below = result.curve.front().signed_rotation_rad,
              &above = result.curve.back().signed_rotation_rad;
   if (below && above) result.slope_of_nominal = (*above - *below) / (2 * options.side_s * nominal_rad_s);
