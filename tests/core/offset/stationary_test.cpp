@@ -53,16 +53,6 @@ TEST_F(Room, APairThatIsMissingMakesTheCandidateFail) {
   EXPECT_FALSE(candidate(0, {}).d);
 }
 
-TEST_F(Room, TheCoarseCostFallsTowardsTheTruthFromFarAway) {
-  const auto cost_m = [&](double off_s) {
-    return stationary_coarse_cost_m(problem_, kTruth_s + off_s, OdometryOptions(), 0.2);
-  };
-  EXPECT_GT(cost_m(-60 * kMs), cost_m(-20 * kMs));
-  EXPECT_GT(cost_m(-20 * kMs), cost_m(0));
-  EXPECT_GT(cost_m(20 * kMs), cost_m(0));
-  EXPECT_LT(cost_m(60 * kMs), 0.2 + 1e-12);
-}
-
 MotionTest tested(const Recording& recording, double offset_s) {
   const OffsetProblem problem = test::problem_of(recording);
   return test_motion(place_sweeps(problem, offset_s), problem.motor, OdometryOptions());
