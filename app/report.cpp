@@ -77,6 +77,7 @@ Result<ReportContent> gather(const Options& options) {
   if (!motion) return tl::unexpected(motion.error());
   if (motion->answered()) content.recording.motion = motion->moving() ? "moving" : "stationary";
   EstimateOptions wanted;
+  wanted.method = Method::kDirect;  // estimate's own default
   wanted.assume = parse_method(options.recording.assume);
   auto found = estimate(*recording, wanted, progress.job());
   if (!found) return tl::unexpected(found.error());
