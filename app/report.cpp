@@ -23,6 +23,7 @@ namespace sweepscope::app {
 namespace {
 
 constexpr double kOff_s = 0.005;
+constexpr double kLeastRatio = 1.3;  // of a wall's widths: a face that shows no difference tells nothing
 
 struct Options {
   RecordingOptions recording;
@@ -48,7 +49,9 @@ Result<void> add_maps(ReportContent& content, const Recording& recording, const 
   for (const ComparedMap& map : content.maps) on_paths.push_back({map.cloud.get(), map.path});
   SectionSearch search;
   search.motor_axis = recording.rig.mount.axis;
-  if (const auto found = best_section(on_paths, search)) content.section = found->section;
+  const auto found = best_section(on_paths, search);
+  if (found && found->widths_mm.at(0) > kLeastRatio * found->widths_mm.at(1))
+    content.section = found->section;
   return {};
 }
 
