@@ -110,7 +110,7 @@ void judge_walk(const MovingDirect& found, Estimate& result) {
         "The scene gives no lever: turning the motor's angle by 1 deg turns the tracked sweeps by {:.2f} "
         "deg only.",
         found.slope_of_nominal));
-  const auto &below = found.curve[0].e_m, &here = found.curve[1].e_m, &above = found.curve[2].e_m;
+  const auto &below = found.curve.front().e_m, &here = found.curve[2].e_m, &above = found.curve.back().e_m;
   if (!here)
     result.reasons.push_back("LOAM lost track at the offset that the alternating roll points to.");
   else if ((below && *below < *here) || (above && *above < *here))
@@ -143,7 +143,7 @@ void estimate_walking(const OffsetProblem& problem, double coarse_s, const std::
     result.warnings.push_back(
         fmt::format("The alternating roll is zero at {:.2f} ms, e is least at {:.2f} ms.",
                     found.roll_offset_s * 1e3, found.offset_s * 1e3));
-  answer(found.offset_s, sigma_s, found.curve[1].e_m.value_or(0), scale, window_s, result);
+  answer(found.offset_s, sigma_s, found.curve[2].e_m.value_or(0), scale, window_s, result);
 }
 
 }  // namespace

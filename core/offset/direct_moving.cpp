@@ -6,32 +6,30 @@
 #include <array>
 #include <cmath>
 
+#include "core/offset/candidates.hpp"
 #include "core/offset/moving.hpp"
 #include "core/offset/uncertainty.hpp"
 
 namespace sweepscope {
 namespace {
 
-// n and e at the answer and to both sides of it.
+// n and e at the roll's zero and to both sides of it.
 std::vector<CurvePoint> sides(const OffsetProblem& problem, double offset_s,
                               const MovingDirectOptions& options, const Job& job) {
   const Job quiet = Job::part_of(job);
-  std::vector<CurvePoint> curve(3);
+  std::vector<CurvePoint> curve(5);
   tbb::parallel_for(std::size_t{0}, curve.size(), [&](std::size_t i) {
-    curve[i] = moving_candidate(problem, offset_s + (double(i) - 1) * options.side_s, Scoring::kTwoStage,
+    curve[i] = moving_candidate(problem, offset_s + (double(i) - 2) / 2 * options.side_s, Scoring::kTwoStage,
                                 options.mapping, quiet);
   });
   return curve;
 }
 
-// Where the parabola through e below, at and above an offset is least; the offset itself where there is none.
-double least_e_offset_s(const std::vector<CurvePoint>& curve, double side_s) {
-  const double here_s = curve[1].offset_s;
-  const auto &below = curve[0].e_m, &here = curve[1].e_m, &above = curve[2].e_m;
-  if (!below || !here || !above) return here_s;
-  const double bend_m = *below + *above - 2 * *here;
-  if (!(bend_m > 0) || *below < *here || *above < *here) return here_s;
-  return here_s + 0.5 * side_s * (*below - *above) / bend_m;
+// Where the parabola through e about the roll's zero is least; that zero itself where e has no valley there.
+double least_e_offset_s(const std::vector<CurvePoint>& curve, double zero_s, double side_s) {
+  const std::size_t least = index_of_least(curve, &CurvePoint::e_m);
+  if (least == 0 || least + 1 >= curve.size()) return zero_s;
+  return fitted_extremum(curve, &CurvePoint::e_m, least, 2 * side_s).offset_s;
 }
 
 constexpr std::size_t kMostBlocks = 20;
@@ -102,7 +100,7 @@ MovingDirect solve_moving(const OffsetProblem& problem, double first_offset_s,
   }
   result.roll_offset_s = result.offset_s;
   result.curve = sides(problem, result.roll_offset_s, options, job);
-  result.offset_s = least_e_offset_s(result.curve, options.side_s);
+  result.offset_s = least_e_offset_s(result.curve, result.roll_offset_s, options.side_s);
   const auto &below = result.curve.front().signed_rotation_rad,
              &above = result.curve.back().signed_rotation_rad;
   if (below && above) result.slope_of_nominal = (*above - *below) / (2 * options.side_s * nominal_rad_s);

@@ -45,7 +45,7 @@ struct MovingDirect {
   std::optional<double> sigma_s;
   double slope_of_nominal = 0;  // of the roll, divided by 2 omega; near 1 where the run can be trusted
   std::vector<MovingPass> passes;
-  std::vector<CurvePoint> curve;  // n and e below, at and above the answer
+  std::vector<CurvePoint> curve;  // n and e at five offsets about the roll's zero, which is the third
   // Blocks of neighbouring sweeps, which err together: middle and the offset that each asks for by itself.
   std::vector<double> block_s, block_offset_s;
 };
