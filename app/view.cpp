@@ -61,33 +61,38 @@ Result<ui::Ui::Options> ui_options(const ViewOptions& options) {
   return out;
 }
 
-/// The script's lines, from a file or from --run; none where neither was given.
-Result<std::optional<ui::Script>> script_of(const ViewOptions& options) {
-  if (options.script.empty() && options.run.empty()) return std::nullopt;
-  if (!options.run.empty())
-    return ui::parse_script(options.run, "--run", true).map([](ui::Script s) {
-      return std::optional(std::move(s));
-    });
-  return read_file(options.script)
-      .and_then([&](const std::string& text) { return ui::parse_script(text, options.script); })
-      .map([](ui::Script s) { return std::optional(std::move(s)); });
+/// The scripts to carry out one after the other: the file's and --run's.
+Result<std::vector<ui::Script>> scripts_of(const ViewOptions& options) {
+  std::vector<ui::Script> scripts;
+  const auto keep = [&](ui::Script script) { scripts.push_back(std::move(script)); };
+  if (!options.script.empty()) {
+    const auto kept =
+        read_file(options.script)
+            .and_then([&](const std::string& text) { return ui::parse_script(text, options.script); })
+            .map(keep);
+    if (!kept) return tl::unexpected(kept.error());
+  }
+  if (!options.run.empty()) {
+    const auto kept = ui::parse_script(options.run, "--run", true).map(keep);
+    if (!kept) return tl::unexpected(kept.error());
+  }
+  return scripts;
 }
 
 Result<void> view(const ViewOptions& options) {
   const auto size = parse_size(options.size);
   if (!size) return tl::unexpected(size.error());
-  const auto script = script_of(options);
-  if (!script) return tl::unexpected(script.error());
+  const auto scripts = scripts_of(options);
+  if (!scripts) return tl::unexpected(scripts.error());
   auto with = ui_options(options);
   if (!with) return tl::unexpected(with.error());
   const std::string first = options.recording.empty() ? "" : "open " + ui::quoted(options.recording);
   if (!options.headless)
-    return ui::run_in_window(std::move(*with), size->width_px, size->height_px, first,
-                             *script ? &**script : nullptr);
-  if (!*script) return failure(ExitCode::kWrongUsage, "--headless wants --script F or --run 'LINES'");
+    return ui::run_in_window(std::move(*with), size->width_px, size->height_px, first, *scripts);
+  if (scripts->empty()) return failure(ExitCode::kWrongUsage, "--headless wants --script F or --run 'LINES'");
   auto context = gl::make_offscreen_context(size->width_px, size->height_px);
   if (!context) return tl::unexpected(context.error());
-  return ui::run_headless(**context, std::move(*with), first, **script);
+  return ui::run_headless(**context, std::move(*with), first, *scripts);
 }
 
 void declare(CLI::App& command, ViewOptions& options) {
@@ -102,9 +107,9 @@ void declare(CLI::App& command, ViewOptions& options) {
       ->check(CLI::Range(0.5, 4.0));
   auto* script =
       command.add_option("--script", options.script, "Lines to carry out: see below")->type_name("F");
-  command.add_option("--run", options.run, "The same, given here, with ; between the lines")
-      ->type_name("LINES")
-      ->excludes(script);
+  command
+      .add_option("--run", options.run, "The same, given here, with ; between the lines; after the script's")
+      ->type_name("LINES");
   command.footer([] { return "\n" + ui::script_help(); });
 }
 

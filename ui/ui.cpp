@@ -141,6 +141,8 @@ void Ui::Parts::draw(const PaneContext& panes) {
   draw_ask(panes, whole);
   if (opened) transient.just_opened = false;
   draw_message(panes, whole);
+  if (!ImGui::IsMouseDown(0)) transient.handle.reset();
+  explorer.hold_handle(transient.handle.has_value() || ImGui::IsAnyItemActive());
 }
 
 void Ui::Parts::remember_opened() {

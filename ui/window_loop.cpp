@@ -122,7 +122,7 @@ void loop(gl::Window& window, Ui& ui) {
 }  // namespace
 
 Result<void> run_in_window(Ui::Options options, int width_px, int height_px, const std::string& first_line,
-                           const Script* script) {
+                           std::span<const Script> scripts) {
   auto window = gl::make_window(width_px, height_px, "sweepscope");
   if (!window) return tl::unexpected(window.error());
   (*window)->make_current();
@@ -135,24 +135,27 @@ Result<void> run_in_window(Ui::Options options, int width_px, int height_px, con
     if (const auto done = ui.explorer().perform(first_line); !done)
       ui.explorer().say(Message::Kind::kError, done.error().message);
   }
-  if (script != nullptr) {
-    if (auto done = run_script(ui, *script); !done) return done;
+  for (const Script& script : scripts) {
+    if (auto done = run_script(ui, script); !done) return done;
   }
   loop(**window, ui);
   return {};
 }
 
 Result<void> run_headless(gl::Context& context, Ui::Options options, const std::string& first_line,
-                          const Script& script) {
+                          std::span<const Script> scripts) {
   Ui ui(context, std::move(options));
   if (!first_line.empty()) {
     if (auto done = ui.explorer().perform(first_line); !done) return done;
-    Script wait{script.name, {{0, {"wait", "loaded"}, "wait loaded"}}};
+    const Script wait{"REC", {{1, {"wait", "loaded"}, "wait loaded"}}};
     if (auto done = run_script(ui, wait); !done) return done;
     if (ui.explorer().loaded() == nullptr && ui.explorer().message())
       return unreadable(ui.explorer().message()->text);
   }
-  return run_script(ui, script);
+  for (const Script& script : scripts) {
+    if (auto done = run_script(ui, script); !done) return done;
+  }
+  return {};
 }
 
 }  // namespace sweepscope::ui

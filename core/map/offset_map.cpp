@@ -164,6 +164,7 @@ OffsetMap build_one(const OffsetProblem& problem, double offset_s, bool moving, 
           {pose.begin_s + u * (pose.end_s - pose.begin_s), at.translation_m, at.rotation});
     }
   }
+  map.sweeps = std::move(poses);
   return map;
 }
 

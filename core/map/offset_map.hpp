@@ -29,6 +29,7 @@ struct OffsetMap {
   double offset_s = 0;
   MapCloud::Ptr cloud;
   std::vector<StampedPose> trajectory;  // two poses a sweep, ascending in time
+  std::vector<SweepPose> sweeps;        // the poses that the beams were placed along
   bool moving = false;
   bool lost = false;               // LOAM lost track: the map is not to be trusted
   double signed_rotation_rad = 0;  // the alternating roll that was taken out, per sweep

@@ -46,33 +46,32 @@ class SmoothRotation {
   double base_rad_ = 0, sine_ = 0, cosine_ = 1;
 };
 
-/// A sweep's motion, with what all its points share worked out once.
+/// A sweep's motion during one scan: its poses at a few instants, and places linearly between them. At 30 m
+/// and 1 rad/s that is off by less than 0.02 mm.
 class SmoothMotion {
  public:
-  explicit SmoothMotion(const SweepPose& pose)
-      : SmoothMotion(pose, vector_from_rotation(pose.begin.rotation.conjugate() * pose.end.rotation)) {}
+  SmoothMotion(const SweepPose& pose, const LaserScan& scan) : beams_per_step_(scan.beams / double(kSteps)) {
+    for (std::size_t k = 0; k <= kSteps; ++k) {
+      const double time_s = scan.beam_s(static_cast<double>(k) * beams_per_step_);
+      const Pose at = pose.at((time_s - pose.begin_s) / (pose.end_s - pose.begin_s));
+      rotations_[k] = at.rotation.toRotationMatrix();
+      places_m_[k] = at.translation_m;
+    }
+  }
 
-  Vector operator()(const Vector& p_in_base_m, double time_s) {
-    const double u = (time_s - begin_s_) * per_s_;
-    const Vector turned_m = turn_rad_ > 1e-12 ? rotate_(u * turn_rad_, p_in_base_m) : p_in_base_m;
-    return rotation_ * turned_m + from_m_ + u * shift_m_;
+  Vector operator()(const Vector& p_in_base_m, std::uint32_t beam) const {
+    const double along = beam / beams_per_step_;
+    const std::size_t k = std::min(static_cast<std::size_t>(along), kSteps - 1);
+    const double part = along - static_cast<double>(k);
+    return (1 - part) * (rotations_[k] * p_in_base_m + places_m_[k]) +
+           part * (rotations_[k + 1] * p_in_base_m + places_m_[k + 1]);
   }
 
  private:
-  SmoothMotion(const SweepPose& pose, const Vector& turn_rad)
-      : turn_rad_(turn_rad.norm()),
-        rotate_(turn_rad_ > 1e-12 ? Vector(turn_rad / turn_rad_) : Vector::UnitX()),
-        rotation_(pose.begin.rotation.toRotationMatrix()),
-        from_m_(pose.begin.translation_m),
-        shift_m_(pose.end.translation_m - pose.begin.translation_m),
-        begin_s_(pose.begin_s),
-        per_s_(1 / (pose.end_s - pose.begin_s)) {}
-
-  double turn_rad_;
-  SmoothRotation rotate_;
-  Eigen::Matrix3d rotation_;
-  Vector from_m_, shift_m_;
-  double begin_s_, per_s_;
+  static constexpr std::size_t kSteps = 8;
+  double beams_per_step_;
+  std::array<Eigen::Matrix3d, kSteps + 1> rotations_;
+  std::array<Vector, kSteps + 1> places_m_;
 };
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
@@ -89,13 +88,13 @@ void place_scan(const Beams& beams, const FixedPath& path, std::size_t scan_numb
   }
   const LaserScan& scan = beams.recording->scans[scan_number];
   SmoothRotation base_from_motor(kinematics.axis());
-  SmoothMotion motion(path.sweeps[sweep]);
+  const SmoothMotion motion(path.sweeps[sweep], scan);
   for (std::size_t k = from; k < to; ++k) {
     const std::size_t i = index(k);
     const auto& p = beams.p_in_motor_m[i];
     const double time_s = scan.beam_s(beams.beam[i]);
     const Vector p_in_base_m = base_from_motor(motor.angle_at(time_s + offset_s), Vector(p[0], p[1], p[2]));
-    const Vector p_m = motion(p_in_base_m, time_s);
+    const Vector p_m = motion(p_in_base_m, beams.beam[i]);
     xyz_m[k] = {static_cast<float>(p_m.x()), static_cast<float>(p_m.y()), static_cast<float>(p_m.z())};
   }
 }
@@ -135,22 +134,6 @@ Beams collect_beams(const Recording& recording) {
     beams.first_point.push_back(beams.p_in_motor_m.size());
   }
   return beams;
-}
-
-std::vector<SweepPose> sweep_poses(std::span<const StampedPose> two_a_sweep) {
-  std::vector<SweepPose> sweeps;
-  for (std::size_t i = 0; i + 1 < two_a_sweep.size(); i += 2) {
-    const StampedPose &a = two_a_sweep[i], &b = two_a_sweep[i + 1];
-    const Pose first{a.orientation, a.position_m}, second{b.orientation, b.position_m};
-    const double half_s = b.time_s - a.time_s;  // they stand a quarter in from either end
-    SweepPose& sweep = sweeps.emplace_back();
-    sweep.sweep = i / 2;
-    sweep.begin_s = a.time_s - half_s / 2;
-    sweep.end_s = b.time_s + half_s / 2;
-    sweep.begin = interpolate(first, second, -0.5);
-    sweep.end = interpolate(first, second, 1.5);
-  }
-  return sweeps;
 }
 
 FixedPath fix_path(const Recording& recording, std::vector<SweepPose> sweeps, std::span<const char> used) {

@@ -30,9 +30,6 @@ struct Beams {
 
 Beams collect_beams(const Recording& recording);
 
-/// The sweeps' poses back from a trajectory that holds two instants of each, as OffsetMap's does.
-std::vector<SweepPose> sweep_poses(std::span<const StampedPose> two_a_sweep);
-
 /// Fixed poses, and which of them each scan lies in.
 struct FixedPath {
   std::vector<SweepPose> sweeps;

@@ -152,6 +152,7 @@ void Explorer::close() {
   solved_order_.clear();
   unsolvable_.clear();
   provisional_ = nullptr;
+  features_ = nullptr;
   span_maps_ = {nullptr, nullptr};
   panes_ = {};
   b_was_set_ = false;
@@ -222,8 +223,7 @@ Result<void> Explorer::export_cloud(const std::string& side, const std::string& 
     point.x = shown.full->points->xyz_m[i][0];
     point.y = shown.full->points->xyz_m[i][1];
     point.z = shown.full->points->xyz_m[i][2];
-    point.intensity = static_cast<float>(
-        colour_value(shown.request->placement, Colouring::kIntensity, beam, shown.full->points->xyz_m[i]));
+    point.intensity = static_cast<float>(intensity_of(shown.request->placement, beam));
     point.sweep = shown.request->placement.map->path.sweep_of_scan[beams.scan[beam]];
     point.time_s = beams.time_s(beam);
     cloud.push_back(point);

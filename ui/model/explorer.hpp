@@ -41,7 +41,9 @@ struct Pane {
   PaneState state = PaneState::kEmpty;
   std::optional<CloudRequest> request;
   PlacedCloudPtr coarse, full;  // full is null while it is being placed
-  std::string problem;          // why the map could not be solved
+  BeamValuesPtr slow;           // of a slow colouring, perhaps of the offset before
+  ColourBy slow_colouring = ColourBy::kElevation;
+  std::string problem;  // why the map could not be solved
   bool lost = false;
 };
 
@@ -65,6 +67,8 @@ class Explorer {
 
   const Settings& settings() const { return settings_; }
   const Loaded* loaded() const { return loaded_.get(); }
+  /// Edge and plane points of the recording; null until someone wanted them and they were found.
+  const FeatureSet* features() const { return features_.get(); }
   const Estimate* estimate() const { return estimate_ ? &*estimate_ : nullptr; }
   const Pane& pane(Side side) const { return panes_[static_cast<std::size_t>(side)]; }
   const std::optional<Message>& message() const { return message_; }
@@ -129,6 +133,7 @@ class Explorer {
   void show(Side side, CloudRequest request);
   void start_full(Side side);
   void update_solving();
+  void update_features();
   void keep_solved(std::int64_t offset_ns, Result<SolvedMapPtr> solved);
 
   Options options_;
@@ -141,9 +146,10 @@ class Explorer {
   std::map<std::int64_t, std::string> unsolvable_;
   std::vector<std::int64_t> solved_order_;  // oldest first
   SolvedMapPtr provisional_;
+  std::shared_ptr<const FeatureSet> features_;
   CloudLook look_;
   ColourSpan span_;  // of the colouring, for the two maps below
-  Colouring span_colouring_ = Colouring::kElevation;
+  ColourBy span_colouring_ = ColourBy::kElevation;
   std::array<const SolvedMap*, 2> span_maps_{nullptr, nullptr};
   std::array<Pane, 2> panes_;
   std::array<double, 2> rest_s_{0, 0};  // since the pane's coarse points changed

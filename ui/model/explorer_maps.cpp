@@ -18,6 +18,25 @@ std::string solve_key(std::int64_t offset_ns) {
   return "solve " + std::to_string(offset_ns);
 }
 
+/// All points of a pane, and what came with them.
+struct Placed {
+  PlacedCloudPtr full, coarse;  // coarse: where its colours had to wait for slow values, else null
+  BeamValuesPtr slow;
+};
+
+Placed place_fully(const CloudRequest& request, const FeatureSet* features) {
+  const Placement* other = request.other ? &*request.other : nullptr;
+  Placed placed;
+  if (other == nullptr && is_slow(request.look.colouring)) {
+    placed.slow = slow_values(request.placement, request.look.colouring, features);
+    placed.coarse = std::make_shared<PlacedCloud>(
+        place_cloud(request.placement, request.look, true, nullptr, placed.slow.get()));
+  }
+  placed.full = std::make_shared<PlacedCloud>(
+      place_cloud(request.placement, request.look, false, other, placed.slow.get()));
+  return placed;
+}
+
 }  // namespace
 
 bool Explorer::standing() const {
@@ -77,6 +96,7 @@ void Explorer::update(double seconds_since_last) {
   }
   update_panes(seconds_since_last);
   update_solving();
+  update_features();
 }
 
 void Explorer::update_panes(double seconds_since_last) {
@@ -110,7 +130,9 @@ void Explorer::show(Side side, CloudRequest request) {
   pane.problem = why != unsolvable_.end() ? why->second : "";
   if (pane.request == request) return;
   const Placement* other = request.other ? &*request.other : nullptr;
-  pane.coarse = std::make_shared<PlacedCloud>(place_cloud(request.placement, request.look, true, other));
+  const BeamValues* slow = pane.slow_colouring == request.look.colouring ? pane.slow.get() : nullptr;
+  pane.coarse =
+      std::make_shared<PlacedCloud>(place_cloud(request.placement, request.look, true, other, slow));
   pane.full = nullptr;
   pane.request = std::move(request);
   rest_s_[static_cast<std::size_t>(side)] = 0;
@@ -120,17 +142,34 @@ void Explorer::show(Side side, CloudRequest request) {
 void Explorer::start_full(Side side) {
   Pane& pane = pane_of(side);
   std::string& key = placing_[static_cast<std::size_t>(side)];
-  if (pane.full || !pane.request || (!key.empty() && background_.has(key))) return;
+  const bool lacks_features = settings_.colouring == ColourBy::kFeatures && !features_;
+  if (pane.full || !pane.request || lacks_features || (!key.empty() && background_.has(key))) return;
   key = "place " + std::to_string(++placings_);
   const std::string title = side == Side::kA ? "Placing all points of A" : "Placing all points of B";
-  background_.start("place", key, title, [this, side, request = *pane.request](const Job&) {
-    const Placement* other = request.other ? &*request.other : nullptr;
-    auto cloud = std::make_shared<PlacedCloud>(place_cloud(request.placement, request.look, false, other));
-    return [this, side, request, cloud] {
-      Pane& target = pane_of(side);
-      if (target.request == request) target.full = cloud;
-    };
-  });
+  background_.start("place", key, title,
+                    [this, side, request = *pane.request, features = features_](const Job&) {
+                      auto placed = std::make_shared<Placed>(place_fully(request, features.get()));
+                      return [this, side, request, placed] {
+                        Pane& target = pane_of(side);
+                        if (target.request != request) return;
+                        target.full = placed->full;
+                        target.slow = placed->slow;
+                        target.slow_colouring = request.look.colouring;
+                        if (placed->coarse) target.coarse = placed->coarse;
+                      };
+                    });
+}
+
+void Explorer::update_features() {
+  const bool wanted = settings_.scan_view || settings_.colouring == ColourBy::kFeatures;
+  if (!wanted || features_ || background_.has("features")) return;
+  background_.start("features", "features", "Picking edge and plane points",
+                    [this, loaded = loaded_](const Job& job) -> Background::Finish {
+                      auto found = extract_features(loaded->recording, FeatureOptions(), job);
+                      if (!found) return {};
+                      auto features = std::make_shared<const FeatureSet>(std::move(*found));
+                      return [this, features] { features_ = features; };
+                    });
 }
 
 void Explorer::update_solving() {

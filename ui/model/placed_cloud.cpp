@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "core/map/surface_thickness.hpp"
 
 namespace sweepscope::ui {
 namespace {
@@ -65,49 +68,94 @@ std::vector<int> directions(const Placement& placement) {
   return all;
 }
 
+/// The map's points in the form that measures of maps take, and the beam of each.
+struct WholeMap {
+  MapCloud cloud;
+  std::vector<std::uint32_t> beams;
+};
+
+WholeMap whole_map(const Placement& placement) {
+  const Places places = place_beams(placement, nullptr);
+  const Beams& beams = placement.loaded->beams;
+  const auto sweep_of =
+      assign_sweeps(beams.recording->scans, placement.loaded->motor.sweeps, placement.offset_s);
+  WholeMap map;
+  for (std::uint32_t i = 0; i < places.size(); ++i) {
+    if (!std::isfinite(places[i][0])) continue;
+    MapPoint point{};
+    point.x = places[i][0];
+    point.y = places[i][1];
+    point.z = places[i][2];
+    point.sweep = static_cast<std::uint32_t>(sweep_of[beams.scan[i]]);
+    point.time_s = beams.time_s(i);
+    map.cloud.push_back(point);
+    map.beams.push_back(i);
+  }
+  return map;
+}
+
+/// The number of a scan's beam among all that returned something.
+void mark(const Beams& beams, const FeatureList& list, FeatureKind kind, BeamValues& values) {
+  for (const Feature& feature : list.features) {
+    const auto first = beams.beam.begin() + static_cast<std::ptrdiff_t>(beams.first_point[feature.scan]);
+    const auto last = beams.beam.begin() + static_cast<std::ptrdiff_t>(beams.first_point[feature.scan + 1]);
+    const auto found = std::lower_bound(first, last, std::uint32_t{feature.beam});
+    if (found != last && *found == feature.beam)
+      values[static_cast<std::size_t>(found - beams.beam.begin())] = static_cast<float>(kind);
+  }
+}
+
+Colour colour_of_value(const CloudLook& look, const ColourScale& scale, double value, bool distances) {
+  if (std::isnan(value)) return {96, 104, 116};
+  if (look.colouring == ColourBy::kFeatures && !distances)
+    return colour_of_feature(static_cast<FeatureKind>(static_cast<int>(value)));
+  return scale.at(value);
+}
+
 }  // namespace
 
-double colour_value(const Placement& placement, Colouring colouring, std::uint32_t beam,
-                    const std::array<float, 3>& place_m) {
+bool is_slow(ColourBy by) {
+  return by == ColourBy::kFeatures || by == ColourBy::kBlur;
+}
+
+BeamValuesPtr slow_values(const Placement& placement, ColourBy by, const FeatureSet* features) {
+  const Beams& beams = placement.loaded->beams;
+  auto values = std::make_shared<BeamValues>(beams.size(), std::numeric_limits<float>::quiet_NaN());
+  if (by == ColourBy::kFeatures && features != nullptr) {
+    std::fill(values->begin(), values->end(), 0.0f);
+    mark(beams, features->planes, FeatureKind::kPlane, *values);
+    mark(beams, features->edges, FeatureKind::kEdge, *values);
+  }
+  if (by == ColourBy::kBlur) {
+    const WholeMap map = whole_map(placement);
+    const std::vector<float> thickness_m = surface_thickness_m(map.cloud);
+    for (std::size_t i = 0; i < map.beams.size(); ++i) (*values)[map.beams[i]] = thickness_m[i] * 1000;
+  }
+  return values;
+}
+
+double intensity_of(const Placement& placement, std::uint32_t beam) {
   const Recording& recording = placement.loaded->recording;
   const Beams& beams = placement.loaded->beams;
-  const LaserScan& scan = recording.scans[beams.scan[beam]];
-  switch (colouring) {
-    case Colouring::kElevation:
-      return static_cast<double>(place_m[2]);
-    case Colouring::kIntensity:
-      return recording.intensities.empty()
-                 ? 0
-                 : static_cast<double>(recording.intensities[scan.first_range + beams.beam[beam]]);
-    case Colouring::kTime:
-      return beams.time_s(beam) - recording.scans.front().first_beam_s;
-    case Colouring::kDirection:
-      return 0;  // of the whole scan: see place_cloud
-  }
-  return 0;
+  if (recording.intensities.empty()) return 0;
+  return static_cast<double>(
+      recording.intensities[recording.scans[beams.scan[beam]].first_range + beams.beam[beam]]);
 }
 
-std::string colour_unit(Colouring colouring) {
-  switch (colouring) {
-    case Colouring::kElevation:
-      return "m";
-    case Colouring::kTime:
-      return "s";
-    case Colouring::kIntensity:
-    case Colouring::kDirection:
-      break;
-  }
-  return "";
+Colour colour_of_feature(FeatureKind kind) {
+  if (kind == FeatureKind::kEdge) return {255, 176, 59};
+  if (kind == FeatureKind::kPlane) return {86, 180, 233};
+  return {64, 72, 84};
 }
 
-ColourSpan colour_span(Colouring colouring, const Loaded& loaded, const SolvedMap* a, const SolvedMap* b) {
-  switch (colouring) {
-    case Colouring::kElevation: {
+ColourSpan colour_span(ColourBy by, const Loaded& loaded, const SolvedMap* a, const SolvedMap* b) {
+  switch (by) {
+    case ColourBy::kElevation: {
       if (a == nullptr && b == nullptr) return {};
       const SolvedMap &first = a != nullptr ? *a : *b, &second = b != nullptr ? *b : *a;
       return {std::min(first.z_m.from, second.z_m.from), std::max(first.z_m.to, second.z_m.to)};
     }
-    case Colouring::kIntensity: {
+    case ColourBy::kIntensity: {
       std::vector<float> all = loaded.recording.intensities;
       if (all.empty()) return {};
       const auto at = [&](double part) {
@@ -119,10 +167,15 @@ ColourSpan colour_span(Colouring colouring, const Loaded& loaded, const SolvedMa
       const double from = at(0.01);
       return {from, at(0.99)};
     }
-    case Colouring::kTime:
+    case ColourBy::kTime:
       return {0, std::max(loaded.duration_s(), 1e-3)};
-    case Colouring::kDirection:
+    case ColourBy::kDirection:
       return {-1.5, 1.5};  // the two directions stand well inside the table's ends
+    case ColourBy::kBlur:
+      return {0, 40};  // mm: always the same, so that maps compare
+    case ColourBy::kFeatures:
+    case ColourBy::kDistance:
+      break;
   }
   return {};
 }
@@ -142,13 +195,30 @@ double difference_span_mm(const Placement& placement, const Placement& other) {
 }
 
 PlacedCloud place_cloud(const Placement& placement, const CloudLook& look, bool coarse,
-                        const Placement* other) {
+                        const Placement* other, const BeamValues* slow) {
   const DrawOrder& order = placement.map->order;
   const auto* chosen = coarse ? &order.chosen : nullptr;
   const Places places = place_beams(placement, chosen);
   const Places other_places = other != nullptr ? place_beams(*other, chosen) : Places();
   const std::vector<int> direction =
-      look.colouring == Colouring::kDirection ? directions(placement) : std::vector<int>();
+      look.colouring == ColourBy::kDirection ? directions(placement) : std::vector<int>();
+  const double begin_s = placement.loaded->recording.scans.front().first_beam_s;
+  const auto value_of = [&](std::uint32_t beam, std::uint32_t slot) -> double {
+    if (other != nullptr) return distance_mm(places[slot], other_places[slot]);
+    switch (look.colouring) {
+      case ColourBy::kIntensity:
+        return intensity_of(placement, beam);
+      case ColourBy::kTime:
+        return placement.loaded->beams.time_s(beam) - begin_s;
+      case ColourBy::kDirection:
+        return direction[placement.loaded->beams.scan[beam]];
+      case ColourBy::kFeatures:
+      case ColourBy::kBlur:
+        return slow != nullptr ? static_cast<double>((*slow)[beam]) : std::nan("");
+      default:
+        return static_cast<double>(places[slot][2]);
+    }
+  };
   const ColourScale scale{colour_table(look.table).value_or(ColourTable()), look.from, look.to};
   const Filter filter(placement, look);
   PlacedCloud cloud;
@@ -156,14 +226,7 @@ PlacedCloud place_cloud(const Placement& placement, const CloudLook& look, bool 
   for (const std::uint32_t slot : coarse ? order.chosen_order : order.all) {
     const std::uint32_t beam = coarse ? order.chosen[slot] : slot;
     if (!filter.shows(beam, places[slot])) continue;
-    double value = 0;
-    if (other != nullptr)
-      value = distance_mm(places[slot], other_places[slot]);
-    else if (!direction.empty())
-      value = direction[placement.loaded->beams.scan[beam]];
-    else
-      value = colour_value(placement, look.colouring, beam, places[slot]);
-    const Colour colour = scale.at(value);
+    const Colour colour = colour_of_value(look, scale, value_of(beam, slot), other != nullptr);
     points->xyz_m.push_back(places[slot]);
     points->rgb.push_back({colour.red, colour.green, colour.blue});
     cloud.beams.push_back(beam);

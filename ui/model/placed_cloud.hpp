@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "core/map/feature_points.hpp"
 #include "render/colour_table.hpp"
+#include "render/colouring.hpp"
 #include "render/live_view.hpp"
 #include "ui/model/solved_map.hpp"
 #include "ui/state/settings.hpp"
@@ -16,7 +18,7 @@ namespace sweepscope::ui {
 
 /// What of a map is shown and in which colours; follows from the settings.
 struct CloudLook {
-  Colouring colouring = Colouring::kElevation;
+  ColourBy colouring = ColourBy::kElevation;
   std::string table = "viridis";
   double from = 0, to = 1;  // the values at the colour table's ends
   Heights heights = Heights::kSharp;
@@ -42,24 +44,36 @@ struct Placement {
   bool operator==(const Placement&) const = default;
 };
 
+/// Values of the beams, one for each of Beams; NaN where a beam has none.
+using BeamValues = std::vector<float>;
+using BeamValuesPtr = std::shared_ptr<const BeamValues>;
+
+/// Whether a colouring's values come from all points together, and so take a second or more.
+bool is_slow(ColourBy by);
+
+/// The values of a slow colouring: the local blur in millimetres, or a FeatureKind as a number.
+BeamValuesPtr slow_values(const Placement& placement, ColourBy by, const FeatureSet* features);
+
 /// `coarse`: the chosen points alone. With `other`, points are coloured by their distance from where that
-/// puts them, in millimetres, instead of the look's colouring.
+/// puts them, in millimetres, instead of the look's colouring. `slow`: of the look's colouring where that is
+/// slow; without them points are grey.
 PlacedCloud place_cloud(const Placement& placement, const CloudLook& look, bool coarse,
-                        const Placement* other = nullptr);
+                        const Placement* other = nullptr, const BeamValues* slow = nullptr);
 
 /// The range that nearly all distances between two placements of the chosen points lie in, from 0, in
 /// millimetres.
 double difference_span_mm(const Placement& placement, const Placement& other);
 
-/// The value that colours a beam placed at a point, in the unit of `colour_unit`.
-double colour_value(const Placement& placement, Colouring colouring, std::uint32_t beam,
-                    const std::array<float, 3>& place_m);
-std::string colour_unit(Colouring colouring);
+/// The laser's intensity of a beam; 0 where it has none.
+double intensity_of(const Placement& placement, std::uint32_t beam);
 
 /// What the colour table's ends stand for: the range of values that a colouring has on both maps.
 struct ColourSpan {
   double from = 0, to = 1;
 };
-ColourSpan colour_span(Colouring colouring, const Loaded& loaded, const SolvedMap* a, const SolvedMap* b);
+ColourSpan colour_span(ColourBy by, const Loaded& loaded, const SolvedMap* a, const SolvedMap* b);
+
+/// Of edge points, plane points and others, when features colour the points.
+Colour colour_of_feature(FeatureKind kind);
 
 }  // namespace sweepscope::ui

@@ -69,7 +69,7 @@ Result<SolvedMapPtr> solve_map(const Loaded& loaded, double offset_s, std::optio
   map->lost = solved.lost;
   map->trajectory = std::move(solved.trajectory);
   const std::vector<char> used = scans_covered(loaded.recording, offset_s, offset_s);
-  map->path = solved.moving ? fix_path(loaded.recording, sweep_poses(map->trajectory), used)
+  map->path = solved.moving ? fix_path(loaded.recording, std::move(solved.sweeps), used)
                             : standing_path(loaded.recording, used);
   solved.cloud = nullptr;
   describe_points(loaded, *map);

@@ -8,6 +8,7 @@
 #include "render/chart_layout.hpp"
 #include "render/curve_charts.hpp"
 #include "ui/host/paint.hpp"
+#include "ui/panes/closer.hpp"
 #include "ui/panes/widgets.hpp"
 
 namespace sweepscope::ui {
@@ -170,19 +171,26 @@ void draw_criteria(const PaneContext& context, const PixelRect& place) {
   if (place.height <= 0) return;
   begin_panel(context, "criteria", place, false);
   const std::vector<Chart> charts = charts_of(context);
+  const bool scan = context.settings().scan_view;
+  const bool profile = !scan && (context.settings().tool == Tool::kProfile ||
+                                 context.settings().profile_from_m != context.settings().profile_to_m);
   const double margin = context.px(12), gap = context.px(22), least = context.px(250);
   const double room = place.width - 2 * margin;
-  const auto shown = std::min<std::size_t>(
-      charts.size(), std::max<std::size_t>(1, static_cast<std::size_t>((room + gap) / (least + gap))));
-  const double width = (room - gap * static_cast<double>(shown - 1)) / static_cast<double>(shown);
-  for (std::size_t i = 0; i < shown; ++i) {
-    draw_one(context, charts[i],
-             {std::round(place.left + margin + static_cast<double>(i) * (width + gap)),
-              std::round(place.top + context.px(8)), width, place.height - context.px(10)},
-             i);
-  }
-  if (context.transient.handle && !ImGui::IsMouseDown(0)) context.transient.handle.reset();
-  context.explorer.hold_handle(context.transient.handle.has_value() || ImGui::IsAnyItemActive());
+  const auto fitting = std::max<std::size_t>(1, static_cast<std::size_t>((room + gap) / (least + gap)));
+  const std::size_t parts =
+      scan || profile ? std::min<std::size_t>(fitting, 3) : std::min(charts.size(), fitting);
+  const double width = (room - gap * static_cast<double>(parts - 1)) / static_cast<double>(parts);
+  const auto part = [&](std::size_t from, std::size_t count) {
+    const double left = place.left + margin + static_cast<double>(from) * (width + gap);
+    const double wide = width * static_cast<double>(count) + gap * static_cast<double>(count - 1);
+    return PixelRect{std::round(left), std::round(place.top + context.px(8)), std::round(wide),
+                     place.height - context.px(10)};
+  };
+  // A closer look takes the place of all charts but the first, whose handles stay at hand.
+  const std::size_t shown = scan || profile ? std::min<std::size_t>(parts - 1, 1) : parts;
+  for (std::size_t i = 0; i < shown; ++i) draw_one(context, charts[i], part(i, 1), i);
+  if (scan) draw_scan_view(context, part(shown, parts - shown));
+  if (profile) draw_profile_chart(context, part(shown, parts - shown));
   end_panel();
 }
 

@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "render/ticks.hpp"
 #include "ui/host/paint.hpp"
 #include "ui/panes/widgets.hpp"
@@ -10,20 +13,37 @@ namespace {
 const char* name_of(const Settings& settings) {
   if (settings.layout == Layout::kDifference) return "Distance from A [mm]";
   switch (settings.colouring) {
-    case Colouring::kElevation:
-      return "Elevation [m]";
-    case Colouring::kIntensity:
+    case ColourBy::kIntensity:
       return "Intensity";
-    case Colouring::kTime:
+    case ColourBy::kTime:
       return "Time [s]";
-    case Colouring::kDirection:
-      return "Motor's direction";
+    case ColourBy::kDirection:
+      return "Motor turns to";
+    case ColourBy::kBlur:
+      return "Thickness of the surface [mm]";
+    default:
+      return "Elevation [m]";
   }
-  return "";
+}
+
+/// Edge and plane points have no order: their colours are named.
+void feature_legend(const PaneContext& context) {
+  for (const auto& [name, kind] :
+       {std::pair{"edge points", FeatureKind::kEdge}, std::pair{"plane points", FeatureKind::kPlane},
+        std::pair{"others", FeatureKind::kNone}}) {
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float size = context.pxf(10), y = at.y + (ImGui::GetTextLineHeight() - size) / 2;
+    ImGui::GetWindowDrawList()->AddRectFilled({at.x, y}, {at.x + size, y + size},
+                                              to_imgui(colour_of_feature(kind)), context.pxf(2));
+    ImGui::SetCursorScreenPos({at.x + context.pxf(18), at.y});
+    ImGui::TextDisabled("%s", name);
+  }
 }
 
 /// The colour table with the values that its ends stand for.
 void legend(const PaneContext& context) {
+  if (context.settings().colouring == ColourBy::kFeatures && context.settings().layout != Layout::kDifference)
+    return feature_legend(context);
   const auto table = colour_table(context.settings().table);
   if (!table) return;
   ImGui::TextUnformatted(name_of(context.settings()));
@@ -39,10 +59,10 @@ void legend(const PaneContext& context) {
   }
   const ColourSpan span = context.explorer.shown_span();
   const double size = context.px(11);
-  if (context.settings().colouring == Colouring::kDirection &&
+  if (context.settings().colouring == ColourBy::kDirection &&
       context.settings().layout != Layout::kDifference) {
     for (const auto& [text, part, align] :
-         {std::tuple{"to lesser angles", 0.0, AlignX::kLeft}, std::tuple{"to greater", 1.0, AlignX::kRight}})
+         {std::tuple{"lesser angles", 0.0, AlignX::kLeft}, std::tuple{"greater angles", 1.0, AlignX::kRight}})
       paint_text(list,
                  {{static_cast<double>(from.x) + part * static_cast<double>(width),
                    static_cast<double>(from.y + height) + context.px(4)},
@@ -74,6 +94,52 @@ void legend(const PaneContext& context) {
   ImGui::Dummy({width, height + context.pxf(20)});
 }
 
+/// A bar for the whole recording with a handle at either end of the part that is shown.
+void time_window(const PaneContext& context) {
+  const double duration_s = context.explorer.loaded()->duration_s();
+  const Settings& settings = context.settings();
+  const bool all = settings.time_to_s <= settings.time_from_s;
+  double from_s = all ? 0 : settings.time_from_s,
+         to_s = all ? duration_s : std::min(settings.time_to_s, duration_s);
+  ImGui::TextUnformatted("Time");
+  const std::string words = all ? "all" : fmt::format("{:.1f} to {:.1f} s", from_s, to_s);
+  ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(words.c_str()).x);
+  ImGui::TextDisabled("%s", words.c_str());
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x, height = context.pxf(16), r = context.pxf(6);
+  ImGui::InvisibleButton("time-window", {width, height});
+  context.anchor_last("time-window");
+  tooltip(context, find_command("time-window")->help);
+  const double room = static_cast<double>(width - 2 * r);
+  const auto x_of = [&](double s) {
+    return at.x + r + static_cast<float>(room * s / std::max(duration_s, 1e-9));
+  };
+  double& held = context.transient.time_handle;
+  const double mouse_s =
+      std::clamp(static_cast<double>(ImGui::GetIO().MousePos.x - at.x - r) / room, 0.0, 1.0) * duration_s;
+  if (ImGui::IsItemActivated()) {
+    context.begin_gesture();
+    held = std::abs(mouse_s - from_s) <= std::abs(mouse_s - to_s) ? 0 : 1;
+  }
+  if (ImGui::IsItemActive()) {
+    const double rounded_s = std::round(mouse_s * 20) / 20;
+    if (held < 0.5)
+      from_s = std::min(rounded_s, to_s - 0.05);
+    else
+      to_s = std::max(rounded_s, from_s + 0.05);
+    const bool whole = from_s <= 0.05 && to_s >= duration_s - 0.05;
+    context.perform(
+        Call{find_command("time-window"), {whole ? 0.0 : std::max(0.0, from_s), whole ? 0.0 : to_s}},
+        context.transient.gesture);
+  }
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const float y = at.y + height / 2, h = context.pxf(2);
+  list.AddRectFilled({at.x + r, y - h}, {at.x + width - r, y + h}, to_imgui(context.style.frame), h);
+  list.AddRectFilled({x_of(from_s), y - h}, {x_of(to_s), y + h}, to_imgui(colour_of_b(context.style)), h);
+  for (const double end : {from_s, to_s})
+    list.AddCircleFilled({x_of(end), y}, r, to_imgui(colour_of_b(context.style)));
+}
+
 }  // namespace
 
 void draw_display_panel(const PaneContext& context, const PixelRect& place) {
@@ -94,7 +160,7 @@ void draw_display_panel(const PaneContext& context, const PixelRect& place) {
   heading(context, "What is shown");
   field(context, "heights");
   if (settings.heights == Heights::kSlab) field(context, "slab");
-  field(context, "time-window");
+  time_window(context);
   heading(context, "Looking closely");
   field(context, "tool");
   field(context, "scan-view");

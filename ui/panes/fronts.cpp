@@ -45,6 +45,15 @@ void end_front() {
   ImGui::End();
 }
 
+/// What a shortcut does, for a person.
+std::string title_of(const Shortcut& shortcut) {
+  if (!shortcut.title.empty()) return shortcut.title;
+  for (const MenuItem& item : menu_items()) {
+    if (item.line == shortcut.line) return item.title;
+  }
+  return find_command(shortcut.line.substr(0, shortcut.line.find(' ')))->title;
+}
+
 struct Entry {
   std::string title, line, chord;
   bool takes_words = false;  // the line is completed in the palette before it is run
@@ -176,11 +185,7 @@ void draw_help(const PaneContext& context, const PixelRect& whole) {
         if (i < all.size()) ImGui::TextUnformatted(all[i].chord.c_str());
         ImGui::TableNextColumn();
         if (i >= all.size()) continue;
-        const auto item = std::find_if(menu_items().begin(), menu_items().end(),
-                                       [&](const MenuItem& m) { return m.line == all[i].line; });
-        const Command* command = find_command(all[i].line.substr(0, all[i].line.find(' ')));
-        const std::string rest = all[i].line.substr(std::min(all[i].line.size(), command->name.size()));
-        ImGui::TextDisabled("%s", (item != menu_items().end() ? item->title : command->title + rest).c_str());
+        ImGui::TextDisabled("%s", title_of(all[i]).c_str());
       }
     }
     ImGui::EndTable();

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/map/cross_section.hpp"
 #include "render/live_view.hpp"
 #include "ui/host/theme.hpp"
 #include "ui/model/explorer.hpp"
@@ -40,8 +41,15 @@ struct Transient {
     double plot_left = 0, plot_width = 1, from_ms = 0, to_ms = 1;  // the axis as it was at the start
   };
   std::optional<HandleDrag> handle;
-  double camera_moved_s = 1e9;  // ago
-  ImGuiID resting_on = 0;       // the widget whose tooltip comes next
+  double time_handle = 0;  // which end of the time window is held
+  struct KnownProfile {
+    PlacedCloudPtr cloud;
+    std::array<double, 4> line{};
+    Profile profile;
+  };
+  std::array<KnownProfile, 2> profiles;  // of both maps, along the line of the settings
+  double camera_moved_s = 1e9;           // ago
+  ImGuiID resting_on = 0;                // the widget whose tooltip comes next
   double resting_since_s = 0;
   std::vector<std::string> recent;
   std::vector<std::string> dropped;  // files, in this frame

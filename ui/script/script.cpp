@@ -232,7 +232,7 @@ class Runner {
       ui_.frame({}, kFrame_s);
       if (std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() > most_s)
         return unmet(fmt::format("{} did not come within {} s", what, most_s));
-      if (ui_.explorer().background().busy()) 
+      if (ui_.explorer().background().busy())
         std::this_thread::sleep_for(std::chrono::milliseconds(25));  // the work comes first
     }
     settle();

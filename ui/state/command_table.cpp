@@ -184,10 +184,11 @@ void add_fields_of_maps(std::vector<Command>& all) {
 }
 
 void add_fields_of_display(std::vector<Command>& all) {
-  all.push_back(choice({"colouring", "Colour by",
-                        "Elevation in the map; the laser's intensity; the time of the beam; or the direction "
-                        "that the motor turned in."},
-                       &Settings::colouring, {"elevation", "intensity", "time", "direction"}));
+  all.push_back(
+      choice({"colouring", "Colour by",
+              "Elevation in the map; the laser's intensity; the time of the beam; the direction that "
+              "the motor turned in; edge and plane points; or the blur: how thick the surface is."},
+             &Settings::colouring, {"elevation", "intensity", "time", "direction", "features", "blur"}));
   all.push_back(table_choice());
   all.push_back(
       choice({"heights", "Heights",
@@ -214,9 +215,8 @@ void add_fields_of_display(std::vector<Command>& all) {
       toggle({"panels", "Side panels", "The panels to the left and right of the maps."}, &Settings::panels));
   all.push_back(
       toggle({"criteria", "Criteria", "The criteria over the offset, below the maps."}, &Settings::criteria));
-  all.push_back(
-      number({"ui-scale", "Interface size", "1 is 100 %, 2 is 200 %; 0: as the display asks."},
-             &Settings::ui_scale, number_of("SCALE", "", 0, 4, 0.25)));
+  all.push_back(number({"ui-scale", "Interface size", "1 is 100 %, 2 is 200 %; 0: as the display asks."},
+                       &Settings::ui_scale, number_of("SCALE", "", 0, 4, 0.25)));
 }
 
 void add_fields_of_tools(std::vector<Command>& all) {
@@ -376,33 +376,33 @@ std::span<const Shortcut> shortcuts() {
       {"7", "look top"},
       {"9", "look isometric"},
       {"0", "fit-view"},
-      {"Plus", "zoom 1.25"},
-      {"Minus", "zoom 0.8"},
-      {"Left", "pan -0.1 0"},
-      {"Right", "pan 0.1 0"},
-      {"Up", "pan 0 0.1"},
-      {"Down", "pan 0 -0.1"},
-      {"Shift+Left", "turn -15 0"},
-      {"Shift+Right", "turn 15 0"},
-      {"Shift+Up", "turn 0 15"},
-      {"Shift+Down", "turn 0 -15"},
-      {"Comma", "nudge a -0.1"},
-      {"Period", "nudge a 0.1"},
-      {"Shift+Comma", "nudge a -1"},
-      {"Shift+Period", "nudge a 1"},
-      {"K", "nudge b -0.1"},
-      {"L", "nudge b 0.1"},
-      {"Shift+K", "nudge b -1"},
-      {"Shift+L", "nudge b 1"},
+      {"Plus", "zoom 1.25", "Nearer"},
+      {"Minus", "zoom 0.8", "Farther"},
+      {"Left", "pan -0.1 0", "Look to the left"},
+      {"Right", "pan 0.1 0", "Look to the right"},
+      {"Up", "pan 0 0.1", "Look higher up"},
+      {"Down", "pan 0 -0.1", "Look lower down"},
+      {"Shift+Left", "turn -15 0", "Turn to the left"},
+      {"Shift+Right", "turn 15 0", "Turn to the right"},
+      {"Shift+Up", "turn 0 15", "Turn up"},
+      {"Shift+Down", "turn 0 -15", "Turn down"},
+      {"Comma", "nudge a -0.1", "Map A: 0.1 ms less"},
+      {"Period", "nudge a 0.1", "Map A: 0.1 ms more"},
+      {"Shift+Comma", "nudge a -1", "Map A: 1 ms less"},
+      {"Shift+Period", "nudge a 1", "Map A: 1 ms more"},
+      {"K", "nudge b -0.1", "Map B: 0.1 ms less"},
+      {"L", "nudge b 0.1", "Map B: 0.1 ms more"},
+      {"Shift+K", "nudge b -1", "Map B: 1 ms less"},
+      {"Shift+L", "nudge b 1", "Map B: 1 ms more"},
       {"Space", "flip"},
       {"B", "layout side-by-side"},
       {"S", "layout swipe"},
       {"D", "layout difference"},
       {"U", "linked"},
       {"Q", "perspective"},
-      {"C", "colouring"},
-      {"V", "table"},
-      {"Z", "heights"},
+      {"C", "colouring", "Next colouring"},
+      {"V", "table", "Next colour table"},
+      {"Z", "heights", "Next heights"},
       {"T", "theme"},
       {"F", "scan-view"},
       {"I", "tool pick"},

@@ -55,6 +55,7 @@ Settings changed(Settings settings, const Call& call);
 struct Shortcut {
   std::string chord;
   std::string line;
+  std::string title = {};  // where neither a menu nor the command says it well
 };
 std::span<const Shortcut> shortcuts();
 /// The first chord of a line; empty where it has none.

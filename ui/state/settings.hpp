@@ -3,6 +3,8 @@
 #include <Eigen/Core>
 #include <string>
 
+#include "render/colouring.hpp"
+
 namespace sweepscope::ui {
 
 /// From where a pane looks at its map: at `centre_m`, from `elevation_deg` above the horizon (90: from
@@ -17,7 +19,6 @@ struct ViewPoint {
 };
 
 enum class Layout { kSideBySide, kSwipe, kOnlyA, kOnlyB, kDifference };
-enum class Colouring { kElevation, kIntensity, kTime, kDirection };
 enum class Heights { kSharp, kAll, kSlab };
 enum class Theme { kDark, kLight };
 enum class Backdrop { kTheme, kBlack, kWhite };
@@ -37,7 +38,7 @@ struct Settings {
   bool perspective = false;
   ViewPoint camera_a, camera_b;
 
-  Colouring colouring = Colouring::kElevation;
+  ColourBy colouring = ColourBy::kElevation;
   std::string table = "viridis";
   Heights heights = Heights::kSharp;
   double slab_from_m = 0.8, slab_to_m = 2.5;  // above the sensor's path

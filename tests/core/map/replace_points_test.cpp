@@ -23,7 +23,7 @@ struct Solved {
     options.assume = assumed;
     const std::array offsets_s{kOffset_s};
     map = build_maps(recording, offsets_s, options, Job()).value().front();
-    path = fix_path(recording, sweep_poses(map.trajectory), scans_covered(recording, kOffset_s, kOffset_s));
+    path = fix_path(recording, map.sweeps, scans_covered(recording, kOffset_s, kOffset_s));
   }
   Places at(double offset_s) const {
     Places places(beams.size());

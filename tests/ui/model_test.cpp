@@ -1,0 +1,362 @@
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <random>
+#include <set>
+#include <thread>
+
+#include "core/io/atomic_file.hpp"
+#include "core/io/cloud_file.hpp"
+#include "ui/model/explorer.hpp"
+#include "ui/model/picking.hpp"
+#include "ui/model/spatial_order.hpp"
+#include "ui/model/view_camera.hpp"
+
+namespace sweepscope::ui {
+namespace {
+
+using Places = std::vector<std::array<float, 3>>;
+
+/// Frames until nothing is left to do.
+void rest(Explorer& explorer) {
+  const auto begin = std::chrono::steady_clock::now();
+  do {
+    explorer.update(1.0 / 60);
+    if (explorer.background().busy()) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    ASSERT_LT(std::chrono::steady_clock::now() - begin, std::chrono::minutes(5));
+  } while (!explorer.at_rest());
+}
+
+void perform(Explorer& explorer, const std::string& line) {
+  const auto done = explorer.perform(line);
+  EXPECT_TRUE(done) << line << ": " << done.error().message;
+}
+
+std::filesystem::path scratch(const std::string& name) {
+  return std::filesystem::temp_directory_path() / ("sweepscope-ui-" + name);
+}
+
+class InARoom : public testing::Test {
+ protected:
+  void SetUp() override {
+    perform(explorer_, "sample room-1");
+    rest(explorer_);
+    ASSERT_NE(explorer_.loaded(), nullptr);
+  }
+  Explorer explorer_;
+};
+
+TEST_F(InARoom, BothMapsAreThereAtOnceSinceTheRigStoodStill) {
+  EXPECT_EQ(explorer_.observe("kind"), "stationary");
+  for (const Side side : kBothSides) {
+    EXPECT_EQ(explorer_.pane(side).state, PaneState::kSolved);
+    EXPECT_GT(explorer_.pane(side).full->points->size(), 20000u);
+  }
+}
+
+TEST_F(InARoom, AMoveOfTheOffsetIsSeenInTheSameFrameAndAllPointsFollow) {
+  const PlacedCloudPtr before = explorer_.pane(Side::kA).coarse;
+  perform(explorer_, "offset-a 19");
+  explorer_.update(1.0 / 60);
+  EXPECT_NE(explorer_.pane(Side::kA).coarse, before);
+  EXPECT_EQ(explorer_.pane(Side::kA).full, nullptr);
+  rest(explorer_);
+  ASSERT_NE(explorer_.pane(Side::kA).full, nullptr);
+  EXPECT_NE(explorer_.pane(Side::kA).full->points->xyz_m, explorer_.pane(Side::kB).full->points->xyz_m);
+}
+
+TEST_F(InARoom, TheCoarsePointsAreSomeOfAllOfThem) {
+  const auto& all = explorer_.pane(Side::kA).full->beams;
+  const std::set<std::uint32_t> beams(all.begin(), all.end());
+  EXPECT_EQ(beams.size(), all.size());
+  for (const std::uint32_t beam : explorer_.pane(Side::kA).coarse->beams) EXPECT_TRUE(beams.contains(beam));
+}
+
+TEST_F(InARoom, TheEstimateSetsTheOffsetOfBUnlessAPersonDid) {
+  perform(explorer_, "search range");
+  perform(explorer_, "search-range 22 26 1");
+  perform(explorer_, "estimate");
+  rest(explorer_);
+  ASSERT_EQ(explorer_.observe("estimate"), "found");
+  EXPECT_NEAR(explorer_.settings().offset_b_ms, 24, 0.51);
+  EXPECT_EQ(explorer_.settings().offset_a_ms, 0);
+  perform(explorer_, "offset-b 20");
+  perform(explorer_, "estimate");
+  rest(explorer_);
+  EXPECT_EQ(explorer_.settings().offset_b_ms, 20);
+  perform(explorer_, "take-found");
+  EXPECT_NEAR(explorer_.settings().offset_b_ms, 24, 0.51);
+}
+
+TEST_F(InARoom, UndoTakesBackAGestureAsAWhole) {
+  for (const char* line : {"offset-a 1", "offset-a 2", "offset-a 3"})
+    EXPECT_TRUE(explorer_.perform(line, "drag 1"));
+  perform(explorer_, "theme light");
+  perform(explorer_, "undo");
+  EXPECT_EQ(explorer_.settings().theme, Theme::kDark);
+  EXPECT_EQ(explorer_.settings().offset_a_ms, 3);
+  perform(explorer_, "undo");
+  EXPECT_EQ(explorer_.settings().offset_a_ms, 0);
+  perform(explorer_, "redo");
+  EXPECT_EQ(explorer_.settings().offset_a_ms, 3);
+}
+
+TEST_F(InARoom, LinkedCamerasMoveTogetherAndUnlinkedOnesDoNot) {
+  perform(explorer_, "camera-a 1 2 3 4 5 6");
+  EXPECT_EQ(explorer_.settings().camera_b, explorer_.settings().camera_a);
+  perform(explorer_, "linked off");
+  perform(explorer_, "camera-a 9 9 9 9 9 9");
+  EXPECT_EQ(explorer_.settings().camera_b.height_m, 4);
+  perform(explorer_, "linked on");
+  EXPECT_EQ(explorer_.settings().camera_b, explorer_.settings().camera_a);
+}
+
+TEST_F(InARoom, ATimeWindowAndASlabShowFewerPoints) {
+  const std::size_t all = explorer_.pane(Side::kA).full->points->size();
+  perform(explorer_, "time-window 1 2");
+  rest(explorer_);
+  const std::size_t second = explorer_.pane(Side::kA).full->points->size();
+  EXPECT_LT(second, all / 3);
+  EXPECT_GT(second, all / 9);
+  perform(explorer_, "heights slab");
+  perform(explorer_, "slab 0.9 1");
+  rest(explorer_);
+  EXPECT_LT(explorer_.pane(Side::kA).full->points->size(), second);
+  for (const auto& p : explorer_.pane(Side::kA).full->points->xyz_m) EXPECT_NEAR(p[2], 0.95, 0.051);
+}
+
+TEST_F(InARoom, TheDifferenceIsNothingBetweenEqualOffsetsAndGrowsWithThem) {
+  perform(explorer_, "layout difference");
+  rest(explorer_);
+  const auto first = explorer_.pane(Side::kB).full->points->rgb[0];
+  for (const auto& colour : explorer_.pane(Side::kB).full->points->rgb) EXPECT_EQ(colour, first);
+  perform(explorer_, "offset-a 19");
+  rest(explorer_);
+  const auto& colours = explorer_.pane(Side::kB).full->points->rgb;
+  EXPECT_GT(std::set(colours.begin(), colours.end()).size(), 50u);
+  EXPECT_GT(explorer_.shown_span().to, 20) << "19 ms at 390 deg/s turn a point at 1 m by 130 mm";
+}
+
+TEST_F(InARoom, BlurIsLessAtTheOffsetThanFiveMillisecondsOff) {
+  perform(explorer_, "offset-a 19");
+  perform(explorer_, "offset-b 24");
+  perform(explorer_, "colouring blur");
+  rest(explorer_);
+  const auto mean_mm = [&](Side side) {
+    double sum = 0;
+    std::size_t count = 0;
+    for (const float value : *explorer_.pane(side).slow) {
+      if (std::isnan(value)) continue;
+      sum += static_cast<double>(value);
+      ++count;
+    }
+    return sum / static_cast<double>(count);
+  };
+  EXPECT_LT(mean_mm(Side::kB), 0.8 * mean_mm(Side::kA));
+}
+
+TEST_F(InARoom, ASessionBringsEverythingBack) {
+  for (const char* line :
+       {"offset-a 19", "offset-b 23.5", "layout swipe", "table cividis", "camera-a 1 1 0 7 30 40"})
+    perform(explorer_, line);
+  const std::string path = scratch("session.json").string();
+  perform(explorer_, "save-session " + path);
+  Explorer other;
+  perform(other, "open " + path);
+  rest(other);
+  EXPECT_EQ(other.settings(), explorer_.settings());
+  EXPECT_EQ(other.session_json(), explorer_.session_json());
+  EXPECT_EQ(other.observe("recording"), "room-1");
+  std::filesystem::remove(path);
+}
+
+TEST_F(InARoom, AnExportedMapHoldsThePointsShownInTheOrderOfTime) {
+  const std::string path = scratch("map.pcd").string();
+  perform(explorer_, "export-cloud b " + path);
+  const auto cloud = read_cloud(path);
+  ASSERT_TRUE(cloud) << cloud.error().message;
+  EXPECT_EQ((*cloud)->size(), explorer_.pane(Side::kB).full->points->size());
+  for (std::size_t i = 1; i < (*cloud)->size(); ++i)
+    EXPECT_LE((*cloud)->points[i - 1].time_s, (*cloud)->points[i].time_s);
+  std::filesystem::remove(path);
+}
+
+TEST_F(InARoom, APointThatIsAskedNamesItsBeamAndBothItsPlaces) {
+  const Pane &a = explorer_.pane(Side::kA), &b = explorer_.pane(Side::kB);
+  const PixelRect picture{100, 50, 600, 400};
+  const Projection projection(explorer_.settings().camera_a, false, picture);
+  const auto& p = a.full->points->xyz_m[1234];
+  const auto at = projection.to_px({p[0], p[1], p[2]});
+  ASSERT_TRUE(at);
+  const auto found = pick_point(*a.full, projection, *at, 5);
+  ASSERT_TRUE(found);
+  const auto rows = describe_beam(a.request->placement, b.request->placement, a.full->beams[*found]);
+  EXPECT_EQ(rows.back().first, "apart");
+  EXPECT_EQ(rows.back().second, "0 mm") << "both offsets are the same";
+  EXPECT_FALSE(pick_point(*a.full, projection, {-500, -500}, 5));
+}
+
+TEST_F(InARoom, TheStatusLineSaysWhatIsShown) {
+  perform(explorer_, "offset-a 19");
+  explorer_.update(0.01);
+  EXPECT_NE(explorer_.status().find("A: 19.0 ms"), std::string::npos) << explorer_.status();
+  EXPECT_NE(explorer_.status().find("thinned"), std::string::npos) << explorer_.status();
+  rest(explorer_);
+  EXPECT_EQ(explorer_.status().find("thinned"), std::string::npos) << explorer_.status();
+}
+
+TEST_F(InARoom, TheCopiedCommandLineHoldsAllThatDiffersFromTheDefaults) {
+  perform(explorer_, "offset-a 19");
+  perform(explorer_, "theme light");
+  const std::string line = explorer_.command_line(1200, 800);
+  for (const char* part :
+       {"sweepscope view", "--size 1200x800", "sample room-1", "offset-a 19", "theme light"})
+    EXPECT_NE(line.find(part), std::string::npos) << line;
+  EXPECT_EQ(line.find("point-size"), std::string::npos) << line;
+}
+
+TEST(OnAWalk, AMapIsPreviewedAndThenSolvedAndTheAnswerIsKept) {
+  Explorer explorer;
+  perform(explorer, "offset-a 23");
+  perform(explorer, "offset-b 23");
+  perform(explorer, "sample metro-station 6");
+  while (explorer.is_loading()) {
+    explorer.update(0.01);
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  explorer.update(0.01);
+  EXPECT_EQ(explorer.pane(Side::kA).state, PaneState::kProvisional);
+  rest(explorer);
+  EXPECT_EQ(explorer.pane(Side::kA).state, PaneState::kSolved);
+  explorer.hold_handle(true);
+  perform(explorer, "offset-a 24");
+  for (int i = 0; i < 30; ++i) explorer.update(0.02);
+  EXPECT_EQ(explorer.pane(Side::kA).state, PaneState::kPreview);
+  EXPECT_EQ(explorer.observe("jobs"), "0") << "nothing is solved while the handle is held";
+  explorer.hold_handle(false);
+  rest(explorer);
+  EXPECT_EQ(explorer.pane(Side::kA).state, PaneState::kSolved);
+  perform(explorer, "offset-a 23");
+  explorer.update(0.01);
+  EXPECT_EQ(explorer.pane(Side::kA).state, PaneState::kSolved) << "it was solved before";
+}
+
+TEST(Failures, ABrokenFileGivesASentenceAndTheExplorerLivesOn) {
+  const std::string path = scratch("broken.bag").string();
+  ASSERT_TRUE(write_file(path, "#ROSBAG V2.0\nand then nothing of the kind"));
+  Explorer explorer;
+  perform(explorer, "open " + path);
+  rest(explorer);
+  ASSERT_TRUE(explorer.message());
+  EXPECT_NE(explorer.message()->text.find("broken.bag"), std::string::npos);
+  perform(explorer, "sample room-2");
+  rest(explorer);
+  EXPECT_NE(explorer.loaded(), nullptr);
+  EXPECT_FALSE(explorer.message());
+  perform(explorer, "open " + path);
+  rest(explorer);
+  EXPECT_EQ(explorer.observe("recording"), "room-2") << "what was open stays open";
+  std::filesystem::remove(path);
+}
+
+TEST(Failures, WhatCannotBeDoneNowIsRefused) {
+  Explorer explorer;
+  for (const char* line :
+       {"estimate", "take-found", "fit-view", "export-curve a.csv", "export-cloud a a.pcd"}) {
+    const auto done = explorer.perform(line);
+    ASSERT_FALSE(done) << line;
+    EXPECT_EQ(done.error().code, ExitCode::kWrongUsage);
+  }
+}
+
+TEST(Background, ACancelledTaskIsForgottenAndTheNextOneRuns) {
+  Background background;
+  std::atomic<bool> saw_cancel = false;
+  bool first_finished = false, second_finished = false;
+  background.start("lane", "first", "First", [&](const Job& job) {
+    while (!job.cancelled()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    saw_cancel = true;
+    return [&] { first_finished = true; };
+  });
+  background.start("lane", "second", "Second", [&](const Job&) { return [&] { second_finished = true; }; });
+  EXPECT_TRUE(background.has("first"));
+  background.cancel("first");
+  EXPECT_FALSE(background.has("first"));
+  while (background.busy()) {
+    background.take_finished();
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  EXPECT_TRUE(saw_cancel);
+  EXPECT_FALSE(first_finished);
+  EXPECT_TRUE(second_finished);
+}
+
+TEST(Background, ProgressIsSeenFromOutside) {
+  Background background;
+  std::atomic<bool> go_on = false;
+  background.start("lane", "key", "Title", [&](const Job& job) -> Background::Finish {
+    job.report("phase", 0.5);
+    while (!go_on) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    return {};
+  });
+  while (background.status().empty() || background.status()[0].fraction == 0)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  EXPECT_EQ(background.status()[0].title, "Title");
+  EXPECT_EQ(background.status()[0].phase, "phase");
+  go_on = true;
+}
+
+TEST(DrawOrder, HoldsEveryPointOnceAndChoosesEvenlyOverSpace) {
+  std::mt19937 random(1);
+  Places points;
+  for (int i = 0; i < 40000; ++i) {  // a wall of 10 x 2 m, most of its points in one corner
+    const float u = static_cast<float>(random()) / 4294967296.0f,
+                v = static_cast<float>(random()) / 4294967296.0f;
+    points.push_back({10 * u * u * u, 2 * v, 0});
+  }
+  points[7][0] = std::nanf("");
+  const DrawOrder order = order_for_drawing(points, 5000);
+  EXPECT_EQ(order.all.size(), points.size() - 1);
+  EXPECT_EQ(std::set(order.all.begin(), order.all.end()).size(), points.size() - 1);
+  EXPECT_LE(order.chosen.size(), 5000u);
+  EXPECT_GT(order.chosen.size(), 2000u);
+  EXPECT_TRUE(std::is_sorted(order.chosen.begin(), order.chosen.end()));
+  EXPECT_EQ(order.chosen_order.size(), order.chosen.size());
+  std::size_t dense = 0;  // of all points, 58 % lie in the first fifth; of the chosen ones near a fifth
+  for (const std::uint32_t i : order.chosen) dense += points[i][0] < 2 ? 1 : 0;
+  EXPECT_LT(static_cast<double>(dense), 0.45 * static_cast<double>(order.chosen.size()));
+}
+
+TEST(ViewCamera, TheViewsAreWhereTheirNamesSay) {
+  const PixelRect pane{0, 0, 400, 400};
+  const auto px = [&](double turn, double elevation, const Eigen::Vector3d& p) {
+    return *Projection({{0, 0, 0}, 4, turn, elevation}, false, pane).to_px(p);
+  };
+  EXPECT_NEAR(px(0, 90, {1, 0, 0}).x, 300, 1e-9) << "from above: x to the right";
+  EXPECT_NEAR(px(0, 90, {0, 1, 0}).y, 100, 1e-9) << "and y up";
+  EXPECT_NEAR(px(0, 0, {1, 0, 0}).x, 300, 1e-9) << "from the front: x to the right";
+  EXPECT_NEAR(px(0, 0, {0, 0, 1}).y, 100, 1e-9) << "and z up";
+  EXPECT_NEAR(px(90, 0, {0, 1, 0}).x, 300, 1e-9) << "from the right: y to the right";
+}
+
+TEST(ViewCamera, ZoomingKeepsThePlaceUnderTheMouse) {
+  const PixelRect pane{50, 20, 640, 480};
+  const ViewPoint view{{1, 2, 3}, 10, 30, 50};
+  const PixelPoint mouse{200, 300};
+  const Eigen::Vector3d before = Projection(view, false, pane).under(mouse);
+  const Eigen::Vector3d after = Projection(zoomed(view, 1.7, mouse, pane), false, pane).under(mouse);
+  EXPECT_LT((before - after).norm(), 1e-9);
+}
+
+TEST(ViewCamera, MovingTakesThePlaceAlongWithTheMouse) {
+  const PixelRect pane{0, 0, 640, 480};
+  const ViewPoint view{{1, 2, 3}, 10, 30, 50};
+  const Eigen::Vector3d before = Projection(view, false, pane).under({100, 100});
+  const Eigen::Vector3d after = Projection(moved(view, 25, -10, 480), false, pane).under({125, 90});
+  EXPECT_LT((before - after).norm(), 1e-9);
+}
+
+}  // namespace
+}  // namespace sweepscope::ui

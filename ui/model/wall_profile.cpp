@@ -1,0 +1,81 @@
+#include "ui/model/wall_profile.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sweepscope::ui {
+namespace {
+
+/// Where the density first and last reaches half of its peak.
+std::pair<double, double> half_height_mm(const Profile& profile) {
+  const double half = profile.peak_per_mm / 2;
+  const auto& density = profile.density_per_mm;
+  const auto above = [&](double value) { return value >= half; };
+  const auto first = std::find_if(density.begin(), density.end(), above) - density.begin();
+  const auto last = density.rend() - std::find_if(density.rbegin(), density.rend(), above) - 1;
+  return {profile.distances_mm[static_cast<std::size_t>(first)],
+          profile.distances_mm[static_cast<std::size_t>(last)]};
+}
+
+void add(Chart& chart, const Profile& profile, const char* name, Colour colour) {
+  ChartSeries series;
+  series.name = name;
+  series.colour = colour;
+  series.marker = MarkerShape::kNone;
+  series.filled = true;
+  for (std::size_t i = 0; i < profile.distances_mm.size(); ++i) {
+    series.x.push_back(profile.distances_mm[i] + profile.median_mm);
+    series.y.emplace_back(profile.density_per_mm[i]);
+  }
+  chart.series.push_back(std::move(series));
+  if (!profile.width_at_half_height_mm) return;
+  const auto [from_mm, to_mm] = half_height_mm(profile);
+  chart.spans.push_back({profile.peak_per_mm / 2, from_mm + profile.median_mm, to_mm + profile.median_mm,
+                         fmt::format("{:.0f} mm", *profile.width_at_half_height_mm), colour});
+}
+
+}  // namespace
+
+std::optional<CrossSection> section_of(const Settings& settings) {
+  const Eigen::Vector2d along_m = settings.profile_to_m - settings.profile_from_m;
+  if (along_m.norm() < 1e-3) return std::nullopt;
+  CrossSection section;
+  section.at_m = (settings.profile_from_m + settings.profile_to_m) / 2;
+  section.normal_rad = std::atan2(along_m.y(), along_m.x());
+  section.length_m = 0.5;
+  section.from_m = -100;
+  section.to_m = 100;
+  section.reach_m = along_m.norm() / 2;
+  return section;
+}
+
+Profile profile_of(const PlacedCloud& cloud, const CrossSection& section) {
+  const Eigen::Vector2d across(std::cos(section.normal_rad), std::sin(section.normal_rad));
+  const double reach_m = std::hypot(section.reach_m, section.length_m);
+  MapCloud near;  // the others would only be copied
+  for (const auto& p : cloud.points->xyz_m) {
+    const Eigen::Vector2d from_middle_m =
+        Eigen::Vector2d(static_cast<double>(p[0]), static_cast<double>(p[1])) - section.at_m;
+    if (std::abs(from_middle_m.dot(across)) > reach_m || from_middle_m.norm() > 2 * reach_m) continue;
+    MapPoint point{};
+    point.x = p[0];
+    point.y = p[1];
+    point.z = p[2];
+    near.push_back(point);
+  }
+  return profile_across(near, section);
+}
+
+Chart profile_chart(const Profile& a, const Profile& b, const Style& style) {
+  Chart chart;
+  chart.title = "Profile: density of points [1/mm]";
+  chart.x_title = "along the line, from its middle [mm]";
+  chart.with_zero = true;
+  add(chart, a, "A", style.maps[0]);
+  add(chart, b, "B", style.maps[1]);
+  return chart;
+}
+
+}  // namespace sweepscope::ui
