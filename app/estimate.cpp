@@ -63,9 +63,6 @@ ExitCode run(const Options& options) {
     if (!recording) return fail(recording.error());
     EstimateOptions estimate_options = options.estimate;
     estimate_options.assume = parse_method(options.recording.assume);
-    // Candidates that are asked for want the paper's criteria over them.
-    if (!estimate_options.method && estimate_options.ranges.empty() && !estimate_options.around)
-      estimate_options.method = Method::kDirect;
     found = estimate(*recording, estimate_options, progress.job());
   }
   if (!found) return fail(found.error());
@@ -82,7 +79,7 @@ void declare_method(CLI::App& command, Options& options) {
           "--method", [&estimate](const std::string& text) { estimate.method = parse_method(text); },
           "direct: the offset as an unknown of the least squares, for rigs that stood still and for walks; "
           "stationary: where odometry sees least motion (d); moving: where the map is clearest (n, e). "
-          "Default: direct; with --range or --around stationary or moving, as the motion test says")
+          "Default: stationary or moving, as the motion test says")
       ->type_name("M")
       ->check(CLI::IsMember({"stationary", "moving", "direct"}));
   command

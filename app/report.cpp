@@ -55,17 +55,15 @@ Result<void> add_maps(ReportContent& content, const Recording& recording, const 
   return {};
 }
 
-/// The paper's criteria by whole milliseconds, 5 to either side of the answer.
-Result<void> add_criteria(ReportContent& content, const Recording& recording, const Job& job) {
-  if (content.estimate.method != "direct") return {};
-  const double about_s = std::round(*content.estimate.offset_s * 1e3) * 1e-3;
+/// What the direct method says of the same recording.
+Result<void> add_direct(ReportContent& content, const Recording& recording, const Job& job) {
   EstimateOptions wanted;
-  wanted.method = content.estimate.kind == "moving" ? Method::kMoving : Method::kStationary;
-  wanted.ranges = {{about_s - kOff_s, about_s + kOff_s, 1e-3}};
+  wanted.method = Method::kDirect;
+  wanted.assume = parse_method(content.estimate.kind);
   auto found = estimate(recording, wanted, job);
   if (!found) return tl::unexpected(found.error());
-  if (found->interrupted) return failure(ExitCode::kInterrupted, "Interrupted while computing the criteria.");
-  content.by_paper = std::move(*found);
+  if (found->interrupted) return failure(ExitCode::kInterrupted, "Interrupted in the direct method.");
+  if (found->identifiable) content.direct = std::move(*found);
   return {};
 }
 
@@ -80,14 +78,13 @@ Result<ReportContent> gather(const Options& options) {
   if (!motion) return tl::unexpected(motion.error());
   if (motion->answered()) content.recording.motion = motion->moving() ? "moving" : "stationary";
   EstimateOptions wanted;
-  wanted.method = Method::kDirect;  // estimate's own default
   wanted.assume = parse_method(options.recording.assume);
   auto found = estimate(*recording, wanted, progress.job());
   if (!found) return tl::unexpected(found.error());
   if (found->interrupted) return failure(ExitCode::kInterrupted, "Interrupted while looking for the offset.");
   content.estimate = std::move(*found);
   if (!content.estimate.identifiable || !content.estimate.offset_s) return content;
-  return add_criteria(content, *recording, progress.job())
+  return add_direct(content, *recording, progress.job())
       .and_then([&] { return add_maps(content, *recording, options, progress.job()); })
       .map([&] { return std::move(content); });
 }

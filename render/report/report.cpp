@@ -81,8 +81,10 @@ std::string answer(const Estimate& estimate) {
 
 std::string criteria_table(const ReportContent& content) {
   std::vector<CriterionOptimum> criteria = content.estimate.criteria;
-  if (content.by_paper) {
-    criteria.insert(criteria.end(), content.by_paper->criteria.begin(), content.by_paper->criteria.end());
+  if (content.direct) {
+    for (const CriterionOptimum& one : content.direct->criteria) {
+      if (one.name == "direct") criteria.push_back(one);
+    }
   }
   if (criteria.empty()) return "";
   std::string rows =
@@ -94,7 +96,8 @@ std::string criteria_table(const ReportContent& content) {
                                                 : fmt::format("{:.4g}", one.value);
     rows += fmt::format(
         "<tr><td>{}</td><td class=\"number-cell\">{}</td><td class=\"number-cell\">{}</td></tr>\n",
-        html::escape(one.name), offset_text(one.offset_s, std::nullopt), value);
+        html::escape(one.name),
+        offset_text(one.offset_s, one.name == "direct" ? content.direct->sigma_s : std::nullopt), value);
   }
   return html::element("table", rows);
 }
@@ -148,11 +151,10 @@ std::string figure(const std::string& picture, const std::string& caption) {
 
 Result<std::string> curves(const ReportContent& content) {
   const Style style = style_of(Background::kWhite);
-  std::vector<MarkedOffset> answer;
-  if (content.by_paper && content.estimate.offset_s) answer = {{*content.estimate.offset_s, style.maps[1]}};
+  std::vector<MarkedOffset> answer;  // of the direct method
+  if (content.direct && content.direct->offset_s) answer = {{*content.direct->offset_s, style.maps[1]}};
   std::string pictures;
-  for (const Chart& chart :
-       curve_charts(content.by_paper ? *content.by_paper : content.estimate, answer, style)) {
+  for (const Chart& chart : curve_charts(content.estimate, answer, style)) {
     ComparisonOptions look;
     look.background = Background::kWhite;
     look.width_px = 520;
@@ -166,7 +168,7 @@ Result<std::string> curves(const ReportContent& content) {
       content.by_paper ? "The paper's criteria about the answer" : "The criteria over the offset";
   return html::element("h2", title) + "<div class=\"charts\">" + pictures +
          "</div>\n<p class=\"caption\">Each point is one candidate offset; a larger mark is the criterion's "
-         "best.</p>\n";
+         "best; the blue line is the direct method's answer.</p>\n";
 }
 
 Result<std::string> maps(const ReportContent& content) {

@@ -18,8 +18,7 @@ struct ReportContent {
   std::string command;  // as it was typed
   RecordingSummary recording;
   Estimate estimate;
-  /// The paper's criteria about the answer, where the method of the estimate is another.
-  std::optional<Estimate> by_paper;
+  std::optional<Estimate> direct;  // what the direct method answers, beside the paper's criteria
   std::vector<ComparedMap> maps;
   std::optional<CrossSection> section;  // the face that shows the offset best, where there is one
 };

@@ -24,6 +24,26 @@ TEST_F(EstimateCommand, WritesTheJsonOfTheContract) {
   const Json json = Json::parse(outcome.out);
   EXPECT_EQ(json["schema"], "sweepscope.estimate/1");
   EXPECT_EQ(json["recording"], "room.bag");
+  EXPECT_EQ(json["method"], "stationary");
+  EXPECT_EQ(json["equation"], "t_motor = t_laser + offset");
+  EXPECT_EQ(json["identifiable"], true);
+  EXPECT_NEAR(json["offset_ms"].get<double>(), 7.3, 0.5);
+  EXPECT_EQ(json["criteria"]["d"]["offset_ms"], json["offset_ms"]);
+  EXPECT_GT(json["sigma_ms"].get<double>(), 0);
+  ASSERT_GT(json["curve"].size(), 20U);
+  for (const char* key : {"offset_ms", "d", "translation_m", "rotation_rad", "signed_rotation_rad"})
+    EXPECT_TRUE(json["curve"][0][key].is_number()) << key;
+  EXPECT_TRUE(json["curve"][0]["n"].is_null());
+  EXPECT_TRUE(json["curve"][0]["e_m"].is_null());
+}
+
+TEST_F(EstimateCommand, TheDirectMethodAnswersOnRequest) {
+  simulate("room-1 -o room.bag --offset-ms 7.3 --seed 5");
+  const Outcome outcome = run("estimate room.bag --method direct --json -");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const Json json = Json::parse(outcome.out);
+  EXPECT_EQ(json["schema"], "sweepscope.estimate/1");
+  EXPECT_EQ(json["recording"], "room.bag");
   EXPECT_EQ(json["method"], "direct");
   EXPECT_EQ(json["kind"], "stationary");
   EXPECT_EQ(json["equation"], "t_motor = t_laser + offset");
@@ -35,22 +55,6 @@ TEST_F(EstimateCommand, WritesTheJsonOfTheContract) {
   for (const char* key : {"offset_ms", "capped_cost_m"})
     EXPECT_TRUE(json["curve"][0][key].is_number()) << key;
   for (const char* key : {"d", "n", "e_m"}) EXPECT_TRUE(json["curve"][0][key].is_null()) << key;
-}
-
-TEST_F(EstimateCommand, ThePapersCriterionIsComputedOnRequest) {
-  simulate("room-1 -o room.bag --offset-ms 7.3 --seed 5");
-  const Outcome outcome = run("estimate room.bag --method stationary --json -");
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  const Json json = Json::parse(outcome.out);
-  EXPECT_EQ(json["method"], "stationary");
-  EXPECT_NEAR(json["offset_ms"].get<double>(), 7.3, 0.5);
-  EXPECT_EQ(json["criteria"]["d"]["offset_ms"], json["offset_ms"]);
-  EXPECT_GT(json["sigma_ms"].get<double>(), 0);
-  ASSERT_GT(json["curve"].size(), 20U);
-  for (const char* key : {"offset_ms", "d", "translation_m", "rotation_rad", "signed_rotation_rad"})
-    EXPECT_TRUE(json["curve"][0][key].is_number()) << key;
-  EXPECT_TRUE(json["curve"][0]["n"].is_null());
-  EXPECT_TRUE(json["curve"][0]["e_m"].is_null());
 }
 
 TEST_F(EstimateCommand, TheDirectAnswerIsTheSameBytesForAnyNumberOfThreads) {
