@@ -164,9 +164,7 @@ Result<std::string> curves(const ReportContent& content) {
     pictures += html::inline_svg(*svg);
   }
   if (pictures.empty()) return pictures;
-  const char* title =
-      content.by_paper ? "The paper's criteria about the answer" : "The criteria over the offset";
-  return html::element("h2", title) + "<div class=\"charts\">" + pictures +
+  return html::element("h2", "The criteria over the offset") + "<div class=\"charts\">" + pictures +
          "</div>\n<p class=\"caption\">Each point is one candidate offset; a larger mark is the criterion's "
          "best; the blue line is the direct method's answer.</p>\n";
 }
