@@ -75,10 +75,12 @@ struct Compared {
   std::optional<Estimate> estimate;
 };
 
-Result<Estimate> curve_about(const Recording& recording, const CompareOptions& options, const Job& job) {
+/// The paper's criteria of that kind of recording, whatever method an estimate would take.
+Result<Estimate> curve_about(const Recording& recording, bool moving, const CompareOptions& options,
+                             const Job& job) {
   const auto [least, greatest] = std::minmax_element(options.offsets_ms.begin(), options.offsets_ms.end());
   EstimateOptions wanted;
-  wanted.assume = parse_method(options.recording.assume);
+  wanted.method = moving ? Method::kMoving : Method::kStationary;
   wanted.ranges = {{(*least - 5) * 1e-3, (*greatest + 5) * 1e-3, 1e-3}};
   return estimate(recording, wanted, job);
 }
@@ -117,7 +119,7 @@ Result<Compared> from_recording(const CompareOptions& options, bool by_features)
     if (features) next.feature_kinds = feature_kinds(*features, *map.cloud);
   }
   if (!options.curve.empty() || options.no_curve) return compared;
-  auto curve = curve_about(*recording, options, progress.job());
+  auto curve = curve_about(*recording, built->front().moving, options, progress.job());
   if (!curve) return tl::unexpected(curve.error());
   if (curve->interrupted) return failure(ExitCode::kInterrupted, "Interrupted while computing the criteria.");
   compared.estimate = std::move(*curve);

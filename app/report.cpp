@@ -23,6 +23,7 @@ namespace sweepscope::app {
 namespace {
 
 constexpr double kOff_s = 0.005;
+constexpr double kLeastRatio = 1.3;  // of a wall's widths: a face that shows no difference tells nothing
 
 struct Options {
   RecordingOptions recording;
@@ -48,7 +49,21 @@ Result<void> add_maps(ReportContent& content, const Recording& recording, const 
   for (const ComparedMap& map : content.maps) on_paths.push_back({map.cloud.get(), map.path});
   SectionSearch search;
   search.motor_axis = recording.rig.mount.axis;
-  if (const auto found = best_section(on_paths, search)) content.section = found->section;
+  const auto found = best_section(on_paths, search);
+  if (found && found->widths_mm.at(0) > kLeastRatio * found->widths_mm.at(1))
+    content.section = found->section;
+  return {};
+}
+
+/// What the direct method says of the same recording.
+Result<void> add_direct(ReportContent& content, const Recording& recording, const Job& job) {
+  EstimateOptions wanted;
+  wanted.method = Method::kDirect;
+  wanted.assume = parse_method(content.estimate.kind);
+  auto found = estimate(recording, wanted, job);
+  if (!found) return tl::unexpected(found.error());
+  if (found->interrupted) return failure(ExitCode::kInterrupted, "Interrupted in the direct method.");
+  if (found->identifiable) content.direct = std::move(*found);
   return {};
 }
 
@@ -69,7 +84,9 @@ Result<ReportContent> gather(const Options& options) {
   if (found->interrupted) return failure(ExitCode::kInterrupted, "Interrupted while looking for the offset.");
   content.estimate = std::move(*found);
   if (!content.estimate.identifiable || !content.estimate.offset_s) return content;
-  return add_maps(content, *recording, options, progress.job()).map([&] { return std::move(content); });
+  return add_direct(content, *recording, progress.job())
+      .and_then([&] { return add_maps(content, *recording, options, progress.job()); })
+      .map([&] { return std::move(content); });
 }
 
 Result<void> write(const ReportContent& content, const std::filesystem::path& folder) {

@@ -61,7 +61,11 @@ Camera camera_over(const Box& box, const PixelRect& place) {
 
 Camera overview_camera(std::span<const SlabPoints> shown, const PixelRect& place,
                        const ComparisonOptions& options) {
-  if (options.camera) return *options.camera;
+  if (options.camera) {
+    Camera camera = *options.camera;
+    camera.orthographic = !options.perspective;
+    return camera;
+  }
   const Box box = options.box ? *options.box : box_of(shown);
   if (options.viewpoint == Viewpoint::kTop && !options.perspective) return camera_over(box, place);
   return camera_on(box, options.viewpoint, !options.perspective, place.width / place.height);
@@ -236,8 +240,8 @@ void add_charts(Picture& picture, std::span<const Chart> charts, const Estimate&
 }
 
 std::string seen_from(const ComparisonOptions& options) {
-  if (options.camera) return "Seen";
   const std::string how = options.perspective ? " in perspective" : "";
+  if (options.camera) return "Seen from a chosen place" + how;
   if (options.viewpoint == Viewpoint::kTop) return "Seen from above" + how;
   if (options.viewpoint == Viewpoint::kFront) return "Seen along y" + how;
   if (options.viewpoint == Viewpoint::kRight) return "Seen against x" + how;
@@ -247,6 +251,7 @@ std::string seen_from(const ComparisonOptions& options) {
 std::string how_it_is_seen(const Prepared& prepared, const ComparisonOptions& options) {
   std::string how = seen_from(options) + ": " + describe_slabs(prepared.slabs) + ".";
   const bool floor_left_out = !prepared.close_ups.empty() && prepared.close_up_least_height_m == 0;
+  if (options.box) how += " Only a box of the map is shown.";
   if (floor_left_out) how += " The close-ups leave out what is below.";
   return how;
 }

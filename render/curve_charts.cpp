@@ -20,14 +20,16 @@ struct Quantity {
   bool with_zero = false;
 };
 
-constexpr std::array<Quantity, 5> kQuantities{{
+constexpr std::array<Quantity, 6> kQuantities{{
     {"d", &CurvePoint::d, "d", "Motion between sweeps", "m", 1, true},
     {"theta", &CurvePoint::rotation_rad, "θ", "Rotation between sweeps", "rad", 1, true},
     {"e", &CurvePoint::e_m, "e", "Mean distance per match", "mm", 1e3, false},
     {"n", &CurvePoint::n, "n", "Matches", "1", 1, false},
     {"roll", &CurvePoint::signed_rotation_rad, "roll", "Alternating roll", "°", 180 / M_PI, true},
+    {"capped_cost", &CurvePoint::capped_cost_m, "c", "Capped cost", "mm", 1e3, false},
 }};
-constexpr const Quantity &kD = kQuantities[0], &kTheta = kQuantities[1], &kRoll = kQuantities[4];
+constexpr const Quantity &kD = kQuantities[0], &kTheta = kQuantities[1], &kRoll = kQuantities[4],
+                         &kCappedCost = kQuantities[5];
 
 bool has_any(const Estimate& estimate, const Quantity& quantity) {
   return std::any_of(estimate.curve.begin(), estimate.curve.end(),
@@ -198,6 +200,7 @@ std::vector<Chart> curve_charts(const Estimate& estimate, std::span<const Marked
   std::vector<Chart> charts;
   for (const Quantity& quantity : kQuantities) {
     if (quantity.value == kTheta.value || !has_any(estimate, quantity)) continue;
+    if (quantity.value == kCappedCost.value && !charts.empty()) continue;
     charts.push_back(marked_chart(estimate, quantity, marked, style));
   }
   return charts;

@@ -18,14 +18,15 @@ struct MarkedOffset {
 };
 
 /// The criteria over the offset as charts: d with theta and the alternating roll (stationary), or e, n and
-/// the alternating roll (moving). Only criteria that have a value somewhere get a chart. The marked offsets
-/// are lines across each, the offset found is a dashed one in a band of its uncertainty (none without one),
-/// a criterion's own optimum is a diamond, and the parabola that gave it is dashed.
+/// the alternating roll (moving), or the capped cost where there is nothing else (direct). Only criteria that
+/// have a value somewhere get a chart. The marked offsets are lines across each, the offset found is a dashed
+/// one in a band of its uncertainty (none without one), a criterion's own optimum is a diamond, and the
+/// parabola that gave it is dashed.
 std::vector<Chart> curve_charts(const Estimate& estimate, std::span<const MarkedOffset> marked,
                                 const Style& style);
 
-/// One of these charts, by the criterion's name ("d", "theta", "e", "n", "roll"). An unknown name, or one
-/// that the estimate has no value of, is ExitCode::kWrongUsage.
+/// One of these charts, by the criterion's name ("d", "theta", "e", "n", "roll", "capped_cost"). An unknown
+/// name, or one that the estimate has no value of, is ExitCode::kWrongUsage.
 Result<Chart> curve_chart(const Estimate& estimate, std::string_view criterion,
                           std::span<const MarkedOffset> marked, const Style& style);
 
@@ -37,10 +38,10 @@ struct NamedEstimate {
 
 enum class Normalise { kNo, kByOptimum };
 
-/// One criterion ("d", "theta", "e", "n", "roll") of several recordings in one chart, each with its name, the
-/// offset found and a larger mark at its optimum. kByOptimum divides each curve by its own least value (n:
-/// its greatest; the roll cannot be). An unknown criterion, or one that no estimate has a value of, is
-/// ExitCode::kWrongUsage.
+/// One criterion ("d", "theta", "e", "n", "roll", "capped_cost") of several recordings in one chart, each
+/// with its name, the offset found and a larger mark at its optimum. kByOptimum divides each curve by its own
+/// least value (n: its greatest; the roll cannot be). An unknown criterion, or one that no estimate has a
+/// value of, is ExitCode::kWrongUsage.
 Result<Chart> curves_of_many(std::span<const NamedEstimate> estimates, std::string_view criterion,
                              const Style& style, Normalise normalise = Normalise::kNo);
 

@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "core/loam/sweep_motion.hpp"
-#include "core/offset/motion_test.hpp"
 #include "core/offset/search_window.hpp"
+#include "core/offset/still_motion.hpp"
 
 namespace sweepscope {
 namespace {
@@ -183,10 +183,7 @@ Result<std::vector<OffsetMap>> build_maps(const Recording& recording, std::span<
     return failure(
         ExitCode::kNotIdentifiable,
         fmt::format("{}: no scan is covered by the motor's samples at these offsets.", recording.name));
-  const auto moves = [&] {
-    return test_motion(placed, problem->motor, for_lines(options.odometry, problem->line_spacing_rad))
-        .moving();
-  };
+  const auto moves = [&] { return test_motion(still_grid(*problem), *least).moving(); };
   const bool moving = options.assume           ? *options.assume == Method::kMoving
                       : !options.poses.empty() ? true
                                                : moves();

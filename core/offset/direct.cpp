@@ -88,11 +88,16 @@ void estimate_standing(const OffsetProblem& problem, double coarse_s, const std:
   }
   if (!found.converged) result.warnings.push_back("The least squares did not settle.");
   add(result.reasons, lever_reason(found.lever_m, found.reach_m));
-  add(result.reasons,
-      standing_reason(shift_from_first_to_last(grid, found.offset_s), problem.features->range_noise_m));
   add(result.warnings, few_matches_warning(found.matches, found.features));
-  std::optional<double> sigma_s = jackknife_sigma(found.without_part_s);
+  std::optional<double> sigma_s = jackknife_sigma(found.offset_s, found.without_part);
+  if (sigma_s)
+    sigma_s =
+        std::hypot(*sigma_s, encoder_sigma_s(problem.recording->motor, problem.motor.median_speed_rad_s));
   judge_drift(found.block_s, found.block_offset_s, duration_s(problem), sigma_s, result);
+  // Clocks that drift apart turn the last sweep against the first, too.
+  if (result.reasons.empty())
+    add(result.reasons,
+        standing_reason(shift_from_first_to_last(grid, found.offset_s), problem.features->range_noise_m));
   sigma_s = widened_by_halves(sigma_s, found.block_offset_s, result);
   answer(found.offset_s, sigma_s, found.residual_m, scale, window_s, result);
 }
@@ -105,7 +110,7 @@ void judge_walk(const MovingDirect& found, Estimate& result) {
         "The scene gives no lever: turning the motor's angle by 1 deg turns the tracked sweeps by {:.2f} "
         "deg only.",
         found.slope_of_nominal));
-  const auto &below = found.curve[0].e_m, &here = found.curve[1].e_m, &above = found.curve[2].e_m;
+  const auto &below = found.curve.front().e_m, &here = found.curve[2].e_m, &above = found.curve.back().e_m;
   if (!here)
     result.reasons.push_back("LOAM lost track at the offset that the alternating roll points to.");
   else if ((below && *below < *here) || (above && *above < *here))
@@ -132,9 +137,13 @@ void estimate_walking(const OffsetProblem& problem, double coarse_s, const std::
   sort_into(result.curve, found.curve);
   judge_walk(found, result);
   std::optional<double> sigma_s = found.sigma_s;
-  judge_drift(found.sweep_s, found.sweep_offset_s, duration_s(problem), sigma_s, result);
-  sigma_s = widened_by_halves(sigma_s, found.sweep_offset_s, result);
-  answer(found.offset_s, sigma_s, found.curve[1].e_m.value_or(0), scale, window_s, result);
+  judge_drift(found.block_s, found.block_offset_s, duration_s(problem), sigma_s, result);
+  sigma_s = widened_by_halves(sigma_s, found.block_offset_s, result);
+  if (std::abs(found.offset_s - found.roll_offset_s) > std::max(0.3 * scale.unit_s, 3 * sigma_s.value_or(0)))
+    result.warnings.push_back(
+        fmt::format("The alternating roll is zero at {:.2f} ms, e is least at {:.2f} ms.",
+                    found.roll_offset_s * 1e3, found.offset_s * 1e3));
+  answer(found.offset_s, sigma_s, found.curve[2].e_m.value_or(0), scale, window_s, result);
 }
 
 }  // namespace

@@ -13,14 +13,15 @@ namespace sweepscope {
 /// every reversal, each sweep is turned about the motor's axis by omega (offset - truth), against its
 /// neighbours: the roll from one sweep to the next is
 ///   roll(offset) = slope (offset - truth),  slope near 2 omega,
-/// so a few passes over the walk find its zero. e must rise to both sides of it.
+/// so a few passes over the walk find its zero. e must rise to both sides of it; the parabola through e
+/// there, below and above, gives the answer its last hundredths of a millisecond: e draws on every match, the
+/// roll on the reversals.
 struct MovingDirectOptions {
   MappingOptions mapping;
   int most_passes = 6;
   double step_tolerance_s = 1e-4;  // a smaller step needs no further pass: the roll is linear
   double most_step_s = 0.006;
-  double side_s = 0.003;              // where e is asked on both sides
-  std::size_t verified_sweeps = 160;  // of the walk's beginning
+  double side_s = 0.003;  // where e is asked on both sides
 };
 
 /// One pass over the walk.
@@ -39,12 +40,14 @@ MovingPass moving_pass(const OffsetProblem& problem, double offset_s, const Mapp
 struct MovingDirect {
   bool converged = false;
   bool lost = false;
-  double offset_s = 0;
+  double roll_offset_s = 0;  // where the roll is zero
+  double offset_s = 0;       // the answer
   std::optional<double> sigma_s;
   double slope_of_nominal = 0;  // of the roll, divided by 2 omega; near 1 where the run can be trusted
   std::vector<MovingPass> passes;
-  std::vector<CurvePoint> curve;                // n and e below, at and above the answer
-  std::vector<double> sweep_s, sweep_offset_s;  // the offset that each sweep by itself asks for
+  std::vector<CurvePoint> curve;  // n and e at five offsets about the roll's zero, which is the third
+  // Blocks of neighbouring sweeps, which err together: middle and the offset that each asks for by itself.
+  std::vector<double> block_s, block_offset_s;
 };
 
 /// The problem cut down to its first sweeps.

@@ -73,15 +73,36 @@ class Linearisation {
 
   const StillPoints& points() const { return points_; }
 
-  /// All lines against the other direction's, without those that are `left_out`.
-  std::vector<LineResiduals> residuals(const std::vector<char>& left_out = {}) const {
-    std::array<LinePool, 2> pools = points_.pool;
-    for (LinePool& pool : pools)
-      std::erase_if(pool, [&](std::uint32_t line) { return !left_out.empty() && left_out[line]; });
+  /// The same without the points of one part.
+  Linearisation without(const std::vector<std::size_t>& part_of_cell, std::size_t part) const {
+    Linearisation rest = *this;
+    for (std::size_t cell = 0; cell < part_of_cell.size(); ++cell)
+      if (part_of_cell[cell] == part) rest.points_.placed[cell] = 0;
+    return rest;
+  }
+
+  /// All lines against the other direction's.
+  std::vector<LineResiduals> residuals() const {
     std::vector<LineResiduals> found(points_.lines());
     tbb::parallel_for(std::size_t{0}, points_.lines(), [&](std::size_t line) {
-      if (points_.sweep[line] == kNoSweep || (!left_out.empty() && left_out[line])) return;
-      found[line] = of_line(line, pools[points_.direction[line] > 0 ? 0 : 1]);
+      if (points_.sweep[line] != kNoSweep)
+        found[line] = of_line(line, points_.against(points_.direction[line]));
+    });
+    return found;
+  }
+
+  /// Each line against the other direction's lines of its own block: what the blocks say independently of
+  /// each other.
+  std::vector<LineResiduals> residuals_within(const std::vector<std::size_t>& block_of_line,
+                                              std::size_t blocks) const {
+    std::vector<std::array<LinePool, 2>> pools(blocks);
+    for (std::size_t side = 0; side < 2; ++side)
+      for (const std::uint32_t line : points_.pool[side])
+        if (block_of_line[line] < blocks) pools[block_of_line[line]][side].push_back(line);
+    std::vector<LineResiduals> found(points_.lines());
+    tbb::parallel_for(std::size_t{0}, points_.lines(), [&](std::size_t line) {
+      if (block_of_line[line] < blocks)
+        found[line] = of_line(line, pools[block_of_line[line]][points_.direction[line] > 0 ? 0 : 1]);
     });
     return found;
   }
@@ -143,59 +164,76 @@ Sums summed(const std::vector<LineResiduals>& lines, double loss_width_m) {
   return sums;
 }
 
-// Which part each line belongs to, kNoSweep where none.
-struct Parts {
+// Which block of sweeps each line belongs to, kNoSweep where none.
+struct Blocks {
   std::vector<std::size_t> of_line;
   std::size_t count = 0;
 };
 
-Parts blocks_of_sweeps(const StillPoints& points, std::size_t most) {
+Blocks blocks_of_sweeps(const StillPoints& points, std::size_t most) {
   std::vector<std::size_t> sweeps;
   for (const std::size_t sweep : points.sweep)
     if (sweep != kNoSweep && (sweeps.empty() || sweeps.back() != sweep)) sweeps.push_back(sweep);
-  Parts parts{std::vector<std::size_t>(points.lines(), kNoSweep), std::min(most, sweeps.size())};
+  Blocks blocks{std::vector<std::size_t>(points.lines(), kNoSweep), std::min(most, sweeps.size())};
   for (std::size_t line = 0; line < points.lines(); ++line) {
     if (points.sweep[line] == kNoSweep) continue;
     const auto place = std::lower_bound(sweeps.begin(), sweeps.end(), points.sweep[line]) - sweeps.begin();
-    parts.of_line[line] = std::size_t(place) * parts.count / sweeps.size();
+    blocks.of_line[line] = std::size_t(place) * blocks.count / sweeps.size();
   }
+  return blocks;
+}
+
+// Which part each cell belongs to.
+struct Parts {
+  std::vector<std::size_t> of_cell;
+  std::size_t count = 0;
+};
+
+Parts parts_of(const Blocks& blocks, std::size_t bins) {
+  Parts parts{{}, blocks.count};
+  for (const std::size_t block : blocks.of_line) parts.of_cell.insert(parts.of_cell.end(), bins, block);
   return parts;
 }
 
-Parts sectors_of_angle(const StillPoints& points, std::size_t count) {
+// Sectors of the motor's angle, both directions', times sections of the beams: what was seen of the scene.
+Parts views(const StillPoints& points, std::size_t sectors, std::size_t sections) {
   const std::size_t middle = points.bins / 2;
   std::vector<double> angles_rad;
   for (std::size_t line = 0; line < points.lines(); ++line)
     if (points.sweep[line] != kNoSweep) angles_rad.push_back(points.angle_rad[line * points.bins + middle]);
   std::sort(angles_rad.begin(), angles_rad.end());
-  Parts parts{std::vector<std::size_t>(points.lines(), kNoSweep), count};
+  Parts parts{std::vector<std::size_t>(points.placed.size(), kNoSweep), sectors * sections};
   for (std::size_t line = 0; line < points.lines(); ++line) {
     if (points.sweep[line] == kNoSweep) continue;
     const auto place = std::lower_bound(angles_rad.begin(), angles_rad.end(),
                                         points.angle_rad[line * points.bins + middle]) -
                        angles_rad.begin();
-    parts.of_line[line] = std::size_t(place) * count / angles_rad.size();
+    const std::size_t sector = std::size_t(place) * sectors / angles_rad.size();
+    for (std::size_t bin = 0; bin < points.bins; ++bin)
+      parts.of_cell[line * points.bins + bin] = sector * sections + bin * sections / points.bins;
   }
   return parts;
 }
 
 // The offset without each part, a step from the answer.
-std::vector<double> offsets_without(const Linearisation& at, const Parts& parts, double offset_s,
-                                    double loss_width_m) {
-  std::vector<double> offsets_s;
+std::vector<WithoutPart> offsets_without(const Linearisation& at, const Parts& parts, double loss_width_m,
+                                         double whole_jj) {
+  std::vector<WithoutPart> without;
   for (std::size_t part = 0; part < parts.count; ++part) {
-    std::vector<char> left_out(parts.of_line.size());
-    for (std::size_t line = 0; line < left_out.size(); ++line) left_out[line] = parts.of_line[line] == part;
-    const Sums sums = summed(at.residuals(left_out), loss_width_m);
-    if (sums.jj > 0) offsets_s.push_back(offset_s - sums.jr / sums.jj);
+    const Sums sums = summed(at.without(parts.of_cell, part).residuals(), loss_width_m);
+    if (sums.jj > 0) without.push_back({at.points().offset_s - sums.jr / sums.jj, 1 - sums.jj / whole_jj});
   }
-  return offsets_s;
+  return without;
 }
 
-// What each block's points ask for. They are held against all blocks' patches, which stay where they are: so
-// they must go twice as far.
-void fill_blocks(const Linearisation& at, const StillGrid& grid, const std::vector<LineResiduals>& lines,
-                 const Parts& blocks, double loss_width_m, StationaryDirect& result) {
+// What each block of at least two sweeps asks for by itself.
+void fill_blocks(const Linearisation& at, const StillGrid& grid, double loss_width_m,
+                 StationaryDirect& result) {
+  constexpr std::size_t kMostBlocks = 10;
+  const Blocks sweeps = blocks_of_sweeps(at.points(), std::size_t(-1));
+  const Blocks blocks =
+      blocks_of_sweeps(at.points(), std::clamp<std::size_t>(sweeps.count / 2, 1, kMostBlocks));
+  const std::vector<LineResiduals> lines = at.residuals_within(blocks.of_line, blocks.count);
   std::vector<Sums> sums(blocks.count);
   std::vector<double> time_s(blocks.count, 0.0), count(blocks.count, 0.0);
   for (std::size_t line = 0; line < lines.size(); ++line) {
@@ -208,7 +246,7 @@ void fill_blocks(const Linearisation& at, const StillGrid& grid, const std::vect
   for (std::size_t block = 0; block < blocks.count; ++block) {
     if (!(sums[block].jj > 0)) continue;
     result.block_s.push_back(time_s[block] / count[block]);
-    result.block_offset_s.push_back(result.offset_s - 2 * sums[block].jr / sums[block].jj);
+    result.block_offset_s.push_back(result.offset_s - sums[block].jr / sums[block].jj);
   }
 }
 
@@ -228,11 +266,12 @@ void fill_levers(const std::vector<LineResiduals>& lines, StationaryDirect& resu
 // Sweeps are the parts where there are enough of them.
 void resample(const StillGrid& grid, const Linearisation& at, const std::vector<LineResiduals>& lines,
               double loss_width_m, StationaryDirect& result) {
-  constexpr std::size_t kMostParts = 10, kLeastBlocks = 6, kSectors = 8;
-  const Parts blocks = blocks_of_sweeps(at.points(), kMostParts);
-  const Parts parts = blocks.count < kLeastBlocks ? sectors_of_angle(at.points(), kSectors) : blocks;
-  result.without_part_s = offsets_without(at, parts, result.offset_s, loss_width_m);
-  fill_blocks(at, grid, lines, blocks, loss_width_m, result);
+  constexpr std::size_t kMostParts = 10, kLeastBlocks = 6, kSectors = 8, kSections = 3;
+  const Blocks blocks = blocks_of_sweeps(at.points(), kMostParts);
+  const Parts parts = blocks.count < kLeastBlocks ? views(at.points(), kSectors, kSections)
+                                                  : parts_of(blocks, at.points().bins);
+  result.without_part = offsets_without(at, parts, loss_width_m, summed(lines, loss_width_m).jj);
+  fill_blocks(at, grid, loss_width_m, result);
   fill_levers(lines, result);
 }
 

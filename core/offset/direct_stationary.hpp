@@ -6,6 +6,7 @@
 #include "core/job.hpp"
 #include "core/offset/estimate.hpp"
 #include "core/offset/still_points.hpp"
+#include "core/offset/uncertainty.hpp"
 
 namespace sweepscope {
 
@@ -40,7 +41,7 @@ struct StationaryDirect {
   double reach_m = 0;     // rms of |a x p|: as far as they could be lifted
   // Resampling: the recording is cut into parts, blocks of sweeps in the order of time, or sectors of the
   // motor's angle where sweeps are few.
-  std::vector<double> without_part_s;  // the offset without each part
+  std::vector<WithoutPart> without_part;  // the offset without each part
   std::vector<double> block_s,
       block_offset_s;  // blocks of sweeps: middle and the offset each asks for by itself
 };

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace sweepscope {
@@ -81,10 +82,25 @@ Remark lever_reason(double lever_m, double reach_m) {
 
 Remark standing_reason(const std::optional<SweepShift>& shift, double range_noise_m) {
   if (!shift) return std::nullopt;
-  const double most_m = 0.012 + 0.6 * range_noise_m, most_rad = 0.01 + 0.2 * range_noise_m;
-  if (shift->translation_m < most_m && shift->rotation_rad < most_rad) return std::nullopt;
+  const double most_m = 0.02 + 0.6 * range_noise_m, most_rad = 0.01 + 0.2 * range_noise_m;
+  if (shift->translation_m < most_m && shift->tilt_rad < most_rad) return std::nullopt;
   return fmt::format("The rig moved: its last sweep lies {:.0f} mm and {:.1f} deg from its first.",
-                     shift->translation_m * 1e3, shift->rotation_rad / kDegree);
+                     shift->translation_m * 1e3, shift->tilt_rad / kDegree);
+}
+
+double encoder_sigma_s(const MotorTrack& track, double speed_rad_s) {
+  // Steps and samples beat: neighbouring samples err alike, and the next sweeps repeat them. Found by
+  // simulation.
+  constexpr double kIndependentSamples = 32;
+  constexpr double kSame_rad = 1e-7;
+  std::vector<double> angles_rad = track.angle_rad;
+  std::sort(angles_rad.begin(), angles_rad.end());
+  double step_rad = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < angles_rad.size(); ++i)
+    if (const double gap_rad = angles_rad[i] - angles_rad[i - 1]; gap_rad > kSame_rad)
+      step_rad = std::min(step_rad, gap_rad);
+  if (!std::isfinite(step_rad)) return 0;
+  return step_rad / speed_rad_s / std::sqrt(12 * kIndependentSamples);
 }
 
 Remark sigma_reason(std::optional<double> sigma_s, const SearchScale& scale) {
@@ -115,9 +131,10 @@ Remark encoder_warning(const MotorTrack& track) {
   for (std::size_t i = 1; i < track.time_s.size(); ++i)
     spacings_s.push_back(track.time_s[i] - track.time_s[i - 1]);
   const double median_s = median_of(spacings_s);
-  std::vector<double> off_s;
-  for (const double spacing_s : spacings_s) off_s.push_back(std::abs(spacing_s - median_s));
-  const double jitter_s = 1.4826 * median_of(off_s);
+  if (spacings_s.size() < 4) return std::nullopt;
+  std::sort(spacings_s.begin(), spacings_s.end());
+  const double quartiles_s = spacings_s[3 * spacings_s.size() / 4] - spacings_s[spacings_s.size() / 4];
+  const double jitter_s = quartiles_s / 1.349;  // as of a normal distribution
   if (jitter_s < 0.2 * median_s) return std::nullopt;
   return fmt::format("The encoder's samples come unevenly: every {:.1f} ms +- {:.1f} ms.", median_s * 1e3,
                      jitter_s * 1e3);

@@ -26,6 +26,9 @@ Remark drift_reason(const Trend& trend, double duration_s, double sigma_s);
 Remark lever_reason(double lever_m, double reach_m);
 /// A rig taken to stand still whose last sweep does not lie where its first one did.
 Remark standing_reason(const std::optional<SweepShift>& shift, double range_noise_m);
+/// What the encoder's steps leave uncertain, whatever the scatter of the sweeps says: each repeats the same
+/// steps.
+double encoder_sigma_s(const MotorTrack& track, double speed_rad_s);
 /// Sigma is larger than what the motor's speed should allow.
 Remark sigma_reason(std::optional<double> sigma_s, const SearchScale& scale);
 

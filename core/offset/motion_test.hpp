@@ -2,7 +2,9 @@
 
 #include <cstddef>
 
-#include "core/loam/odometry.hpp"
+#include "core/error.hpp"
+#include "core/job.hpp"
+#include "core/recording/recording.hpp"
 
 namespace sweepscope {
 
@@ -18,11 +20,8 @@ struct MotionTest {
   bool moving() const { return 4 * moved > pairs; }
 };
 
-/// Compares up to 16 pairs spread over the sweeps placed at any one offset.
-MotionTest test_motion(const std::vector<PlacedSweep>& sweeps, const MotorMotion& motor,
-                       const OdometryOptions& options);
-
-/// The same for a recording as it is, with default options. Fails only where the job is cancelled.
+/// Compares up to 16 pairs spread over the recording, with default options. Fails only where the job is
+/// cancelled.
 Result<MotionTest> test_motion(const Recording& recording, const Job& job);
 
 }  // namespace sweepscope

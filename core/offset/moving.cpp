@@ -24,14 +24,4 @@ CurvePoint moving_candidate(const OffsetProblem& problem, double offset_s, Scori
   return point;
 }
 
-double moving_coarse_cost_m(const OffsetProblem& problem, double offset_s, const MappingOptions& options,
-                            const Job& job) {
-  const Eigen::Vector3d axis = problem.recording->rig.mount.axis.normalized();
-  const std::vector<PlacedSweep> sweeps = place_sweeps(problem, offset_s);
-  const auto walk = track(sweeps, axis, options, job);
-  if (!walk) return options.cost_cap_m;
-  const AlternatingRoll roll = take_out_alternating_roll(walk->sweeps, axis, options.settling_sweeps);
-  return count_matches(sweeps, roll.sweeps, options).capped_cost_m();
-}
-
 }  // namespace sweepscope

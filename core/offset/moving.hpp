@@ -12,9 +12,4 @@ namespace sweepscope {
 CurvePoint moving_candidate(const OffsetProblem& problem, double offset_s, Scoring scoring,
                             const MappingOptions& options, const Job& job);
 
-/// A cost for the coarse search: after the alternating roll is taken out, the mean distance of a fixed set of
-/// features from the map of the other direction, in which a miss pays the cap.
-double moving_coarse_cost_m(const OffsetProblem& problem, double offset_s, const MappingOptions& options,
-                            const Job& job);
-
 }  // namespace sweepscope

@@ -56,29 +56,4 @@ CurvePoint stationary_candidate(const OffsetProblem& problem, double offset_s,
   return point;
 }
 
-double stationary_coarse_cost_m(const OffsetProblem& problem, double offset_s, const OdometryOptions& options,
-                                double cap_m) {
-  const std::vector<PlacedSweep> sweeps = place_sweeps(problem, offset_s);
-  double sum_m = 0;
-  std::size_t count = 0;
-  Neighbours near;
-  for (std::size_t k = 1; k < sweeps.size(); ++k) {
-    if (!form_pair(sweeps[k - 1], sweeps[k], problem.motor)) continue;
-    const SweepMap map = map_of(sweeps[k - 1]);
-    for (const PlacedFeature& feature : sweeps[k].planes) {
-      if (!feature.sharp) continue;
-      const int level = map.planes.level_for(
-          std::max(options.search_radius_m, options.search_radius_slope * feature.range_m));
-      map.planes.nearest(feature.p_in_base_m.cast<float>(), level, SweepFilter::kAny,
-                         options.patch.plane_neighbours, options.patch.per_line, near);
-      const auto plane = fit_plane(near, options.patch, map.planes.search_radius_m(level));
-      const double distance_m =
-          plane ? std::abs((feature.p_in_base_m - plane->centre_m).dot(plane->normal)) : cap_m;
-      sum_m += std::min(distance_m, cap_m);
-      ++count;
-    }
-  }
-  return count == 0 ? cap_m : sum_m / double(count);
-}
-
 }  // namespace sweepscope

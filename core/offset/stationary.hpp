@@ -29,9 +29,4 @@ CurvePoint stationary_candidate(const OffsetProblem& problem, double offset_s,
                                 const std::vector<std::size_t>& pairs, double weight_c,
                                 const OdometryOptions& options);
 
-/// A cost that needs no registration and so is right far from the valley too: the mean distance of
-/// consecutive sweeps' plane points from each other's surfaces as they lie, each at most `cap_m`.
-double stationary_coarse_cost_m(const OffsetProblem& problem, double offset_s, const OdometryOptions& options,
-                                double cap_m);
-
 }  // namespace sweepscope

@@ -18,7 +18,7 @@ struct PointOnPlane {
 };
 
 Pose registered(const std::vector<PointOnPlane>& matches) {
-  constexpr double kLeastEigenvalue = 0.003;  // per match: below, the scene does not tell
+  constexpr double kLeastEigenvalue = 0.015;  // per match: below, the scene does not tell
   Pose pose;
   double loss_width_m = 0.5;
   for (int iteration = 0; iteration < 12; ++iteration) {
@@ -81,7 +81,10 @@ std::optional<SweepShift> shift_between(const StillPoints& points, const LinePoo
   if (matches.size() < kLeastMatches) return std::nullopt;
   const Pose pose = registered(matches);
   shift.translation_m = pose.translation_m.norm();
-  shift.rotation_rad = vector_from_rotation(pose.rotation).norm();
+  const Eigen::Vector3d rotation_rad = vector_from_rotation(pose.rotation);
+  const Eigen::Vector3d axis = grid.problem->recording->rig.mount.axis.normalized();
+  shift.rotation_rad = rotation_rad.norm();
+  shift.tilt_rad = (rotation_rad - axis.dot(rotation_rad) * axis).norm();
   return shift;
 }
 

@@ -10,6 +10,7 @@ namespace sweepscope {
 /// How one sweep lies against another of the same direction.
 struct SweepShift {
   double translation_m = 0, rotation_rad = 0;
+  double tilt_rad = 0;  // the rotation without its part about the motor's axis, where the clocks have a say
   std::size_t features = 0, matches = 0;
 };
 

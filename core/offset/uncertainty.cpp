@@ -26,10 +26,23 @@ double student_factor(double degrees_of_freedom) {
   return 1 + 0.5 / nu + 0.25 / (nu * nu);
 }
 
-std::optional<double> jackknife_sigma(const std::vector<double>& without_part) {
-  if (without_part.size() < 3) return std::nullopt;
-  const double n = double(without_part.size());
-  const double variance = (n - 1) / n * squares_about(without_part, mean_of(without_part));
+std::optional<double> jackknife_sigma(double estimate, const std::vector<WithoutPart>& without) {
+  constexpr double kLeastShare = 1e-3;
+  double shares = 0;
+  for (const WithoutPart& part : without) shares += std::max(0.0, part.share);
+  std::vector<double> pseudo_values, ratios;  // h = 1 / share
+  for (const WithoutPart& part : without) {
+    const double share = part.share / shares;
+    if (!(share > kLeastShare) || !(share < 1 - kLeastShare)) continue;
+    ratios.push_back(1 / share);
+    pseudo_values.push_back(estimate / share - (1 / share - 1) * part.value);
+  }
+  if (pseudo_values.size() < 3) return std::nullopt;
+  const double n = double(pseudo_values.size());
+  double mean = 0, variance = 0;
+  for (std::size_t i = 0; i < ratios.size(); ++i) mean += pseudo_values[i] / ratios[i];
+  for (std::size_t i = 0; i < ratios.size(); ++i)
+    variance += (pseudo_values[i] - mean) * (pseudo_values[i] - mean) / (ratios[i] - 1) / n;
   return student_factor(n - 1) * std::sqrt(variance);
 }
 

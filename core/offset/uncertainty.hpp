@@ -9,9 +9,16 @@ namespace sweepscope {
 /// truths lie within: Student's t at one sigma, by Cornish and Fisher's expansion. 1.31 for 2, 1.08 for 7.
 double student_factor(double degrees_of_freedom);
 
-/// The standard deviation of an estimate from what it becomes without each of its parts in turn (the
-/// delete-one jackknife), Student's factor included. Absent for fewer than three parts.
-std::optional<double> jackknife_sigma(const std::vector<double>& without_part);
+/// An estimate without one of the parts of its data, and that part's share of the information; shares count
+/// relative to each other.
+struct WithoutPart {
+  double value = 0, share = 0;
+};
+
+/// The standard deviation of an estimate from what it becomes without each of its parts in turn: the
+/// jackknife for parts of unequal size (Busing, Meijer, van der Leeden 1999), Student's factor included.
+/// Absent for fewer than three parts.
+std::optional<double> jackknife_sigma(double estimate, const std::vector<WithoutPart>& without);
 
 /// The standard deviation of the mean of a series whose neighbours err together, from the means of blocks of
 /// neighbours, Student's factor included. There are at most `most_blocks`, each of at least `least_length`

@@ -174,8 +174,10 @@ class RecipeReader {
   EstimateSpec read_estimate(const Node& node, const std::string& name) {
     EstimateSpec spec;
     EstimateOptions& options = spec.options;
-    const std::map<std::string, Method> methods{{"stationary", Method::kStationary},
-                                                {"moving", Method::kMoving}};
+    const std::map<std::string, Method> kinds{{"stationary", Method::kStationary},
+                                              {"moving", Method::kMoving}};
+    std::map<std::string, Method> methods = kinds;
+    methods["direct"] = Method::kDirect;
     read_members(
         node, name,
         {{"recording",
@@ -184,7 +186,7 @@ class RecipeReader {
          {"method",
           [&](const Node& v) { options.method = read_choice<Method>(v, name + ": method", methods); }},
          {"assume",
-          [&](const Node& v) { options.assume = read_choice<Method>(v, name + ": assume", methods); }},
+          [&](const Node& v) { options.assume = read_choice<Method>(v, name + ": assume", kinds); }},
          {"fit",
           [&](const Node& v) {
             options.fit =

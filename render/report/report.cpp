@@ -79,18 +79,25 @@ std::string answer(const Estimate& estimate) {
       estimate.sigma_s ? " The uncertainty is one standard deviation." : "");
 }
 
-std::string criteria_table(const Estimate& estimate) {
-  if (estimate.criteria.empty()) return "";
+std::string criteria_table(const ReportContent& content) {
+  std::vector<CriterionOptimum> criteria = content.estimate.criteria;
+  if (content.direct) {
+    for (const CriterionOptimum& one : content.direct->criteria) {
+      if (one.name == "direct") criteria.push_back(one);
+    }
+  }
+  if (criteria.empty()) return "";
   std::string rows =
       "<tr><th>criterion</th><th class=\"number-cell\">offset</th><th "
       "class=\"number-cell\">value</th></tr>\n";
-  for (const CriterionOptimum& one : estimate.criteria) {
+  for (const CriterionOptimum& one : criteria) {
     const std::string value = one.name == "e"   ? fmt::format("{:.2f} mm", one.value * 1e3)
                               : one.name == "n" ? fmt::format("{:.0f} matches", one.value)
                                                 : fmt::format("{:.4g}", one.value);
     rows += fmt::format(
         "<tr><td>{}</td><td class=\"number-cell\">{}</td><td class=\"number-cell\">{}</td></tr>\n",
-        html::escape(one.name), offset_text(one.offset_s, std::nullopt), value);
+        html::escape(one.name),
+        offset_text(one.offset_s, one.name == "direct" ? content.direct->sigma_s : std::nullopt), value);
   }
   return html::element("table", rows);
 }
@@ -142,9 +149,12 @@ std::string figure(const std::string& picture, const std::string& caption) {
   return "<figure>" + picture + html::element("figcaption", html::escape(caption)) + "</figure>\n";
 }
 
-Result<std::string> curves(const Estimate& estimate) {
+Result<std::string> curves(const ReportContent& content) {
+  const Style style = style_of(Background::kWhite);
+  std::vector<MarkedOffset> answer;  // of the direct method
+  if (content.direct && content.direct->offset_s) answer = {{*content.direct->offset_s, style.maps[1]}};
   std::string pictures;
-  for (const Chart& chart : curve_charts(estimate, {}, style_of(Background::kWhite))) {
+  for (const Chart& chart : curve_charts(content.estimate, answer, style)) {
     ComparisonOptions look;
     look.background = Background::kWhite;
     look.width_px = 520;
@@ -154,9 +164,11 @@ Result<std::string> curves(const Estimate& estimate) {
     pictures += html::inline_svg(*svg);
   }
   if (pictures.empty()) return pictures;
-  return html::element("h2", "The criteria over the offset") + "<div class=\"charts\">" + pictures +
+  const char* title =
+      content.by_paper ? "The paper's criteria about the answer" : "The criteria over the offset";
+  return html::element("h2", title) + "<div class=\"charts\">" + pictures +
          "</div>\n<p class=\"caption\">Each point is one candidate offset; a larger mark is the criterion's "
-         "best.</p>\n";
+         "best; the blue line is the direct method's answer.</p>\n";
 }
 
 Result<std::string> maps(const ReportContent& content) {
@@ -198,7 +210,7 @@ Result<std::string> profile(const ReportContent& content) {
 }  // namespace
 
 Result<std::string> report_html(const ReportContent& content) {
-  const auto curve_part = curves(content.estimate), map_part = maps(content), profile_part = profile(content);
+  const auto curve_part = curves(content), map_part = maps(content), profile_part = profile(content);
   for (const auto* part : {&curve_part, &map_part, &profile_part}) {
     if (!*part) return tl::unexpected(part->error());
   }
@@ -211,7 +223,7 @@ Result<std::string> report_html(const ReportContent& content) {
       "<h2>Warnings</h2>\n{4}{5}{6}{7}<h2>What was recorded</h2>\n{8}"
       "<h2>How this was made</h2>\n<p>{9} sweeps, {10} scans; sweepscope {11}.</p>\n<pre>{12}</pre>\n"
       "</body>\n</html>\n",
-      name, kStyleSheet, answer(content.estimate), criteria_table(content.estimate), warnings_list(content),
+      name, kStyleSheet, answer(content.estimate), criteria_table(content), warnings_list(content),
       *curve_part, *map_part, *profile_part, recorded(content.recording), content.estimate.sweeps,
       content.estimate.scans, SWEEPSCOPE_VERSION, html::escape(content.command));
 }

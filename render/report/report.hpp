@@ -18,6 +18,7 @@ struct ReportContent {
   std::string command;  // as it was typed
   RecordingSummary recording;
   Estimate estimate;
+  std::optional<Estimate> direct;  // what the direct method answers, beside the paper's criteria
   std::vector<ComparedMap> maps;
   std::optional<CrossSection> section;  // the face that shows the offset best, where there is one
 };

@@ -28,13 +28,40 @@ TEST_F(EstimateCommand, WritesTheJsonOfTheContract) {
   EXPECT_EQ(json["equation"], "t_motor = t_laser + offset");
   EXPECT_EQ(json["identifiable"], true);
   EXPECT_NEAR(json["offset_ms"].get<double>(), 7.3, 0.5);
-  EXPECT_GT(json["sigma_ms"].get<double>(), 0);
   EXPECT_EQ(json["criteria"]["d"]["offset_ms"], json["offset_ms"]);
+  EXPECT_GT(json["sigma_ms"].get<double>(), 0);
   ASSERT_GT(json["curve"].size(), 20U);
   for (const char* key : {"offset_ms", "d", "translation_m", "rotation_rad", "signed_rotation_rad"})
     EXPECT_TRUE(json["curve"][0][key].is_number()) << key;
   EXPECT_TRUE(json["curve"][0]["n"].is_null());
   EXPECT_TRUE(json["curve"][0]["e_m"].is_null());
+}
+
+TEST_F(EstimateCommand, TheDirectMethodAnswersOnRequest) {
+  simulate("room-1 -o room.bag --offset-ms 7.3 --seed 5");
+  const Outcome outcome = run("estimate room.bag --method direct --json -");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const Json json = Json::parse(outcome.out);
+  EXPECT_EQ(json["schema"], "sweepscope.estimate/1");
+  EXPECT_EQ(json["recording"], "room.bag");
+  EXPECT_EQ(json["method"], "direct");
+  EXPECT_EQ(json["kind"], "stationary");
+  EXPECT_EQ(json["equation"], "t_motor = t_laser + offset");
+  EXPECT_EQ(json["identifiable"], true);
+  EXPECT_NEAR(json["offset_ms"].get<double>(), 7.3, 0.06);
+  EXPECT_GT(json["sigma_ms"].get<double>(), 0);
+  EXPECT_EQ(json["criteria"]["direct"]["offset_ms"], json["offset_ms"]);
+  ASSERT_GT(json["curve"].size(), 20U);
+  for (const char* key : {"offset_ms", "capped_cost_m"})
+    EXPECT_TRUE(json["curve"][0][key].is_number()) << key;
+  for (const char* key : {"d", "n", "e_m"}) EXPECT_TRUE(json["curve"][0][key].is_null()) << key;
+}
+
+TEST_F(EstimateCommand, TheDirectAnswerIsTheSameBytesForAnyNumberOfThreads) {
+  simulate("room-2 -o room.bag");
+  ASSERT_EQ(run("estimate room.bag --method direct --no-timing --threads 1 --json one.json").exit_code, 0);
+  ASSERT_EQ(run("estimate room.bag --method direct --no-timing --threads 2 --json two.json").exit_code, 0);
+  EXPECT_EQ(test::contents_of(folder_ / "one.json"), test::contents_of(folder_ / "two.json"));
 }
 
 TEST_F(EstimateCommand, GivesTheSameBytesForAnyNumberOfThreads) {

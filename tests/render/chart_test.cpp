@@ -267,7 +267,7 @@ TEST(CurvesOfMany, NormalisedEachHasOneAtItsLeast) {
 TEST(CurvesOfMany, RefuseWhatTheyCannotShow) {
   const std::vector<NamedEstimate> estimates{{"a", walk(23.8, {})}};
   EXPECT_EQ(curves_of_many(estimates, "x", kDarkStyle).error().message,
-            "There is no criterion \"x\"; there are d, theta, e, n, roll");
+            "There is no criterion \"x\"; there are d, theta, e, n, roll, capped_cost");
   EXPECT_EQ(curves_of_many(estimates, "d", kDarkStyle).error().message,
             "None of the estimates has a value of the criterion \"d\"");
   EXPECT_EQ(curves_of_many(estimates, "roll", kDarkStyle, Normalise::kByOptimum).error().code,

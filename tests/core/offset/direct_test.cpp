@@ -2,6 +2,7 @@
 #include <tbb/global_control.h>
 
 #include "core/io/estimate_json.hpp"
+#include "core/offset/direct.hpp"
 #include "core/offset/estimator.hpp"
 #include "tests/core/engine_fixtures.hpp"
 
@@ -60,6 +61,25 @@ INSTANTIATE_TEST_SUITE_P(
                     Standing{24 * kMs, 0.3, 0.01, 0.05 * kMs}, Standing{24 * kMs, 0.8, 0.03, 0.15 * kMs},
                     Standing{-8 * kMs, 0.5, 0.03, 0.15 * kMs}));
 
+// As if nothing had moved, and yet the valley is where it belongs.
+class CoarseSearchTest : public testing::TestWithParam<const char*> {};
+
+TEST_P(CoarseSearchTest, FindsTheRightMillisecondFromAnywhere) {
+  for (const double truth_s : {-0.047, 0.024}) {
+    const Recording& recording = test::simulated(GetParam(), truth_s, 8).recording;
+    const OffsetProblem problem = test::problem_of(recording);
+    const CoarseSearch found =
+        search_coarsely(problem, {-60 * kMs, 60 * kMs}, search_scale(problem.motor), Job());
+    ASSERT_TRUE(found.best);
+    EXPECT_NEAR(found.offset_s(), truth_s, 1.5 * kMs);
+    EXPECT_NEAR(found.curve.front().offset_s, -60 * kMs, 1e-12);
+    EXPECT_NEAR(found.curve.back().offset_s, 60 * kMs, 1e-12);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(StandingAndWalking, CoarseSearchTest,
+                         testing::Values("room-2", "metro-station", "cemetery"));
+
 TEST(Direct, FindsTheOffsetOfAWalkAndKnowsHowWell) {
   const Estimate found = directly(test::simulated("metro-station", 0.024, 30).recording);
   EXPECT_EQ(found.method, "direct");
@@ -108,7 +128,7 @@ INSTANTIATE_TEST_SUITE_P(RollTiltYaw, DirectOnOtherRigs,
 
 TEST(DirectRefuses, ARigThatWasNudged) {
   SimulationOptions options;
-  options.nudge_m = 0.03;
+  options.nudge_m = 0.05;
   expect_refused(directly(made(options)), "The rig moved");
 }
 

@@ -18,14 +18,28 @@ TEST(StudentFactor, IsTheQuantileAtOneSigma) {
 TEST(Jackknife, OfAMeanIsItsStandardError) {
   const std::vector<double> values{1.0, 4.0, 2.5, 3.0, 7.0};
   const double sum = 17.5, mean = 3.5;
-  std::vector<double> without;
+  std::vector<WithoutPart> without;
   double squares = 0;
   for (const double value : values) {
-    without.push_back((sum - value) / 4);
+    without.push_back({(sum - value) / 4, 1});
     squares += (value - mean) * (value - mean);
   }
-  EXPECT_NEAR(*jackknife_sigma(without), student_factor(4) * std::sqrt(squares / 4 / 5), 1e-12);
-  EXPECT_FALSE(jackknife_sigma({1.0, 2.0}));
+  EXPECT_NEAR(*jackknife_sigma(mean, without), student_factor(4) * std::sqrt(squares / 4 / 5), 1e-12);
+  EXPECT_FALSE(jackknife_sigma(1.5, {{1, 1}, {2, 1}}));
+}
+
+// Means of 1, 2 and 6 values of one scatter: what the largest part takes away counts less than as one of
+// three.
+TEST(Jackknife, KnowsThatPartsAreOfUnequalSize) {
+  const double variance = 4;  // of one value; the parts' means lie as far off as that makes likely
+  const double means[3] = {1 + 2.0, 1 - 2.0 / std::sqrt(2.0), 1 + 2.0 / std::sqrt(6.0)};
+  const double sizes[3] = {1, 2, 6};
+  double mean = 0;
+  for (int i = 0; i < 3; ++i) mean += sizes[i] * means[i] / 9;
+  std::vector<WithoutPart> without;
+  for (int i = 0; i < 3; ++i)
+    without.push_back({(9 * mean - sizes[i] * means[i]) / (9 - sizes[i]), sizes[i]});
+  EXPECT_NEAR(*jackknife_sigma(mean, without), student_factor(2) * std::sqrt(variance / 9), 0.25);
 }
 
 TEST(BlockSigma, SeesThatNeighboursErrTogether) {
