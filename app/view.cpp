@@ -105,8 +105,7 @@ void declare(CLI::App& command, ViewOptions& options) {
   command.add_option("--size", options.size, "Of the window, in pixels")->capture_default_str();
   command.add_option("--scale", options.scale, "1 is 100 %, 2 is 200 %; default: as the display asks")
       ->check(CLI::Range(0.5, 4.0));
-  auto* script =
-      command.add_option("--script", options.script, "Lines to carry out: see below")->type_name("F");
+  command.add_option("--script", options.script, "Lines to carry out: see below")->type_name("F");
   command
       .add_option("--run", options.run, "The same, given here, with ; between the lines; after the script's")
       ->type_name("LINES");
