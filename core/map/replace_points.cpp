@@ -51,11 +51,15 @@ class SmoothRotation {
 class SmoothMotion {
  public:
   SmoothMotion(const SweepPose& pose, const LaserScan& scan) : beams_per_step_(scan.beams / double(kSteps)) {
+    const SweepMotion motion = pose.motion();
     for (std::size_t k = 0; k <= kSteps; ++k) {
       const double time_s = scan.beam_s(static_cast<double>(k) * beams_per_step_);
-      const Pose at = pose.at((time_s - pose.begin_s) / (pose.end_s - pose.begin_s));
-      rotations_[k] = at.rotation.toRotationMatrix();
-      places_m_[k] = at.translation_m;
+      // The bend acts to first order in a motion, which so stays linear in the point.
+      const double u = (time_s - pose.begin_s) / (pose.end_s - pose.begin_s);
+      places_m_[k] = motion(Vector::Zero(), u);
+      for (int axis = 0; axis < 3; ++axis) {
+        linear_[k].col(axis) = motion(Vector::Unit(axis), u) - places_m_[k];
+      }
     }
   }
 
@@ -63,14 +67,14 @@ class SmoothMotion {
     const double along = beam / beams_per_step_;
     const std::size_t k = std::min(static_cast<std::size_t>(along), kSteps - 1);
     const double part = along - static_cast<double>(k);
-    return (1 - part) * (rotations_[k] * p_in_base_m + places_m_[k]) +
-           part * (rotations_[k + 1] * p_in_base_m + places_m_[k + 1]);
+    return (1 - part) * (linear_[k] * p_in_base_m + places_m_[k]) +
+           part * (linear_[k + 1] * p_in_base_m + places_m_[k + 1]);
   }
 
  private:
   static constexpr std::size_t kSteps = 8;
   double beams_per_step_;
-  std::array<Eigen::Matrix3d, kSteps + 1> rotations_;
+  std::array<Eigen::Matrix3d, kSteps + 1> linear_;
   std::array<Vector, kSteps + 1> places_m_;
 };
 

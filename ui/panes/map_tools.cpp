@@ -87,10 +87,9 @@ void draw_profile_line(const PaneContext& context, Side side, const PixelRect& p
     transient.profile_from_m = here;
     context.begin_gesture();
   }
-  if (!transient.profile_from_m || !ImGui::IsItemActive()) {
-    transient.profile_from_m.reset();
-    return;
-  }
+  if (!ImGui::IsMouseDown(0)) transient.profile_from_m.reset();
+  // The other map's pane asks too, and is not the one that is dragged over.
+  if (!transient.profile_from_m || !ImGui::IsItemActive()) return;
   const auto round = [](double metres) { return std::round(metres * 1e3) / 1e3; };
   const Eigen::Vector2d& from = *transient.profile_from_m;
   context.perform(
