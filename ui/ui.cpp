@@ -49,6 +49,7 @@ struct Ui::Parts {
   std::map<std::string, PixelRect> anchors;
   std::string remembered;  // the source that the recent list knows already
   std::optional<Call> picture_asked;
+  int frames_until_picture = 0;  // what asked for it, a dialog or the palette, is to be gone by then
 };
 
 Result<void> Ui::Parts::act(const Call& call) {
@@ -60,7 +61,10 @@ Result<void> Ui::Parts::act(const Call& call) {
     host.clipboard = explorer.command_line(context.width_px(), context.height_px());
     explorer.say(Message::Kind::kNote, "Copied: " + host.clipboard);
   }
-  if (name == "export-picture") picture_asked = call;  // written once the frame is drawn
+  if (name == "export-picture") {
+    picture_asked = call;
+    frames_until_picture = 2;
+  }
   return {};
 }
 
@@ -164,7 +168,7 @@ void Ui::Parts::write_picture() {
     Image part(static_cast<int>(maps.width), static_cast<int>(maps.height));
     for (int y = 0; y < part.height_px; ++y)
       std::copy_n(image.pixel(static_cast<int>(maps.left), static_cast<int>(maps.top) + y),
-                  3 * static_cast<std::size_t>(part.width_px), part.pixel(0, y));
+                  Image::kChannels * static_cast<std::size_t>(part.width_px), part.pixel(0, y));
     image = std::move(part);
   }
   const auto written = write_png(image, asked.text(0));
@@ -199,7 +203,7 @@ void Ui::frame(std::span<const InputEvent> events, double seconds_since_last) {
                           p.anchors};
   p.draw(panes);
   p.host.end_frame(p.style().page);
-  if (p.picture_asked) p.write_picture();
+  if (p.picture_asked && p.frames_until_picture-- == 0) p.write_picture();
 }
 
 Image Ui::screenshot() {
@@ -212,6 +216,7 @@ bool Ui::wants_quit() const {
 
 bool Ui::pictures_done() const {
   const Parts& p = *parts_;
+  if (p.picture_asked) return false;
   if (p.transient.camera_moved_s < 0.5) return false;
   if (p.explorer.loaded() == nullptr) return true;
   const Layout layout = p.explorer.settings().layout;

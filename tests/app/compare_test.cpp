@@ -48,7 +48,8 @@ TEST_F(CompareTest, DrawsTheSameBytesInAWindow) {
             0)
       << said_;
   EXPECT_EQ(test::contents_of(folder_ / "memory.png"), test::contents_of(folder_ / "window.png"));
-  EXPECT_NE(run("-u DISPLAY -u WAYLAND_DISPLAY", std::string(kArguments) + " --draw-in window -o none.png"), 0);
+  EXPECT_NE(run("-u DISPLAY -u WAYLAND_DISPLAY", std::string(kArguments) + " --draw-in window -o none.png"),
+            0);
   EXPECT_FALSE(exists("none.png"));
 }
 
