@@ -140,7 +140,8 @@ Result<void> write_bag(const Simulation& simulation, const std::filesystem::path
     std::filesystem::rename(part, path);
   } catch (const std::exception& error) {
     std::filesystem::remove(part, ignored);
-    return unreadable(fmt::format("{}: cannot be written: {}", path.string(), error.what()));
+    return failure(ExitCode::kWrongUsage,
+                   fmt::format("{}: cannot be written: {}", path.string(), error.what()));
   }
   return {};
 }

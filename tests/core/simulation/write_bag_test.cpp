@@ -89,7 +89,7 @@ TEST_F(WriteBag, LeavesNothingBehindWhereItCannotWrite) {
   fs::create_directories(folder_ / "taken.bag" / "inside");
   const auto written = write_bag(simulation_, folder_ / "taken.bag", job_);
   ASSERT_FALSE(written);
-  EXPECT_EQ(written.error().code, ExitCode::kUnreadableInput);
+  EXPECT_EQ(written.error().code, ExitCode::kWrongUsage);
   EXPECT_NE(written.error().message.find("taken.bag"), std::string::npos);
   EXPECT_FALSE(fs::exists(folder_ / "taken.bag.part"));
 }
