@@ -12,7 +12,8 @@ namespace sweepscope::test {
 class FolderTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    std::string pattern = (std::filesystem::temp_directory_path() / "sweepscope-XXXXXX").string();
+    const std::string name = "sweepscope-" + std::string(6, 'X');  // what mkdtemp puts letters for
+    std::string pattern = (std::filesystem::temp_directory_path() / name).string();
     ASSERT_NE(mkdtemp(pattern.data()), nullptr);
     folder_ = pattern;
   }
