@@ -23,7 +23,7 @@ struct Control {
   std::string replace, by;  // in its command; by may be nothing
 };
 
-/// screenshots/manifest.yaml. In commands, {data} stands for the folder tests/screenshots.
+/// screenshots/manifest.yaml. In commands, {out} stands for the picture.
 struct Manifest {
   std::vector<std::string> preparation;  // commands that make the inputs, once per run of the tests
   std::map<std::string, Screenshot> pictures;

@@ -24,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 const fs::path kBaselines = fs::path(SWEEPSCOPE_SOURCE_DIR) / "screenshots";
-const fs::path kData = fs::path(SWEEPSCOPE_SOURCE_DIR) / "tests/screenshots";
+const fs::path kData = fs::path(SWEEPSCOPE_SOURCE_DIR) / "tests/screenshots/data";
 const fs::path kFailures = fs::path(SWEEPSCOPE_BINARY_DIR) / "screenshots";
 const fs::path kInputs = fs::path(SWEEPSCOPE_BINARY_DIR) / "screenshots-input";
 
@@ -46,8 +46,7 @@ Result<void> run_program(const std::string& arguments, const fs::path& log) {
   const std::string command = fmt::format(
       "cd {} && env -u DISPLAY -u WAYLAND_DISPLAY -u LANGUAGE TZ=UTC LANG=C.UTF-8 LC_ALL=C.UTF-8 {} {} >{} "
       "2>&1",
-      quoted(kInputs), quoted(SWEEPSCOPE_EXECUTABLE), replaced(arguments, "{data}", quoted(kData)),
-      quoted(log));
+      quoted(kInputs), quoted(SWEEPSCOPE_EXECUTABLE), arguments, quoted(log));
   const int status = std::system(command.c_str());
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return {};
   const std::string how = WIFEXITED(status) ? fmt::format("ended with exit code {}", WEXITSTATUS(status))
@@ -68,6 +67,9 @@ Result<void> prepare(const Manifest& manifest) {
   if (auto emptied = empty_folder(kInputs); !emptied) return emptied;
   std::error_code error;
   fs::create_directories(kFailures, error);
+  // Beside the other inputs, as a path that a picture shows may not depend on where the sources lie.
+  fs::copy(kData, kInputs / "data", fs::copy_options::recursive, error);
+  if (error) return unreadable(fmt::format("{}: {}", kData.string(), error.message()));
   const auto facts = machine_facts();
   if (!facts) return tl::unexpected(facts.error());
   fmt::print("{}", *facts);
