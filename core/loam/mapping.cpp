@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/loam/least_squares.hpp"
+#include "core/loam/patch_search.hpp"
 #include "core/loam/sweep_motion.hpp"
 
 namespace sweepscope {
@@ -21,13 +22,6 @@ struct SweepMaps {
   }
 };
 
-// How the map is searched. A map of a few sweeps is sparse: scan lines lie farther apart than in a grown one.
-struct SearchRule {
-  PatchOptions patch;
-  double radius_m, radius_slope;
-  SweepFilter filter;
-};
-
 SearchRule rule_for(const MappingOptions& options, bool grown, SweepFilter filter) {
   SearchRule rule{options.patch, options.search_radius_m, options.search_radius_slope, filter};
   if (!grown) {
@@ -36,33 +30,6 @@ SearchRule rule_for(const MappingOptions& options, bool grown, SweepFilter filte
     rule.radius_slope = std::max(rule.radius_slope, 0.25);
   }
   return rule;
-}
-
-// The finest level that holds enough neighbours: a patch as small as the map allows, since large ones bend
-// round corners. Gives the search radius, or nothing where even the coarsest level allowed is too sparse.
-std::optional<double> nearest_on_finest(const FeatureMap& map, const Eigen::Vector3f& p_m, float range_m,
-                                        const SearchRule& rule, int most, int least, int least_lines,
-                                        Neighbours& near) {
-  const int coarsest = map.level_for(std::max(rule.radius_m, rule.radius_slope * range_m));
-  for (int level = 0; level <= coarsest; ++level) {
-    map.nearest(p_m, level, rule.filter, most, rule.patch.per_line, near);
-    if (near.count >= least && near.lines >= least_lines) return map.search_radius_m(level);
-  }
-  return std::nullopt;
-}
-
-std::optional<PlanePatch> find_plane(const FeatureMap& map, const Eigen::Vector3d& p_m, float range_m,
-                                     const SearchRule& rule, Neighbours& near) {
-  const auto radius_m = nearest_on_finest(map, p_m.cast<float>(), range_m, rule, rule.patch.plane_neighbours,
-                                          6, rule.patch.least_lines, near);
-  return radius_m ? fit_plane(near, rule.patch, *radius_m) : std::nullopt;
-}
-
-std::optional<LinePatch> find_line(const FeatureMap& map, const Eigen::Vector3d& p_m, float range_m,
-                                   const SearchRule& rule, Neighbours& near) {
-  const auto radius_m = nearest_on_finest(map, p_m.cast<float>(), range_m, rule, rule.patch.edge_neighbours,
-                                          4, rule.patch.least_edge_lines, near);
-  return radius_m ? fit_line(near, rule.patch, *radius_m) : std::nullopt;
 }
 
 void count_one(bool found, double distance_m, double gate_m, double cap_m, MatchCount& count) {

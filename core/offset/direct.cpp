@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/offset/candidates.hpp"
 #include "core/offset/direct_moving.hpp"
@@ -103,22 +104,29 @@ void estimate_standing(const OffsetProblem& problem, double coarse_s, const std:
 }
 
 void judge_walk(const MovingDirect& found, Estimate& result) {
-  if (!found.converged) result.warnings.push_back("Newton's steps did not settle.");
-  constexpr double kLeastSlope = 0.3;
-  if (found.slope_of_nominal < kLeastSlope)
-    result.reasons.push_back(fmt::format(
-        "The scene gives no lever: turning the motor's angle by 1 deg turns the tracked sweeps by {:.2f} "
-        "deg only.",
-        found.slope_of_nominal));
-  const auto &below = found.curve.front().e_m, &here = found.curve[2].e_m, &above = found.curve.back().e_m;
+  if (!found.converged) result.warnings.push_back("The least squares did not settle.");
+  add(result.reasons, lever_reason(found.joint->lever_m, found.joint->reach_m));
+  const auto &below = found.curve.front().e_m, &here = found.curve[1].e_m, &above = found.curve.back().e_m;
   if (!here)
-    result.reasons.push_back("LOAM lost track at the offset that the alternating roll points to.");
+    result.reasons.push_back("The map holds no matches at the offset that fits the walk best.");
   else if ((below && *below < *here) || (above && *above < *here))
-    result.reasons.push_back(
-        fmt::format("The map is not clearest at the offset that the alternating roll points to: e is {:.1f} "
-                    "mm there, and {:.1f} "
-                    "and {:.1f} mm to its sides.",
-                    *here * 1e3, below.value_or(0) * 1e3, above.value_or(0) * 1e3));
+    result.reasons.push_back(fmt::format(
+        "The map is not clearest at the offset that fits the walk best: e is {:.1f} mm there, and {:.1f} and "
+        "{:.1f} mm to its sides.",
+        *here * 1e3, below.value_or(0) * 1e3, above.value_or(0) * 1e3));
+}
+
+// A body that sways in step with the motor looks much like an offset: a part of it may pass for one.
+double widened_by_sway(double sigma_s, double sway_rad, double speed_rad_s, Estimate& result) {
+  constexpr double kUnseen_rad = 0.01;  // of any walk: the sweeps' own scatter
+  constexpr double kPart = 0.3;
+  const double excess_rad = std::sqrt(std::max(0.0, sway_rad * sway_rad - kUnseen_rad * kUnseen_rad));
+  if (excess_rad > kUnseen_rad)
+    result.warnings.push_back(
+        fmt::format("The rig swayed in step with the motor, by {:.1f} deg from sweep to sweep: another pace "
+                    "or another motor speed would tell more.",
+                    sway_rad * 180 / std::numbers::pi));
+  return std::hypot(sigma_s, kPart * excess_rad / (2 * speed_rad_s));
 }
 
 void estimate_walking(const OffsetProblem& problem, double coarse_s, const std::vector<double>& window_s,
@@ -127,23 +135,31 @@ void estimate_walking(const OffsetProblem& problem, double coarse_s, const std::
   MovingDirectOptions options;
   options.mapping = mapping;
   options.most_step_s = 10 * scale.unit_s;
+  options.step_tolerance_s = scale.unit_s;
   options.side_s = 3 * scale.unit_s;
+  options.joint.mapping = mapping;
   const MovingDirect found = solve_moving(problem, coarse_s, options, job);
   if (job.cancelled()) return;
-  if (found.lost) {
-    result.reasons.push_back("LOAM lost track.");
+  if (found.lost || !found.joint) {
+    result.reasons.push_back(found.lost ? "LOAM lost track."
+                                        : "Sweeps of opposite directions hardly see the same surfaces.");
     return;
   }
+  const JointWalk& walk = *found.joint;
   sort_into(result.curve, found.curve);
   judge_walk(found, result);
-  std::optional<double> sigma_s = found.sigma_s;
-  judge_drift(found.block_s, found.block_offset_s, duration_s(problem), sigma_s, result);
-  sigma_s = widened_by_halves(sigma_s, found.block_offset_s, result);
-  if (std::abs(found.offset_s - found.roll_offset_s) > std::max(0.3 * scale.unit_s, 3 * sigma_s.value_or(0)))
-    result.warnings.push_back(
-        fmt::format("The alternating roll is zero at {:.2f} ms, e is least at {:.2f} ms.",
-                    found.roll_offset_s * 1e3, found.offset_s * 1e3));
-  answer(found.offset_s, sigma_s, found.curve[2].e_m.value_or(0), scale, window_s, result);
+  std::vector<double> parts_s, parts_offset_s;
+  for (const JointWalkPart& part : walk.parts) {
+    parts_s.push_back(part.middle_s);
+    parts_offset_s.push_back(part.offset_s);
+  }
+  const double speed_rad_s = problem.motor.median_speed_rad_s;
+  std::optional<double> sigma_s = widened_by_sway(walk.sigma_s, found.sway_rad, speed_rad_s, result);
+  sigma_s = std::hypot(*sigma_s, encoder_sigma_s(problem.recording->motor, speed_rad_s));
+  judge_drift(parts_s, parts_offset_s, duration_s(problem), sigma_s, result);
+  sigma_s = widened_by_halves(sigma_s, parts_offset_s, result);
+  add(result.warnings, few_matches_warning(walk.matches, walk.features));
+  answer(walk.offset_s, sigma_s, found.curve[1].e_m.value_or(0), scale, window_s, result);
 }
 
 }  // namespace

@@ -3,33 +3,37 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "core/offset/candidates.hpp"
-#include "core/offset/moving.hpp"
 #include "core/offset/uncertainty.hpp"
 
 namespace sweepscope {
 namespace {
 
-// n and e at the roll's zero and to both sides of it.
-std::vector<CurvePoint> sides(const OffsetProblem& problem, double offset_s,
-                              const MovingDirectOptions& options, const Job& job) {
-  const Job quiet = Job::part_of(job);
-  std::vector<CurvePoint> curve(5);
+// n and e along the joint walk, below, at and above its offset.
+std::vector<CurvePoint> sides(const OffsetProblem& problem, const JointWalk& walk,
+                              const MovingDirectOptions& options) {
+  std::vector<CurvePoint> curve(3);
   tbb::parallel_for(std::size_t{0}, curve.size(), [&](std::size_t i) {
-    curve[i] = moving_candidate(problem, offset_s + (double(i) - 2) / 2 * options.side_s, Scoring::kTwoStage,
-                                options.mapping, quiet);
+    CurvePoint& point = curve[i];
+    point.offset_s = walk.offset_s + (double(i) - 1) * options.side_s;
+    std::vector<PlacedSweep> sweeps = place_sweeps(problem, point.offset_s);
+    // Those at either end may come or go with the offset.
+    std::erase_if(sweeps, [&](const PlacedSweep& sweep) {
+      return sweep.sweep < walk.sweeps.front().sweep || sweep.sweep > walk.sweeps.back().sweep;
+    });
+    std::vector<SweepPose> poses;
+    for (const PlacedSweep& sweep : sweeps)
+      poses.push_back(
+          *std::lower_bound(walk.sweeps.begin(), walk.sweeps.end(), sweep.sweep,
+                            [](const SweepPose& pose, std::size_t wanted) { return pose.sweep < wanted; }));
+    const MatchCount count = count_matches(sweeps, poses, options.mapping);
+    point.n = double(count.matches);
+    if (count.features > 0) point.capped_cost_m = count.capped_cost_m();
+    if (count.matches > 0) point.e_m = count.mean_distance_m();
   });
   return curve;
-}
-
-// Where the parabola through e about the roll's zero is least; that zero itself where e has no valley there.
-double least_e_offset_s(const std::vector<CurvePoint>& curve, double zero_s, double side_s) {
-  const std::size_t least = index_of_least(curve, &CurvePoint::e_m);
-  if (least == 0 || least + 1 >= curve.size()) return zero_s;
-  return fitted_extremum(curve, &CurvePoint::e_m, least, 2 * side_s).offset_s;
 }
 
 constexpr std::size_t kMostBlocks = 20;
@@ -38,21 +42,6 @@ constexpr std::size_t kMostBlocks = 20;
 std::size_t block_length(std::size_t sweeps) {
   constexpr std::size_t kLength = 8, kLeastLength = 3, kBlocks = 6;
   return std::clamp(sweeps / kBlocks, kLeastLength, kLength);
-}
-
-void fill_blocks(const MovingPass& pass, double nominal_rad_s, MovingDirect& result) {
-  const std::size_t sweeps = pass.sweep_s.size(),
-                    blocks = std::min(kMostBlocks, sweeps / block_length(sweeps));
-  for (std::size_t b = 0; b < blocks; ++b) {
-    const std::size_t from = sweeps * b / blocks, to = sweeps * (b + 1) / blocks;
-    double time_s = 0, roll_rad = 0;
-    for (std::size_t k = from; k < to; ++k) {
-      time_s += pass.sweep_s[k] / double(to - from);
-      roll_rad += pass.sweep_roll_rad[k] / double(to - from);
-    }
-    result.block_s.push_back(time_s);
-    result.block_offset_s.push_back(pass.offset_s - roll_rad / nominal_rad_s);
-  }
 }
 
 }  // namespace
@@ -81,32 +70,54 @@ MovingPass moving_pass(const OffsetProblem& problem, double offset_s, const Mapp
   pass.roll_rad = roll.signed_rotation_rad;
   pass.sweep_s = std::move(roll.sweep_s);
   pass.sweep_roll_rad = std::move(roll.sweep_roll_rad);
+  pass.sweeps = std::move(roll.sweeps);
   return pass;
+}
+
+double alternating_sway_rad(const std::vector<SweepPose>& sweeps, const Eigen::Vector3d& motor_axis) {
+  using Eigen::Vector3d;
+  std::vector<Vector3d> to_next_rad(sweeps.size(), Vector3d::Zero()), within_rad(sweeps.size());
+  for (std::size_t k = 0; k < sweeps.size(); ++k) {
+    within_rad[k] = vector_from_rotation(sweeps[k].begin.rotation.conjugate() * sweeps[k].end.rotation);
+    if (k > 0)
+      to_next_rad[k] =
+          vector_from_rotation(sweeps[k - 1].middle().rotation.conjugate() * sweeps[k].middle().rotation);
+  }
+  // [-1 2 -1] / 4 passes nothing of a turn that goes on steadily.
+  const auto mean_alternation_rad = [&](const std::vector<Vector3d>& turn_rad) {
+    Vector3d sum_rad = Vector3d::Zero();
+    double count = 0;
+    for (std::size_t k = 2; k + 1 < sweeps.size(); ++k, ++count)
+      sum_rad += sweeps[k].direction * (2 * turn_rad[k] - turn_rad[k - 1] - turn_rad[k + 1]) / 4;
+    return Vector3d(sum_rad / std::max(1.0, count));
+  };
+  const Vector3d middles_rad = mean_alternation_rad(to_next_rad);
+  const Vector3d across_rad = middles_rad - motor_axis.dot(middles_rad) * motor_axis;
+  return std::hypot(across_rad.norm(), mean_alternation_rad(within_rad).norm());
 }
 
 MovingDirect solve_moving(const OffsetProblem& problem, double first_offset_s,
                           const MovingDirectOptions& options, const Job& job) {
   MovingDirect result;
-  result.offset_s = first_offset_s;
+  result.roll_offset_s = first_offset_s;
   const double nominal_rad_s = 2 * problem.motor.median_speed_rad_s;
-  for (int i = 0; i < options.most_passes && !result.converged; ++i) {
-    result.passes.push_back(moving_pass(problem, result.offset_s, options.mapping, job));
+  bool near = false;
+  for (int i = 0; i < options.most_passes && !near; ++i) {
+    result.passes.push_back(moving_pass(problem, result.roll_offset_s, options.mapping, job));
     const MovingPass& pass = result.passes.back();
     result.lost = !pass.tracked;
     if (result.lost || job.cancelled()) return result;
     const double step_s = -pass.roll_rad / nominal_rad_s;
-    result.offset_s += std::clamp(step_s, -options.most_step_s, options.most_step_s);
-    result.converged = std::abs(step_s) < options.step_tolerance_s;
+    result.roll_offset_s += std::clamp(step_s, -options.most_step_s, options.most_step_s);
+    near = std::abs(step_s) < options.step_tolerance_s;
   }
-  result.roll_offset_s = result.offset_s;
-  result.curve = sides(problem, result.roll_offset_s, options, job);
-  result.offset_s = least_e_offset_s(result.curve, result.roll_offset_s, options.side_s);
-  const auto &below = result.curve.front().signed_rotation_rad,
-             &above = result.curve.back().signed_rotation_rad;
-  if (below && above) result.slope_of_nominal = (*above - *below) / (2 * options.side_s * nominal_rad_s);
   const MovingPass& last = result.passes.back();
-  if (const auto sigma_rad = sigma_of_roll(last.sweep_roll_rad)) result.sigma_s = *sigma_rad / nominal_rad_s;
-  fill_blocks(last, nominal_rad_s, result);
+  result.joint = solve_joint_walk(problem, last.sweeps, last.offset_s, options.joint, job);
+  if (!result.joint) return result;
+  result.converged = near && result.joint->converged;
+  const Eigen::Vector3d axis = problem.recording->rig.mount.axis.normalized();
+  result.sway_rad = alternating_sway_rad(result.joint->sweeps, axis);
+  result.curve = sides(problem, *result.joint, options);
   return result;
 }
 

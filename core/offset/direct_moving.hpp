@@ -6,22 +6,22 @@
 #include "core/job.hpp"
 #include "core/loam/mapping.hpp"
 #include "core/offset/estimate.hpp"
+#include "core/offset/joint_walk.hpp"
 
 namespace sweepscope {
 
-/// The offset of a walking rig by Newton on the signed alternating roll. Tracked with a pose of its own at
-/// every reversal, each sweep is turned about the motor's axis by omega (offset - truth), against its
-/// neighbours: the roll from one sweep to the next is
+/// The offset of a walking rig. Tracked with a pose of its own at every reversal, each sweep is turned about
+/// the motor's axis by omega (offset - truth), against its neighbours: the roll from one sweep to the next is
 ///   roll(offset) = slope (offset - truth),  slope near 2 omega,
-/// so a few passes over the walk find its zero. e must rise to both sides of it; the parabola through e
-/// there, below and above, gives the answer its last hundredths of a millisecond: e draws on every match, the
-/// roll on the reversals.
+/// so a few passes over the walk come near its zero. There walk and offset are solved for together (see
+/// joint_walk.hpp), and e must rise to both sides of the answer.
 struct MovingDirectOptions {
   MappingOptions mapping;
   int most_passes = 6;
-  double step_tolerance_s = 1e-4;  // a smaller step needs no further pass: the roll is linear
+  double step_tolerance_s = 1e-3;  // near enough for the joint solution
   double most_step_s = 0.006;
   double side_s = 0.003;  // where e is asked on both sides
+  JointWalkOptions joint;
 };
 
 /// One pass over the walk.
@@ -30,9 +30,16 @@ struct MovingPass {
   bool tracked = false;
   double roll_rad = 0;
   std::vector<double> sweep_s, sweep_roll_rad;  // per sweep: the middle's time, and its own share of the roll
+  std::vector<SweepPose> sweeps;                // the alternating roll taken out
 };
+
 /// The standard deviation of a pass's roll, from blocks of its sweeps.
 std::optional<double> sigma_of_roll(const std::vector<double>& sweep_roll_rad);
+
+/// The rotation (rad) by which a body that sways in step with the motor turns from one sweep to the next.
+/// Told from what an offset cannot do, which turns whole sweeps about the motor's axis: by the middles' turns
+/// about the axes across it, and by the turns within the sweeps.
+double alternating_sway_rad(const std::vector<SweepPose>& sweeps, const Eigen::Vector3d& motor_axis);
 
 MovingPass moving_pass(const OffsetProblem& problem, double offset_s, const MappingOptions& options,
                        const Job& job);
@@ -40,14 +47,11 @@ MovingPass moving_pass(const OffsetProblem& problem, double offset_s, const Mapp
 struct MovingDirect {
   bool converged = false;
   bool lost = false;
-  double roll_offset_s = 0;  // where the roll is zero
-  double offset_s = 0;       // the answer
-  std::optional<double> sigma_s;
-  double slope_of_nominal = 0;  // of the roll, divided by 2 omega; near 1 where the run can be trusted
+  double roll_offset_s = 0;  // where the last pass asks the roll to be zero
   std::vector<MovingPass> passes;
-  std::vector<CurvePoint> curve;  // n and e at five offsets about the roll's zero, which is the third
-  // Blocks of neighbouring sweeps, which err together: middle and the offset that each asks for by itself.
-  std::vector<double> block_s, block_offset_s;
+  std::optional<JointWalk> joint;
+  double sway_rad = 0;            // in step with the motor, see alternating_sway_rad
+  std::vector<CurvePoint> curve;  // n, e and capped cost along the joint walk: below, at and above the answer
 };
 
 /// The problem cut down to its first sweeps.

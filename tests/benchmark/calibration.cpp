@@ -121,6 +121,11 @@ const std::vector<Family>& families() {
          walk(d, o, {"metro-station", "parking-area", "cemetery", "lecture-room"});
          o.duration_s = 60, o.noise_m = 0.01, o.sweep_s = d.one_of({0.5, 0.513});
        }},
+      {"walk in step with the motor", false, 8,
+       [](Draw& d, SimulationOptions& o) {
+         walk(d, o, {"metro-station", "parking-area", "cemetery", "lecture-room"});
+         o.sweep_s = d.uniform(0.54, 0.57);
+       }},
       {"other walks", true, 16, [](Draw& d, SimulationOptions& o) { walk(d, o, other_walks); }},
       {"other walks, faults", true, 12, [](Draw& d, SimulationOptions& o) {
          walk(d, o, other_walks);

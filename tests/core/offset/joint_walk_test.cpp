@@ -1,0 +1,83 @@
+#include "core/offset/joint_walk.hpp"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include "core/offset/direct_moving.hpp"
+#include "core/offset/estimator.hpp"
+#include "tests/core/engine_fixtures.hpp"
+
+namespace sweepscope {
+namespace {
+
+using test::kMs;
+
+std::optional<JointWalk> solved(const Recording& recording, double offset_s, JointWalkOptions options = {}) {
+  const OffsetProblem problem = test::problem_of(recording);
+  const MovingPass pass = moving_pass(problem, offset_s, options.mapping, Job());
+  return solve_joint_walk(problem, pass.sweeps, offset_s, options, Job());
+}
+
+// From where it starts, the walk tracked there included, to the truth.
+class JointWalkFrom : public testing::TestWithParam<double> {};
+
+TEST_P(JointWalkFrom, FindsTheTruth) {
+  const auto walk = solved(test::simulated("metro-station", 0.024, 40).recording, 0.024 + GetParam());
+  ASSERT_TRUE(walk);
+  EXPECT_TRUE(walk->converged);
+  EXPECT_EQ(walk->parts.size(), 2u);
+  EXPECT_NEAR(walk->offset_s, 0.024, 3 * walk->sigma_s);
+  EXPECT_LT(walk->sigma_s, 0.12 * kMs);
+  EXPECT_GT(walk->lever_m, 0.1 * walk->reach_m);
+}
+
+INSTANTIATE_TEST_SUITE_P(Starts, JointWalkFrom, testing::Values(-1.5 * kMs, 0.0, 1.5 * kMs));
+
+TEST(JointWalk, PosesAreContinuousAndOneForEverySweep) {
+  const Recording& recording = test::simulated("metro-station", 0.024, 40).recording;
+  const OffsetProblem problem = test::problem_of(recording);
+  const MovingPass pass = moving_pass(problem, 0.024, MappingOptions(), Job());
+  JointWalkOptions options;
+  options.part_s = 1000;
+  const auto walk = solve_joint_walk(problem, pass.sweeps, 0.024, options, Job());
+  ASSERT_TRUE(walk);
+  ASSERT_EQ(walk->sweeps.size(), pass.sweeps.size());
+  for (std::size_t k = 1; k < walk->sweeps.size(); ++k) {
+    EXPECT_EQ(walk->sweeps[k].sweep, pass.sweeps[k].sweep);
+    const Pose gap = walk->sweeps[k - 1].end.inverse() * walk->sweeps[k].begin;
+    EXPECT_LT(gap.translation_m.norm(), 2e-3) << k;
+    EXPECT_LT(vector_from_rotation(gap.rotation).norm(), 2e-3) << k;
+  }
+}
+
+TEST(JointWalk, TheSameForOneAndTwoThreads) {
+  const auto with = [](std::size_t threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    return *solved(test::simulated("metro-station", 0.024, 40).recording, 0.0245);
+  };
+  const JointWalk one = with(1), two = with(2);
+  EXPECT_EQ(one.offset_s, two.offset_s);
+  EXPECT_EQ(one.sigma_s, two.sigma_s);
+}
+
+TEST(JointWalk, WithoutMatchesThereIsNone) {
+  JointWalkOptions options;
+  options.least_matches = 1000000;
+  EXPECT_FALSE(solved(test::simulated("metro-station", 0.024, 40).recording, 0.024, options));
+}
+
+// A stride takes 1.11 s: with sweeps of half of it, the wearer's sway alternates as a wrong offset's roll
+// does.
+TEST(JointWalk, ASwayInStepWithTheMotorIsSaidAndWidensSigma) {
+  EstimateOptions options;
+  options.method = Method::kDirect;
+  const auto found = estimate(test::simulated("parking-area", 0.024, 30, 0.556).recording, options, Job());
+  ASSERT_TRUE(found->identifiable) << testing::PrintToString(found->reasons);
+  EXPECT_NEAR(*found->offset_s, 0.024, 3 * *found->sigma_s);
+  EXPECT_GT(*found->sigma_s, 0.2 * kMs);
+  const auto says = [](const std::string& text) { return text.find("in step with the motor") != text.npos; };
+  EXPECT_TRUE(std::any_of(found->warnings.begin(), found->warnings.end(), says));
+}
+
+}  // namespace
+}  // namespace sweepscope
