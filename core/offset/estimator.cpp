@@ -295,11 +295,18 @@ class Search {
   }
 
   // The roll that n and e are counted without is as uncertain as its share in each sweep scatters.
+  // How far the answer lies from that of the joint least squares, and how far that one may be off. The scatter
+  // of the sweeps' rolls alone knows nothing of a wearer's sway, which errs all sweeps alike.
   std::optional<double> sigma_of_walk(double offset_s) const {
     const MovingPass pass = moving_pass(problem_, offset_s, options_.mapping, job_);
     const auto sigma_rad = sigma_of_roll(pass.sweep_roll_rad);
     if (!pass.tracked || !sigma_rad) return std::nullopt;
-    return *sigma_rad / (2 * problem_.motor.median_speed_rad_s);
+    const double of_roll_s = *sigma_rad / (2 * problem_.motor.median_speed_rad_s);
+    JointWalkOptions options;
+    options.mapping = options_.mapping;
+    const auto joint = solve_joint_walk(problem_, pass.sweeps, offset_s, options, job_);
+    if (!joint) return of_roll_s;
+    return std::max(of_roll_s, std::hypot(joint->offset_s - offset_s, joint->sigma_s));
   }
 
   const EstimateOptions& options_;
