@@ -19,12 +19,18 @@ struct MessageStamps {
 
 struct RawScan {
   MessageStamps stamps;
-  float angle_min_rad = 0, angle_increment_rad = 0;
+  float angle_min_rad = 0, angle_max_rad = 0, angle_increment_rad = 0;  // the greatest is not used
   float time_increment_s = 0, scan_time_s = 0;
   float range_min_m = 0, range_max_m = 0;
   std::size_t first_range = 0;  // of beam 0 in RawLaser::ranges_m
   std::uint32_t beams = 0;
 };
+
+/// The direction of a scan's last beam, for RawScan::angle_max_rad where a format has none.
+inline float last_beam_angle_rad(const RawScan& scan) {
+  const double steps = scan.beams - 1.0;
+  return static_cast<float>(double{scan.angle_min_rad} + steps * double{scan.angle_increment_rad});
+}
 
 /// The scans of one topic in the order of the file.
 struct RawLaser {
@@ -35,10 +41,16 @@ struct RawLaser {
   bool has_intensities = true;
 };
 
+/// What a joint's positions come from. Where the rig names neither topic nor joint, the motor is sought among
+/// joint states; among numbers only where there are none, and among transforms only where there is neither:
+/// numbers may be anything, and so may what moves one frame in another.
+enum class JointSource { kJointState, kNumber, kTransform };
+
 /// The samples of one joint of one topic in the order of the file.
 struct RawJoint {
   std::string topic;
   std::string joint;
+  JointSource source = JointSource::kJointState;
   std::vector<MessageStamps> stamps;
   std::vector<double> positions;  // raw: before the rig's scale and zero
 };
