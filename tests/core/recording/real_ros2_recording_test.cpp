@@ -33,8 +33,8 @@ TEST_F(LidarServo, HoldsWhatItIsKnownToHoldAsFolderAndAsFile) {
     EXPECT_EQ(recording.report.scans_dropped, 3U);  // these have no beams
     EXPECT_EQ(recording.motor.time_s.size(), 1372U);
     EXPECT_EQ(recording.name, path.filename());
-    EXPECT_EQ(recording.report.topics.at(0).type, "sensor_msgs/msg/LaserScan");
-    EXPECT_EQ(recording.report.topics.at(1).type, "std_msgs/msg/Int32");
+    EXPECT_EQ(recording.report.topics.at(0).type, "std_msgs/msg/Int32");
+    EXPECT_EQ(recording.report.topics.at(1).type, "sensor_msgs/msg/LaserScan");
     EXPECT_EQ(recording.rig.motor.joint, "data");
   }
 }
