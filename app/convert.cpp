@@ -6,6 +6,7 @@
 #include "app/progress.hpp"
 #include "app/recording_options.hpp"
 #include "core/recording/choose_streams.hpp"
+#include "core/recording/read_raw_recording.hpp"
 #include "core/recording/recording_writer.hpp"
 
 namespace sweepscope::app {

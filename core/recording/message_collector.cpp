@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace sweepscope {
 namespace {
 
@@ -39,6 +41,7 @@ const MessageType* MessageCollector::type_of(const Topic& topic) {
                     topic.name, topic.type, topic.md5sum));
     return nullptr;
   }
+  if (type->kind == MessageKind::kTransforms) return type;
   const bool laser = type->kind == MessageKind::kLaserScan;
   const auto& wanted = laser ? rig_.laser.topic : rig_.motor.topic;
   return wanted && *wanted != topic.name ? nullptr : type;
@@ -52,6 +55,7 @@ std::size_t MessageCollector::number_of(const Topic& topic) {
     entry.topic = topic;
     entry.type = type_of(topic);
     entry.laser = raw_.lasers.size();
+    entry.may_be_motor = !rig_.motor.topic || *rig_.motor.topic == topic.name;
     raw_.topics.push_back({topic.name, topic.type});
     if (entry.type != nullptr && entry.type->kind == MessageKind::kLaserScan)
       raw_.lasers.emplace_back().topic = topic.name;
@@ -94,12 +98,15 @@ bool MessageCollector::add_scan(const Entry& entry, std::int64_t receive_ns,
     decoded->intensities.append_to(laser.intensities);
   else
     std::vector<float>().swap(laser.intensities);
+  if (laser.scans.empty()) laser.frame = decoded->frame;
   laser.scans.push_back(scan);
   beams_ += scan.beams;
   return true;
 }
 
 bool MessageCollector::add_joints(Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message) {
+  if (entry.type->kind == MessageKind::kTransforms && !add_frames(entry, receive_ns, message)) return false;
+  if (!entry.may_be_motor) return true;
   if (!decode_joints(entry.type->kind, entry.topic.encoding, message, rig_.mount.axis, joints_)) return false;
   for (const DecodedJoint& decoded : joints_) {
     RawJoint& joint = joint_of(entry, decoded.name);
@@ -108,6 +115,30 @@ bool MessageCollector::add_joints(Entry& entry, std::int64_t receive_ns, std::sp
     joint.stamps.push_back({decoded.header_ns, receive_ns});
     joint.positions.push_back(decoded.position);
     ++joint_samples_;
+  }
+  return true;
+}
+
+bool MessageCollector::add_frames(const Entry& entry, std::int64_t receive_ns,
+                                  std::span<const std::byte> message) {
+  constexpr std::size_t kMostFrames = 4096;
+  if (!decode_transforms(entry.topic.encoding, message, transforms_)) return false;
+  for (const DecodedTransform& decoded : transforms_) {
+    if (!decoded.rotation.coeffs().allFinite() || !(decoded.rotation.norm() > 0.5)) continue;
+    const RawFrame::Pose pose{
+        {decoded.header_ns, receive_ns}, decoded.rotation.normalized(), decoded.translation_m};
+    auto found = frames_.find(decoded.child);
+    if (found == frames_.end()) {
+      if (raw_.frames.size() == kMostFrames) continue;
+      found = frames_.emplace(decoded.child, raw_.frames.size()).first;
+      raw_.frames.push_back({std::string(decoded.parent), std::string(decoded.child), pose, pose});
+    }
+    RawFrame& frame = raw_.frames[found->second];
+    frame.shifted_m = std::max(frame.shifted_m, (pose.translation_m - frame.first.translation_m).norm());
+    const double turned_rad = frame.first.rotation.angularDistance(pose.rotation);
+    if (turned_rad <= frame.turned_rad) continue;
+    frame.turned_rad = turned_rad;
+    frame.farthest = pose;
   }
   return true;
 }

@@ -50,6 +50,7 @@ class MessageCollector {
     Topic topic;
     const MessageType* type = nullptr;  // null: only counted
     std::size_t laser = 0;              // in RawRecording::lasers
+    bool may_be_motor = true;           // false: another topic is the rig's motor.topic
     std::map<std::string, std::size_t, std::less<>> joints;
     std::string first_malformed;  // the place
   };
@@ -57,6 +58,7 @@ class MessageCollector {
   const MessageType* type_of(const Topic& topic);
   bool add_scan(const Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message);
   bool add_joints(Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message);
+  bool add_frames(const Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message);
   RawJoint& joint_of(Entry& entry, std::string_view joint);
 
   const Rig& rig_;
@@ -64,6 +66,8 @@ class MessageCollector {
   std::vector<Entry> entries_;  // like RawRecording::topics
   std::map<std::tuple<std::string, std::string, Encoding>, std::size_t> numbers_;
   std::vector<DecodedJoint> joints_;
+  std::vector<DecodedTransform> transforms_;
+  std::map<std::string, std::size_t, std::less<>> frames_;  // by the child, in RawRecording::frames
   std::size_t beams_ = 0, joint_samples_ = 0;
 };
 

@@ -66,12 +66,13 @@ class Cursor {
     return {take(count * sizeof(T)), swapped_};
   }
   /// std_msgs/Header: in ROS 1 a number; the stamp, the frame's name.
-  std::int64_t header_ns() {
+  std::int64_t header_ns(std::string_view* frame = nullptr) {
     if (!cdr_) number<std::uint32_t>();
     // ROS 2's seconds are signed; before 1970 there is no stamp.
     const auto seconds = number<std::uint32_t>();
     const std::int64_t nanoseconds = number<std::uint32_t>();
-    text();
+    const std::string_view name = text();
+    if (frame != nullptr) *frame = name;
     if (cdr_ && static_cast<std::int32_t>(seconds) < 0) return 0;
     return seconds * std::int64_t{1'000'000'000} + nanoseconds;
   }
@@ -136,17 +137,21 @@ double angle_about(const Eigen::Vector3d& axis, const Eigen::Vector3d& vector, d
   return std::remainder(2 * std::atan2(axis.dot(vector), scalar), kTurn);
 }
 
-bool decode_transforms(Cursor& cursor, const Eigen::Vector3d& axis, std::vector<DecodedJoint>& joints) {
+DecodedTransform decode_transform(Cursor& cursor) {
+  DecodedTransform transform;
+  transform.header_ns = cursor.header_ns(&transform.parent);
+  transform.child = cursor.text();
+  for (double& part : transform.translation_m) part = cursor.number<double>();
+  for (double& part : transform.rotation.coeffs()) part = cursor.number<double>();  // x, y, z, w
+  return transform;
+}
+
+bool decode_turned_frames(Cursor& cursor, const Eigen::Vector3d& axis, std::vector<DecodedJoint>& joints) {
   const auto transforms = cursor.number<std::uint32_t>();
   for (std::uint32_t i = 0; i < transforms && cursor.whole(); ++i) {
-    DecodedJoint joint;
-    joint.header_ns = cursor.header_ns();
-    joint.name = cursor.text();
-    for (int k = 0; k < 3; ++k) cursor.number<double>();  // translation
-    Eigen::Vector3d vector;
-    for (double& part : vector) part = cursor.number<double>();
-    joint.position = angle_about(axis, vector, cursor.number<double>());
-    joints.push_back(joint);
+    const DecodedTransform frame = decode_transform(cursor);
+    joints.push_back(
+        {frame.header_ns, frame.child, angle_about(axis, frame.rotation.vec(), frame.rotation.w())});
   }
   return cursor.at_end();
 }
@@ -184,7 +189,7 @@ template struct PackedArray<double>;
 std::optional<DecodedScan> decode_laser_scan(Encoding encoding, std::span<const std::byte> message) {
   Cursor cursor(encoding, message);
   DecodedScan scan;
-  scan.header_ns = cursor.header_ns();
+  scan.header_ns = cursor.header_ns(&scan.frame);
   for (float* value : {&scan.angle_min_rad, &scan.angle_max_rad, &scan.angle_increment_rad,
                        &scan.time_increment_s, &scan.scan_time_s, &scan.range_min_m, &scan.range_max_m}) {
     *value = cursor.number<float>();
@@ -211,11 +216,20 @@ bool decode_joints(MessageKind kind, Encoding encoding, std::span<const std::byt
     case MessageKind::kInt32:
       return decode_number<std::int32_t>(cursor, joints);
     case MessageKind::kTransforms:
-      return decode_transforms(cursor, axis, joints);
+      return decode_turned_frames(cursor, axis, joints);
     case MessageKind::kLaserScan:
       break;
   }
   return false;
+}
+
+bool decode_transforms(Encoding encoding, std::span<const std::byte> message,
+                       std::vector<DecodedTransform>& transforms) {
+  transforms.clear();
+  Cursor cursor(encoding, message);
+  const auto count = cursor.number<std::uint32_t>();
+  for (std::uint32_t i = 0; i < count && cursor.whole(); ++i) transforms.push_back(decode_transform(cursor));
+  return cursor.at_end();
 }
 
 }  // namespace sweepscope

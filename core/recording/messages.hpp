@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -42,6 +42,7 @@ struct PackedArray {
 
 struct DecodedScan {
   std::int64_t header_ns = 0;
+  std::string_view frame;
   float angle_min_rad = 0, angle_max_rad = 0, angle_increment_rad = 0;
   float time_increment_s = 0, scan_time_s = 0;
   float range_min_m = 0, range_max_m = 0;
@@ -55,6 +56,14 @@ struct DecodedJoint {
   double position = 0;
 };
 
+/// A frame's pose in its parent frame.
+struct DecodedTransform {
+  std::int64_t header_ns = 0;
+  std::string_view parent, child;
+  Eigen::Vector3d translation_m = Eigen::Vector3d::Zero();
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+};
+
 /// Empty where the message is malformed.
 std::optional<DecodedScan> decode_laser_scan(Encoding encoding, std::span<const std::byte> message);
 
@@ -63,5 +72,9 @@ std::optional<DecodedScan> decode_laser_scan(Encoding encoding, std::span<const 
 /// parent frame), -pi to pi. A joint state without positions has no joints.
 bool decode_joints(MessageKind kind, Encoding encoding, std::span<const std::byte> message,
                    const Eigen::Vector3d& axis, std::vector<DecodedJoint>& joints);
+
+/// Of a message of transforms all that it holds, likewise.
+bool decode_transforms(Encoding encoding, std::span<const std::byte> message,
+                       std::vector<DecodedTransform>& transforms);
 
 }  // namespace sweepscope

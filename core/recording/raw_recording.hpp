@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -35,6 +36,7 @@ inline float last_beam_angle_rad(const RawScan& scan) {
 /// The scans of one topic in the order of the file.
 struct RawLaser {
   std::string topic;
+  std::string frame;  // of the first message's header
   std::vector<RawScan> scans;
   std::vector<float> ranges_m;
   std::vector<float> intensities;  // like ranges_m as long as every scan had them
@@ -55,12 +57,27 @@ struct RawJoint {
   std::vector<double> positions;  // raw: before the rig's scale and zero
 };
 
+/// What is known of a frame's pose in its parent frame: the first transform, and the one that is turned
+/// farthest from it.
+struct RawFrame {
+  struct Pose {
+    MessageStamps stamps;
+    Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+    Eigen::Vector3d translation_m = Eigen::Vector3d::Zero();
+  };
+  std::string parent, child;
+  Pose first, farthest;
+  double turned_rad = 0;  // between these two
+  double shifted_m = 0;   // the most from the first
+};
+
 struct RawRecording {
   std::string file;  // as given, for messages
   std::string name;
   std::vector<RecordedTopic> topics;
   std::vector<RawLaser> lasers;
   std::vector<RawJoint> joints;
+  std::vector<RawFrame> frames;  // of all transforms, also of those that are no joint
   std::vector<std::string> warnings;
 };
 

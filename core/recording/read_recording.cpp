@@ -7,6 +7,7 @@
 #include "core/recording/assemble.hpp"
 #include "core/recording/csv_recording.hpp"
 #include "core/recording/input_file.hpp"
+#include "core/recording/read_raw_recording.hpp"
 #include "core/recording/ros1_recording.hpp"
 #include "core/recording/ros2_recording.hpp"
 

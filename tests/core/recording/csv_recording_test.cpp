@@ -1,5 +1,6 @@
 #include "core/recording/csv_recording.hpp"
 
+#include "core/recording/read_raw_recording.hpp"
 #include "core/recording/read_recording.hpp"
 #include "tests/core/recording/test_bag.hpp"
 

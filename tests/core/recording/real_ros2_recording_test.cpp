@@ -1,3 +1,4 @@
+#include "core/offset/estimator.hpp"
 #include "core/recording/inspect.hpp"
 #include "core/recording/read_recording.hpp"
 #include "tests/core/recording/test_bag.hpp"
@@ -52,6 +53,22 @@ TEST_F(LidarServo, ItsFaultsAreTold) {
   EXPECT_NE(warnings.find("/lidar_servo_angle holds plain numbers"), std::string::npos) << warnings;
   EXPECT_NE(warnings.find("have no time_increment; scan_time / beams is used"), std::string::npos)
       << warnings;
+}
+
+TEST_F(LidarServo, NoMethodAnswersForIt) {
+  const Recording recording = read(bag_);
+  for (const auto method : {std::optional<Method>(), std::optional(Method::kStationary),
+                            std::optional(Method::kMoving), std::optional(Method::kDirect)}) {
+    EstimateOptions options;
+    options.method = method;
+    const auto answer = estimate(recording, options, Job());
+    ASSERT_TRUE(answer) << answer.error().message;
+    EXPECT_FALSE(answer->identifiable);
+    EXPECT_FALSE(answer->offset_s);
+    ASSERT_EQ(answer->reasons.size(), 1U);
+    EXPECT_EQ(answer->reasons[0].rfind("The scans' receive times come unevenly", 0), 0U)
+        << answer->reasons[0];
+  }
 }
 
 TEST_F(LidarServo, WithoutARigItIsReadWithTheServosDegreesInDoubt) {

@@ -1,5 +1,6 @@
 #include "core/offset/estimator.hpp"
 #include "core/recording/cdr_writer.hpp"
+#include "core/recording/read_raw_recording.hpp"
 #include "core/recording/read_recording.hpp"
 #include "core/recording/recording_writer.hpp"
 #include "core/simulation/write_bag.hpp"
