@@ -8,15 +8,12 @@
 #include "app/recording_options.hpp"
 #include "core/offset/motion_test.hpp"
 #include "core/recording/inspect.hpp"
+#include "core/recording/rig_names.hpp"
 
 namespace sweepscope::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-const char* stamp_name(StampSource stamp) {
-  return stamp == StampSource::kHeader ? "header" : "receive";
-}
 
 template <typename T>
 Json or_null(const std::optional<T>& value) {
@@ -25,7 +22,7 @@ Json or_null(const std::optional<T>& value) {
 
 Json stream_json(const StreamSummary& stream) {
   return {{"topic", stream.topic},
-          {"stamp", stamp_name(stream.stamp)},
+          {"stamp", name_of(stream.stamp)},
           {"used", stream.used},
           {"rate_hz", stream.rate_hz()},
           {"median_period_s", stream.median_period_s},
@@ -41,7 +38,8 @@ Json stream_json(const StreamSummary& stream) {
 
 Json laser_json(const LaserSummary& laser) {
   Json json = stream_json(laser);
-  json.update(Json{{"fewest_beams", laser.fewest_beams},
+  json.update(Json{{"stamp_at", name_of(laser.stamp_at)},
+                   {"fewest_beams", laser.fewest_beams},
                    {"most_beams", laser.most_beams},
                    {"first_beam_deg", laser.first_beam_deg},
                    {"last_beam_deg", laser.last_beam_deg},
@@ -114,8 +112,9 @@ std::string topics_text(const RecordingSummary& summary) {
   return text;
 }
 
-std::string stream_text(const StreamSummary& stream) {
-  std::string stamps = stamp_name(stream.stamp);
+/// `where`: what in a message the stamp is of.
+std::string stream_text(const StreamSummary& stream, const std::string& where = "") {
+  std::string stamps = name_of(stream.stamp) + where;
   if (stream.receive_minus_header_s) {
     stamps += fmt::format("; receive minus header {:.4f} s, jitter {:.2g} ms", *stream.receive_minus_header_s,
                           1000 * *stream.receive_jitter_s);
@@ -139,7 +138,9 @@ std::string laser_text(const LaserSummary& laser) {
          row("scans", fmt::format("{} of {} beams from {:.1f} to {:.1f} deg in {:.1f} ms{}", laser.used,
                                   beams, laser.first_beam_deg, laser.last_beam_deg, 1000 * laser.scan_s,
                                   laser.intensities ? ", with intensities" : "")) +
-         stream_text(laser) +
+         stream_text(laser, laser.stamp_at == StampAt::kFirstBeam  ? ", taken as the first beam's"
+                            : laser.stamp_at == StampAt::kLastBeam ? ", taken as the last beam's"
+                                                                   : ", taken as the scan's arrival") +
          row("ranges",
              fmt::format("{:.1f} % usable, median {:.2f} m; {} NaN, {} infinite, {} zero, {} out of range",
                          usable, laser.median_range_m, laser.nan, laser.infinite, laser.zero,

@@ -18,6 +18,8 @@ int run(int argc, char** argv) {
   app.get_formatter()->column_width(36);
   ExitCode exit_code = ExitCode::kDone;
   app::add_info(app, exit_code);
+  app::add_convert(app, exit_code);
+  app::add_rig(app, exit_code);
   app::add_simulate(app, exit_code);
   app::add_estimate(app, exit_code);
   app::add_map(app, exit_code);

@@ -27,7 +27,7 @@ std::optional<RecordingOptions::Window> parse_window(const std::string& text) {
 }  // namespace
 
 void RecordingOptions::declare(CLI::App& app) {
-  app.add_option("REC", recording, "The recording: a ROS 1 bag")->required();
+  app.add_option("REC", recording, std::string("The recording: ") + kRecordings)->required();
   declare_reading(app);
 }
 

@@ -14,6 +14,10 @@
 
 namespace sweepscope::app {
 
+/// What REC may be, for help texts.
+inline constexpr const char* kRecordings =
+    "a ROS 1 or ROS 2 bag (.bag, .db3, .mcap), or a folder of either or of CSV tables";
+
 /// The options of every subcommand that reads a recording, declared once.
 struct RecordingOptions {
   struct Window {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
+#include <algorithm>
 #include <memory>
 #include <span>
 #include <vector>
@@ -16,6 +17,25 @@ std::string digits_of(XXH128_hash_t hash) {
   return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
 }
 
+Result<std::string> folder_content_hash(const std::filesystem::path& folder) {
+  namespace fs = std::filesystem;
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
+    if (entry->is_regular_file(error) && !entry->path().filename().empty()) files.push_back(entry->path());
+  if (error) return unreadable(fmt::format("{}: {}", folder.string(), error.message()));
+  std::ranges::sort(files);
+  std::string lines;
+  for (const fs::path& file : files) {
+    // An empty file is no input, and part of the folder all the same.
+    const bool empty = fs::file_size(file, error) == 0;
+    const auto hash = empty ? Result<std::string>("empty") : file_content_hash(file);
+    if (!hash) return hash;
+    lines += fmt::format("{} {}\n", *hash, file.filename().string());
+  }
+  return content_hash(lines);
+}
+
 }  // namespace
 
 std::string content_hash(std::string_view bytes) {
@@ -23,6 +43,8 @@ std::string content_hash(std::string_view bytes) {
 }
 
 Result<std::string> file_content_hash(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) return folder_content_hash(path);
   constexpr std::size_t kPiece_bytes = std::size_t{1} << 20;
   auto file = InputFile::open(path);
   if (!file) return tl::unexpected(file.error());

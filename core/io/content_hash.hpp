@@ -11,7 +11,8 @@ namespace sweepscope {
 /// 32 hexadecimal digits that tell contents apart (XXH3, 128 bits; not against forgery).
 std::string content_hash(std::string_view bytes);
 
-/// Of a file, read in pieces. Fails as reading does.
+/// Of a file, read in pieces, or of the files in a folder and their names, in the order of these. Fails as
+/// reading does.
 Result<std::string> file_content_hash(const std::filesystem::path& path);
 
 }  // namespace sweepscope

@@ -10,6 +10,7 @@
 
 #include "core/offset/direct.hpp"
 #include "core/offset/direct_moving.hpp"
+#include "core/offset/identifiability.hpp"
 #include "core/offset/motion_test.hpp"
 #include "core/offset/moving.hpp"
 #include "core/offset/search_window.hpp"
@@ -56,6 +57,10 @@ class Search {
     result_.reasons = motor_reasons(problem_.recording->motor, problem_.motor);
     if (!result_.reasons.empty()) return std::move(result_);
     scale_ = search_scale(problem_.motor);
+    if (const auto stamps = stamps_reason(*problem_.recording, scale_)) {
+      result_.reasons.push_back(*stamps);
+      return std::move(result_);
+    }
     std::vector<OffsetRange> ranges = options_.ranges;
     if (options_.around) ranges.push_back(range_around(*options_.around));
     const bool by_default = ranges.empty();
@@ -100,6 +105,10 @@ class Search {
     odometry_ = for_lines(options_.odometry, problem_.line_spacing_rad);
     const std::vector<PlacedSweep> placed = place_sweeps(problem_, (least_s + greatest_s) / 2);
     result_.sweeps = placed.size();
+    if (const auto gaps = gaps_reason(*problem_.recording, problem_.scan_used, least_s, greatest_s)) {
+      result_.reasons.push_back(*gaps);
+      return true;
+    }
     for (const PlacedSweep& sweep : placed) result_.scans += sweep.scans;
     if (result_.sweeps < 2) {
       result_.reasons.push_back(

@@ -62,6 +62,41 @@ Remark flat_reason(const std::vector<CurvePoint>& coarse, std::size_t best) {
       least_m * 1e3, median_m * 1e3);
 }
 
+Remark stamps_reason(const Recording& recording, const SearchScale& scale) {
+  constexpr std::size_t kLeastScans = 20;
+  if (recording.report.laser_stamps.used != StampSource::kReceive) return std::nullopt;
+  if (recording.scans.size() < kLeastScans) return std::nullopt;
+  std::vector<double> spacings_s;
+  for (std::size_t i = 1; i < recording.scans.size(); ++i)
+    spacings_s.push_back(recording.scans[i].first_beam_s - recording.scans[i - 1].first_beam_s);
+  const double period_s = median_of(spacings_s);
+  std::vector<double> uneven_s;
+  for (const double spacing_s : spacings_s) uneven_s.push_back(std::abs(std::remainder(spacing_s, period_s)));
+  std::sort(uneven_s.begin(), uneven_s.end());
+  const double spread_s = uneven_s[uneven_s.size() * 9 / 10];
+  if (spread_s < std::max(period_s / 4, scale.unit_s / 2)) return std::nullopt;
+  return fmt::format(
+      "The scans' receive times come unevenly, by up to {:.0f} ms nine times in ten, where a scan takes "
+      "{:.0f} ms: it is not known which scan was made when, and no one offset describes that.",
+      spread_s * 1e3, period_s * 1e3);
+}
+
+Remark gaps_reason(const Recording& recording, const std::vector<char>& covered, double least_s,
+                   double greatest_s) {
+  const MotorTrack& motor = recording.motor;
+  std::size_t within = 0, used = 0;
+  for (std::size_t i = 0; i < recording.scans.size(); ++i) {
+    const LaserScan& scan = recording.scans[i];
+    if (scan.first_beam_s + least_s < motor.time_s.front()) continue;
+    if (scan.last_beam_s() + greatest_s > motor.time_s.back()) continue;
+    ++within;
+    used += covered[i] ? 1 : 0;
+  }
+  if (2 * used >= within) return std::nullopt;
+  return fmt::format("Most scans lie in gaps of the motor's samples: only {} of {} have samples around them.",
+                     used, within);
+}
+
 Remark drift_reason(const Trend& trend, double duration_s, double sigma_s) {
   const double apart_s = std::abs(trend.slope) * duration_s;
   const double chance_s = 3 * trend.sigma * duration_s;

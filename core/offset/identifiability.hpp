@@ -20,6 +20,14 @@ Remark edge_reason(const std::vector<CurvePoint>& coarse, std::size_t best);
 Remark rival_reason(const std::vector<CurvePoint>& coarse, std::size_t best, const SearchScale& scale);
 Remark flat_reason(const std::vector<CurvePoint>& coarse, std::size_t best);
 
+/// Scans that go by receive times come so unevenly that it is not known which was made when: what their
+/// spacings leave beside whole periods is, nine times in ten, as much as +- a quarter of a period, and more
+/// than the motor's speed allows.
+Remark stamps_reason(const Recording& recording, const SearchScale& scale);
+/// Of the scans made while the motor was recorded, most lie in gaps of its samples.
+Remark gaps_reason(const Recording& recording, const std::vector<char>& covered, double least_s,
+                   double greatest_s);
+
 /// The clocks drift apart by more than max(1 ms, 3 sigma) over the recording, and by more than chance.
 Remark drift_reason(const Trend& trend, double duration_s, double sigma_s);
 /// The scene's surfaces hardly move when the motor's angle is turned: n . (a x p) is small against |a x p|.

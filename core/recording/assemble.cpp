@@ -283,6 +283,15 @@ void compare_streams(Recording& recording) {
   }
 }
 
+/// What a number means is not said in the file.
+void warn_of_source(const RawJoint& joint, Recording& recording) {
+  if (joint.source != JointSource::kNumber) return;
+  recording.report.warnings.push_back(
+      fmt::format("{} holds plain numbers: they are taken times {:.6g} (the rig's motor.scale) as rad, and "
+                  "whether they are measured angles or commands is not said",
+                  joint.topic, recording.rig.motor.scale));
+}
+
 /// The stamps of both streams, and the rig completed by them.
 void choose_both_stamps(const RawLaser& laser, const RawJoint& joint, std::optional<StampSource> stamps,
                         Recording& recording) {
@@ -317,6 +326,7 @@ Result<Recording> assemble(RawRecording raw, const Rig& rig, std::optional<Stamp
   recording.rig = rig;
   recording.report.topics = std::move(raw.topics);
   recording.report.warnings = std::move(raw.warnings);
+  warn_of_source(raw_joint, recording);
   choose_both_stamps(raw_laser, raw_joint, stamps, recording);
   ScanAssembler scans(raw_laser, recording);
   if (!scans.assemble()) {

@@ -74,6 +74,19 @@ std::string nothing_usable(const RawRecording& raw, std::string_view what, std::
   return fmt::format("{}: holds no {}; what it holds is:{}", raw.file, what, list_of_topics(raw, ""));
 }
 
+bool wanted(const RawJoint& joint, const Rig& rig) {
+  if (rig.motor.topic && *rig.motor.topic != joint.topic) return false;
+  if (rig.motor.joint && *rig.motor.joint != joint.joint) return false;
+  return !joint.positions.empty();
+}
+
+/// Leaves out numbers where there are joint states, and transforms where there is either.
+void keep_best_source(const RawRecording& raw, std::vector<std::size_t>& joints) {
+  JointSource best = JointSource::kTransform;
+  for (const std::size_t i : joints) best = std::min(best, raw.joints[i].source);
+  std::erase_if(joints, [&](std::size_t i) { return raw.joints[i].source != best; });
+}
+
 }  // namespace
 
 Result<std::size_t> choose_laser(const RawRecording& raw, const Rig& rig) {
@@ -103,14 +116,12 @@ Result<std::size_t> choose_laser(const RawRecording& raw, const Rig& rig) {
 Result<std::size_t> choose_joint(const RawRecording& raw, const Rig& rig) {
   std::vector<std::size_t> all, usable, moving;
   for (std::size_t i = 0; i < raw.joints.size(); ++i) {
-    const RawJoint& joint = raw.joints[i];
     all.push_back(i);
-    if (rig.motor.topic && *rig.motor.topic != joint.topic) continue;
-    if (rig.motor.joint && *rig.motor.joint != joint.joint) continue;
-    if (joint.positions.empty()) continue;
-    usable.push_back(i);
-    if (turn_deg(joint, rig) > kLeastMotion_deg) moving.push_back(i);
+    if (wanted(raw.joints[i], rig)) usable.push_back(i);
   }
+  if (!rig.motor.topic) keep_best_source(raw, usable);
+  for (const std::size_t i : usable)
+    if (turn_deg(raw.joints[i], rig) > kLeastMotion_deg) moving.push_back(i);
   if (moving.size() == 1) return moving.front();
   if (moving.empty() && usable.size() == 1) return usable.front();
   if (!usable.empty()) {

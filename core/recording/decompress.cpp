@@ -3,6 +3,7 @@
 #include <bzlib.h>
 #include <fmt/format.h>
 #include <lz4frame.h>
+#include <zstd.h>
 
 #include <algorithm>
 #include <memory>
@@ -93,6 +94,29 @@ Decompressed unpack_lz4(std::span<const std::byte> block, std::size_t most_bytes
   }
 }
 
+Decompressed unpack_zstd(std::span<const std::byte> block, std::size_t most_bytes,
+                         std::vector<std::byte>& buffer) {
+  const std::unique_ptr<ZSTD_DCtx, std::size_t (*)(ZSTD_DCtx*)> context(ZSTD_createDCtx(), ZSTD_freeDCtx);
+  if (!context) return {{}, "zstd could not be started"};
+  Output output(buffer, most_bytes);
+  ZSTD_inBuffer input{block.data(), block.size(), 0};
+  while (true) {
+    char overflow = 0;
+    const bool full = output.full();
+    const std::span<std::byte> space =
+        full ? std::as_writable_bytes(std::span(&overflow, 1)) : output.free_space();
+    ZSTD_outBuffer written{space.data(), space.size(), 0};
+    const std::size_t eaten_before = input.pos;
+    const std::size_t hint = ZSTD_decompressStream(context.get(), &written, &input);
+    if (ZSTD_isError(hint)) return {output.bytes(), "its zstd data is damaged"};
+    if (full && written.pos > 0) return {output.bytes(), too_long(most_bytes)};
+    output.take(written.pos);
+    if (hint == 0 && input.pos == input.size) return {output.bytes(), ""};
+    if (input.pos == eaten_before && written.pos == 0)
+      return {output.bytes(), "its zstd data ends too early"};
+  }
+}
+
 }  // namespace
 
 std::optional<Compression> compression_named(std::string_view name) {
@@ -111,6 +135,8 @@ Decompressed decompress(Compression compression, std::span<const std::byte> bloc
       return unpack_bz2(block, most_bytes, buffer);
     case Compression::kLz4:
       return unpack_lz4(block, most_bytes, buffer);
+    case Compression::kZstd:
+      return unpack_zstd(block, most_bytes, buffer);
   }
   return {{}, "its compression is unknown"};
 }

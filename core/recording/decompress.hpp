@@ -10,9 +10,9 @@
 namespace sweepscope {
 
 /// How a chunk of a recording is compressed.
-enum class Compression { kNone, kBz2, kLz4 };
+enum class Compression { kNone, kBz2, kLz4, kZstd };
 
-/// "none", "bz2" or "lz4"; empty for any other name.
+/// As ROS 1 bags name it: "none", "bz2" or "lz4"; empty for any other name.
 std::optional<Compression> compression_named(std::string_view name);
 
 /// The bytes that came out of a compressed block, and what was wrong with it (empty where it was whole). The
@@ -22,9 +22,9 @@ struct Decompressed {
   std::string problem;
 };
 
-/// Decompresses `block` (bz2, or the LZ4 frame format) into `buffer`, which grows with what really comes out
-/// and never beyond `most_bytes`. The result points into `buffer`, or into `block` where that is not
-/// compressed.
+/// Decompresses `block` (bz2, or the frame formats of LZ4 and Zstandard) into `buffer`, which grows with what
+/// really comes out and never beyond `most_bytes`. The result points into `buffer`, or into `block` where
+/// that is not compressed.
 Decompressed decompress(Compression compression, std::span<const std::byte> block, std::size_t most_bytes,
                         std::vector<std::byte>& buffer);
 

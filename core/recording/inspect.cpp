@@ -37,6 +37,7 @@ LaserSummary inspect_laser(const Recording& recording) {
   LaserSummary laser;
   take_stamps(report.laser_stamps, laser);
   laser.topic = recording.rig.laser.topic.value_or("");
+  laser.stamp_at = recording.rig.laser.stamp_at;
   laser.used = recording.scans.size();
   laser.gaps = report.scan_gaps;
   laser.longest_gap_s = report.longest_scan_gap_s;
@@ -137,10 +138,10 @@ std::vector<std::string> expect(const LaserSummary& laser, const MotorSummary& m
                                 motor.whole_sweeps(), kMoving));
   }
   for (const auto& [stream, name] :
-       {std::pair<const StreamSummary&, const char*>{laser, "scans"}, {motor, "motor"}}) {
+       {std::pair<const StreamSummary&, const char*>{laser, "scans'"}, {motor, "motor's"}}) {
     if (stream.stamp != StampSource::kReceive || !stream.receive_jitter_s) continue;
-    lines.push_back(fmt::format("The {}'s receive times jitter by {:.2g} ms, which goes into the answer.",
-                                name, 1000 * *stream.receive_jitter_s));
+    lines.push_back(fmt::format("The {} receive times jitter by {:.2g} ms, which goes into the answer.", name,
+                                1000 * *stream.receive_jitter_s));
   }
   return lines;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -19,28 +20,55 @@ struct MessageStamps {
 
 struct RawScan {
   MessageStamps stamps;
-  float angle_min_rad = 0, angle_increment_rad = 0;
+  float angle_min_rad = 0, angle_max_rad = 0, angle_increment_rad = 0;  // the greatest is not used
   float time_increment_s = 0, scan_time_s = 0;
   float range_min_m = 0, range_max_m = 0;
   std::size_t first_range = 0;  // of beam 0 in RawLaser::ranges_m
   std::uint32_t beams = 0;
 };
 
+/// The direction of a scan's last beam, for RawScan::angle_max_rad where a format has none.
+inline float last_beam_angle_rad(const RawScan& scan) {
+  const double steps = scan.beams - 1.0;
+  return static_cast<float>(double{scan.angle_min_rad} + steps * double{scan.angle_increment_rad});
+}
+
 /// The scans of one topic in the order of the file.
 struct RawLaser {
   std::string topic;
+  std::string frame;  // of the first message's header
   std::vector<RawScan> scans;
   std::vector<float> ranges_m;
   std::vector<float> intensities;  // like ranges_m as long as every scan had them
   bool has_intensities = true;
 };
 
+/// What a joint's positions come from. Where the rig names neither topic nor joint, the motor is sought among
+/// joint states; among numbers only where there are none, and among transforms only where there is neither:
+/// numbers may be anything, and so may what moves one frame in another.
+enum class JointSource { kJointState, kNumber, kTransform };
+
 /// The samples of one joint of one topic in the order of the file.
 struct RawJoint {
   std::string topic;
   std::string joint;
+  JointSource source = JointSource::kJointState;
   std::vector<MessageStamps> stamps;
   std::vector<double> positions;  // raw: before the rig's scale and zero
+};
+
+/// What is known of a frame's pose in its parent frame: the first transform, and the one that is turned
+/// farthest from it.
+struct RawFrame {
+  struct Pose {
+    MessageStamps stamps;
+    Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+    Eigen::Vector3d translation_m = Eigen::Vector3d::Zero();
+  };
+  std::string parent, child;
+  Pose first, farthest;
+  double turned_rad = 0;  // between these two
+  double shifted_m = 0;   // the most from the first
 };
 
 struct RawRecording {
@@ -49,6 +77,7 @@ struct RawRecording {
   std::vector<RecordedTopic> topics;
   std::vector<RawLaser> lasers;
   std::vector<RawJoint> joints;
+  std::vector<RawFrame> frames;  // of all transforms, also of those that are no joint
   std::vector<std::string> warnings;
 };
 

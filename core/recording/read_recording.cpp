@@ -2,20 +2,26 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <string_view>
 
 #include "core/recording/assemble.hpp"
+#include "core/recording/csv_recording.hpp"
 #include "core/recording/input_file.hpp"
+#include "core/recording/read_raw_recording.hpp"
 #include "core/recording/ros1_recording.hpp"
+#include "core/recording/ros2_recording.hpp"
 
 namespace sweepscope {
 namespace {
 
-constexpr std::string_view kReadable = "sweepscope reads ROS 1 bags of format 2.0";
+namespace fs = std::filesystem;
+
+constexpr std::string_view kReadable =
+    "sweepscope reads ROS 1 bags of format 2.0, ROS 2 bags (.db3 and MCAP) and folders with scans.csv and "
+    "motor.csv";
 
 /// A file's first bytes, as far as it has them.
-Result<std::string> beginning(const std::filesystem::path& path) {
+Result<std::string> beginning(const fs::path& path) {
   auto file = InputFile::open(path);
   if (!file) return tl::unexpected(file.error());
   std::string bytes(16, '\0');
@@ -26,22 +32,38 @@ Result<std::string> beginning(const std::filesystem::path& path) {
 std::string not_readable(std::string_view start) {
   if (start.starts_with("#ROSBAG V1")) return "is a ROS 1 bag of format 1; convert it with `rosbag fix`";
   if (start.starts_with("#ROSBAG")) return "is a ROS 1 bag of an unknown format";
-  if (start.starts_with("SQLite format 3")) return "is an SQLite database, as ROS 2 bags are";
-  if (start.starts_with("\x89MCAP")) return "is an MCAP file";
+  if (start.starts_with("\x89MCAP")) return "is an MCAP file of an unknown version";
+  if (start.starts_with("SQLite format")) return "is an SQLite database of an unknown version";
   return "byte 0 begins no recording that is known";
+}
+
+Result<RawRecording> read_folder(const fs::path& folder, const Rig& rig, const Job& job) {
+  std::error_code error;
+  const bool scans = fs::exists(folder / kScansCsv, error), motor = fs::exists(folder / kMotorCsv, error);
+  if (scans && motor) return read_csv_recording(folder, rig, job);
+  if (scans || motor) {
+    return unreadable(fmt::format("{}: is a folder with {} and without {}", folder.string(),
+                                  scans ? kScansCsv : kMotorCsv, scans ? kMotorCsv : kScansCsv));
+  }
+  if (is_ros2_folder(folder)) return read_ros2_folder(folder, rig, job);
+  return unreadable(fmt::format("{}: is a folder that holds no recording; {}", folder.string(), kReadable));
 }
 
 }  // namespace
 
-Result<Recording> read_recording(const std::filesystem::path& path, const ReadOptions& options,
-                                 const Job& job) {
+Result<RawRecording> read_raw_recording(const fs::path& path, const Rig& rig, const Job& job) {
+  std::error_code ignored;
+  if (fs::is_directory(path, ignored)) return read_folder(path, rig, job);
   const auto start = beginning(path);
   if (!start) return tl::unexpected(start.error());
-  if (!start->starts_with("#ROSBAG V2.0\n")) {
-    return unreadable(fmt::format("{}: {}; {}", path.string(), not_readable(*start), kReadable));
-  }
+  if (start->starts_with("#ROSBAG V2.0\n")) return read_ros1_recording(path, rig, job);
+  if (bag_storage(*start)) return read_ros2_file(path, rig, job);
+  return unreadable(fmt::format("{}: {}; {}", path.string(), not_readable(*start), kReadable));
+}
+
+Result<Recording> read_recording(const fs::path& path, const ReadOptions& options, const Job& job) {
   const Rig rig = options.rig.value_or(Rig{});
-  auto raw = read_ros1_recording(path, rig, job);
+  auto raw = read_raw_recording(path, rig, job);
   if (!raw) return tl::unexpected(std::move(raw.error()));
   return assemble(std::move(*raw), rig, options.stamps);
 }

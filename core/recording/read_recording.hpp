@@ -14,9 +14,9 @@ struct ReadOptions {
   std::optional<StampSource> stamps;  // for both streams, whatever the rig says
 };
 
-/// Reads a recording: a ROS 1 bag of format 2.0, told by its content and not by its name. Fails with one
-/// sentence that names the file and the place where nothing in it can be used, or where what to use is not
-/// plain.
+/// Reads a recording, told by its content and not by its name: a ROS 1 bag, a ROS 2 bag (.db3, MCAP), or a
+/// folder of either or of CSV tables (read_raw_recording.hpp). Fails with one sentence that names the file
+/// and the place where nothing in it can be used, or where what to use is not plain.
 Result<Recording> read_recording(const std::filesystem::path& path, const ReadOptions& options,
                                  const Job& job);
 

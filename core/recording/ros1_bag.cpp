@@ -276,11 +276,6 @@ Result<std::vector<std::string>> BagReader::read(const Job& job) {
 
 }  // namespace
 
-std::string BagPlace::text() const {
-  return chunk_byte ? fmt::format("byte {} of the chunk at byte {}", *chunk_byte, file_byte)
-                    : fmt::format("byte {}", file_byte);
-}
-
 Result<std::vector<std::string>> read_ros1_bag(const std::filesystem::path& path, const BagVisitor& visit,
                                                const Job& job) {
   auto file = InputFile::open(path);

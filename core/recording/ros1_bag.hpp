@@ -11,6 +11,7 @@
 
 #include "core/error.hpp"
 #include "core/job.hpp"
+#include "core/recording/bag_place.hpp"
 
 namespace sweepscope {
 
@@ -27,13 +28,6 @@ struct BagConnection {
   std::string topic;
   std::string type;  // for example sensor_msgs/LaserScan
   std::string md5sum;
-};
-
-/// Where a record is, in words that a person can follow with a hex editor.
-struct BagPlace {
-  std::uint64_t file_byte = 0;              // of the chunk, or of the record where it is in none
-  std::optional<std::uint64_t> chunk_byte;  // within the unpacked chunk
-  std::string text() const;                 // "byte 4117" or "byte 82 of the chunk at byte 4117"
 };
 
 /// One message. Its bytes and its connection are there for the length of the visit.

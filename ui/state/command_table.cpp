@@ -302,7 +302,7 @@ void add_actions(std::vector<Command>& all) {
                                         "room-5",   "room-6",      "metro-station", "parking-area",
                                         "cemetery", "lecture-room"};
   all.push_back(
-      action({"open", "Open a recording", "A ROS 1 bag, or a session saved before."}, {text_of("FILE")}));
+      action({"open", "Open a recording", "A ROS 1 or ROS 2 bag, a folder of CSV tables, or a session saved before."}, {text_of("FILE")}));
   all.push_back(
       action({"sample", "Open a simulated sample",
               "A recording whose true offset is known to be 24 ms: a room, or the first seconds of a walk."},

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
 namespace sweepscope {
 namespace {
@@ -48,6 +49,50 @@ TEST(EdgeReason, IsGivenAtBothEndsOnly) {
 TEST(FlatReason, IsGivenWhereTheValleyIsShallow) {
   EXPECT_TRUE(flat_reason(curve_of([](double ms) { return 0.3 + valley(ms, 0, 0.02); }), 30));
   EXPECT_FALSE(flat_reason(curve_of([](double ms) { return 0.3 + valley(ms, 0, 0.1); }), 30));
+}
+
+/// Scans every 25 ms, the fifth to come missing, each received later than it was made by `late_s`.
+Recording received(const std::function<double(int i)>& late_s) {
+  Recording recording;
+  recording.report.laser_stamps.used = StampSource::kReceive;
+  for (int i = 0; i < 200; ++i) {
+    if (i % 10 == 4) continue;
+    LaserScan& scan = recording.scans.emplace_back();
+    scan.first_beam_s = i * 25 * kMs + late_s(i);
+    scan.beams = 1;
+  }
+  return recording;
+}
+
+TEST(StampsReason, IsGivenForReceiveTimesThatTellNotWhichScanWasWhen) {
+  const auto bursts = [](int i) { return i / 2 % 2 * 10 * kMs; };
+  const Remark reason = stamps_reason(received(bursts), kScale);
+  ASSERT_TRUE(reason);
+  EXPECT_NE(reason->find("The scans' receive times come unevenly"), std::string::npos) << *reason;
+  EXPECT_FALSE(stamps_reason(received([](int i) { return i / 2 % 2 * 2 * kMs; }), kScale));
+  Recording by_header = received(bursts);
+  by_header.report.laser_stamps.used = StampSource::kHeader;
+  EXPECT_FALSE(stamps_reason(by_header, kScale));
+  const SearchScale slow{50 * kMs, 500 * kMs, 2000 * kMs};
+  EXPECT_FALSE(stamps_reason(received(bursts), slow)) << "the motor turns little meanwhile";
+}
+
+TEST(GapsReason, CountsTheScansMadeWhileTheMotorWasRecorded) {
+  Recording recording;
+  recording.motor.time_s = {0, 10};
+  recording.motor.angle_rad = {0, 1};
+  for (int i = -20; i < 10; ++i) {
+    LaserScan& scan = recording.scans.emplace_back();
+    scan.first_beam_s = i + 0.5;
+    scan.beams = 1;
+  }
+  std::vector<char> covered(30, 0);
+  for (std::size_t i = 20; i < 24; ++i) covered[i] = 1;
+  const Remark reason = gaps_reason(recording, covered, 0, 0);
+  ASSERT_TRUE(reason);
+  EXPECT_NE(reason->find("only 4 of 10"), std::string::npos) << *reason;
+  covered[24] = 1;
+  EXPECT_FALSE(gaps_reason(recording, covered, 0, 0));
 }
 
 TEST(DriftReason, NeedsAMillisecondAndThreeSigma) {

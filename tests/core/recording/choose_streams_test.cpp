@@ -131,5 +131,26 @@ TEST(ChooseJoint, SaysWhatIsThereWhereThereAreNoJoints) {
             "1 messages");
 }
 
+TEST(ChooseJoint, JointStatesComeBeforeNumbersAndThoseBeforeTransforms) {
+  RawRecording raw = with_joints({{"frame", 1}, {"data", 1}, {"roll", 1}});
+  raw.joints[0].source = JointSource::kTransform;
+  raw.joints[0].topic = "/tf";
+  raw.joints[1].source = JointSource::kNumber;
+  EXPECT_EQ(choose_joint(raw, Rig()).value(), 2U);
+  Rig rig;
+  rig.motor.topic = "/tf";
+  EXPECT_EQ(choose_joint(raw, rig).value(), 0U);
+  raw.joints.pop_back();
+  EXPECT_EQ(choose_joint(raw, Rig()).value(), 1U);
+  raw.joints.pop_back();
+  EXPECT_EQ(choose_joint(raw, Rig()).value(), 0U);
+}
+
+TEST(ChooseJoint, AMotorThatStandsIsNotReplacedByATransformThatMoves) {
+  RawRecording raw = with_joints({{"base", 1}, {"roll", 0}});
+  raw.joints[0].source = JointSource::kTransform;
+  EXPECT_EQ(choose_joint(raw, Rig()).value(), 1U);
+}
+
 }  // namespace
 }  // namespace sweepscope

@@ -1,0 +1,100 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "app/commands.hpp"
+#include "app/progress.hpp"
+#include "app/recording_options.hpp"
+#include "core/recording/choose_streams.hpp"
+#include "core/recording/read_raw_recording.hpp"
+#include "core/recording/recording_writer.hpp"
+
+namespace sweepscope::app {
+namespace {
+
+struct Options {
+  std::filesystem::path recording, output;
+  std::optional<std::filesystem::path> rig;
+  std::string to, compression = "none";
+};
+
+Result<RecordingFormat> format_of(const Options& options) {
+  const auto format = options.to.empty() ? recording_format_of(options.output) : recording_format(options.to);
+  if (!format) {
+    return failure(ExitCode::kWrongUsage, fmt::format("{}: its name stands for no format; name one with --to",
+                                                      options.output.string()));
+  }
+  if (!can_compress(*format, options.compression)) {
+    return failure(ExitCode::kWrongUsage, fmt::format("{}: is not written with --compression {}",
+                                                      options.output.string(), options.compression));
+  }
+  std::error_code ignored;
+  if (std::filesystem::equivalent(options.recording, options.output, ignored)) {
+    return failure(ExitCode::kWrongUsage,
+                   fmt::format("{}: a recording is not written over itself", options.output.string()));
+  }
+  return *format;
+}
+
+/// Converts, and gives the line that says so.
+Result<std::string> convert(const Options& options) {
+  const auto format = format_of(options);
+  if (!format) return tl::unexpected(format.error());
+  const auto rig = options.rig ? read_rig(*options.rig) : Result<Rig>(Rig());
+  if (!rig) return tl::unexpected(rig.error());
+  const Progress progress;
+  const auto raw = read_raw_recording(options.recording, *rig, progress.job());
+  if (!raw) return tl::unexpected(raw.error());
+  const auto laser = choose_laser(*raw, *rig);
+  if (!laser) return tl::unexpected(laser.error());
+  const auto joint = choose_joint(*raw, *rig);
+  if (!joint) return tl::unexpected(joint.error());
+  const RawLaser& scans = raw->lasers[*laser];
+  const RawJoint& motor = raw->joints[*joint];
+  const auto written =
+      write_recording(scans, motor, *format, options.compression, options.output, progress.job());
+  if (!written) return tl::unexpected(written.error());
+  for (const std::string& warning : raw->warnings)
+    progress.say(printable(fmt::format("warning: {}: {}", raw->name, warning)));
+  return fmt::format("{}: {} scans of {} and {} samples of {} on {}\n", options.output.string(),
+                     scans.scans.size(), scans.topic, motor.stamps.size(), motor.joint, motor.topic);
+}
+
+ExitCode run(const Options& options) {
+  const auto said = convert(options);
+  if (!said) return fail(said.error());
+  fmt::print("{}", printable(*said));
+  return ExitCode::kDone;
+}
+
+}  // namespace
+
+void add_convert(CLI::App& app, ExitCode& exit_code) {
+  CLI::App* command = app.add_subcommand(
+      "convert", "Write the scans and the motor's samples as a recording of another format");
+  auto options = std::make_shared<Options>();
+  command->add_option("REC", options->recording, std::string("The recording: ") + kRecordings)->required();
+  command
+      ->add_option("-o,--output", options->output,
+                   "OUT.bag, OUT.mcap, or OUT for a folder with scans.csv and motor.csv")
+      ->required()
+      ->type_name("OUT");
+  command->add_option("--to", options->to, "csv, ros1 or mcap (default: as OUT is named)")
+      ->type_name("FORMAT")
+      ->check([](const std::string& name) {
+        return recording_format(name) ? std::string() : name + ": the formats are csv, ros1 and mcap";
+      });
+  command
+      ->add_option("--compression", options->compression,
+                   "Of chunks: none; bz2 or lz4 (ros1); lz4 or zstd (mcap)")
+      ->capture_default_str()
+      ->type_name("C")
+      ->check(CLI::IsMember({"none", "bz2", "lz4", "zstd"}));
+  command
+      ->add_option("--rig", options->rig,
+                   "Rig file that names the laser and the motor, where that is not plain")
+      ->type_name("F");
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace sweepscope::app

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace sweepscope {
+
+/// The messages that an actuated scanner is recorded with, as ROS 1 and ROS 2 serialise them. Each decoder is
+/// bounded: a length that the message does not hold, or bytes left over, make it malformed, and nothing is
+/// allocated for it. What they give points into the message's bytes.
+
+/// How a message is serialised: by ROS 1, or by ROS 2 as plain CDR (XCDR1) of either byte order.
+enum class Encoding { kRos1, kCdr };
+
+enum class MessageKind { kLaserScan, kJointState, kDynamixel, kFloat64, kFloat32, kInt32, kTransforms };
+
+struct MessageType {
+  std::string_view name;  // as in ROS 1: package/Type
+  std::string_view md5;   // of its ROS 1 definition
+  MessageKind kind;
+};
+
+/// The type with that name, in ROS 1's spelling or in ROS 2's (package/msg/Type); null where it is none of
+/// these.
+const MessageType* find_message_type(std::string_view name);
+
+/// Numbers in a message, at any alignment.
+template <typename T>
+struct PackedArray {
+  std::span<const std::byte> bytes;
+  bool swapped = false;  // big-endian
+
+  std::size_t size() const { return bytes.size() / sizeof(T); }
+  T operator[](std::size_t i) const;
+  void append_to(std::vector<T>& numbers) const;
+};
+
+struct DecodedScan {
+  std::int64_t header_ns = 0;
+  std::string_view frame;
+  float angle_min_rad = 0, angle_max_rad = 0, angle_increment_rad = 0;
+  float time_increment_s = 0, scan_time_s = 0;
+  float range_min_m = 0, range_max_m = 0;
+  PackedArray<float> ranges_m, intensities;
+};
+
+/// One joint's position in a message; std_msgs have no header (0 ns), and their only joint is "data".
+struct DecodedJoint {
+  std::int64_t header_ns = 0;
+  std::string_view name;
+  double position = 0;
+};
+
+/// A frame's pose in its parent frame.
+struct DecodedTransform {
+  std::int64_t header_ns = 0;
+  std::string_view parent, child;
+  Eigen::Vector3d translation_m = Eigen::Vector3d::Zero();
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+};
+
+/// Empty where the message is malformed.
+std::optional<DecodedScan> decode_laser_scan(Encoding encoding, std::span<const std::byte> message);
+
+/// Fills `joints`, whose memory is used again from call to call; false where the message is malformed. Of a
+/// transform the joint is the child frame, and its position the angle about `axis` (unit length, in the
+/// parent frame), -pi to pi. A joint state without positions has no joints.
+bool decode_joints(MessageKind kind, Encoding encoding, std::span<const std::byte> message,
+                   const Eigen::Vector3d& axis, std::vector<DecodedJoint>& joints);
+
+/// Of a message of transforms all that it holds, likewise.
+bool decode_transforms(Encoding encoding, std::span<const std::byte> message,
+                       std::vector<DecodedTransform>& transforms);
+
+}  // namespace sweepscope

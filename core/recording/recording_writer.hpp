@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "core/error.hpp"
+#include "core/job.hpp"
+#include "core/recording/raw_recording.hpp"
+
+namespace sweepscope {
+
+enum class RecordingFormat { kCsv, kRos1, kMcap };
+
+/// "csv", "ros1" or "mcap"; empty for any other name.
+std::optional<RecordingFormat> recording_format(std::string_view name);
+/// The format that an output's name stands for: .bag, .mcap, or a folder of CSV tables where the name has no
+/// extension; empty for others.
+std::optional<RecordingFormat> recording_format_of(const std::filesystem::path& output);
+
+/// Whether chunks of that format can be compressed so: "none"; "bz2" and "lz4" for ROS 1; "lz4" and "zstd"
+/// for MCAP.
+bool can_compress(RecordingFormat format, std::string_view compression);
+
+/// Writes a laser and a motor's joint as they were read: both stamps, ranges before any is judged, positions
+/// before the rig's scale and zero, the names of topics and joint. All formats read back as the same
+/// recording. MCAP files are of the ROS 2 profile.
+Result<void> write_recording(const RawLaser& laser, const RawJoint& joint, RecordingFormat format,
+                             const std::string& compression, const std::filesystem::path& output,
+                             const Job& job);
+
+}  // namespace sweepscope

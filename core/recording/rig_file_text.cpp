@@ -1,0 +1,93 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "core/recording/detect_rig.hpp"
+#include "core/recording/rig_names.hpp"
+
+namespace sweepscope {
+namespace {
+
+/// A name as YAML has it: plain where it is made of harmless characters, else in double quotes.
+std::string yaml_name(const std::string& name) {
+  const auto harmless = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '/'; };
+  const auto is_null = [&] {
+    std::string lower = name;
+    for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return lower == "null";
+  };
+  const bool begins = !name.empty() && std::isdigit(static_cast<unsigned char>(name[0])) == 0;
+  if (begins && std::ranges::all_of(name, harmless) && !is_null()) return name;
+  std::string quoted = "\"";
+  for (const char c : name) {
+    if (c == '"' || c == '\\') quoted += '\\';
+    if (static_cast<unsigned char>(c) < ' ')
+      quoted += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
+    else
+      quoted += c;
+  }
+  return quoted + '"';
+}
+
+/// Of a comment, with what would end its line replaced.
+std::string one_line(std::string text) {
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < ' ') c = '?';
+  return text;
+}
+
+std::string line(const std::string& setting, const std::string& comment) {
+  if (comment.empty()) return setting + "\n";
+  return fmt::format("{:<34}  # {}\n", setting, one_line(comment));
+}
+
+/// With as many digits as give the same number back, and no exponent's trap: YAML takes 1e-05 as well.
+std::string vector_text(const Eigen::Vector3d& v) {
+  return fmt::format("[{}, {}, {}]", v.x() + 0.0, v.y() + 0.0, v.z() + 0.0);
+}
+
+std::string laser_text(const DetectedRig& detected) {
+  const Rig::Laser& laser = detected.rig.laser;
+  std::string text = "laser:\n";
+  if (laser.topic) text += line("  topic: " + yaml_name(*laser.topic), detected.laser_note);
+  if (laser.stamp) text += line("  stamp: " + name_of(*laser.stamp), "header | receive");
+  text += line("  stamp_at: " + name_of(laser.stamp_at),
+               "first_beam | last_beam | arrival; " + detected.stamp_at_note);
+  if (laser.time_increment_s)
+    text += line(fmt::format("  time_increment_s: {}", *laser.time_increment_s), detected.increment_note);
+  else
+    text += line("  # time_increment_s: 1.736e-5", detected.increment_note);
+  return text;
+}
+
+std::string motor_text(const DetectedRig& detected) {
+  const Rig::Motor& motor = detected.rig.motor;
+  std::string text = "motor:\n";
+  if (motor.topic) text += line("  topic: " + yaml_name(*motor.topic), "");
+  if (motor.joint) text += line("  joint: " + yaml_name(*motor.joint), detected.motor_note);
+  if (motor.stamp) text += line("  stamp: " + name_of(*motor.stamp), "header | receive");
+  text += line(fmt::format("  scale: {}", motor.scale), "angle_rad = scale * raw - zero_deg * pi / 180");
+  if (!detected.scale_note.empty()) text += "  # " + one_line(detected.scale_note) + "\n";
+  return text + line(fmt::format("  zero_deg: {}", motor.zero_deg), "");
+}
+
+std::string mount_text(const DetectedRig& detected) {
+  const Rig::Mount& mount = detected.rig.mount;
+  return "mount:  # " + one_line(detected.mount_note) + "\n" +
+         line("  axis: " + vector_text(mount.axis), "the motor's, in the base frame") +
+         "  # the laser's pose in the frame that turns with the motor; at motor angle 0 that is the base "
+         "frame\n" +
+         fmt::format("  laser_in_motor: {{xyz_m: {}, rpy_deg: {}}}\n",
+                     vector_text(mount.laser_in_motor_xyz_m), vector_text(mount.laser_in_motor_rpy_deg));
+}
+
+}  // namespace
+
+std::string rig_file_text(const DetectedRig& detected) {
+  return "# The rig of " + one_line(detected.recording) +
+         ", as detected. Give it with --rig; what is deleted here is detected anew.\n" +
+         laser_text(detected) + motor_text(detected) + mount_text(detected);
+}
+
+}  // namespace sweepscope

@@ -1,0 +1,195 @@
+#include "core/recording/sqlite_bag.hpp"
+
+#include <fmt/format.h>
+#include <sqlite3.h>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+
+#include "core/recording/input_file.hpp"
+
+namespace sweepscope {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kStepsPerLook = 100'000;  // of SQLite's machine, between looks at the job
+
+using Database = std::unique_ptr<sqlite3, int (*)(sqlite3*)>;
+using Statement = std::unique_ptr<sqlite3_stmt, int (*)(sqlite3_stmt*)>;
+
+/// "file:" with what has a meaning in it escaped.
+std::string uri_of(const fs::path& path, bool immutable) {
+  std::string uri = "file:";
+  for (const char c : fs::absolute(path).string()) {
+    if (c == '%' || c == '?' || c == '#')
+      uri += fmt::format("%{:02X}", static_cast<unsigned char>(c));
+    else
+      uri += c;
+  }
+  return uri + (immutable ? "?immutable=1" : "?mode=ro");
+}
+
+/// Reads one bag.
+class SqliteReader {
+ public:
+  SqliteReader(const fs::path& path, const SqliteVisitor& visit, const Job& job)
+      : path_(path), visit_(visit), job_(job) {}
+
+  Result<std::vector<std::string>> read();
+
+ private:
+  bool open(bool immutable);
+  bool begin();
+  Statement prepare(const char* sql);
+  bool read_topics();
+  std::optional<Error> read_messages();
+  std::optional<Error> visit_row(sqlite3_stmt* row);
+  bool has_table(const char* name);
+  Error unreadable_because(const std::string& why) const;
+  std::string problem() const { return sqlite3_errmsg(database_.get()); }
+  bool interrupted() const { return sqlite3_errcode(database_.get()) == SQLITE_INTERRUPT; }
+
+  fs::path path_;
+  const SqliteVisitor& visit_;
+  const Job& job_;
+  Database database_{nullptr, sqlite3_close};
+  std::map<std::int64_t, SqliteTopic> topics_;
+  std::int64_t last_id_ = 0, visited_ = 0, most_ids_ = 0;
+  std::size_t orphans_ = 0;
+  std::vector<std::string> warnings_;
+};
+
+Error SqliteReader::unreadable_because(const std::string& why) const {
+  if (interrupted())
+    return {ExitCode::kInterrupted, fmt::format("{}: reading was interrupted", path_.string())};
+  return {ExitCode::kUnreadableInput, fmt::format("{}: {}", path_.string(), why)};
+}
+
+bool SqliteReader::open(bool immutable) {
+  sqlite3* database = nullptr;
+  const int code = sqlite3_open_v2(uri_of(path_, immutable).c_str(), &database,
+                                   SQLITE_OPEN_READONLY | SQLITE_OPEN_URI | SQLITE_OPEN_NOMUTEX, nullptr);
+  database_.reset(database);
+  if (code != SQLITE_OK) return false;
+  sqlite3_limit(database, SQLITE_LIMIT_LENGTH, kMostSqliteMessage_bytes);
+  sqlite3_db_config(database, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
+  sqlite3_db_config(database, SQLITE_DBCONFIG_ENABLE_TRIGGER, 0, nullptr);
+  sqlite3_db_config(database, SQLITE_DBCONFIG_ENABLE_VIEW, 0, nullptr);
+  const auto look = [](void* job) { return static_cast<const Job*>(job)->cancelled() ? 1 : 0; };
+  sqlite3_progress_handler(database, kStepsPerLook, look, const_cast<Job*>(&job_));
+  return true;
+}
+
+Statement SqliteReader::prepare(const char* sql) {
+  sqlite3_stmt* statement = nullptr;
+  sqlite3_prepare_v2(database_.get(), sql, -1, &statement, nullptr);
+  return {statement, sqlite3_finalize};
+}
+
+bool SqliteReader::has_table(const char* name) {
+  const Statement statement = prepare("SELECT 1 FROM sqlite_master WHERE type = 'table' AND name = ?");
+  return statement && sqlite3_bind_text(statement.get(), 1, name, -1, SQLITE_STATIC) == SQLITE_OK &&
+         sqlite3_step(statement.get()) == SQLITE_ROW;
+}
+
+/// Opens the database, with the journal of a recorder that was not ended where there is one. A file shorter
+/// than its header says is read all the same, as far as it goes.
+bool SqliteReader::begin() {
+  std::error_code ignored;
+  const auto journal_bytes = fs::file_size(path_.string() + "-wal", ignored);
+  const bool journal = !ignored && journal_bytes > 0;
+  if (!open(!journal)) return false;
+  if (journal && !has_table("topics")) {
+    warnings_.push_back(fmt::format("it was never closed, and its journal {}-wal could not be read: {}",
+                                    path_.filename().string(), problem()));
+    if (!open(true)) return false;
+  }
+  if (has_table("topics")) return true;
+  const int code = sqlite3_errcode(database_.get());
+  if (code != SQLITE_CORRUPT && code != SQLITE_NOTADB) return true;
+  // Only for reading: with it SQLite believes the file's length, and not its header's.
+  sqlite3_exec(database_.get(), "PRAGMA writable_schema = ON", nullptr, nullptr, nullptr);
+  if (has_table("topics"))
+    warnings_.push_back("it is damaged or cut short; what is whole before the damage was read");
+  return true;
+}
+
+bool SqliteReader::read_topics() {
+  const Statement rows = prepare("SELECT id, name, type, serialization_format FROM topics");
+  if (!rows) return false;
+  const auto text = [&](int column) {
+    const auto* bytes = reinterpret_cast<const char*>(sqlite3_column_text(rows.get(), column));
+    return std::string(bytes == nullptr ? "" : bytes);
+  };
+  int code = 0;
+  while ((code = sqlite3_step(rows.get())) == SQLITE_ROW)
+    topics_[sqlite3_column_int64(rows.get(), 0)] = {text(1), text(2), text(3)};
+  return code == SQLITE_DONE;
+}
+
+std::optional<Error> SqliteReader::visit_row(sqlite3_stmt* row) {
+  last_id_ = sqlite3_column_int64(row, 0);
+  ++visited_;
+  const auto topic = topics_.find(sqlite3_column_int64(row, 1));
+  if (topic == topics_.end()) {
+    ++orphans_;
+    return std::nullopt;
+  }
+  const auto* bytes = static_cast<const std::byte*>(sqlite3_column_blob(row, 3));
+  const auto count = static_cast<std::size_t>(sqlite3_column_bytes(row, 3));
+  const std::span message(bytes, bytes == nullptr ? 0 : count);
+  return visit_({topic->second, sqlite3_column_int64(row, 2), message, last_id_});
+}
+
+std::optional<Error> SqliteReader::read_messages() {
+  if (const Statement last = prepare("SELECT max(rowid) FROM messages");
+      last && sqlite3_step(last.get()) == SQLITE_ROW) {
+    most_ids_ = sqlite3_column_int64(last.get(), 0);
+  }
+  const Statement rows = prepare("SELECT rowid, topic_id, timestamp, data FROM messages ORDER BY rowid");
+  if (!rows) return unreadable_because(fmt::format("its table of messages cannot be read: {}", problem()));
+  int code = 0;
+  while ((code = sqlite3_step(rows.get())) == SQLITE_ROW) {
+    if (auto error = visit_row(rows.get())) return error;
+    if (visited_ % 512 == 0 && most_ids_ > 0)
+      job_.report("reading", std::min(1.0, static_cast<double>(last_id_) / static_cast<double>(most_ids_)));
+    if (job_.cancelled())
+      return Error{ExitCode::kInterrupted, fmt::format("{}: reading was interrupted", path_.string())};
+  }
+  if (code == SQLITE_DONE) return std::nullopt;
+  if (interrupted()) return unreadable_because("");
+  warnings_.push_back(
+      fmt::format("its table of messages is damaged after message {} ({}); what comes before "
+                  "was read",
+                  last_id_, problem()));
+  return std::nullopt;
+}
+
+Result<std::vector<std::string>> SqliteReader::read() {
+  if (!begin()) return tl::unexpected(unreadable_because(problem()));
+  if (!has_table("topics") || !has_table("messages")) {
+    const int code = sqlite3_errcode(database_.get());
+    const bool sound = code == SQLITE_DONE || code == SQLITE_OK;
+    return tl::unexpected(unreadable_because(
+        sound ? "is an SQLite database without the tables topics and messages of a ROS 2 bag"
+              : fmt::format("is an SQLite database that cannot be read: {}", problem())));
+  }
+  if (!read_topics())
+    return tl::unexpected(
+        unreadable_because(fmt::format("its table of topics cannot be read: {}", problem())));
+  if (auto error = read_messages()) return tl::unexpected(std::move(*error));
+  if (orphans_ > 0) warnings_.push_back(fmt::format("{} messages belong to no topic", orphans_));
+  return std::move(warnings_);
+}
+
+}  // namespace
+
+Result<std::vector<std::string>> read_sqlite_bag(const fs::path& path, const SqliteVisitor& visit,
+                                                 const Job& job) {
+  if (const auto file = InputFile::open(path); !file) return tl::unexpected(file.error());
+  return SqliteReader(path, visit, job).read();
+}
+
+}  // namespace sweepscope

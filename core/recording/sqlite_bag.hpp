@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/job.hpp"
+
+namespace sweepscope {
+
+/// ROS 2 bags in SQLite databases (rosbag2's storage "sqlite3"): a table of topics and one of messages. The
+/// database is opened for reading only, and nothing in it is run: its schema is not trusted.
+inline constexpr int kMostSqliteMessage_bytes = 256 << 20;
+
+struct SqliteTopic {
+  std::string name;
+  std::string type;      // for example sensor_msgs/msg/LaserScan
+  std::string encoding;  // of its messages: "cdr"
+};
+
+/// One message. Its bytes and its topic are there for the length of the visit.
+struct SqliteMessage {
+  const SqliteTopic& topic;
+  std::int64_t receive_ns;
+  std::span<const std::byte> bytes;
+  std::int64_t id;  // in the table of messages
+};
+
+/// Called with every message in the order of the table; an error that it returns ends the reading.
+using SqliteVisitor = std::function<std::optional<Error>(const SqliteMessage&)>;
+
+/// Reads a whole bag. Gives the warnings: what was damaged or missing. What is whole before the damage is
+/// visited.
+Result<std::vector<std::string>> read_sqlite_bag(const std::filesystem::path& path,
+                                                 const SqliteVisitor& visit, const Job& job);
+
+}  // namespace sweepscope

@@ -1,0 +1,119 @@
+#include "core/recording/write_ros1_bag.hpp"
+
+#include <fmt/format.h>
+#include <rosbag/bag.h>
+#include <sensor_msgs/JointState.h>
+#include <sensor_msgs/LaserScan.h>
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+#include <system_error>
+
+#include "core/recording/write_order.hpp"
+
+namespace sweepscope {
+namespace {
+
+/// ROS's headers ask their allocator for rebind, which C++20's standard allocator no longer has.
+template <typename T>
+struct MessageAllocator : std::allocator<T> {
+  MessageAllocator() = default;
+  template <typename U>
+  MessageAllocator(const MessageAllocator<U>&) {}
+  template <typename U>
+  struct rebind {
+    using other = MessageAllocator<U>;
+  };
+};
+using LaserScanMessage = sensor_msgs::LaserScan_<MessageAllocator<void>>;
+using JointStateMessage = sensor_msgs::JointState_<MessageAllocator<void>>;
+
+ros::Time ros_time(std::int64_t ns) {
+  constexpr std::int64_t kSecond_ns = 1'000'000'000;
+  if (ns < 0 || ns / kSecond_ns > std::numeric_limits<std::uint32_t>::max())
+    throw std::out_of_range(fmt::format("a ROS 1 bag holds no time {} s", ns / kSecond_ns));
+  return {static_cast<std::uint32_t>(ns / kSecond_ns), static_cast<std::uint32_t>(ns % kSecond_ns)};
+}
+
+LaserScanMessage scan_message(const RawLaser& laser, std::size_t number) {
+  const RawScan& scan = laser.scans[number];
+  LaserScanMessage message;
+  message.header.seq = static_cast<std::uint32_t>(number);
+  message.header.stamp = ros_time(scan.stamps.header_ns);
+  message.header.frame_id = "laser";
+  message.angle_min = scan.angle_min_rad;
+  message.angle_increment = scan.angle_increment_rad;
+  message.angle_max = scan.angle_max_rad;
+  message.time_increment = scan.time_increment_s;
+  message.scan_time = scan.scan_time_s;
+  message.range_min = scan.range_min_m;
+  message.range_max = scan.range_max_m;
+  const auto first = static_cast<std::ptrdiff_t>(scan.first_range);
+  const auto ranges = laser.ranges_m.begin() + first;
+  message.ranges.assign(ranges, ranges + scan.beams);
+  if (laser.has_intensities) {
+    const auto intensities = laser.intensities.begin() + first;
+    message.intensities.assign(intensities, intensities + scan.beams);
+  }
+  return message;
+}
+
+JointStateMessage joint_message(const RawJoint& joint, std::size_t number) {
+  JointStateMessage message;
+  message.header.seq = static_cast<std::uint32_t>(number);
+  message.header.stamp = ros_time(joint.stamps[number].header_ns);
+  message.name.emplace_back(joint.joint.begin(), joint.joint.end());
+  message.position = {joint.positions[number]};
+  message.velocity = {0.0};  // as many drivers leave it
+  message.effort = {0.0};
+  return message;
+}
+
+rosbag::CompressionType compression_of(const std::string& name) {
+  if (name == "bz2") return rosbag::compression::BZ2;
+  if (name == "lz4") return rosbag::compression::LZ4;
+  return rosbag::compression::Uncompressed;
+}
+
+/// False where the job was cancelled. Throws what rosbag throws.
+bool write_messages(const RawLaser& laser, const RawJoint& joint, const std::filesystem::path& path,
+                    const std::string& compression, const Job& job) {
+  rosbag::Bag bag(path.string(), rosbag::bagmode::Write);
+  bag.setCompression(compression_of(compression));
+  const std::vector<WrittenMessage> all = write_order(laser, joint);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (job.cancelled()) return false;
+    const ros::Time received = std::max(ros_time(all[i].receive_ns), ros::TIME_MIN);
+    if (all[i].is_scan)
+      bag.write(laser.topic, received, scan_message(laser, all[i].number));
+    else
+      bag.write(joint.topic, received, joint_message(joint, all[i].number));
+    if (i % 512 == 0) job.report("writing", static_cast<double>(i) / static_cast<double>(all.size()));
+  }
+  bag.close();
+  return true;
+}
+
+}  // namespace
+
+Result<void> write_ros1_bag(const RawLaser& laser, const RawJoint& joint, const std::filesystem::path& path,
+                            const std::string& compression, const Job& job) {
+  const std::filesystem::path part = path.string() + ".part";
+  std::error_code ignored;
+  try {
+    if (!write_messages(laser, joint, part, compression, job)) {
+      std::filesystem::remove(part, ignored);
+      return failure(ExitCode::kInterrupted, "interrupted");
+    }
+    std::filesystem::rename(part, path);
+  } catch (const std::exception& error) {
+    std::filesystem::remove(part, ignored);
+    return failure(ExitCode::kWrongUsage,
+                   fmt::format("{}: cannot be written: {}", path.string(), error.what()));
+  }
+  return {};
+}
+
+}  // namespace sweepscope
