@@ -13,6 +13,7 @@
 #include <system_error>
 #include <vector>
 
+#include "core/io/unfinished_files.hpp"
 #include "core/simulation/portable_math.hpp"
 #include "core/simulation/sensor.hpp"
 
@@ -131,15 +132,19 @@ bool write_messages(const Simulation& simulation, const std::filesystem::path& p
 
 Result<void> write_bag(const Simulation& simulation, const std::filesystem::path& path, const Job& job) {
   const std::filesystem::path part = path.string() + ".part";
+  remember_unfinished(part);
   std::error_code ignored;
   try {
     if (!write_messages(simulation, part, job)) {
       std::filesystem::remove(part, ignored);
+      forget_unfinished(part);
       return failure(ExitCode::kInterrupted, "interrupted");
     }
     std::filesystem::rename(part, path);
+    forget_unfinished(part);
   } catch (const std::exception& error) {
     std::filesystem::remove(part, ignored);
+    forget_unfinished(part);
     return failure(ExitCode::kWrongUsage,
                    fmt::format("{}: cannot be written: {}", path.string(), error.what()));
   }
