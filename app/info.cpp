@@ -6,6 +6,7 @@
 #include "app/commands.hpp"
 #include "app/progress.hpp"
 #include "app/recording_options.hpp"
+#include "app/say.hpp"
 #include "core/offset/motion_test.hpp"
 #include "core/recording/inspect.hpp"
 #include "core/recording/rig_names.hpp"
@@ -184,8 +185,7 @@ ExitCode run(const RecordingOptions& options, const std::string& json) {
     return found;
   }();
   if (!summary) return fail(summary.error());
-  for (const std::string& warning : summary->warnings)
-    fmt::print(stderr, "warning: {}: {}\n", summary->name, warning);
+  for (const std::string& warning : summary->warnings) say("warning: {}: {}\n", summary->name, warning);
   if (json != "-") fmt::print("{}", printable(as_text(*summary)));
   if (json.empty()) return ExitCode::kDone;
   const auto written = write_text(json, as_json(*summary));

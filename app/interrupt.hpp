@@ -4,8 +4,12 @@
 
 namespace sweepscope::app {
 
-/// From the first call on, ctrl-C (SIGINT) and SIGTERM set the flag instead of ending the program; a second
-/// one ends it at once. Give it to Job::obey.
+/// From the first call on, ctrl-C (SIGINT), SIGTERM and SIGHUP set the flag instead of ending the program.
+/// Give it to Job::obey. Where the program does not end within 5 s of that, or at a second signal, it is
+/// ended: unfinished files are removed, one sentence is printed, the exit code is ExitCode::kInterrupted.
 const std::atomic<bool>& interrupt_flag();
+
+/// For work that does not look at the flag: from now on the first signal ends the program like that.
+void end_at_first_interrupt();
 
 }  // namespace sweepscope::app

@@ -6,6 +6,7 @@
 #include "app/offset_texts.hpp"
 #include "app/progress.hpp"
 #include "app/recording_options.hpp"
+#include "app/say.hpp"
 #include "core/io/cloud_file.hpp"
 #include "core/io/trajectory_file.hpp"
 #include "core/map/clean_map.hpp"
@@ -51,8 +52,7 @@ ExitCode run(const Options& options) {
   OffsetMap* map = &built->map;
   if (options.remove_outliers) map->cloud = without_outliers(map->cloud);
   if (options.voxel_m > 0) map->cloud = thinned(map->cloud, options.voxel_m);
-  if (map->lost)
-    fmt::print(stderr, "warning: LOAM lost track at this offset: the map is not to be trusted\n");
+  if (map->lost) say("warning: LOAM lost track at this offset: the map is not to be trusted\n");
   if (const auto written = write_cloud(options.output, *map->cloud); !written) return fail(written.error());
   if (!options.trajectory.empty()) {
     const auto written = write_tum(options.trajectory, map->trajectory, built->epoch_ns);

@@ -9,6 +9,7 @@
 #include <mutex>
 
 #include "app/interrupt.hpp"
+#include "app/say.hpp"
 
 namespace sweepscope::app {
 
@@ -53,18 +54,16 @@ struct Progress::Bar {
     drawn = true;
     winsize size{};
     const bool known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1;
-    fmt::print(stderr, "\r{}\x1b[K",
-               progress_line(phase, fraction, now - phase_began, known ? size.ws_col - 1 : 79));
-    std::fflush(stderr);
+    app::say("\r{}\x1b[K", progress_line(phase, fraction, now - phase_began, known ? size.ws_col - 1 : 79));
   }
   void wipe() {
     const std::lock_guard lock(mutex);
-    if (drawn) fmt::print(stderr, "\r\x1b[K");
+    if (drawn) app::say("\r\x1b[K");
     drawn = false;
   }
   void say(const std::string& line) {
     wipe();
-    fmt::print(stderr, "{}\n", line);
+    app::say("{}\n", line);
   }
 };
 

@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 
+#include "app/say.hpp"
 #include "core/io/atomic_file.hpp"
 
 namespace sweepscope::app {
@@ -96,20 +99,23 @@ std::string printable(std::string text) {
 }
 
 ExitCode fail(const Error& error) {
-  fmt::print(stderr, "sweepscope: {}\n", printable(error.message));
+  say("sweepscope: {}\n", printable(error.message));
   return error.code;
 }
 
 void print_warnings(const Recording& recording) {
   for (const std::string& warning : recording.report.warnings) {
-    fmt::print(stderr, "warning: {}\n", printable(fmt::format("{}: {}", recording.name, warning)));
+    say("warning: {}\n", printable(fmt::format("{}: {}", recording.name, warning)));
   }
 }
 
 Result<void> write_text(const std::string& path, const std::string& text) {
   if (path != "-") return write_file(path, text);
-  std::fwrite(text.data(), 1, text.size(), stdout);
-  return {};
+  if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0) return {};
+  const Error error{ExitCode::kWrongUsage,
+                    fmt::format("standard output: cannot be written: {}", std::strerror(errno))};
+  std::clearerr(stdout);  // said once
+  return tl::unexpected(error);
 }
 
 }  // namespace sweepscope::app

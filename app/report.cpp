@@ -13,6 +13,7 @@
 #include "app/offset_texts.hpp"
 #include "app/progress.hpp"
 #include "app/recording_options.hpp"
+#include "app/say.hpp"
 #include "core/io/atomic_file.hpp"
 #include "core/io/estimate_json.hpp"
 #include "core/map/offset_map.hpp"
@@ -108,7 +109,7 @@ ExitCode run(const Options& options) {
   if (!content) return fail(content.error());
   if (const auto written = write(*content, options.folder); !written) return fail(written.error());
   fmt::print("{}\n", (std::filesystem::path(options.folder) / "report.html").string());
-  for (const std::string& reason : content->estimate.reasons) fmt::print(stderr, "{}\n", reason);
+  for (const std::string& reason : content->estimate.reasons) say("{}\n", reason);
   return content->estimate.identifiable ? ExitCode::kDone : ExitCode::kNotIdentifiable;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/commands.hpp"
+#include "app/interrupt.hpp"
 #include "app/offset_texts.hpp"
 #include "app/recording_options.hpp"
 #include "core/io/atomic_file.hpp"
@@ -121,6 +122,7 @@ void add_view(CLI::App& app, ExitCode& exit_code) {
   declare(*command, *options);
   command->callback([options, &exit_code] {
     const auto threads = options->reading.limit_threads();
+    end_at_first_interrupt();
     if (const auto done = view(*options); !done) exit_code = fail(done.error());
   });
 }

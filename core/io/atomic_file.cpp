@@ -1,21 +1,55 @@
 #include "core/io/atomic_file.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <system_error>
 
+#include "core/io/unfinished_files.hpp"
+
 namespace sweepscope {
 
-AtomicFile::AtomicFile(const std::filesystem::path& path)
-    : path_(path), part_path_(path.string() + ".part"), file_(std::fopen(part_path_.c_str(), "wb")) {}
+namespace {
+
+constexpr std::string_view kBeside = ".part";
+
+// Where the bytes go first: beside the file that links lead to. What is there and no regular file, such as
+// /dev/stdout or a named pipe, cannot be replaced: it is written as the bytes come.
+std::filesystem::path first_path(const std::filesystem::path& path) {
+  std::error_code error;
+  const auto target = std::filesystem::canonical(path, error);
+  if (error) return path.string().append(kBeside);
+  if (!std::filesystem::is_regular_file(target, error)) return target;
+  return target.string().append(kBeside);
+}
+
+// The regular file's own path; empty where it is written in place.
+std::filesystem::path target_of(const std::filesystem::path& part) {
+  const std::string path = part.string();
+  return path.ends_with(kBeside) ? path.substr(0, path.size() - kBeside.size()) : std::string();
+}
+
+void discard(const std::filesystem::path& part) {
+  if (target_of(part).empty()) return;
+  std::remove(part.c_str());
+  forget_unfinished(part);
+}
+
+}  // namespace
+
+AtomicFile::AtomicFile(const std::filesystem::path& path) : path_(path), part_path_(first_path(path)) {
+  if (!target_of(part_path_).empty()) remember_unfinished(part_path_);
+  file_.reset(std::fopen(part_path_.c_str(), "wb"));
+  if (!file_) forget_unfinished(part_path_);
+}
 
 AtomicFile::~AtomicFile() {
   if (!file_) return;
   file_.reset();
-  std::remove(part_path_.c_str());
+  discard(part_path_);
 }
 
 tl::unexpected<Error> AtomicFile::failed(std::string_view doing) const {
@@ -41,12 +75,17 @@ Result<void> AtomicFile::write(std::string_view bytes) {
 }
 
 Result<void> AtomicFile::commit() {
+  const std::filesystem::path target = target_of(part_path_);
   if (std::fflush(file_.get()) != 0) return failed("written");
-  if (std::fclose(file_.release()) != 0 || std::rename(part_path_.c_str(), path_.c_str()) != 0) {
+  // Some file systems say only now that they are full.
+  if (!target.empty() && fsync(fileno(file_.get())) != 0) return failed("written");
+  if (std::fclose(file_.release()) != 0 ||
+      (!target.empty() && std::rename(part_path_.c_str(), target.c_str()) != 0)) {
     auto error = failed("written");
-    std::remove(part_path_.c_str());
+    discard(part_path_);
     return error;
   }
+  forget_unfinished(part_path_);
   return {};
 }
 

@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "core/io/atomic_file.hpp"
+#include "core/io/curve_columns.hpp"
 
 namespace sweepscope {
 namespace {
@@ -16,19 +16,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kSchema = "sweepscope.estimate/1";
-
-/// The columns of the curve, in the order in which they are written.
-struct CurveColumn {
-  const char* key;
-  std::optional<double> CurvePoint::*value;
-};
-constexpr std::array<CurveColumn, 7> kCurveColumns{{{"d", &CurvePoint::d},
-                                                    {"translation_m", &CurvePoint::translation_m},
-                                                    {"rotation_rad", &CurvePoint::rotation_rad},
-                                                    {"signed_rotation_rad", &CurvePoint::signed_rotation_rad},
-                                                    {"n", &CurvePoint::n},
-                                                    {"e_m", &CurvePoint::e_m},
-                                                    {"capped_cost_m", &CurvePoint::capped_cost_m}}};
 
 /// To 1e-9 ms, so that 0.0239 s is written 23.9 and not 23.900000000000002.
 double to_ms(double seconds) {

@@ -11,6 +11,7 @@
 #include "core/offset/direct.hpp"
 #include "core/offset/direct_moving.hpp"
 #include "core/offset/identifiability.hpp"
+#include "core/offset/kept_candidates.hpp"
 #include "core/offset/motion_test.hpp"
 #include "core/offset/moving.hpp"
 #include "core/offset/search_window.hpp"
@@ -44,8 +45,9 @@ double rounded_to(double value, double step) {
 // One estimate on its way: what it works on and what it has found so far.
 class Search {
  public:
-  Search(const Recording& recording, const EstimateOptions& options, const Job& job)
-      : options_(options), job_(job) {
+  Search(const Recording& recording, const EstimateOptions& options, CandidateStore* store,
+         std::optional<Shard> shard, const Job& job)
+      : options_(options), store_(store), shard_(shard), job_(job) {
     result_.recording = recording.name;
     result_.warnings = recording.report.warnings;
     problem_.recording = &recording;
@@ -64,6 +66,7 @@ class Search {
     std::vector<OffsetRange> ranges = options_.ranges;
     if (options_.around) ranges.push_back(range_around(*options_.around));
     const bool by_default = ranges.empty();
+    if (const auto refused = refuse_shard(by_default)) return tl::unexpected(*refused);
     if (by_default) ranges.push_back({-scale_.half_width_s, scale_.half_width_s, scale_.unit_s});
     const auto offsets_s = checked_offsets(ranges, scale_);
     if (!offsets_s) return tl::unexpected(offsets_s.error());
@@ -74,7 +77,9 @@ class Search {
     Curve curve([this](double offset_s, const Job& job) { return candidate(offset_s, job); });
     const bool finished = by_default ? coarse_to_fine(curve, *offsets_s) : compute(curve, *offsets_s);
     result_.curve = curve.points();
+    if (const auto failed = store_failure()) return tl::unexpected(*failed);
     if (!finished) return interrupted();
+    if (shard_) return std::move(result_);
     conclude();
     return std::move(result_);
   }
@@ -156,7 +161,32 @@ class Search {
                       result_.sweeps, least_sweeps));
   }
 
+  std::optional<Error> refuse_shard(bool by_default) const {
+    if (options_.method == Method::kDirect && (shard_ || store_ != nullptr))
+      return Error{ExitCode::kWrongUsage, "The direct method takes seconds: it keeps no candidates."};
+    if (shard_ && by_default)
+      return Error{
+          ExitCode::kWrongUsage,
+          "A part of a search wants its candidates said: the default search decides where to look as "
+          "it goes."};
+    return std::nullopt;
+  }
+
+  std::optional<Error> store_failure() const { return store_ != nullptr ? store_->failed() : std::nullopt; }
+
+  // From the store where it is there.
   CurvePoint candidate(double offset_s, const Job& job) const {
+    if (store_ == nullptr) return computed(offset_s, job);
+    if (const auto kept = store_->find(offset_s)) return *kept;
+    CurvePoint none;
+    none.offset_s = offset_s;
+    if (store_->failed()) return none;
+    const CurvePoint point = computed(offset_s, job);
+    if (!job.cancelled()) store_->keep(point);
+    return point;
+  }
+
+  CurvePoint computed(double offset_s, const Job& job) const {
     return moving() ? moving_candidate(problem_, offset_s, options_.scoring, options_.mapping, job)
                     : stationary_candidate(problem_, offset_s, pairs_, options_.weight_c, odometry_);
   }
@@ -170,7 +200,7 @@ class Search {
 
   bool compute(Curve& curve, const std::vector<double>& offsets_s) {
     if (!moving()) choose_pairs(coarse_offset_s(offsets_s.front(), offsets_s.back()));
-    return curve.compute(offsets_s, job_);
+    return curve.compute(shard_ ? shard_->part_of(offsets_s) : offsets_s, job_);
   }
 
   // Coarse over the whole window, then steps of a unit about the valley, then tenths of a unit about its
@@ -319,6 +349,8 @@ class Search {
   }
 
   const EstimateOptions& options_;
+  CandidateStore* store_;  // none: every candidate is computed
+  std::optional<Shard> shard_;
   const Job& job_;
   OffsetProblem problem_;
   OdometryOptions odometry_;
@@ -329,16 +361,26 @@ class Search {
   Estimate result_;
 };
 
-}  // namespace
-
-Result<Estimate> estimate(const Recording& recording, const EstimateOptions& options, const Job& job) {
+Result<Estimate> timed_estimate(const Recording& recording, const EstimateOptions& options,
+                                CandidateStore* store, std::optional<Shard> shard, const Job& job) {
   const double cpu_begin_s = cpu_now_s();
   const auto wall_begin = std::chrono::steady_clock::now();
-  Result<Estimate> result = Search(recording, options, job).run();
+  Result<Estimate> result = Search(recording, options, store, shard, job).run();
   if (!result) return result;
   result->cpu_s = cpu_now_s() - cpu_begin_s;
   result->wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_begin).count();
   return result;
+}
+
+}  // namespace
+
+Result<Estimate> estimate(const Recording& recording, const EstimateOptions& options, const Job& job) {
+  return timed_estimate(recording, options, nullptr, std::nullopt, job);
+}
+
+Result<Estimate> estimate(const Recording& recording, const EstimateOptions& options, CandidateStore& store,
+                          std::optional<Shard> shard, const Job& job) {
+  return timed_estimate(recording, options, &store, shard, job);
 }
 
 }  // namespace sweepscope

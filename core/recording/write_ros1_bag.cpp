@@ -1,4 +1,5 @@
 #include "core/recording/write_ros1_bag.hpp"
+#include "core/io/unfinished_files.hpp"
 
 #include <fmt/format.h>
 #include <rosbag/bag.h>
@@ -101,18 +102,21 @@ bool write_messages(const RawLaser& laser, const RawJoint& joint, const std::fil
 Result<void> write_ros1_bag(const RawLaser& laser, const RawJoint& joint, const std::filesystem::path& path,
                             const std::string& compression, const Job& job) {
   const std::filesystem::path part = path.string() + ".part";
-  std::error_code ignored;
+  remember_unfinished(part);
+  bool finished = false;
+  std::string why;
   try {
-    if (!write_messages(laser, joint, part, compression, job)) {
-      std::filesystem::remove(part, ignored);
-      return failure(ExitCode::kInterrupted, "interrupted");
-    }
-    std::filesystem::rename(part, path);
+    finished = write_messages(laser, joint, part, compression, job);
+    if (finished) std::filesystem::rename(part, path);
   } catch (const std::exception& error) {
-    std::filesystem::remove(part, ignored);
-    return failure(ExitCode::kWrongUsage,
-                   fmt::format("{}: cannot be written: {}", path.string(), error.what()));
+    why = error.what();
   }
+  std::error_code ignored;
+  if (!finished || !why.empty()) std::filesystem::remove(part, ignored);
+  forget_unfinished(part);
+  if (!why.empty())
+    return failure(ExitCode::kWrongUsage, fmt::format("{}: cannot be written: {}", path.string(), why));
+  if (!finished) return failure(ExitCode::kInterrupted, "interrupted");
   return {};
 }
 

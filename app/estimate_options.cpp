@@ -1,0 +1,173 @@
+#include "app/estimate_options.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "app/offset_texts.hpp"
+#include "app/say.hpp"
+#include "core/io/estimate_json.hpp"
+#include "core/io/recording_hash.hpp"
+
+namespace sweepscope::app {
+namespace {
+
+std::string criterion_line(const CriterionOptimum& criterion) {
+  const std::string value = criterion.name == "n"   ? fmt::format("{:.0f} matches", criterion.value)
+                            : criterion.name == "d" ? fmt::format("{:.4f}", criterion.value)
+                                                    : fmt::format("{:.2f} mm", criterion.value * 1e3);
+  const std::string where = criterion.name == "direct" ? "direct"
+                            : criterion.name == "n"    ? "n greatest"
+                                                       : criterion.name + " least";
+  return fmt::format("  {:<10} {:>9.3f} ms   ({})\n", where, criterion.offset_s * 1e3, value);
+}
+
+void print_answer(const Estimate& estimate) {
+  if (estimate.identifiable) {
+    const std::string sigma =
+        estimate.sigma_s ? fmt::format(" +- {:.3f} ms (1 sigma)", *estimate.sigma_s * 1e3) : "";
+    fmt::print("offset   {:.3f} ms{}      t_motor = t_laser + offset\n", *estimate.offset_s * 1e3, sigma);
+  } else {
+    fmt::print("offset   cannot be determined from this recording\n");
+    for (const std::string& reason : estimate.reasons) fmt::print("  why: {}\n", reason);
+  }
+  fmt::print("method   {}, {} sweeps, {} scans, {} candidates\n", estimate.method, estimate.sweeps,
+             estimate.scans, estimate.curve.size());
+  if (!estimate.kind.empty()) fmt::print("kind     {}: {}\n", estimate.kind, estimate.kind_reason);
+  for (const CriterionOptimum& criterion : estimate.criteria) fmt::print("{}", criterion_line(criterion));
+  for (const std::string& warning : estimate.warnings) say("warning: {}\n", warning);
+}
+
+void declare_method(CLI::App& command, EstimateOptions& estimate) {
+  command
+      .add_option_function<std::string>(
+          "--method", [&estimate](const std::string& text) { estimate.method = parse_method(text); },
+          "direct: the offset as an unknown of the least squares, for rigs that stood still and for walks; "
+          "stationary: where odometry sees least motion (d); moving: where the map is clearest (n, e). "
+          "Default: stationary or moving, as the motion test says")
+      ->type_name("M")
+      ->check(CLI::IsMember({"stationary", "moving", "direct"}));
+  command
+      .add_option_function<std::string>(
+          "--fit",
+          [&estimate](const std::string& text) {
+            estimate.fit = text == "none" ? Fit::kNone : Fit::kParabola;
+          },
+          "none: the best candidate; parabola: through those within 3 ms of it (default: parabola for moving "
+          "and for slow motors, else "
+          "none)")
+      ->type_name("F")
+      ->check(CLI::IsMember({"none", "parabola"}));
+  command
+      .add_option_function<std::string>(
+          "--scoring",
+          [&estimate](const std::string& text) {
+            estimate.scoring = text == "loam" ? Scoring::kLoam : Scoring::kTwoStage;
+          },
+          "two-stage: count matches after the alternating roll is taken out of the poses (default); loam: at "
+          "LOAM's "
+          "own poses, as the paper did")
+      ->type_name("S")
+      ->check(CLI::IsMember({"two-stage", "loam"}));
+  command.add_option("--weight-c", estimate.weight_c, "c of d = sqrt(t^2 + c theta^2)")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command
+      .add_option("--edge-gate-m", estimate.mapping.edge_gate_m, "delta_E: an edge match is nearer than this")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command
+      .add_option("--plane-gate-m", estimate.mapping.plane_gate_m,
+                  "delta_H: a plane match is nearer than this")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+}
+
+void declare_search(CLI::App& command, EstimateOptions& estimate) {
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--range",
+          [&estimate](const std::vector<std::string>& texts) {
+            for (const std::string& text : texts) estimate.ranges.push_back(*parse_range_ms(text));
+          },
+          "Candidates in milliseconds, such as 19:29:1; repeatable (default: coarse to fine about 0)")
+      ->type_name("FROM:TO:STEP")
+      ->allow_extra_args(false)
+      ->check([](const std::string& text) {
+        return parse_range_ms(text) ? std::string()
+                                    : "--range wants FROM:TO:STEP in milliseconds, and got " + text;
+      });
+  command
+      .add_option_function<std::string>(
+          "--around", [&estimate](const std::string& text) { estimate.around = parse_around_ms(text); },
+          "The paper's search in milliseconds: 24:0.1:40 tries 24 and 20 steps of 0.1 to either side")
+      ->type_name("INITIAL:ACCURACY:STEPS")
+      ->check([](const std::string& text) {
+        return parse_around_ms(text)
+                   ? std::string()
+                   : "--around wants INITIAL:ACCURACY:STEPS in milliseconds, and got " + text;
+      });
+}
+
+}  // namespace
+
+void EstimateInput::declare(CLI::App& app) {
+  recording.declare(app);
+  recording.declare_computing(app);
+  declare_method(app, estimate);
+  declare_search(app, estimate);
+}
+
+void EstimateOutput::declare(CLI::App& app) {
+  app.add_option("--json", json, "Write the result as JSON; - for stdout")->type_name("F");
+  app.add_option("--csv", csv, "Write the criteria over the offset as CSV; - for stdout")->type_name("F");
+  app.add_flag("--no-timing", no_timing, "cpu_s and wall_s are null: the same bytes run after run");
+}
+
+Result<void> EstimateOutput::write(const Estimate& estimate) const {
+  const Timing timing = no_timing ? Timing::kNull : Timing::kWritten;
+  if (!json.empty()) {
+    auto written = write_text(json, estimate_to_json(estimate, timing));
+    if (!written) return written;
+  }
+  if (!csv.empty()) return write_text(csv, curve_to_csv(estimate));
+  return {};
+}
+
+std::vector<std::string> deciding_options(const CLI::App& command) {
+  static constexpr std::array kOthers{"--rig",     "--json",   "--csv",  "--no-timing",
+                                      "--threads", "--resume", "--shard"};
+  std::vector<std::string> options;
+  for (const CLI::Option* option : command.get_options()) {
+    const std::string name = option->get_name();
+    if (option->get_positional() || std::find(kOthers.begin(), kOthers.end(), name) != kOthers.end())
+      continue;
+    for (const std::string& value : option->results()) options.push_back(name + "=" + value);
+  }
+  return options;
+}
+
+Result<CandidateSearch> candidate_search(const RecordingOptions& recording,
+                                         std::vector<std::string> options) {
+  CandidateSearch search;
+  search.recording = recording.recording.string();
+  search.options = std::move(options);
+  if (recording.rig) search.rig = recording.rig->string();
+  const auto hash = [](std::string& into, const std::filesystem::path& path) {
+    return recording_content_hash(path).map([&](std::string&& digits) { into = std::move(digits); });
+  };
+  const auto done =
+      hash(search.program, "/proc/self/exe")
+          .and_then([&] { return hash(search.recording_hash, recording.recording); })
+          .and_then([&] { return recording.rig ? hash(search.rig_hash, *recording.rig) : Result<void>(); });
+  if (!done) return tl::unexpected(done.error());
+  return search;
+}
+
+ExitCode say_answer(const Estimate& estimate, const EstimateOutput& output) {
+  if (!output.on_stdout()) print_answer(estimate);
+  return estimate.identifiable ? ExitCode::kDone : ExitCode::kNotIdentifiable;
+}
+
+}  // namespace sweepscope::app

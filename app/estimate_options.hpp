@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/recording_options.hpp"
+#include "core/io/candidate_file.hpp"
+#include "core/offset/estimator.hpp"
+
+namespace sweepscope::app {
+
+/// What to estimate from: the recording, and how the offset is looked for. `estimate` and `merge` read the
+/// same options.
+struct EstimateInput {
+  RecordingOptions recording;
+  EstimateOptions estimate;
+
+  /// The options write to this object, which must outlive `app`'s parsing.
+  void declare(CLI::App& app);
+};
+
+/// Where the result goes.
+struct EstimateOutput {
+  std::string json, csv;
+  bool no_timing = false;
+
+  void declare(CLI::App& app);
+  bool on_stdout() const { return json == "-" || csv == "-"; }
+  Result<void> write(const Estimate& estimate) const;
+};
+
+/// The options that `command` was given and that decide what a candidate's values are, as "--range=19:29:1":
+/// all of them but those that say where things lie, how they are shown, or on how many threads.
+std::vector<std::string> deciding_options(const CLI::App& command);
+
+/// What candidates computed from these options belong to.
+Result<CandidateSearch> candidate_search(const RecordingOptions& recording, std::vector<std::string> options);
+
+/// The answer on stdout, unless a file goes there, and the exit code.
+ExitCode say_answer(const Estimate& estimate, const EstimateOutput& output);
+
+}  // namespace sweepscope::app

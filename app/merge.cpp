@@ -1,0 +1,98 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "app/commands.hpp"
+#include "app/estimate_options.hpp"
+#include "app/offset_texts.hpp"
+#include "app/progress.hpp"
+
+namespace sweepscope::app {
+namespace {
+
+struct Options {
+  std::vector<std::filesystem::path> parts;
+  std::string recording, rig;  // empty: where the parts say
+  int threads = 0;
+  EstimateOutput output;
+};
+
+/// The options with which the parts were computed, read by the same declarations.
+Result<std::unique_ptr<EstimateInput>> input_of(const CandidateSearch& search, const Options& options) {
+  auto input = std::make_unique<EstimateInput>();
+  CLI::App reader;
+  input->declare(reader);
+  std::vector<std::string> words{options.recording.empty() ? search.recording : options.recording};
+  words.insert(words.end(), search.options.begin(), search.options.end());
+  if (!search.rig_hash.empty()) words.push_back("--rig=" + (options.rig.empty() ? search.rig : options.rig));
+  std::reverse(words.begin(), words.end());  // as CLI11 takes them
+  try {
+    reader.parse(words);
+  } catch (const CLI::ParseError& error) {
+    return unreadable(
+        fmt::format("{}: its options are not understood: {}", options.parts.front().string(), error.what()));
+  }
+  input->recording.threads = options.threads;
+  return input;
+}
+
+/// Hashes of what was found must be those that the parts name.
+Result<void> check(const EstimateInput& input, const CandidateSearch& search, const Options& options) {
+  return candidate_search(input.recording, search.options).and_then([&](const CandidateSearch& here) {
+    const std::string differs = difference(search, here);
+    if (differs.empty()) return Result<void>();
+    return Result<void>(
+        failure(ExitCode::kWrongUsage, fmt::format("{}: {}", options.parts.front().string(), differs)));
+  });
+}
+
+Result<Estimate> merge(const Options& options, MergedCandidates& candidates) {
+  const CandidateSearch& search = candidates.search();
+  const auto input = input_of(search, options);
+  if (!input) return tl::unexpected(input.error());
+  const auto threads = (*input)->recording.limit_threads();
+  if (const auto checked = check(**input, search, options); !checked) return tl::unexpected(checked.error());
+  const Progress progress;
+  auto recording = (*input)->recording.read(progress.job());
+  if (!recording) return tl::unexpected(recording.error());
+  recording->name = std::filesystem::path(search.recording).filename().string();
+  EstimateOptions estimate_options = (*input)->estimate;
+  estimate_options.assume = parse_method((*input)->recording.assume);
+  auto found = estimate(*recording, estimate_options, candidates, std::nullopt, progress.job());
+  if (!found) return found;
+  if (found->interrupted) return failure(ExitCode::kInterrupted, "interrupted");
+  if (const auto missing = candidates.missing()) return tl::unexpected(*missing);
+  return found;
+}
+
+ExitCode run(const Options& options) {
+  auto candidates = MergedCandidates::read(options.parts);
+  if (!candidates) return fail(candidates.error());
+  const auto found = merge(options, *candidates);
+  if (!found) return fail(found.error());
+  if (const auto written = options.output.write(*found); !written) return fail(written.error());
+  return say_answer(*found, options.output);
+}
+
+}  // namespace
+
+void add_merge(CLI::App& app, ExitCode& exit_code) {
+  CLI::App* command =
+      app.add_subcommand("merge", "Put the parts of `estimate --shard` together: the result of one run");
+  auto options = std::make_shared<Options>();
+  command->add_option("PART", options->parts, "Files of candidates of one search")->required()->expected(-1);
+  command
+      ->add_option("--recording", options->recording,
+                   "Where the recording is; it is read again (default: as the parts name it)")
+      ->type_name("REC");
+  command->add_option("--rig", options->rig, "Where the rig file is (default: as the parts name it)")
+      ->type_name("F");
+  command->add_option("--threads", options->threads, "Threads (default: as many as there are processors)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1024));
+  options->output.declare(*command);
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace sweepscope::app

@@ -1,0 +1,105 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/offset/kept_candidates.hpp"
+
+namespace sweepscope {
+
+/// What a file of candidates belongs to: all that a candidate's values depend on.
+struct CandidateSearch {
+  std::string program;               // content hash of the executable: another build may compute otherwise
+  std::string recording;             // as it was named
+  std::string recording_hash;        // of its content
+  std::string rig, rig_hash;         // likewise; empty: none
+  std::vector<std::string> options;  // of `estimate`, such as "--range=19:29:1"
+  std::optional<Shard> shard;
+};
+
+/// A file of candidates ("sweepscope.candidates/1"): a line of JSON that says what they belong to, then one
+/// line for each.
+struct Candidates {
+  CandidateSearch search;
+  std::vector<CurvePoint> points;  // offsets ascend
+  std::size_t whole_bytes = 0;     // of the text; behind them a line that was not written to its end
+};
+
+/// `name` stands for the file in messages, which name the line, too.
+Result<Candidates> parse_candidates(std::string_view text, std::string_view name);
+Result<Candidates> read_candidates(const std::filesystem::path& path);
+/// The text of such a file.
+std::string candidates_text(const CandidateSearch& search, const std::vector<CurvePoint>& points);
+
+/// Why two searches are not the same, shards aside: "it holds --weight-c=2, and this is --weight-c=1".
+/// Where the files lie does not matter. Empty where they are the same.
+std::string difference(const CandidateSearch& held, const CandidateSearch& wanted);
+
+/// Candidates kept in a file as they are finished: a run that is killed at any instant loses those alone
+/// that it was computing. The file is locked against a second run.
+class CandidateFile final : public CandidateStore {
+ public:
+  /// Begins the file, or takes up what is there. ExitCode::kWrongUsage where it belongs to another search or
+  /// shard, is in use, or cannot be written; kUnreadableInput where it is no such file.
+  static Result<std::unique_ptr<CandidateFile>> open(const std::filesystem::path& path,
+                                                     const CandidateSearch& search);
+  ~CandidateFile() override;
+
+  std::optional<CurvePoint> find(double offset_s) override;
+  void keep(const CurvePoint& point) override;
+  std::optional<Error> failed() const override;
+  /// Writes the file anew in order: after a finished run its bytes do not tell which thread was faster.
+  Result<void> put_in_order();
+
+  std::size_t taken_up() const { return taken_up_; }
+  std::size_t held() const;
+
+ private:
+  CandidateFile(std::filesystem::path path, const CandidateSearch& search, int descriptor);
+  Result<void> take_up();
+  Error cannot_write() const;
+
+  std::filesystem::path path_;
+  CandidateSearch search_;
+  int descriptor_;
+  std::size_t taken_up_ = 0;
+  mutable std::mutex mutex_;
+  std::vector<CurvePoint> points_;
+  std::optional<Error> failed_;
+};
+
+/// The candidates of the shards of one search.
+class MergedCandidates final : public CandidateStore {
+ public:
+  /// Refuses files that do not belong together (ExitCode::kWrongUsage) or cannot be read.
+  static Result<MergedCandidates> read(const std::vector<std::filesystem::path>& paths);
+  MergedCandidates(MergedCandidates&& other) noexcept;
+
+  /// A candidate that is in no file is remembered and counts as one that failed.
+  std::optional<CurvePoint> find(double offset_s) override;
+  void keep(const CurvePoint&) override {}
+  std::optional<Error> failed() const override { return std::nullopt; }
+  /// Which were asked for and not there, in a sentence that says which shard is not finished; nothing where
+  /// all were.
+  std::optional<Error> missing() const;
+
+  /// The first file's.
+  const CandidateSearch& search() const { return files_.front().search; }
+
+ private:
+  MergedCandidates() = default;
+
+  std::vector<std::string> names_;
+  std::vector<Candidates> files_;
+  std::vector<CurvePoint> points_;
+  mutable std::mutex mutex_;
+  std::vector<double> missing_s_;
+};
+
+}  // namespace sweepscope

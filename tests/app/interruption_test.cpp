@@ -1,0 +1,236 @@
+// What every long command does when it is interrupted, or its output cannot be written.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <thread>
+
+#include "tests/app/program.hpp"
+
+namespace sweepscope {
+namespace {
+
+using std::chrono::milliseconds;
+
+/// A command line, in a folder that holds room.bag, walk.bag, recipe.yaml and wait.script, and the outputs
+/// that it must not leave half written.
+struct Case {
+  const char* name;
+  const char* arguments;
+  const char* output;  // what it writes
+};
+
+std::ostream& operator<<(std::ostream& out, const Case& one) {
+  return out << one.name;
+}
+
+constexpr Case kCases[] = {
+    {"estimate", "estimate walk.bag --method moving --range 14:34:0.1 --json out.json", "out.json"},
+    {"map", "map walk.bag --offset-ms 24 -o out.pcd", "out.pcd"},
+    {"compare", "compare walk.bag --offsets-ms 19,24 -o out.png", "out.png"},
+    {"figures", "figures recipe.yaml -o out", "out/curve.png"},
+    {"report", "report walk.bag -o out", "out/report.html"},
+    {"simulate", "simulate metro-station -o out.bag", "out.bag"},
+    {"view", "view walk.bag --headless --script wait.script", "out.png"},
+};
+
+/// Makes the inputs once; each test works in a copy.
+class Interruption : public test::ProgramTest, public ::testing::WithParamInterface<Case> {
+ protected:
+  static void SetUpTestSuite() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "sweepscope-inputs-XXXXXX").string();
+    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
+    inputs_ = pattern;
+    const std::string simulate = "cd '" + pattern + "' && " SWEEPSCOPE_EXECUTABLE " simulate ";
+    ASSERT_EQ(std::system((simulate + "metro-station -o walk.bag --duration-s 20 >/dev/null").c_str()), 0);
+    ASSERT_EQ(std::system((simulate + "room-2 -o room.bag >/dev/null").c_str()), 0);
+    std::ofstream(inputs_ / "recipe.yaml")
+        << "recordings: {walk: {file: walk.bag}}\n"
+           "estimates: {walk: {recording: walk, method: moving, ranges_ms: [[14, 34, 0.1]]}}\n"
+           "figures: {curve: {kind: curves, estimates: walk}}\n";
+    std::ofstream(inputs_ / "wait.script") << "estimate\nwait estimate\nscreenshot out.png\n";
+  }
+  static void TearDownTestSuite() { std::filesystem::remove_all(inputs_); }
+  void SetUp() override {
+    ProgramTest::SetUp();
+    for (const char* name : {"walk.bag", "room.bag", "recipe.yaml", "wait.script"})
+      std::filesystem::copy(inputs_ / name, folder_ / name);
+  }
+
+  /// Begun as a shell would, in the folder, with its words in said.out and said.err.
+  pid_t begin(const std::string& arguments) const {
+    const pid_t child = fork();
+    if (child != 0) return child;
+    const std::string command = "cd '" + folder_.string() + "' && exec '" SWEEPSCOPE_EXECUTABLE "' " +
+                                arguments + " >said.out 2>said.err";
+    execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
+    _exit(127);
+  }
+  Outcome ended(pid_t child) const {
+    int status = 0;
+    waitpid(child, &status, 0);
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), said("out"), said("err")};
+  }
+  std::string said(const std::string& where) const { return test::contents_of(folder_ / ("said." + where)); }
+
+  /// Names of the files that were not there before, in the folder and below.
+  std::vector<std::string> made() const {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_)) {
+      const std::string name = entry.path().lexically_relative(folder_).string();
+      if (entry.is_regular_file() && !std::filesystem::exists(inputs_ / name) && name != "said.out" &&
+          name != "said.err")
+        names.push_back(name);
+    }
+    return names;
+  }
+  void expect_nothing_half_written() const {
+    for (const std::string& name : made())
+      EXPECT_FALSE(name.ends_with(".part")) << name << " was left behind";
+  }
+
+  static std::filesystem::path inputs_;
+};
+std::filesystem::path Interruption::inputs_;
+
+std::size_t lines_in(const std::string& text) {
+  return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+class Signals : public Interruption {
+ protected:
+  /// The command is ended by a signal at differing moments: one sentence, exit code 130, within seconds.
+  void interrupt(int signal) const {
+    for (const int after_ms : {30, 120, 500, 1500}) {
+      const pid_t child = begin(GetParam().arguments);
+      std::this_thread::sleep_for(milliseconds(after_ms));
+      kill(child, signal);
+      const auto begun = std::chrono::steady_clock::now();
+      const Outcome outcome = ended(child);
+      EXPECT_LT(std::chrono::steady_clock::now() - begun, std::chrono::seconds(10)) << after_ms << " ms";
+      if (after_ms == 30 && outcome.exit_code == -signal) continue;  // before the program's first line
+      EXPECT_EQ(outcome.exit_code, 130) << after_ms << " ms: " << outcome.err;
+      EXPECT_EQ(lines_in(outcome.err), 1U) << after_ms << " ms: " << outcome.err;
+      EXPECT_TRUE(outcome.err.starts_with("sweepscope: ")) << outcome.err;
+      EXPECT_NE(outcome.err.find("nterrupted"), std::string::npos) << outcome.err;
+      expect_nothing_half_written();
+    }
+  }
+};
+
+TEST_P(Signals, CtrlCEndsItWithOneSentence) {
+  interrupt(SIGINT);
+}
+
+TEST_P(Signals, TerminationEndsItWithOneSentence) {
+  interrupt(SIGTERM);
+}
+
+INSTANTIATE_TEST_SUITE_P(OfEveryCommand, Signals, ::testing::ValuesIn(kCases),
+                         [](const auto& one) { return one.param.name; });
+
+TEST_F(Interruption, AnInterruptedEstimateKeepsItsFinishedCandidates) {
+  const std::string arguments =
+      "estimate walk.bag --method moving --range 14:34:0.1 --json out.json --resume kept.candidates";
+  const pid_t child = begin(arguments);
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (lines_in(test::contents_of(folder_ / "kept.candidates")) < 5 &&
+         std::chrono::steady_clock::now() < deadline)
+    std::this_thread::sleep_for(milliseconds(2));
+  kill(child, SIGINT);
+  const Outcome outcome = ended(child);
+  EXPECT_EQ(outcome.exit_code, 130);
+  EXPECT_NE(outcome.err.find("finished candidates are in kept.candidates"), std::string::npos) << outcome.err;
+  EXPECT_GE(lines_in(test::contents_of(folder_ / "kept.candidates")), 5U);
+  const auto json = nlohmann::json::parse(test::contents_of(folder_ / "out.json"));
+  EXPECT_EQ(json["identifiable"], false);
+  EXPECT_GE(json["curve"].size(), 1U);
+}
+
+/// Outputs that cannot be written: quick commands.
+constexpr Case kWriters[] = {
+    {"estimate_json", "estimate room.bag --method stationary --range 23:25:1 --json out.json", "out.json"},
+    {"estimate_csv", "estimate room.bag --method stationary --range 23:25:1 --csv out.csv", "out.csv"},
+    {"estimate_candidates",
+     "estimate room.bag --method stationary --range 23:25:1 --shard 1/1 --resume out.candidates",
+     "out.candidates"},
+    {"info_json", "info room.bag --json out.json", "out.json"},
+    {"map", "map room.bag --offset-ms 24 -o out.pcd", "out.pcd"},
+    {"trajectory", "map room.bag --offset-ms 24 -o ../map.ply --trajectory out.tum", "out.tum"},
+    {"compare_png", "compare room.bag --offsets-ms 19,24 --no-curve -o out.png", "out.png"},
+    {"compare_svg", "compare room.bag --offsets-ms 19,24 --no-curve -o out.svg", "out.svg"},
+    {"compare_pdf", "compare room.bag --offsets-ms 19,24 --no-curve -o out.pdf", "out.pdf"},
+    {"figures", "figures recipe.yaml -o out", "out"},
+    {"report", "report room.bag -o out", "out"},
+    {"simulate", "simulate room-1 -o out.bag", "out.bag"},
+    {"view", "view room.bag --headless --run 'screenshot out.png'", "out.png"},
+};
+
+class Outputs : public Interruption {
+ protected:
+  void SetUp() override {
+    Interruption::SetUp();
+    std::ofstream(folder_ / "recipe.yaml")
+        << "recordings: {room: {file: room.bag}}\nfigures: {scan: {kind: scan, recording: room, at_s: 1}}\n";
+    std::filesystem::create_directory(folder_ / "to");
+  }
+  /// The arguments, with the output in `folder` instead.
+  static std::string written_to(const Case& one, const std::string& folder) {
+    std::string arguments = one.arguments;
+    const std::string output = one.output;
+    const std::size_t at = arguments.rfind(output);
+    return arguments.replace(at, output.size(), folder + "/" + output);
+  }
+  void expect_refused(const Outcome& outcome, const std::string& reason) const {
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
+    EXPECT_EQ(lines_in(outcome.err), 1U) << outcome.err;
+    EXPECT_NE(outcome.err.find(GetParam().output), std::string::npos) << "names the file: " << outcome.err;
+    EXPECT_NE(outcome.err.find(reason), std::string::npos) << outcome.err;
+    expect_nothing_half_written();
+  }
+};
+
+TEST_P(Outputs, OfAFullDiskAreRefused) {
+  const std::string mount =
+      "unshare -rm sh -c 'mount -t tmpfs -o size=4k none to && dd if=/dev/zero of=to/filler bs=4096 count=1 "
+      "2>/dev/null && exec \"$@\"' sh ";
+  if (std::system("unshare -rm sh -c 'mount -t tmpfs -o size=4k none /mnt' 2>/dev/null") != 0)
+    GTEST_SKIP() << "this machine lets no test mount a small disk";
+  const std::string command = "cd '" + folder_.string() + "' && env -u DISPLAY " + mount +
+                              "'" SWEEPSCOPE_EXECUTABLE "' " + written_to(GetParam(), "to") +
+                              " >said.out 2>said.err";
+  const int status = std::system(command.c_str());
+  expect_refused({WEXITSTATUS(status), said("out"), said("err")}, "No space left on device");
+}
+
+TEST_P(Outputs, OverTheLimitOfAFilesSizeAreRefused) {
+  const std::string limited = "( ulimit -f 0; exec env -u DISPLAY '" SWEEPSCOPE_EXECUTABLE "' " +
+                              written_to(GetParam(), "to") + " ) 2>&1 >/dev/null; echo $?";
+  ASSERT_EQ(std::system(("cd '" + folder_.string() + "' && { " + limited + "; } | cat >said.both").c_str()),
+            0);
+  const std::string both = test::contents_of(folder_ / "said.both");
+  const std::size_t last = both.rfind('\n', both.size() - 2) + 1;
+  expect_refused({std::atoi(both.c_str() + last), "", both.substr(0, last)}, "File too large");
+}
+
+TEST_P(Outputs, InAFolderThatIsReadOnlyAreRefused) {
+  if (geteuid() == 0) {
+    // Root may write anywhere but where there is no disk to write to.
+    expect_refused(run(written_to(GetParam(), "/proc")), "");
+    return;
+  }
+  std::filesystem::permissions(folder_ / "to",
+                               std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec);
+  expect_refused(run(written_to(GetParam(), "to")), "Permission denied");
+}
+
+INSTANTIATE_TEST_SUITE_P(OfEveryCommand, Outputs, ::testing::ValuesIn(kWriters),
+                         [](const auto& one) { return one.param.name; });
+
+}  // namespace
+}  // namespace sweepscope

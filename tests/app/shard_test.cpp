@@ -1,0 +1,213 @@
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+#include "tests/app/program.hpp"
+
+namespace sweepscope {
+namespace {
+
+using test::contents_of;
+
+std::size_t lines_in(const std::string& text) {
+  return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+class Shards : public test::ProgramTest {
+ protected:
+  void SetUp() override {
+    ProgramTest::SetUp();
+    ASSERT_EQ(run("simulate room-2 -o room.bag --offset-ms 24").exit_code, 0);
+  }
+  std::string file(const std::string& name) const { return contents_of(folder_ / name); }
+  void expect_done(const std::string& arguments) const {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.exit_code, 0) << arguments << "\n" << outcome.err;
+  }
+
+  /// Begins the command, and kills it once `path` holds that many lines.
+  void kill_at(const std::vector<std::string>& words, const std::string& path, std::size_t lines) const {
+    const pid_t child = fork();
+    if (child == 0) {
+      std::vector<char*> arguments{const_cast<char*>(SWEEPSCOPE_EXECUTABLE)};
+      for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+      arguments.push_back(nullptr);
+      if (chdir(folder_.c_str()) != 0) _exit(127);
+      execv(SWEEPSCOPE_EXECUTABLE, arguments.data());
+      _exit(127);
+    }
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(120);
+    while (lines_in(file(path)) < lines && std::chrono::steady_clock::now() < deadline)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    kill(child, SIGKILL);
+    int status = 0;
+    waitpid(child, &status, 0);
+    ASSERT_TRUE(WIFSIGNALED(status)) << "it ended before it could be killed";
+  }
+};
+
+constexpr const char* kSearch = "room.bag --method stationary --range 19:29:1 --range 23:25:0.2 ";
+
+TEST_F(Shards, MergeToTheBytesOfOneRun) {
+  const std::string search = kSearch;
+  expect_done("estimate " + search + "--no-timing --json one.json --csv one.csv --threads 1");
+  for (const char* shard : {"1/3", "2/3", "3/3"})
+    expect_done("estimate " + search + "--threads 2 --shard " + shard);
+  expect_done(
+      "merge room.2-of-3.candidates room.3-of-3.candidates room.1-of-3.candidates --no-timing --json "
+      "merged.json --csv merged.csv");
+  EXPECT_GT(file("one.json").size(), 1000U);
+  EXPECT_EQ(file("merged.json"), file("one.json"));
+  EXPECT_EQ(file("merged.csv"), file("one.csv"));
+  EXPECT_EQ(lines_in(file("room.1-of-3.candidates")), 1U + 7U) << "a line for itself, and 19 / 3 candidates";
+}
+
+TEST_F(Shards, OfAWalkMergeToTheBytesOfOneRun) {
+  expect_done("simulate metro-station -o walk.bag --duration-s 14");
+  const std::string search = "walk.bag --method moving --around 24:0.5:6 ";
+  const int exit_code = run("estimate " + search + "--no-timing --json one.json").exit_code;
+  expect_done("estimate " + search + "--shard 1/2");
+  expect_done("estimate " + search + "--shard 2/2");
+  const Outcome merged =
+      run("merge walk.1-of-2.candidates walk.2-of-2.candidates --no-timing --json merged.json");
+  EXPECT_EQ(merged.exit_code, exit_code) << merged.err;
+  EXPECT_NE(file("one.json").find("\"e_m\": 0."), std::string::npos);
+  EXPECT_EQ(file("merged.json"), file("one.json"));
+}
+
+TEST_F(Shards, HaveTheSameBytesForAnyNumberOfThreads) {
+  const std::string search = kSearch;
+  expect_done("estimate " + search + "--shard 1/2 --threads 1 --resume one.candidates");
+  expect_done("estimate " + search + "--shard 1/2 --threads 2 --resume two.candidates");
+  EXPECT_EQ(file("one.candidates"), file("two.candidates"));
+}
+
+TEST_F(Shards, AKilledRunGoesOnWhereItWas) {
+  const std::string search = "room.bag --method stationary --range 20:28:0.1 ";
+  expect_done("estimate " + search + "--no-timing --json one.json --threads 1");
+  const std::vector<std::string> killed{"estimate", "room.bag",     "--method",  "stationary",
+                                        "--range",  "20:28:0.1",    "--resume",  "kept.candidates",
+                                        "--json",   "resumed.json", "--threads", "1"};
+  kill_at(killed, "kept.candidates", 15);
+  const std::string kept = file("kept.candidates");
+  ASSERT_LT(lines_in(kept), 1U + 81U);
+  EXPECT_FALSE(exists("resumed.json"));
+  expect_done("estimate " + search + "--resume kept.candidates --no-timing --json resumed.json --threads 2");
+  EXPECT_EQ(file("resumed.json"), file("one.json"));
+  EXPECT_EQ(lines_in(file("kept.candidates")), 1U + 81U) << "each candidate once";
+}
+
+TEST_F(Shards, TheDefaultSearchResumesToo) {
+  expect_done("estimate room.bag --no-timing --json one.json");
+  kill_at({"estimate", "room.bag", "--resume", "kept.candidates", "--threads", "1"}, "kept.candidates", 15);
+  expect_done("estimate room.bag --resume kept.candidates --no-timing --json resumed.json");
+  EXPECT_EQ(file("resumed.json"), file("one.json"));
+}
+
+TEST_F(Shards, WhatIsKeptIsNotComputedAgain) {
+  const std::string search = "room.bag --method stationary --range 20:28:1 ";
+  expect_done("estimate " + search + "--resume kept.candidates");
+  std::string kept = file("kept.candidates");
+  const std::size_t at = kept.find("\"d\":", kept.find("\"offset_ns\":20000000,")) + 4;
+  kept.replace(at, kept.find(',', at) - at, "77.25");
+  std::ofstream(folder_ / "kept.candidates") << kept;
+  expect_done("estimate " + search + "--resume kept.candidates --json -");
+  EXPECT_NE(file("said.out").find("\"d\": 77.25"), std::string::npos) << "the kept value, whatever it is";
+}
+
+TEST_F(Shards, ALineThatWasNotWrittenToItsEndIsComputedAgain) {
+  const std::string search = "room.bag --method stationary --range 20:28:1 ";
+  expect_done("estimate " + search + "--no-timing --json one.json --resume kept.candidates");
+  const std::string whole = file("kept.candidates");
+  std::filesystem::resize_file(folder_ / "kept.candidates", whole.size() - 7);
+  expect_done("estimate " + search + "--no-timing --json two.json --resume kept.candidates");
+  EXPECT_EQ(file("two.json"), file("one.json"));
+  EXPECT_EQ(file("kept.candidates"), whole);
+}
+
+TEST_F(Shards, CandidatesOfAnotherSearchOrRecordingAreRefused) {
+  expect_done("estimate room.bag --method stationary --range 20:28:1 --resume kept.candidates");
+  const std::string kept = file("kept.candidates");
+  const Outcome other = run("estimate room.bag --method stationary --range 20:28:2 --resume kept.candidates");
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_NE(other.err.find("kept.candidates: it holds --method=stationary --range=20:28:1"),
+            std::string::npos)
+      << other.err;
+  expect_done("simulate room-3 -o other.bag");
+  EXPECT_EQ(run("estimate other.bag --method stationary --range 20:28:1 --resume kept.candidates").exit_code,
+            2);
+  EXPECT_EQ(run("estimate room.bag --method stationary --range 20:28:1 --resume kept.candidates --shard 1/2")
+                .exit_code,
+            2);
+  EXPECT_EQ(file("kept.candidates"), kept);
+  EXPECT_EQ(run("estimate room.bag --range 20:28:1 --resume room.bag").exit_code, 3)
+      << "no file of candidates";
+}
+
+TEST_F(Shards, AMergeWithoutAllPartsSaysWhichAreMissing) {
+  const std::string search = kSearch;
+  expect_done("estimate " + search + "--shard 1/3");
+  expect_done("estimate " + search + "--shard 3/3");
+  const Outcome outcome = run("merge room.1-of-3.candidates room.3-of-3.candidates --json merged.json");
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_NE(outcome.err.find("6 candidates are missing, the first at 20 ms; no file holds shard 2/3"),
+            std::string::npos)
+      << outcome.err;
+  EXPECT_FALSE(exists("merged.json"));
+}
+
+TEST_F(Shards, AMergeFindsTheRecordingWhereItIsSaidToBe) {
+  expect_done("estimate room.bag --method stationary --range 20:28:1 --no-timing --json one.json");
+  expect_done("estimate room.bag --method stationary --range 20:28:1 --shard 1/1");
+  std::filesystem::rename(folder_ / "room.bag", folder_ / "moved.bag");
+  EXPECT_EQ(run("merge room.1-of-1.candidates").exit_code, 3);
+  expect_done("merge room.1-of-1.candidates --recording moved.bag --no-timing --json merged.json");
+  EXPECT_EQ(file("merged.json"), file("one.json"));
+  expect_done("simulate room-3 -o other.bag");
+  EXPECT_EQ(run("merge room.1-of-1.candidates --recording other.bag").exit_code, 2);
+}
+
+TEST_F(Shards, WrongUsageIsRefused) {
+  EXPECT_EQ(run("estimate room.bag --range 20:28:1 --shard 0/2").exit_code, 2);
+  EXPECT_EQ(run("estimate room.bag --range 20:28:1 --shard 3/2").exit_code, 2);
+  EXPECT_EQ(run("estimate room.bag --range 20:28:1 --shard 1/2 --json a.json").exit_code, 2);
+  const Outcome outcome = run("estimate room.bag --shard 1/2");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.err.find("decides where to look as it goes"), std::string::npos) << outcome.err;
+  EXPECT_FALSE(exists("room.1-of-2.candidates"));
+  EXPECT_EQ(run("estimate room.bag --method direct --resume kept.candidates").exit_code, 2);
+  EXPECT_EQ(run("merge").exit_code, 2);
+  EXPECT_EQ(run("merge room.bag").exit_code, 3);
+}
+
+TEST_F(Shards, RunUnderGnuParallel) {
+  if (std::system("command -v parallel >/dev/null") != 0) GTEST_SKIP() << "GNU parallel is not installed";
+  expect_done("estimate " + std::string(kSearch) + "--no-timing --json one.json");
+  const std::string command = "cd '" + folder_.string() +
+                              "' && parallel --will-cite -j2 " SWEEPSCOPE_EXECUTABLE " estimate " + kSearch +
+                              "--threads 1 --shard {}/4 ::: 1 2 3 4 >parallel.out 2>&1";
+  ASSERT_EQ(std::system(command.c_str()), 0) << file("parallel.out");
+  expect_done(
+      "merge room.1-of-4.candidates room.2-of-4.candidates room.3-of-4.candidates "
+      "room.4-of-4.candidates --no-timing --json merged.json");
+  EXPECT_EQ(file("merged.json"), file("one.json"));
+}
+
+TEST_F(Shards, AFileOfCandidatesBelongsToOneRunAtATime) {
+  const std::string path = (folder_ / "kept.candidates").string();
+  expect_done("estimate room.bag --method stationary --range 20:28:1 --resume kept.candidates");
+  const std::string held = "cd '" + folder_.string() +
+                           "' && flock kept.candidates " SWEEPSCOPE_EXECUTABLE
+                           " estimate room.bag --method stationary --range 20:28:1 --resume kept.candidates "
+                           ">said.out 2>said.err";
+  const int status = std::system(held.c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 2);
+  EXPECT_NE(file("said.err").find("another run is writing it"), std::string::npos) << file("said.err");
+}
+
+}  // namespace
+}  // namespace sweepscope

@@ -1,0 +1,110 @@
+// Runs a fuzz target without a fuzzer: every file of its corpus, and for some seconds changed copies of them.
+// Changes are drawn from a fixed seed, so that run after run begins alike; a target that ends the program
+// leaves the input.
+#include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <random>
+#include <set>
+#include <string>
+#include <vector>
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size);
+
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+using Random = std::mt19937_64;
+
+std::size_t below(Random& random, std::size_t count) {
+  return count == 0 ? 0 : random() % count;
+}
+
+void change_once(Bytes& bytes, const std::vector<Bytes>& corpus, Random& random) {
+  static constexpr std::uint64_t kNumbers[] = {0,      1,      0x7f,       0x80,       0xff,
+                                               0x7fff, 0xffff, 0x7fffffff, 0xffffffff, ~0ULL};
+  const std::size_t at = below(random, bytes.size());
+  const auto here = bytes.begin() + static_cast<std::ptrdiff_t>(at);
+  switch (random() % 7) {
+    case 0:
+      if (!bytes.empty()) bytes[at] ^= static_cast<std::uint8_t>(1U << random() % 8);
+      break;
+    case 1:
+      if (!bytes.empty()) bytes[at] = static_cast<std::uint8_t>(random());
+      break;
+    case 2: {  // a number that is often forgotten, in 1 to 8 bytes
+      const std::uint64_t number = kNumbers[below(random, std::size(kNumbers))];
+      const std::size_t size = std::size_t{1} << random() % 4;
+      for (std::size_t i = 0; i < size && at + i < bytes.size(); ++i)
+        bytes[at + i] = static_cast<std::uint8_t>(number >> (8 * i));
+      break;
+    }
+    case 3:
+      bytes.resize(at);
+      break;
+    case 4:
+      bytes.erase(here, here + static_cast<std::ptrdiff_t>(
+                                   below(random, std::min<std::size_t>(bytes.size() - at, 64))));
+      break;
+    case 5:  // a piece of its own, again
+      if (!bytes.empty()) {
+        const std::size_t size = 1 + below(random, std::min<std::size_t>(bytes.size() - at, 64));
+        const Bytes piece(here, here + static_cast<std::ptrdiff_t>(size));
+        bytes.insert(bytes.begin() + static_cast<std::ptrdiff_t>(below(random, bytes.size())), piece.begin(),
+                     piece.end());
+      }
+      break;
+    default: {  // the end of another file
+      const Bytes& other = corpus[below(random, corpus.size())];
+      bytes.resize(at);
+      bytes.insert(bytes.end(), other.begin() + static_cast<std::ptrdiff_t>(below(random, other.size())),
+                   other.end());
+    }
+  }
+}
+
+std::string crash_file;
+
+// The input, before it is tried: it is there after a crash, whatever kind of crash.
+void try_input(const Bytes& bytes) {
+  std::ofstream(crash_file, std::ios::binary)
+      .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  LLVMFuzzerTestOneInput(bytes.data(), bytes.size());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 4) {
+    std::fprintf(stderr, "usage: %s CORPUS SECONDS INPUT (where the last input is left after a crash)\n",
+                 argv[0]);
+    return 2;
+  }
+  crash_file = argv[3];
+  std::set<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(argv[1])) files.insert(entry.path());
+  std::vector<Bytes> corpus;
+  for (const auto& file : files) {
+    std::ifstream stream(file, std::ios::binary);
+    corpus.emplace_back(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
+  }
+  if (corpus.empty()) {
+    std::fprintf(stderr, "%s: no seeds\n", argv[1]);
+    return 1;
+  }
+  for (const Bytes& bytes : corpus) try_input(bytes);
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(std::atof(argv[2]));
+  std::size_t tried = 0;
+  Random random(1);
+  for (; std::chrono::steady_clock::now() < end; ++tried) {
+    Bytes bytes = corpus[below(random, corpus.size())];
+    for (std::uint64_t changes = 1 + random() % 5; changes > 0; --changes) change_once(bytes, corpus, random);
+    try_input(bytes);
+  }
+  std::filesystem::remove(crash_file);
+  std::printf("%zu seeds and %zu changed copies of them\n", corpus.size(), tried);
+}
