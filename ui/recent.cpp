@@ -28,7 +28,7 @@ std::vector<std::string> read_recent(const std::filesystem::path& list) {
   std::istringstream lines(*text);
   std::error_code ignored;
   for (std::string line; std::getline(lines, line) && recent.size() < kMost;) {
-    if (std::filesystem::is_regular_file(line, ignored)) recent.push_back(line);
+    if (std::filesystem::exists(line, ignored)) recent.push_back(line);
   }
   return recent;
 }
