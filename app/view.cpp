@@ -11,6 +11,7 @@
 #include "app/offset_texts.hpp"
 #include "app/recording_options.hpp"
 #include "core/io/atomic_file.hpp"
+#include "core/io/shell_word.hpp"
 #include "ui/script/script.hpp"
 #include "ui/window_loop.hpp"
 
@@ -20,6 +21,7 @@ namespace {
 struct ViewOptions {
   RecordingOptions reading;
   std::string recording;  // or a session
+  std::string poses;
   bool headless = false;
   std::string size = "1600x1000", script, run;
   double scale = 0;
@@ -52,7 +54,7 @@ Result<ui::Ui::Options> ui_options(const ViewOptions& options) {
     auto rig = read_rig(*options.reading.rig);
     if (!rig) return tl::unexpected(rig.error());
     out.explorer.reading.rig = std::move(*rig);
-    out.explorer.shell_options += " --rig " + ui::quoted(options.reading.rig->string());
+    out.explorer.shell_options += " --rig " + shell_word(options.reading.rig->string());
   }
   if (options.reading.stamps)
     out.explorer.shell_options +=
@@ -87,7 +89,8 @@ Result<void> view(const ViewOptions& options) {
   if (!scripts) return tl::unexpected(scripts.error());
   auto with = ui_options(options);
   if (!with) return tl::unexpected(with.error());
-  const std::string first = options.recording.empty() ? "" : "open " + ui::quoted(options.recording);
+  std::string first = options.recording.empty() ? "" : "open " + ui::quoted(options.recording);
+  if (!options.poses.empty()) first += " " + ui::quoted(options.poses);
   if (!options.headless)
     return ui::run_in_window(std::move(*with), size->width_px, size->height_px, first, *scripts);
   if (scripts->empty()) return failure(ExitCode::kWrongUsage, "--headless wants --script F or --run 'LINES'");
@@ -100,7 +103,13 @@ void declare(CLI::App& command, ViewOptions& options) {
   options.reading.declare_reading(command);
   options.reading.declare_computing(command);
   command.remove_option(command.get_option("--window"));  // the explorer has its time window
-  command.add_option("REC", options.recording, "A recording, or a session (.json); default: the start page");
+  CLI::Option* recording = command.add_option("REC", options.recording,
+                                              "A recording, or a session (.json); default: the start page");
+  command
+      .add_option("--poses", options.poses,
+                  "Where the rig went (TUM), instead of solving for it; maps are in that frame")
+      ->type_name("F")
+      ->needs(recording);
   command.add_flag("--headless", options.headless,
                    "Without a display: runs a script on the very same interface");
   command.add_option("--size", options.size, "Of the window, in pixels")->capture_default_str();

@@ -2,60 +2,25 @@
 
 #include <vtkActor.h>
 #include <vtkCamera.h>
-#include <vtkCellArray.h>
-#include <vtkFloatArray.h>
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkNew.h>
 #include <vtkOpenGLFramebufferObject.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
 #include <vtkTextureObject.h>
-#include <vtkTypeInt64Array.h>
-#include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
 #include <chrono>
-#include <cstring>
-#include <numeric>
 
 #include "render/gl/vtk_window.hpp"
+#include "render/point_polydata.hpp"
 
 namespace sweepscope {
 namespace {
 
 constexpr std::size_t kSlicePoints = 65536;
-
-/// Points [from, to) as VTK has them, without copies where it can do without.
-vtkSmartPointer<vtkPolyData> to_polydata(const LivePoints& points, std::size_t from, std::size_t to) {
-  const auto count = static_cast<vtkIdType>(to - from);
-  vtkNew<vtkFloatArray> xyz;
-  xyz->SetNumberOfComponents(3);
-  xyz->SetNumberOfTuples(count);
-  std::memcpy(xyz->GetPointer(0), points.xyz_m[from].data(), (to - from) * sizeof points.xyz_m[0]);
-  vtkNew<vtkUnsignedCharArray> colours;
-  colours->SetNumberOfComponents(3);
-  colours->SetNumberOfTuples(count);
-  std::memcpy(colours->GetPointer(0), points.rgb[from].data(), (to - from) * sizeof points.rgb[0]);
-  // One cell of all points: far less memory than a cell for each.
-  vtkNew<vtkTypeInt64Array> offsets, connectivity;
-  offsets->InsertNextValue(0);
-  offsets->InsertNextValue(count);
-  connectivity->SetNumberOfValues(count);
-  std::iota(connectivity->GetPointer(0), connectivity->GetPointer(0) + count, vtkIdType{0});
-  vtkNew<vtkCellArray> cells;
-  cells->SetData(offsets, connectivity);
-  vtkNew<vtkPoints> places;
-  places->SetData(xyz);
-  auto data = vtkSmartPointer<vtkPolyData>::New();
-  data->SetPoints(places);
-  data->SetVerts(cells);
-  data->GetPointData()->SetScalars(colours);
-  return data;
-}
 
 /// A cloud cut into actors, which are made when they are first drawn.
 struct Slices {
@@ -72,9 +37,10 @@ struct Slices {
   /// Stays in the renderer, unseen between drawings: VTK uploads an actor's points anew once it was away.
   vtkActor* at(std::size_t slice, double point_size_px, vtkRenderer& renderer) {
     if (!actors[slice]) {
-      const std::size_t from = slice * kSlicePoints;
+      const std::size_t from = slice * kSlicePoints, count = std::min(kSlicePoints, points->size() - from);
       vtkNew<vtkPolyDataMapper> mapper;
-      mapper->SetInputData(to_polydata(*points, from, std::min(from + kSlicePoints, points->size())));
+      mapper->SetInputData(to_polydata(std::span(points->xyz_m).subspan(from, count),
+                                       std::span(points->rgb).subspan(from, count)));
       mapper->SetColorModeToDirectScalars();
       mapper->StaticOn();
       actors[slice] = vtkSmartPointer<vtkActor>::New();

@@ -3,27 +3,22 @@
 #include <fmt/format.h>
 #include <vtkActor.h>
 #include <vtkCamera.h>
-#include <vtkCellArray.h>
 #include <vtkContextActor.h>
-#include <vtkFloatArray.h>
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
 #include <vtkRendererCollection.h>
-#include <vtkTypeInt64Array.h>
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
 #include <cstring>
-#include <numeric>
 
 #include "render/gl/vtk_window.hpp"
 #include "render/picture_drawing.hpp"
+#include "render/point_polydata.hpp"
 #include "render/vtk_drawing.hpp"
 
 namespace sweepscope {
@@ -31,42 +26,19 @@ namespace {
 
 constexpr int kSupersampling = 2;
 
-vtkSmartPointer<vtkPolyData> to_polydata(const ColouredPoints& points, const ColourScale& scale) {
-  const auto count = static_cast<vtkIdType>(points.size());
-  vtkNew<vtkFloatArray> xyz;
-  xyz->SetNumberOfComponents(3);
-  xyz->SetNumberOfTuples(count);
-  std::memcpy(xyz->GetPointer(0), points.xyz_m.data(), points.size() * sizeof points.xyz_m[0]);
-  vtkNew<vtkUnsignedCharArray> colours;
-  colours->SetNumberOfComponents(3);
-  colours->SetNumberOfTuples(count);
-  unsigned char* out = colours->GetPointer(0);
+std::vector<std::array<std::uint8_t, 3>> colours_of(const ColouredPoints& points, const ColourScale& scale) {
+  std::vector<std::array<std::uint8_t, 3>> rgb;
+  rgb.reserve(points.size());
   for (const float value : points.values) {
     const Colour colour = scale.at(static_cast<double>(value));
-    *out++ = colour.red;
-    *out++ = colour.green;
-    *out++ = colour.blue;
+    rgb.push_back({colour.red, colour.green, colour.blue});
   }
-  // One cell of all points: far less memory than a cell for each.
-  vtkNew<vtkTypeInt64Array> offsets, connectivity;
-  offsets->InsertNextValue(0);
-  offsets->InsertNextValue(count);
-  connectivity->SetNumberOfValues(count);
-  std::iota(connectivity->GetPointer(0), connectivity->GetPointer(0) + count, vtkIdType{0});
-  vtkNew<vtkCellArray> cells;
-  cells->SetData(offsets, connectivity);
-  vtkNew<vtkPoints> places;
-  places->SetData(xyz);
-  auto data = vtkSmartPointer<vtkPolyData>::New();
-  data->SetPoints(places);
-  data->SetVerts(cells);
-  data->GetPointData()->SetScalars(colours);
-  return data;
+  return rgb;
 }
 
 vtkSmartPointer<vtkActor> to_actor(const CloudLayer& layer, const ColourScale& scale) {
   vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputData(to_polydata(*layer.points, scale));
+  mapper->SetInputData(to_polydata(layer.points->xyz_m, colours_of(*layer.points, scale)));
   mapper->SetColorModeToDirectScalars();
   auto actor = vtkSmartPointer<vtkActor>::New();
   actor->SetMapper(mapper);

@@ -10,6 +10,15 @@
 
 namespace sweepscope::ui {
 
+namespace {
+
+/// Whether a tool left something on the maps.
+bool marked(const Settings& s) {
+  return s.asked_scan >= 0 || s.measure_from_m != s.measure_to_m || s.profile_from_m != s.profile_to_m;
+}
+
+}  // namespace
+
 struct Ui::Parts {
   Parts(gl::Context& gl_context, Options with)
       : options(std::move(with)),
@@ -37,6 +46,7 @@ struct Ui::Parts {
   void use_keys(std::span<const InputEvent> events);
   void use_drops(std::span<const InputEvent> events);
   void draw(const PaneContext& panes);
+  double pane_aspect() const;
   void remember_opened();
   void write_picture();
 
@@ -74,10 +84,11 @@ void Ui::Parts::open_front(const std::string& name, const Call& call) {
   transient.asks_for.reset();
   if (name == "palette") transient.palette = !palette_was;
   if (name == "help") transient.help = !help_was;
-  if (name == "ask") transient.asks_for = call.text(0);
+  if (name == "ask") transient.asks_for = Transient::Asked{call.text(0), call.text(1)};
   transient.palette_query.clear();
   transient.palette_choice = 0;
-  transient.asked_text.clear();
+  transient.asked_text =
+      transient.asks_for ? explorer.suggested_file(transient.asks_for->command, transient.asks_for->what) : "";
   transient.just_opened = true;
 }
 
@@ -87,10 +98,11 @@ void Ui::Parts::dismiss() {
     transient.asks_for.reset();
   } else if (explorer.message()) {
     explorer.dismiss_message();
-  } else if (explorer.settings().tool != Tool::kLook) {
-    (void)explorer.perform("tool look");
-    transient.picked.reset();
-    transient.measured_m.clear();
+  } else if (explorer.settings().tool != Tool::kLook || marked(explorer.settings())) {
+    transient.measure_from_m.reset();
+    const std::string gesture = "dismiss " + std::to_string(++transient.gestures);
+    for (const char* line : {"tool look", "pick -1 -1", "measure 0 0 0 0 0 0", "profile 0 0 0 0"})
+      (void)explorer.perform(line, gesture);
   } else if (explorer.settings().scan_view) {
     (void)explorer.perform("scan-view off");
   }
@@ -149,6 +161,15 @@ void Ui::Parts::draw(const PaneContext& panes) {
   explorer.hold_handle(transient.handle.has_value() || ImGui::IsAnyItemActive());
 }
 
+/// Of a map's picture, once a recording is open.
+double Ui::Parts::pane_aspect() const {
+  const Settings& settings = explorer.settings();
+  const PixelRect maps = lay_out(context.width_px(), context.height_px(), scale(), settings, true).maps;
+  const MapPlaces places = lay_out_maps(maps, scale(), settings.layout);
+  const PixelRect& picture = places.picture_b.width > 0 ? places.picture_b : places.picture_a;
+  return picture.width / std::max(picture.height, 1.0);
+}
+
 void Ui::Parts::remember_opened() {
   const Loaded* loaded = explorer.loaded();
   if (loaded == nullptr || loaded->source == remembered) return;
@@ -171,9 +192,10 @@ void Ui::Parts::write_picture() {
                   Image::kChannels * static_cast<std::size_t>(part.width_px), part.pixel(0, y));
     image = std::move(part);
   }
-  const auto written = write_png(image, asked.text(0));
-  explorer.say(written ? Message::Kind::kNote : Message::Kind::kError,
-               written ? "The picture is saved in " + asked.text(0) + "." : written.error().message);
+  const std::string path = asked.text(0);
+  explorer.start_export(
+      "Writing " + path, [image = std::move(image), path](const Job&) { return write_png(image, path); },
+      "The picture is saved in " + path + ".");
 }
 
 Ui::Ui(gl::Context& context, Options options)
@@ -194,6 +216,7 @@ void Ui::frame(std::span<const InputEvent> events, double seconds_since_last) {
   p.use_keys(events);
   p.use_drops(events);
   p.transient.camera_moved_s += seconds_since_last;
+  p.explorer.set_pane_aspect(p.pane_aspect());
   p.explorer.update(seconds_since_last);
   p.remember_opened();
   p.host.begin_frame(events, seconds_since_last);
@@ -211,7 +234,7 @@ Image Ui::screenshot() {
 }
 
 bool Ui::wants_quit() const {
-  return parts_->transient.quit;
+  return parts_->transient.quit && !parts_->explorer.is_exporting() && !parts_->picture_asked;
 }
 
 bool Ui::pictures_done() const {
@@ -226,8 +249,7 @@ bool Ui::pictures_done() const {
 
 bool Ui::animates() const {
   const Parts& p = *parts_;
-  return !pictures_done() || p.explorer.background().busy() || p.transient.just_opened ||
-         !p.explorer.at_rest();
+  return !pictures_done() || p.transient.just_opened || p.explorer.waits_to_place();
 }
 
 std::optional<PixelRect> Ui::anchor(const std::string& name) const {

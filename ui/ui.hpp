@@ -41,7 +41,8 @@ class Ui {
   bool wants_quit() const;
   /// Whether the pictures of the maps show all that there is to show at the moment.
   bool pictures_done() const;
-  /// Whether the next frame would differ without any event: something moves or is being drawn.
+  /// Whether the next frame would differ without any event: something moves or is being drawn. Progress of
+  /// work in the background is not meant.
   bool animates() const;
   /// Where something is that can be clicked: "button estimate", "handle a", "map b", ...
   std::optional<PixelRect> anchor(const std::string& name) const;

@@ -76,42 +76,60 @@ void use_cursor(gl::Window& window) {
   }
 }
 
-/// The system's clipboard and ours hold the same, whichever changed.
+/// What is copied goes to the system's clipboard. What that holds is asked for when it is to be pasted: its
+/// owner may take long to answer.
 class ClipboardLink {
  public:
-  void before(gl::Window& window, Ui& ui) { ui.clipboard() = last_ = window.clipboard(); }
+  void before(gl::Window& window, Ui& ui, std::span<const InputEvent> events) {
+    const auto pastes = [](const InputEvent& event) {
+      return event.what == InputEvent::What::kKey && event.key == 'V' && (event.modifiers & kCtrl) != 0;
+    };
+    if (std::any_of(events.begin(), events.end(), pastes)) ui.clipboard() = last_ = window.clipboard();
+  }
   void after(gl::Window& window, Ui& ui) {
-    if (ui.clipboard() != last_) window.set_clipboard(ui.clipboard());
+    if (ui.clipboard() != last_) window.set_clipboard(last_ = ui.clipboard());
   }
 
  private:
   std::string last_;
 };
 
+using Clock = std::chrono::steady_clock;
+
+double seconds_between(Clock::time_point from, Clock::time_point to) {
+  return std::chrono::duration<double>(to - from).count();
+}
+
 void loop(gl::Window& window, Ui& ui) {
-  using Clock = std::chrono::steady_clock;
   constexpr int kFramesAfterEvent = 4;  // ImGui settles within them
   constexpr double kTooltip_s = 0.7;    // a tooltip comes while the mouse rests
+  constexpr double kFrame_s = 1.0 / 60;
+  constexpr double kWorking_s = 1.0 / 8;  // where only progress is to be shown
+  constexpr double kIdle_s = 1;
   EventQueue queue(window);
   ClipboardLink clipboard;
   auto last = Clock::now(), last_event = last;
   int frames_due = kFramesAfterEvent;
-  while (!window.should_close() && !ui.wants_quit()) {
-    const double since_event_s = std::chrono::duration<double>(Clock::now() - last_event).count();
-    const bool busy = frames_due > 0 || ui.animates() || since_event_s < kTooltip_s;
-    window.wait(busy ? 1.0 / 60 : 1.0);
+  while ((!window.should_close() || ui.explorer().is_exporting()) && !ui.wants_quit()) {
+    const Background& background = ui.explorer().background();
+    const bool moves =
+        frames_due > 0 || ui.animates() || seconds_between(last_event, Clock::now()) < kTooltip_s;
+    const double interval_s = moves ? kFrame_s : background.busy() ? kWorking_s : kIdle_s;
+    const double waited_s = interval_s == kIdle_s ? 0 : seconds_between(last, Clock::now());
+    window.wait(std::max(1e-3, interval_s - waited_s));
+    const auto now = Clock::now();
+    const double seconds = seconds_between(last, now);
     if (queue.any()) {
       frames_due = kFramesAfterEvent;
-      last_event = Clock::now();
-    } else if (!busy) {
+      last_event = now;
+    } else if (!background.has_finished() && (interval_s == kIdle_s || seconds < interval_s)) {
       continue;
     }
-    const auto now = Clock::now();
-    const double seconds = std::clamp(std::chrono::duration<double>(now - last).count(), 1e-3, 0.25);
     last = now;
     ui.set_display_scale(window.scale());
-    clipboard.before(window, ui);
-    ui.frame(queue.take_for_frame(), seconds);
+    const std::vector<InputEvent> events = queue.take_for_frame();
+    clipboard.before(window, ui, events);
+    ui.frame(events, std::clamp(seconds, 1e-3, 0.25));
     clipboard.after(window, ui);
     window.present();
     use_cursor(window);
@@ -124,13 +142,16 @@ void loop(gl::Window& window, Ui& ui) {
 Result<void> run_in_window(Ui::Options options, int width_px, int height_px, const std::string& first_line,
                            std::span<const Script> scripts) {
   auto window = gl::make_window(width_px, height_px, "sweepscope");
-  if (!window) return tl::unexpected(window.error());
+  if (!window)
+    return failure(window.error().code,
+                   window.error().message + ". Without a display: --headless, with --script or --run.");
   (*window)->make_current();
   options.recent_list = recent_list_path();
   const double wanted_scale = options.display_scale;
   if (wanted_scale == 1) options.display_scale = (*window)->scale();
   Ui ui(**window, std::move(options));
   ui.explorer().background().on_progress(gl::wake_window);
+  ui.explorer().background().come_after_the_interface();
   if (!first_line.empty()) {
     if (const auto done = ui.explorer().perform(first_line); !done)
       ui.explorer().say(Message::Kind::kError, done.error().message);

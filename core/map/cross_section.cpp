@@ -39,11 +39,16 @@ std::vector<double> smoothed(const std::vector<double>& distances_m, double medi
   return density;
 }
 
-double width_at_half_mm(const std::vector<double>& density, double peak) {
-  const double half = peak / 2;
+// The outermost steps where the density is at half of its peak at least.
+std::pair<std::size_t, std::size_t> outermost(const std::vector<double>& density, double half) {
   std::size_t first = 0, last = density.size() - 1;
   while (density[first] < half) ++first;
   while (density[last] < half) --last;
+  return {first, last};
+}
+
+double width_at_half_mm(const std::vector<double>& density, double half) {
+  const auto [first, last] = outermost(density, half);
   // Between two steps, linearly; beyond the ends there is nothing.
   const auto beyond = [&](std::size_t inside, std::ptrdiff_t step) {
     const std::ptrdiff_t outside = static_cast<std::ptrdiff_t>(inside) + step;
@@ -203,7 +208,10 @@ Profile profile_of(std::vector<double> distances_m, double reach_m) {
     profile.distances_mm.push_back(kStep_mm * static_cast<double>(i) - half_mm);
   profile.peak_per_mm = *std::max_element(profile.density_per_mm.begin(), profile.density_per_mm.end());
   if (profile.points >= kLeastPoints) {
-    profile.width_at_half_height_mm = width_at_half_mm(profile.density_per_mm, profile.peak_per_mm);
+    const double half = profile.peak_per_mm / 2;
+    profile.width_at_half_height_mm = width_at_half_mm(profile.density_per_mm, half);
+    const auto [first, last] = outermost(profile.density_per_mm, half);
+    profile.half_height_mm = {profile.distances_mm[first], profile.distances_mm[last]};
     profile.integral_width_mm = 1 / profile.peak_per_mm;
   }
   return profile;

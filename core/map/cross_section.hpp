@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/geometry/pose.hpp"
@@ -36,6 +37,8 @@ struct Profile {
   /// Between the outermost crossings of half of the peak: both layers of a face that a wrong offset doubled
   /// count where the lesser is above half the greater. None from too few points.
   std::optional<double> width_at_half_height_mm;
+  /// Where those crossings are, on the axis of distances_mm; there where the width is.
+  std::pair<double, double> half_height_mm{0, 0};
   /// The inverse of the peak: how wide the points would be, all as dense as where they are densest (1.06
   /// times the width at half height of a single layer). It also grows where a layer is smeared below half the
   /// peak.

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/loam/sweep_motion.hpp"
+#include "core/map/pose_reader.hpp"
 #include "core/offset/search_window.hpp"
 #include "core/offset/still_motion.hpp"
 
@@ -81,27 +82,6 @@ MapCloud::Ptr place_beams(const OffsetProblem& problem, double offset_s,
   cloud->is_dense = true;
   return cloud;
 }
-
-/// Poses that ascend in time, read at instants that ascend too.
-class PoseReader {
- public:
-  explicit PoseReader(const std::vector<StampedPose>& poses) : poses_(poses) {}
-
-  bool covers(double from_s, double to_s) const {
-    return poses_.size() > 1 && from_s >= poses_.front().time_s && to_s <= poses_.back().time_s;
-  }
-  Pose at(double time_s) {
-    while (next_ + 1 < poses_.size() && poses_[next_].time_s < time_s) ++next_;
-    while (next_ > 1 && poses_[next_ - 1].time_s > time_s) --next_;
-    const StampedPose &a = poses_[next_ - 1], &b = poses_[next_];
-    return interpolate({a.orientation, a.position_m}, {b.orientation, b.position_m},
-                       (time_s - a.time_s) / (b.time_s - a.time_s));
-  }
-
- private:
-  const std::vector<StampedPose>& poses_;
-  std::size_t next_ = 1;
-};
 
 /// Every scan by poses of its own.
 MapCloud::Ptr place_beams_along(const OffsetProblem& problem, double offset_s,

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "core/geometry/kinematics.hpp"
+#include "core/map/pose_reader.hpp"
 
 namespace sweepscope {
 namespace {
@@ -160,6 +161,24 @@ FixedPath standing_path(const Recording& recording, std::span<const char> used) 
   pose.begin_s = recording.scans.front().first_beam_s - 1;
   pose.end_s = recording.scans.back().last_beam_s() + 1;
   return fix_path(recording, {pose}, used);
+}
+
+FixedPath path_along(const Recording& recording, const std::vector<StampedPose>& poses,
+                     std::span<const char> used) {
+  FixedPath path;
+  path.sweep_of_scan.assign(recording.scans.size(), FixedPath::kNoPose);
+  PoseReader reader(poses);
+  for (std::size_t i = 0; i < recording.scans.size(); ++i) {
+    SweepPose pose;
+    pose.begin_s = recording.scans[i].first_beam_s;
+    pose.end_s = recording.scans[i].last_beam_s();
+    if (!used[i] || !(pose.end_s > pose.begin_s) || !reader.covers(pose.begin_s, pose.end_s)) continue;
+    pose.begin = reader.at(pose.begin_s);
+    pose.end = reader.at(pose.end_s);
+    path.sweep_of_scan[i] = static_cast<std::uint32_t>(path.sweeps.size());
+    path.sweeps.push_back(pose);
+  }
+  return path;
 }
 
 void replace_points(const Beams& beams, const FixedPath& path, double offset_s,

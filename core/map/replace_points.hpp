@@ -41,6 +41,10 @@ struct FixedPath {
 FixedPath fix_path(const Recording& recording, std::vector<SweepPose> sweeps, std::span<const char> used);
 /// A path on which the rig stands at the map frame's origin for the whole recording.
 FixedPath standing_path(const Recording& recording, std::span<const char> used);
+/// A path along poses that are known, ascending in time: a pair for each scan, since they may lie far apart.
+/// Scans that they do not cover have no pose.
+FixedPath path_along(const Recording& recording, const std::vector<StampedPose>& poses,
+                     std::span<const char> used);
 
 /// Places beams along fixed poses with the motor angle at t_motor = t_laser + offset: what turning the offset
 /// does to the map while the path stays. Places are in the map frame; beams outside the path become NaN. In

@@ -1,5 +1,4 @@
 #include "core/recording/write_ros1_bag.hpp"
-#include "core/io/unfinished_files.hpp"
 
 #include <fmt/format.h>
 #include <rosbag/bag.h>
@@ -12,6 +11,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "core/io/unfinished_files.hpp"
 #include "core/recording/write_order.hpp"
 
 namespace sweepscope {

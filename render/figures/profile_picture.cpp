@@ -78,18 +78,6 @@ void add_map_view(Page& page, const ComparedMap& map, const CrossSection& sectio
   page.picture.views.push_back(std::move(view));
 }
 
-/// The outermost places where the density is at half of its peak.
-std::pair<double, double> half_height_of(const Profile& profile) {
-  const auto& density = profile.density_per_mm;
-  const double half = profile.peak_per_mm / 2;
-  const auto is_above = [&](double value) { return value >= half; };
-  const auto first = std::find_if(density.begin(), density.end(), is_above);
-  const auto last = std::find_if(density.rbegin(), density.rend(), is_above);
-  const auto index = [&](auto distance) { return static_cast<std::size_t>(distance); };
-  return {profile.distances_mm[index(first - density.begin())],
-          profile.distances_mm[density.size() - 1 - index(last - density.rbegin())]};
-}
-
 Chart density_chart(std::span<const NamedProfile> profiles, const Style& style) {
   Chart chart;
   chart.title = "Density of points [1/mm]";
@@ -106,7 +94,7 @@ Chart density_chart(std::span<const NamedProfile> profiles, const Style& style) 
     series.y.assign(profile.density_per_mm.begin(), profile.density_per_mm.end());
     chart.series.push_back(std::move(series));
     if (!profile.width_at_half_height_mm) continue;
-    const auto [from_mm, to_mm] = half_height_of(profile);
+    const auto [from_mm, to_mm] = profile.half_height_mm;
     chart.spans.push_back({profile.peak_per_mm / 2, from_mm, to_mm,
                            fmt::format("{:.0f} mm", *profile.width_at_half_height_mm), style.maps[i]});
   }

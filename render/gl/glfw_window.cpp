@@ -122,9 +122,7 @@ class GlfwWindow final : public Window {
 
 Result<std::unique_ptr<Window>> make_window(int width_px, int height_px, const std::string& title) {
   if (glfwInit() == 0)
-    return failure(
-        ExitCode::kUnreadableInput,
-        fmt::format("No window can be opened: {}. Without a display, use --headless.", last_error()));
+    return failure(ExitCode::kUnreadableInput, fmt::format("No window can be opened: {}", last_error()));
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);

@@ -2,25 +2,21 @@
 #include <benchmark/benchmark.h>
 #include <vtkActor.h>
 #include <vtkCamera.h>
-#include <vtkCellArray.h>
-#include <vtkFloatArray.h>
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
-#include <vtkTypeInt64Array.h>
 #include <vtkUnsignedCharArray.h>
 
 #include <cmath>
-#include <numeric>
+#include <vector>
 
 #include "render/comparison.hpp"
 #include "render/gl/vtk_window.hpp"
 #include "render/picture.hpp"
+#include "render/point_polydata.hpp"
 #include "tests/render/synthetic_maps.hpp"
 
 namespace sweepscope {
@@ -49,36 +45,15 @@ ComparisonOptions all_heights() {
 }
 
 vtkSmartPointer<vtkPolyData> bare(const MapCloud& cloud) {
-  vtkNew<vtkFloatArray> xyz;
-  xyz->SetNumberOfComponents(3);
-  vtkNew<vtkUnsignedCharArray> colours;
-  colours->SetNumberOfComponents(3);
-  const auto count = static_cast<vtkIdType>(cloud.size());
-  xyz->SetNumberOfTuples(count);
-  colours->SetNumberOfTuples(count);
-  for (vtkIdType i = 0; i < count; ++i) {
-    const MapPoint& point = cloud[static_cast<std::size_t>(i)];
-    xyz->SetTuple3(i, static_cast<double>(point.x), static_cast<double>(point.y),
-                   static_cast<double>(point.z));
-    const auto level = static_cast<unsigned char>(40 * (static_cast<double>(point.z) + 2));
-    colours->SetTypedComponent(i, 0, level);
-    colours->SetTypedComponent(i, 1, 128);
-    colours->SetTypedComponent(i, 2, 200);
+  std::vector<std::array<float, 3>> xyz_m;
+  std::vector<std::array<std::uint8_t, 3>> rgb;
+  xyz_m.reserve(cloud.size());
+  rgb.reserve(cloud.size());
+  for (const MapPoint& point : cloud) {
+    xyz_m.push_back({point.x, point.y, point.z});
+    rgb.push_back({static_cast<std::uint8_t>(40 * (static_cast<double>(point.z) + 2)), 128, 200});
   }
-  vtkNew<vtkTypeInt64Array> offsets, connectivity;
-  offsets->InsertNextValue(0);
-  offsets->InsertNextValue(count);
-  connectivity->SetNumberOfValues(count);
-  std::iota(connectivity->GetPointer(0), connectivity->GetPointer(0) + count, vtkIdType{0});
-  vtkNew<vtkCellArray> cells;
-  cells->SetData(offsets, connectivity);
-  vtkNew<vtkPoints> points;
-  points->SetData(xyz);
-  auto data = vtkSmartPointer<vtkPolyData>::New();
-  data->SetPoints(points);
-  data->SetVerts(cells);
-  data->GetPointData()->SetScalars(colours);
-  return data;
+  return to_polydata(xyz_m, rgb);
 }
 
 /// One frame of both maps side by side at the size at which pictures are drawn, data conversion included.

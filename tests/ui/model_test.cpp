@@ -182,9 +182,9 @@ TEST_F(InARoom, AnExportedMapHoldsThePointsShownInTheOrderOfTime) {
 TEST_F(InARoom, APointThatIsAskedNamesItsBeamAndBothItsPlaces) {
   const Pane &a = explorer_.pane(Side::kA), &b = explorer_.pane(Side::kB);
   const PixelRect picture{100, 50, 600, 400};
-  const Projection projection(explorer_.settings().camera_a, false, picture);
+  const Projection projection = projection_of(explorer_.settings().camera_a, false, picture);
   const auto& p = a.full->points->xyz_m[1234];
-  const auto at = projection.to_px({p[0], p[1], p[2]});
+  const auto at = projection({p[0], p[1], p[2]});
   ASSERT_TRUE(at);
   const auto found = pick_point(*a.full, projection, *at, 5);
   ASSERT_TRUE(found);
@@ -330,7 +330,7 @@ TEST(DrawOrder, HoldsEveryPointOnceAndChoosesEvenlyOverSpace) {
 TEST(ViewCamera, TheViewsAreWhereTheirNamesSay) {
   const PixelRect pane{0, 0, 400, 400};
   const auto px = [&](double turn, double elevation, const Eigen::Vector3d& p) {
-    return *Projection({{0, 0, 0}, 4, turn, elevation}, false, pane).to_px(p);
+    return *projection_of({{0, 0, 0}, 4, turn, elevation}, false, pane)(p);
   };
   EXPECT_NEAR(px(0, 90, {1, 0, 0}).x, 300, 1e-9) << "from above: x to the right";
   EXPECT_NEAR(px(0, 90, {0, 1, 0}).y, 100, 1e-9) << "and y up";
@@ -343,16 +343,16 @@ TEST(ViewCamera, ZoomingKeepsThePlaceUnderTheMouse) {
   const PixelRect pane{50, 20, 640, 480};
   const ViewPoint view{{1, 2, 3}, 10, 30, 50};
   const PixelPoint mouse{200, 300};
-  const Eigen::Vector3d before = Projection(view, false, pane).under(mouse);
-  const Eigen::Vector3d after = Projection(zoomed(view, 1.7, mouse, pane), false, pane).under(mouse);
+  const Eigen::Vector3d before = place_under(mouse, view, pane);
+  const Eigen::Vector3d after = place_under(mouse, zoomed(view, 1.7, mouse, pane), pane);
   EXPECT_LT((before - after).norm(), 1e-9);
 }
 
 TEST(ViewCamera, MovingTakesThePlaceAlongWithTheMouse) {
   const PixelRect pane{0, 0, 640, 480};
   const ViewPoint view{{1, 2, 3}, 10, 30, 50};
-  const Eigen::Vector3d before = Projection(view, false, pane).under({100, 100});
-  const Eigen::Vector3d after = Projection(moved(view, 25, -10, 480), false, pane).under({125, 90});
+  const Eigen::Vector3d before = place_under({100, 100}, view, pane);
+  const Eigen::Vector3d after = place_under({125, 90}, moved(view, 25, -10, 480), pane);
   EXPECT_LT((before - after).norm(), 1e-9);
 }
 

@@ -1,5 +1,9 @@
 #include "ui/model/background.hpp"
 
+#include <sys/resource.h>
+#include <tbb/task_scheduler_observer.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <chrono>
 #include <condition_variable>
@@ -7,6 +11,7 @@
 #include <exception>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 namespace sweepscope::ui {
@@ -32,6 +37,21 @@ double seconds_left(const Task& task) {
   return elapsed_s * (1 - task.fraction) / task.fraction;
 }
 
+/// Makes the threads that work with the present one come after those that draw, for good: only root could
+/// take it back.
+class ComingAfter : public tbb::task_scheduler_observer {
+ public:
+  ComingAfter() {
+    on_scheduler_entry(false);
+    observe(true);
+  }
+  ~ComingAfter() override { observe(false); }
+  void on_scheduler_entry(bool) override {
+    constexpr int kNice = 10;
+    (void)setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNice);  // of this thread alone, on Linux
+  }
+};
+
 }  // namespace
 
 struct Background::Shared {
@@ -39,7 +59,7 @@ struct Background::Shared {
   std::condition_variable changed;
   std::deque<TaskPtr> tasks;  // in the order of their start; taken out once finished and taken
   std::function<void()> wake;
-  bool ending = false;
+  bool ending = false, comes_after = false;
   std::map<std::string, std::thread> lanes;
 
   TaskPtr next_in(const std::string& lane) {
@@ -51,6 +71,8 @@ struct Background::Shared {
 
   void run_lane(const std::string& lane) {
     std::unique_lock lock(mutex);
+    std::optional<ComingAfter> after;
+    if (comes_after) after.emplace();
     while (true) {
       TaskPtr task;
       changed.wait(lock, [&] { return ending || (task = next_in(lane)) != nullptr; });
@@ -96,6 +118,11 @@ Background::~Background() {
   }
   shared_->changed.notify_all();
   for (auto& [lane, thread] : shared_->lanes) thread.join();
+}
+
+void Background::come_after_the_interface() {
+  const std::lock_guard lock(shared_->mutex);
+  shared_->comes_after = true;
 }
 
 void Background::on_progress(std::function<void()> wake) {
@@ -162,6 +189,12 @@ void Background::take_finished() {
     }
     if (task->finish && !task->cancelled) task->finish();
   }
+}
+
+bool Background::has_finished() const {
+  const std::lock_guard lock(shared_->mutex);
+  return std::any_of(shared_->tasks.begin(), shared_->tasks.end(),
+                     [](const TaskPtr& task) { return task->finished; });
 }
 
 bool Background::busy() const {

@@ -30,6 +30,9 @@ class Background {
   Background(const Background&) = delete;
   Background& operator=(const Background&) = delete;
 
+  /// From now on its threads, and those that help them, come after the interface where both want a processor.
+  /// Before anything is started.
+  void come_after_the_interface();
   /// `wake` is called from any thread when something finished or moved on.
   void on_progress(std::function<void()> wake);
   void start(const std::string& lane, const std::string& key, const std::string& title, Work work);
@@ -43,7 +46,8 @@ class Background {
   /// Calls what finished tasks handed back, in the order in which they finished.
   void take_finished();
 
-  bool busy() const;  // anything that waits, runs, or was not taken
+  bool has_finished() const;  // anything that take_finished would take
+  bool busy() const;          // anything that waits, runs, or was not taken
   std::vector<JobStatus> status() const;
 
  private:

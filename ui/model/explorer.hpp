@@ -4,8 +4,10 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/offset/estimate.hpp"
@@ -79,20 +81,31 @@ class Explorer {
   const Background& background() const { return background_; }
   ColourSpan shown_span() const { return {look_.from, look_.to}; }
 
-  /// Carries out a command; what it does not know itself goes to `at_window`. `gesture`: changes in a row
-  /// with the same one are undone as one.
+  /// Carries out a command; what is opened or exported goes on in the background, and says in a message where
+  /// it fails. What it does not know itself goes to `at_window`. `gesture`: changes in a row with
+  /// the same one are undone as one.
   Result<void> perform(const Call& call, const std::string& gesture = {});
   Result<void> perform(std::string_view line, const std::string& gesture = {});
   std::function<Result<void>(const Call&)> at_window;
 
-  /// Width by height of a map's picture: what fitting the view goes by.
+  /// Width by height of a map's picture: what fitting the view goes by. To be known before anything is
+  /// opened.
   void set_pane_aspect(double aspect) { pane_aspect_ = aspect; }
 
   /// While one is held, offsets are previewed and nothing is solved.
   void hold_handle(bool held) { handle_held_ = held; }
 
+  /// Writes a file beside the interface, which says when it is there.
+  void start_export(const std::string& title, std::function<Result<void>(const Job&)> write,
+                    const std::string& done);
+  bool is_exporting() const { return background_.has(kExport); }
+  /// Why the last export failed, once.
+  std::optional<Error> take_export_failure() { return std::exchange(export_failure_, std::nullopt); }
+
   /// Once per frame: takes what is finished, and starts what the settings ask for.
   void update(double seconds_since_last);
+  /// Whether a pane waits for its settings to rest before all its points are placed.
+  bool waits_to_place() const;
   /// Whether nothing runs and every pane shows all that its settings ask for.
   bool at_rest() const;
   void dismiss_message() { message_.reset(); }
@@ -105,24 +118,37 @@ class Explorer {
   static std::vector<std::pair<std::string, std::string>> observables();
 
   std::string session_json() const;
+  /// A name for the file that a command such as "save-session" writes, in the working folder; empty for
+  /// "open". `what`: of an export of one map, "a" or "b".
+  std::string suggested_file(const std::string& command, const std::string& what) const;
   /// The shell command that makes the present picture at this size.
   std::string command_line(int width_px, int height_px) const;
 
  private:
   Result<void> act(const Call& call);
-  Result<void> open(const std::string& path);
-  Result<void> start_loading(const std::string& title, std::function<Result<LoadedPtr>(const Job&)> load);
-  void take(LoadedPtr loaded);
+  void open(const std::string& path, const std::string& poses);
+  Result<void> open_json(const std::string& path);
+  Result<void> open_session(const std::string& text, const std::string& path);
+  Result<void> open_estimate(const std::string& text, const std::string& path);
+  void load(const std::string& path, const std::string& poses);
+  void start_loading(const std::string& title, std::function<Result<LoadedPtr>(const Job&)> load);
+  void take(LoadedPtr loaded, SolvedMapPtr first_map);
   void close();
+  void cancel();
+  void solve();
+  Result<void> take_found();
   Result<void> start_estimate();
   void take(Estimate estimate);
   Result<void> save_session(const std::string& path);
-  Result<void> export_cloud(const std::string& side, const std::string& path);
+  Result<void> export_cloud(Side side, const std::string& path);
   Result<void> export_curve(const std::string& path);
+  Result<void> export_report(const std::string& folder);
   void change_settings(Settings next, const std::string& gesture);
   void fit_view();
 
-  bool standing() const;
+  static constexpr const char* kExport = "export";
+  static bool stands(const Loaded& loaded, const std::optional<Method>& assume);
+  bool without_solving() const;
   double offset_s(Side side) const;
   SolvedMapPtr solved_at(double offset_s) const;
   SolvedMapPtr nearest_solved(double offset_s) const;
@@ -144,6 +170,7 @@ class Explorer {
   std::optional<Message> message_;
   std::map<std::int64_t, SolvedMapPtr> solved_;  // by the offset in nanoseconds
   std::map<std::int64_t, std::string> unsolvable_;
+  std::set<std::int64_t> cancelled_;        // by a person: not taken up again by itself
   std::vector<std::int64_t> solved_order_;  // oldest first
   SolvedMapPtr provisional_;
   std::shared_ptr<const FeatureSet> features_;
@@ -159,6 +186,7 @@ class Explorer {
   bool b_was_set_ = false;  // by a person, since the recording was opened
   bool view_fitted_ = false;
   double pane_aspect_ = 1;
+  std::optional<Error> export_failure_;
   std::optional<Settings> session_settings_;  // to take over once the recording is there
   std::optional<Estimate> session_estimate_;
   Background background_;  // last: its threads end before what they use

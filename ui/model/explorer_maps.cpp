@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/io/atomic_file.hpp"
 #include "ui/model/explorer.hpp"
 
 namespace sweepscope::ui {
@@ -39,9 +38,13 @@ Placed place_fully(const CloudRequest& request, const FeatureSet* features) {
 
 }  // namespace
 
-bool Explorer::standing() const {
-  if (options_.assume) return *options_.assume == Method::kStationary;
-  return !loaded_->moving.value_or(false);
+bool Explorer::stands(const Loaded& loaded, const std::optional<Method>& assume) {
+  if (assume) return *assume == Method::kStationary;
+  return !loaded.moving.value_or(false);
+}
+
+bool Explorer::without_solving() const {
+  return !loaded_->poses.empty() || stands(*loaded_, options_.assume);
 }
 
 double Explorer::offset_s(Side side) const {
@@ -64,7 +67,7 @@ SolvedMapPtr Explorer::nearest_solved(double offset_s) const {
 
 Placement Explorer::placement_of(Side side) const {
   const double offset = offset_s(side);
-  SolvedMapPtr map = standing() ? provisional_ : solved_at(offset);
+  SolvedMapPtr map = without_solving() ? provisional_ : solved_at(offset);
   if (!map) map = nearest_solved(offset);
   if (!map) map = provisional_;
   return {loaded_, std::move(map), offset};
@@ -123,11 +126,13 @@ void Explorer::update_panes(double seconds_since_last) {
 void Explorer::show(Side side, CloudRequest request) {
   Pane& pane = pane_of(side);
   const SolvedMap& map = *request.placement.map;
-  const bool exact = standing() || to_ns(map.offset_s) == to_ns(request.placement.offset_s);
+  const bool exact = without_solving() || to_ns(map.offset_s) == to_ns(request.placement.offset_s);
   pane.state = map.provisional ? PaneState::kProvisional : exact ? PaneState::kSolved : PaneState::kPreview;
   pane.lost = map.lost;
   const auto why = unsolvable_.find(to_ns(request.placement.offset_s));
   pane.problem = why != unsolvable_.end() ? why->second : "";
+  if (!exact && cancelled_.contains(to_ns(request.placement.offset_s)))
+    pane.problem = "Cancelled. Move the offset, or ask for it in the menu: Offset, Solve the maps.";
   if (pane.request == request) return;
   const Placement* other = request.other ? &*request.other : nullptr;
   const BeamValues* slow = pane.slow_colouring == request.look.colouring ? pane.slow.get() : nullptr;
@@ -173,11 +178,11 @@ void Explorer::update_features() {
 }
 
 void Explorer::update_solving() {
-  if (standing()) return;
+  if (without_solving()) return;
   std::vector<std::int64_t> wanted;
   for (const Side side : kBothSides) {
     const std::int64_t ns = to_ns(offset_s(side));
-    if (!solved_.contains(ns) && !unsolvable_.contains(ns) &&
+    if (!solved_.contains(ns) && !unsolvable_.contains(ns) && !cancelled_.contains(ns) &&
         std::find(wanted.begin(), wanted.end(), ns) == wanted.end())
       wanted.push_back(ns);
   }
@@ -214,6 +219,14 @@ void Explorer::keep_solved(std::int64_t offset_ns, Result<SolvedMapPtr> solved) 
   if (!first || view_fitted_) return;
   update_panes(0);  // the first whole map: its extent is known now
   fit_view();
+}
+
+bool Explorer::waits_to_place() const {
+  const auto waits = [&](Side side) {
+    const std::string& placing = placing_[static_cast<std::size_t>(side)];
+    return !pane(side).full && (placing.empty() || !background_.has(placing));
+  };
+  return loaded_ && !handle_held_ && std::any_of(kBothSides.begin(), kBothSides.end(), waits);
 }
 
 bool Explorer::at_rest() const {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/io/shell_word.hpp"
 #include "render/curve_charts.hpp"
 #include "ui/model/explorer.hpp"
 
@@ -30,7 +31,9 @@ std::string shown(const Pane& pane) {
     case PaneState::kPreview:
       return at + ", previewed along the path solved at " + ms(placement.map->offset_s);
     case PaneState::kSolved:
-      return at + (pane.lost ? ", where LOAM lost track" : "");
+      return at + (pane.lost                          ? ", where LOAM lost track"
+                   : !placement.loaded->poses.empty() ? ", along the poses given"
+                                                      : "");
   }
   return "";
 }
@@ -110,13 +113,17 @@ std::optional<std::string> Explorer::observe(std::string_view name) const {
 }
 
 std::string Explorer::command_line(int width_px, int height_px) const {
-  std::string lines;
-  if (loaded_ && loaded_->shell.empty()) lines += loaded_->source + "; wait loaded; ";
+  std::string recording, lines;
+  if (loaded_ && loaded_->shell.empty())
+    lines += loaded_->source + "; wait loaded; ";
+  else if (loaded_)
+    recording = " " + loaded_->shell;
   for (const std::string& line : lines_to_reach(settings_)) lines += line + "; ";
-  if (estimate_) lines += "estimate; ";
-  return fmt::format(
-      "sweepscope view {}{} --headless --size {}x{} --run '{}wait solved; screenshot picture.png'",
-      loaded_ ? loaded_->shell : "", options_.shell_options, width_px, height_px, lines);
+  // Said even where it is the default: an estimate leaves alone what a person set.
+  if (estimate_) lines += fmt::format("offset-b {}; estimate; ", settings_.offset_b_ms);
+  return fmt::format("sweepscope view{}{} --headless --size {}x{} --run {}", recording,
+                     options_.shell_options, width_px, height_px,
+                     shell_word(lines + "wait solved; screenshot picture.png"));
 }
 
 }  // namespace sweepscope::ui

@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "core/io/shell_word.hpp"
+#include "core/io/trajectory_file.hpp"
 #include "core/offset/motion_test.hpp"
 #include "core/simulation/simulate.hpp"
 #include "ui/state/value.hpp"
@@ -9,11 +13,25 @@
 namespace sweepscope::ui {
 namespace {
 
+/// The range of nearly all intensities.
+void find_intensities(Loaded& loaded) {
+  std::vector<float> all = loaded.recording.intensities;
+  if (all.empty()) return;
+  const auto at = [&](double part) {
+    const auto place = all.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(all.size() - 1));
+    std::nth_element(all.begin(), place, all.end());
+    return static_cast<double>(*place);
+  };
+  loaded.least_intensity = at(0.01);
+  loaded.greatest_intensity = at(0.99);
+}
+
 Result<LoadedPtr> finish(std::shared_ptr<Loaded> loaded, const Job& job) {
   job.report("looking at it", 0);
   loaded->summary = inspect(loaded->recording);
   loaded->motor = find_sweeps(loaded->recording.motor);
   loaded->beams = collect_beams(loaded->recording);
+  find_intensities(*loaded);
   const auto motion = test_motion(loaded->recording, job);
   if (!motion) return tl::unexpected(motion.error());
   if (motion->answered()) {
@@ -25,12 +43,21 @@ Result<LoadedPtr> finish(std::shared_ptr<Loaded> loaded, const Job& job) {
 
 }  // namespace
 
-Result<LoadedPtr> load_file(const std::filesystem::path& path, const ReadOptions& options, const Job& job) {
+Result<LoadedPtr> load_file(const std::filesystem::path& path, const std::filesystem::path& poses,
+                            const ReadOptions& options, const Job& job) {
   auto recording = read_recording(path, options, job);
   if (!recording) return tl::unexpected(recording.error());
   auto loaded = std::make_shared<Loaded>();
   loaded->source = "open " + ui::quoted(path.string());
-  loaded->shell = ui::quoted(path.string());
+  loaded->shell = shell_word(path.string());
+  if (!poses.empty()) {
+    auto known = read_tum(poses, recording->epoch_ns);
+    if (!known) return tl::unexpected(known.error());
+    if (known->size() < 2) return unreadable(poses.string() + ": a trajectory needs two poses at least.");
+    loaded->poses = std::move(*known);
+    loaded->source += " " + ui::quoted(poses.string());
+    loaded->shell += " --poses " + shell_word(poses.string());
+  }
   loaded->recording = std::move(*recording);
   return finish(std::move(loaded), job);
 }

@@ -4,7 +4,9 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "core/geometry/pose.hpp"
 #include "core/job.hpp"
 #include "core/map/replace_points.hpp"
 #include "core/offset/estimator.hpp"
@@ -16,13 +18,15 @@ namespace sweepscope::ui {
 /// A recording that is open, and what is worked out once for it.
 struct Loaded {
   std::string source;  // the command line that opens it again: `open FILE` or `sample SCENE`
-  std::string shell;   // how a shell names it: REC of the command line
+  std::string shell;   // how a shell names it: REC of the command line; empty for a sample
   Recording recording;
   RecordingSummary summary;
   MotorMotion motor;
-  Beams beams;                    // of this->recording
-  std::optional<bool> moving;     // what the motion test said; empty: too short to tell
-  std::optional<double> truth_s;  // of a simulation
+  Beams beams;                     // of this->recording
+  std::optional<bool> moving;      // what the motion test said; empty: too short to tell
+  std::optional<double> truth_s;   // of a simulation
+  std::vector<StampedPose> poses;  // where the rig went, when that is known and is not to be solved for
+  double least_intensity = 0, greatest_intensity = 1;  // of nearly all beams
 
   double duration_s() const {
     return recording.scans.empty()
@@ -32,7 +36,9 @@ struct Loaded {
 };
 using LoadedPtr = std::shared_ptr<const Loaded>;
 
-Result<LoadedPtr> load_file(const std::filesystem::path& path, const ReadOptions& options, const Job& job);
+/// `poses`: a TUM file with where the rig went, or empty.
+Result<LoadedPtr> load_file(const std::filesystem::path& path, const std::filesystem::path& poses,
+                            const ReadOptions& options, const Job& job);
 /// A simulated recording; seconds 0: all of the walk.
 Result<LoadedPtr> load_sample(const std::string& scene, double seconds, const Job& job);
 

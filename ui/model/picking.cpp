@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -30,7 +31,7 @@ std::optional<std::size_t> pick_point(const PlacedCloud& cloud, const Projection
   double best_px = reach_px;
   const auto& points = cloud.points->xyz_m;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const auto at = projection.to_px({points[i][0], points[i][1], points[i][2]});
+    const auto at = projection({points[i][0], points[i][1], points[i][2]});
     if (!at) continue;
     const double distance_px = std::hypot(at->x - pixel.x, at->y - pixel.y);
     if (distance_px >= best_px) continue;
@@ -38,6 +39,18 @@ std::optional<std::size_t> pick_point(const PlacedCloud& cloud, const Projection
     best = i;
   }
   return best;
+}
+
+std::optional<std::uint32_t> beam_asked(const Settings& settings, const Beams& beams) {
+  if (settings.asked_scan < 0 || settings.asked_beam < 0) return std::nullopt;
+  const auto scan = static_cast<std::size_t>(settings.asked_scan);
+  if (scan + 1 >= beams.first_point.size()) return std::nullopt;
+  const auto from = beams.beam.begin() + static_cast<std::ptrdiff_t>(beams.first_point[scan]);
+  const auto to = beams.beam.begin() + static_cast<std::ptrdiff_t>(beams.first_point[scan + 1]);
+  const auto wanted = static_cast<std::uint32_t>(settings.asked_beam);
+  const auto found = std::lower_bound(from, to, wanted);
+  if (found == to || *found != wanted) return std::nullopt;
+  return static_cast<std::uint32_t>(found - beams.beam.begin());
 }
 
 std::vector<std::pair<std::string, std::string>> describe_beam(const Placement& a, const Placement& b,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
@@ -13,6 +14,10 @@ namespace sweepscope::ui {
 /// The index of the cloud's point that lies nearest to a pixel, within `reach_px` of it.
 std::optional<std::size_t> pick_point(const PlacedCloud& cloud, const Projection& projection,
                                       PixelPoint pixel, double reach_px);
+
+/// The beam of the point that the settings ask for, as an index into Beams; none where nothing is asked, or
+/// where that beam met nothing.
+std::optional<std::uint32_t> beam_asked(const Settings& settings, const Beams& beams);
 
 /// Where a beam is on both maps, and where it comes from: names and values, for a person.
 std::vector<std::pair<std::string, std::string>> describe_beam(const Placement& a, const Placement& b,

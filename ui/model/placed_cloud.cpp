@@ -1,8 +1,11 @@
 #include "ui/model/placed_cloud.hpp"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "core/map/surface_thickness.hpp"
 
@@ -50,6 +53,44 @@ class Filter {
   const Placement& placement_;
   const CloudLook& look_;
   double begin_s_ = 0;
+};
+
+/// Those of the slots that are shown, found and used in parallel; the same for any number of threads.
+class Shown {
+ public:
+  template <typename Shows>
+  Shown(const std::vector<std::uint32_t>& slots, const Shows& shows)
+      : slots_(slots), shown_(slots.size()), first_((slots.size() + kBlock - 1) / kBlock + 1, 0) {
+    tbb::parallel_for(std::size_t{0}, first_.size() - 1, [&](std::size_t block) {
+      std::size_t count = 0;
+      for (std::size_t k = block * kBlock; k < end_of(block); ++k) {
+        shown_[k] = shows(slots_[k]) ? 1 : 0;
+        count += shown_[k];
+      }
+      first_[block + 1] = count;
+    });
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+  }
+
+  std::size_t count() const { return first_.back(); }
+  /// Calls `use` with the number among those shown, and with the slot.
+  template <typename Use>
+  void for_each(const Use& use) const {
+    tbb::parallel_for(std::size_t{0}, first_.size() - 1, [&](std::size_t block) {
+      std::size_t at = first_[block];
+      for (std::size_t k = block * kBlock; k < end_of(block); ++k) {
+        if (shown_[k] != 0) use(at++, slots_[k]);
+      }
+    });
+  }
+
+ private:
+  static constexpr std::size_t kBlock = 1 << 14;
+  std::size_t end_of(std::size_t block) const { return std::min(slots_.size(), (block + 1) * kBlock); }
+
+  const std::vector<std::uint32_t>& slots_;
+  std::vector<std::uint8_t> shown_;
+  std::vector<std::size_t> first_;  // of each block, among those shown
 };
 
 double distance_mm(const std::array<float, 3>& a, const std::array<float, 3>& b) {
@@ -155,18 +196,8 @@ ColourSpan colour_span(ColourBy by, const Loaded& loaded, const SolvedMap* a, co
       const SolvedMap &first = a != nullptr ? *a : *b, &second = b != nullptr ? *b : *a;
       return {std::min(first.z_m.from, second.z_m.from), std::max(first.z_m.to, second.z_m.to)};
     }
-    case ColourBy::kIntensity: {
-      std::vector<float> all = loaded.recording.intensities;
-      if (all.empty()) return {};
-      const auto at = [&](double part) {
-        const auto place =
-            all.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(all.size() - 1));
-        std::nth_element(all.begin(), place, all.end());
-        return static_cast<double>(*place);
-      };
-      const double from = at(0.01);
-      return {from, at(0.99)};
-    }
+    case ColourBy::kIntensity:
+      return {loaded.least_intensity, loaded.greatest_intensity};
     case ColourBy::kTime:
       return {0, std::max(loaded.duration_s(), 1e-3)};
     case ColourBy::kDirection:
@@ -221,16 +252,21 @@ PlacedCloud place_cloud(const Placement& placement, const CloudLook& look, bool 
   };
   const ColourScale scale{colour_table(look.table).value_or(ColourTable()), look.from, look.to};
   const Filter filter(placement, look);
+  const std::vector<std::uint32_t>& slots = coarse ? order.chosen_order : order.all;
+  const auto beam_of = [&](std::uint32_t slot) { return coarse ? order.chosen[slot] : slot; };
+  const Shown shown(slots, [&](std::uint32_t slot) { return filter.shows(beam_of(slot), places[slot]); });
   PlacedCloud cloud;
   auto points = std::make_shared<LivePoints>();
-  for (const std::uint32_t slot : coarse ? order.chosen_order : order.all) {
-    const std::uint32_t beam = coarse ? order.chosen[slot] : slot;
-    if (!filter.shows(beam, places[slot])) continue;
+  points->xyz_m.resize(shown.count());
+  points->rgb.resize(shown.count());
+  cloud.beams.resize(shown.count());
+  shown.for_each([&](std::size_t at, std::uint32_t slot) {
+    const std::uint32_t beam = beam_of(slot);
     const Colour colour = colour_of_value(look, scale, value_of(beam, slot), other != nullptr);
-    points->xyz_m.push_back(places[slot]);
-    points->rgb.push_back({colour.red, colour.green, colour.blue});
-    cloud.beams.push_back(beam);
-  }
+    points->xyz_m[at] = places[slot];
+    points->rgb[at] = {colour.red, colour.green, colour.blue};
+    cloud.beams[at] = beam;
+  });
   cloud.points = std::move(points);
   return cloud;
 }

@@ -9,7 +9,7 @@
 namespace sweepscope::ui {
 namespace {
 
-constexpr std::size_t kMostChosen = 100000;
+constexpr std::size_t kMostChosen = 60000;
 
 std::vector<float> path_heights(const Recording& recording, const FixedPath& path) {
   std::vector<float> heights_m(recording.scans.size(), 0);
@@ -76,12 +76,18 @@ Result<SolvedMapPtr> solve_map(const Loaded& loaded, double offset_s, std::optio
   return SolvedMapPtr(std::move(map));
 }
 
-SolvedMapPtr provisional_map(const Loaded& loaded, double offset_s) {
+SolvedMapPtr map_without_solving(const Loaded& loaded, bool standing, double offset_s) {
   constexpr double kShown_s = 1;
   auto map = std::make_shared<SolvedMap>();
   map->offset_s = offset_s;
-  map->provisional = loaded.moving.value_or(false);
   std::vector<char> used = scans_covered(loaded.recording, offset_s, offset_s);
+  if (!loaded.poses.empty()) {
+    map->trajectory = loaded.poses;
+    map->path = path_along(loaded.recording, loaded.poses, used);
+    describe_points(loaded, *map);
+    return map;
+  }
+  map->provisional = !standing;
   const auto first = std::find(used.begin(), used.end(), 1) - used.begin();
   for (std::size_t i = 0; map->provisional && i < used.size(); ++i) {
     const std::size_t from = std::min<std::size_t>(static_cast<std::size_t>(first), used.size() - 1);

@@ -31,7 +31,8 @@ using SolvedMapPtr = std::shared_ptr<const SolvedMap>;
 Result<SolvedMapPtr> solve_map(const Loaded& loaded, double offset_s, std::optional<Method> assume,
                                const Job& job);
 
-/// What can be shown before anything is solved.
-SolvedMapPtr provisional_map(const Loaded& loaded, double offset_s);
+/// The map of a rig that stood still, or whose poses are known; of another one what can be shown before
+/// anything is solved.
+SolvedMapPtr map_without_solving(const Loaded& loaded, bool standing, double offset_s);
 
 }  // namespace sweepscope::ui

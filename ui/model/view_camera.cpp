@@ -48,33 +48,28 @@ Camera camera_of(const ViewPoint& view, bool perspective) {
   return camera;
 }
 
-Projection::Projection(const ViewPoint& view, bool perspective, const PixelRect& pane)
-    : pane_(pane),
-      centre_m_(view.centre_m),
-      metres_per_px_(view.height_m / std::max(pane.height, 1.0)),
-      distance_m_(distance_m(view)),
-      perspective_(perspective) {
+Projection projection_of(const ViewPoint& view, bool perspective, const PixelRect& pane) {
+  return {camera_of(view, perspective), pane};
+}
+
+Eigen::Vector3d place_under(PixelPoint pixel, const ViewPoint& view, const PixelRect& pane) {
+  const double metres_per_px = view.height_m / std::max(pane.height, 1.0);
+  return shifted(view, metres_per_px * (pixel.x - pane.left - pane.width / 2),
+                 -metres_per_px * (pixel.y - pane.top - pane.height / 2))
+      .centre_m;
+}
+
+ViewPoint fitted(ViewPoint view, const Box& box, double aspect) {
+  constexpr double kRoom = 1.08;
   const Axes axes = axes_of(view);
-  right_ = axes.right;
-  up_ = axes.up;
-  forward_ = axes.forward;
-}
-
-std::optional<PixelPoint> Projection::to_px(const Eigen::Vector3d& p_m) const {
-  const Eigen::Vector3d from_centre_m = p_m - centre_m_;
-  double scale = 1 / metres_per_px_;
-  if (perspective_) {
-    const double depth_m = distance_m_ + from_centre_m.dot(forward_);
-    if (depth_m < 1e-3) return std::nullopt;
-    scale *= distance_m_ / depth_m;
-  }
-  return PixelPoint{pane_.left + pane_.width / 2 + scale * from_centre_m.dot(right_),
-                    pane_.top + pane_.height / 2 - scale * from_centre_m.dot(up_)};
-}
-
-Eigen::Vector3d Projection::under(PixelPoint pixel) const {
-  return centre_m_ + metres_per_px_ * ((pixel.x - pane_.left - pane_.width / 2) * right_ -
-                                       (pixel.y - pane_.top - pane_.height / 2) * up_);
+  view.centre_m = box.middle_m();
+  const Eigen::Vector3d half_m = (box.to_m - box.from_m) / 2;
+  const double half_width_m = half_m.dot(axes.right.cwiseAbs()),
+               half_height_m = half_m.dot(axes.up.cwiseAbs());
+  view.height_m = std::max(2 * kRoom * std::max(half_height_m, half_width_m / aspect), 0.5);
+  for (double* metre : {&view.centre_m.x(), &view.centre_m.y(), &view.centre_m.z(), &view.height_m})
+    *metre = std::round(*metre * 100) / 100;
+  return view;
 }
 
 ViewPoint turned(ViewPoint view, double right_px, double down_px) {

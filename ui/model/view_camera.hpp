@@ -1,10 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
 
+#include "render/camera.hpp"
 #include "render/drawing.hpp"
-#include "render/picture.hpp"
 #include "ui/state/settings.hpp"
 
 namespace sweepscope::ui {
@@ -12,26 +11,14 @@ namespace sweepscope::ui {
 /// The camera that a view point stands for.
 Camera camera_of(const ViewPoint& view, bool perspective);
 
-/// Where places of the map frame are in a pane, and back.
-class Projection {
- public:
-  Projection(const ViewPoint& view, bool perspective, const PixelRect& pane);
+/// Where places of the map frame are in a pane.
+Projection projection_of(const ViewPoint& view, bool perspective, const PixelRect& pane);
+/// And back: the place under a pixel at the depth of the view's centre.
+Eigen::Vector3d place_under(PixelPoint pixel, const ViewPoint& view, const PixelRect& pane);
 
-  /// Empty behind the camera.
-  std::optional<PixelPoint> to_px(const Eigen::Vector3d& p_m) const;
-  /// The place under a pixel at the depth of the view's centre.
-  Eigen::Vector3d under(PixelPoint pixel) const;
-  /// Of the plane through the view's centre.
-  double metres_per_px() const { return metres_per_px_; }
-  Eigen::Vector3d to_right() const { return right_; }
-  Eigen::Vector3d to_top() const { return up_; }
-
- private:
-  PixelRect pane_;
-  Eigen::Vector3d centre_m_, right_, up_, forward_;
-  double metres_per_px_ = 1, distance_m_ = 1;
-  bool perspective_ = false;
-};
+/// The view from the same direction that shows the whole box and little more, in a pane of that aspect (width
+/// over height). In whole centimetres.
+ViewPoint fitted(ViewPoint view, const Box& box, double aspect);
 
 /// The view after dragging by so many pixels: turned, or moved along with the hand.
 ViewPoint turned(ViewPoint view, double right_px, double down_px);

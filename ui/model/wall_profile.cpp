@@ -8,17 +8,6 @@
 namespace sweepscope::ui {
 namespace {
 
-/// Where the density first and last reaches half of its peak.
-std::pair<double, double> half_height_mm(const Profile& profile) {
-  const double half = profile.peak_per_mm / 2;
-  const auto& density = profile.density_per_mm;
-  const auto above = [&](double value) { return value >= half; };
-  const auto first = std::find_if(density.begin(), density.end(), above) - density.begin();
-  const auto last = density.rend() - std::find_if(density.rbegin(), density.rend(), above) - 1;
-  return {profile.distances_mm[static_cast<std::size_t>(first)],
-          profile.distances_mm[static_cast<std::size_t>(last)]};
-}
-
 void add(Chart& chart, const Profile& profile, const char* name, Colour colour) {
   ChartSeries series;
   series.name = name;
@@ -31,7 +20,7 @@ void add(Chart& chart, const Profile& profile, const char* name, Colour colour) 
   }
   chart.series.push_back(std::move(series));
   if (!profile.width_at_half_height_mm) return;
-  const auto [from_mm, to_mm] = half_height_mm(profile);
+  const auto [from_mm, to_mm] = profile.half_height_mm;
   chart.spans.push_back({profile.peak_per_mm / 2, from_mm + profile.median_mm, to_mm + profile.median_mm,
                          fmt::format("{:.0f} mm", *profile.width_at_half_height_mm), colour});
 }

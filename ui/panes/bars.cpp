@@ -16,6 +16,7 @@ bool holds(const Settings& settings, const std::string& line) {
 
 bool makes_sense(const Explorer& explorer, const std::string& line) {
   static const std::vector<std::string> kAlways{"ask open", "sample", "quit", "palette", "help", "theme"};
+  if (line == "ask export-report") return explorer.loaded() != nullptr && !explorer.is_exporting();
   if (line == "undo") return explorer.can_undo();
   if (line == "redo") return explorer.can_redo();
   if (line == "take-found") return explorer.estimate() != nullptr && explorer.estimate()->offset_s;

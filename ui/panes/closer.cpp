@@ -96,17 +96,15 @@ void add_point(Drawing& drawing, PixelPoint at, FeatureKind kind, double scale) 
                           colour_of_feature(kind)});
 }
 
-void add_legend(Drawing& drawing, const PaneContext& context, const PixelRect& place, std::size_t edges,
+/// From the left, below the title.
+void add_legend(Drawing& drawing, const PaneContext& context, PixelPoint at, std::size_t edges,
                 std::size_t planes) {
-  double right = place.right();
-  const double baseline = place.top + context.px(12);
-  for (const auto& [kind, words] : {std::pair{FeatureKind::kPlane, fmt::format("{} plane points", planes)},
-                                    std::pair{FeatureKind::kEdge, fmt::format("{} edge points", edges)}}) {
-    right -= text_width_px(words, context.px(11));
-    drawing.add(TextMark{{right, baseline}, words, context.px(11), context.style.faint_text});
-    right -= context.px(9);
-    add_point(drawing, {right, baseline - context.px(4)}, kind, context.scale);
-    right -= context.px(16);
+  for (const auto& [kind, words] : {std::pair{FeatureKind::kEdge, fmt::format("{} edge points", edges)},
+                                    std::pair{FeatureKind::kPlane, fmt::format("{} plane points", planes)}}) {
+    add_point(drawing, {at.x + context.px(4), at.y - context.px(4)}, kind, context.scale);
+    at.x += context.px(14);
+    drawing.add(TextMark{at, words, context.px(11), context.style.faint_text});
+    at.x += text_width_px(words, context.px(11)) + context.px(18);
   }
 }
 
@@ -150,7 +148,7 @@ void draw_scan_view(const PaneContext& context, const PixelRect& place) {
   const auto scan = static_cast<std::size_t>(
       std::clamp(context.settings().scan, 0.0, static_cast<double>(loaded.recording.scans.size() - 1)));
   const std::vector<ScanPoint> points = scan_points(loaded.recording, *features, scan);
-  const double bar = context.px(26), above = context.px(24), labels = context.px(22);
+  const double bar = context.px(26), above = context.px(40), labels = context.px(22);
   const PixelRect plot{place.left, place.top + above, place.width, place.height - above - labels - bar};
   const PlaneView view = fit(points, plot);
   Drawing drawing;
@@ -175,7 +173,7 @@ void draw_scan_view(const PaneContext& context, const PixelRect& place) {
                        "Scan, in the scanner's plane",
                        context.px(13),
                        context.style.text});
-  add_legend(drawing, context, place, edges, planes);
+  add_legend(drawing, context, {place.left, place.top + context.px(31)}, edges, planes);
   paint(*ImGui::GetWindowDrawList(), drawing, context.fonts);
   scrubber(context, {place.left, place.bottom() - bar + context.px(4), place.width, bar});
 }

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <imgui_stdlib.h>
@@ -52,6 +53,15 @@ std::string title_of(const Shortcut& shortcut) {
     if (item.line == shortcut.line) return item.title;
   }
   return find_command(shortcut.line.substr(0, shortcut.line.find(' ')))->title;
+}
+
+/// As the menu has it, or what the command says.
+std::string title_of_asking(const Transient::Asked& asked) {
+  const std::string line = "ask " + asked.command + (asked.what.empty() ? "" : " " + asked.what);
+  for (const MenuItem& item : menu_items()) {
+    if (item.line == line) return item.title.substr(0, item.title.find(" …"));
+  }
+  return find_command(asked.command)->title;
 }
 
 struct Entry {
@@ -197,27 +207,39 @@ void draw_help(const PaneContext& context, const PixelRect& whole) {
 void draw_ask(const PaneContext& context, const PixelRect& whole) {
   Transient& transient = context.transient;
   if (!transient.asks_for) return;
-  const Command& command = *find_command(*transient.asks_for);
+  const Transient::Asked asked = *transient.asks_for;
+  const Command& command = *find_command(asked.command);
+  const bool folder = asked.command == "export-report";
   begin_front(context, "ask", whole, 520, 172, 0.22);
   ImGui::PushFont(context.fonts.heading);
-  ImGui::TextUnformatted(command.title.c_str());
+  ImGui::TextUnformatted(title_of_asking(asked).c_str());
   ImGui::PopFont();
-  ImGui::TextDisabled("%s", command.help.c_str());
+  ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(context.style.faint_text));
+  ImGui::TextWrapped("%s", command.help.c_str());
+  ImGui::PopStyleColor();
   if (transient.just_opened) ImGui::SetKeyboardFocusHere();
   ImGui::SetNextItemWidth(-1e-3f);
-  const bool entered = ImGui::InputTextWithHint("##file", "A file, or drop one here", &transient.asked_text,
-                                                ImGuiInputTextFlags_EnterReturnsTrue);
+  const bool entered = ImGui::InputTextWithHint(
+      "##file", folder ? "A folder" : "A file, or drop one here", &transient.asked_text,
+      ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
   context.anchor_last("ask file");
   ImGui::Dummy({0, context.pxf(2)});
   const bool confirmed = ImGui::Button("OK", {context.pxf(100), 0});
   context.anchor_last("button ok");
   ImGui::SameLine();
-  if (ImGui::Button("Cancel", {context.pxf(100), 0})) transient.asks_for.reset();
+  const bool dismissed = ImGui::Button("Cancel", {context.pxf(100), 0});
+  context.anchor_last("button cancel-asking");
   end_front();
+  if (dismissed) return context.perform("dismiss");
   if ((!entered && !confirmed) || transient.asked_text.empty() || !transient.asks_for) return;
-  const std::string before = command.name == "export-cloud" ? " b " : " ";
   transient.asks_for.reset();
-  context.perform(command.name + before + ui::quoted(transient.asked_text));
+  const std::string file = ui::quoted(transient.asked_text);
+  if (asked.command == "export-cloud")
+    context.perform(fmt::format("export-cloud {} {}", asked.what == "a" ? "a" : "b", file));
+  else if (asked.command == "export-picture" && !asked.what.empty())
+    context.perform(fmt::format("export-picture {} {}", file, asked.what));
+  else
+    context.perform(asked.command + " " + file);
 }
 
 void draw_message(const PaneContext& context, const PixelRect& whole) {
@@ -253,10 +275,11 @@ void draw_message(const PaneContext& context, const PixelRect& whole) {
   ImGui::TextUnformatted(message->text.c_str());
   ImGui::PopTextWrapPos();
   ImGui::SetCursorPos({static_cast<float>(place.width - context.px(92)), context.pxf(10)});
-  if (ImGui::SmallButton("Dismiss")) context.explorer.dismiss_message();
+  const bool dismissed = ImGui::SmallButton("Dismiss");
   context.anchor_last("button dismiss");
   context.anchor("message", place);
   ImGui::End();
+  if (dismissed) context.explorer.dismiss_message();  // not "dismiss": that is for what is in front of it
 }
 
 }  // namespace sweepscope::ui

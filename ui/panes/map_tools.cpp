@@ -59,30 +59,39 @@ const PlacedCloud* shown_cloud(const PaneContext& context, Side side) {
   return pane.full ? pane.full.get() : pane.coarse.get();
 }
 
+/// The first click is one end of what is measured, the second the other.
+void measure_to(const PaneContext& context, const Eigen::Vector3d& place_m) {
+  std::optional<Eigen::Vector3d>& from_m = context.transient.measure_from_m;
+  if (!from_m) {
+    from_m = place_m;
+    return;
+  }
+  const Eigen::Vector3d a = *from_m;
+  from_m.reset();
+  context.perform(fmt::format("measure {:.3f} {:.3f} {:.3f} {:.3f} {:.3f} {:.3f}", a.x(), a.y(), a.z(),
+                              place_m.x(), place_m.y(), place_m.z()));
+}
+
 void pick(const PaneContext& context, Side side, const PixelRect& picture) {
   const PlacedCloud* cloud = shown_cloud(context, side);
   if (cloud == nullptr || !ImGui::IsItemClicked(0)) return;
   const auto found =
       pick_point(*cloud, projection_of(context.settings(), side, picture), mouse(), context.px(12));
-  Transient& transient = context.transient;
-  if (!found) {
-    transient.picked.reset();
-    return;
+  const bool picks = context.settings().tool == Tool::kPick;
+  if (picks && found) {
+    const Beams& beams = context.explorer.loaded()->beams;
+    const std::uint32_t beam = cloud->beams[*found];
+    return context.perform(fmt::format("pick {} {}", beams.scan[beam], beams.beam[beam]));
   }
+  if (picks) return context.perform("pick -1 -1");
+  if (!found) return;
   const auto& p = cloud->points->xyz_m[*found];
-  const Eigen::Vector3d place_m(p[0], p[1], p[2]);
-  if (context.settings().tool == Tool::kPick) {
-    transient.picked = PickedPoint{side, cloud->beams[*found], place_m};
-    return;
-  }
-  if (transient.measured_m.size() == 2) transient.measured_m.clear();
-  transient.measured_m.push_back(place_m);
+  measure_to(context, {p[0], p[1], p[2]});
 }
 
 void draw_profile_line(const PaneContext& context, Side side, const PixelRect& picture) {
   Transient& transient = context.transient;
-  const Projection projection = projection_of(context.settings(), side, picture);
-  const Eigen::Vector2d here = projection.under(mouse()).head<2>();
+  const Eigen::Vector2d here = place_under(mouse(), view_of(context.settings(), side), picture).head<2>();
   if (ImGui::IsItemClicked(0)) {
     transient.profile_from_m = here;
     context.begin_gesture();
@@ -105,7 +114,7 @@ void outlined(ImDrawList& list, const std::vector<ImVec2>& points, ImU32 colour,
 }
 
 std::optional<ImVec2> to_screen(const Projection& projection, const Eigen::Vector3d& p_m) {
-  const auto at = projection.to_px(p_m);
+  const auto at = projection(p_m);
   if (!at) return std::nullopt;
   return ImVec2{static_cast<float>(at->x), static_cast<float>(at->y)};
 }
@@ -147,7 +156,12 @@ void draw_scale_bar(const PaneContext& context, const PixelRect& picture, const 
 }
 
 void draw_measure(const PaneContext& context, const Projection& projection) {
-  const auto& ends = context.transient.measured_m;
+  const Settings& s = context.settings();
+  std::vector<Eigen::Vector3d> ends;
+  if (context.transient.measure_from_m)
+    ends = {*context.transient.measure_from_m};
+  else if (s.measure_from_m != s.measure_to_m)
+    ends = {s.measure_from_m, s.measure_to_m};
   std::vector<ImVec2> points;
   for (const Eigen::Vector3d& end : ends) {
     if (const auto at = to_screen(projection, end)) points.push_back(*at);
@@ -161,10 +175,11 @@ void draw_measure(const PaneContext& context, const Projection& projection) {
 }
 
 void draw_picked(const PaneContext& context, Side side, const Projection& projection) {
-  if (!context.transient.picked) return;
   const auto& request = context.explorer.pane(side).request;
   if (!request) return;
-  const std::array chosen{context.transient.picked->beam};
+  const auto beam = beam_asked(context.settings(), context.explorer.loaded()->beams);
+  if (!beam) return;
+  const std::array chosen{*beam};
   std::array<std::array<float, 3>, 1> place{};
   const Placement& placement = request->placement;
   replace_points(placement.loaded->beams, placement.map->path, placement.offset_s, chosen, place);
@@ -194,7 +209,7 @@ const ViewPoint& view_of(const Settings& settings, Side side) {
 }
 
 Projection projection_of(const Settings& settings, Side side, const PixelRect& picture) {
-  return {view_of(settings, side), settings.perspective, picture};
+  return ui::projection_of(view_of(settings, side), settings.perspective, picture);
 }
 
 void use_mouse(const PaneContext& context, Side side, const PixelRect& picture) {
@@ -220,14 +235,16 @@ void draw_overlays(const PaneContext& context, Side side, const PixelRect& pictu
 }
 
 void draw_cards(const PaneContext& context, const PixelRect& maps) {
-  const Transient& transient = context.transient;
+  const Settings& settings = context.settings();
   const Explorer& explorer = context.explorer;
   std::vector<std::pair<std::string, std::string>> rows;
   const auto &a = explorer.pane(Side::kA).request, &b = explorer.pane(Side::kB).request;
-  if (context.settings().tool == Tool::kPick && transient.picked && a && b)
-    rows = describe_beam(a->placement, b->placement, transient.picked->beam);
-  if (context.settings().tool == Tool::kMeasure && transient.measured_m.size() == 2) {
-    const Eigen::Vector3d apart_m = transient.measured_m[1] - transient.measured_m[0];
+  const auto beam = beam_asked(settings, explorer.loaded()->beams);
+  if (beam && a && b) rows = describe_beam(a->placement, b->placement, *beam);
+  // One card at a time: of the tool at hand, or of whichever left something.
+  const bool measured = settings.measure_from_m != settings.measure_to_m;
+  if (measured && (rows.empty() || settings.tool == Tool::kMeasure)) {
+    const Eigen::Vector3d apart_m = settings.measure_to_m - settings.measure_from_m;
     rows = {{"distance", fmt::format("{:.3f} m", apart_m.norm())},
             {"level", fmt::format("{:.3f} m", apart_m.head<2>().norm())},
             {"height", fmt::format("{:+.3f} m", apart_m.z())}};

@@ -76,9 +76,34 @@ std::string state_in_words(const PaneContext& context, Side side) {
     case PaneState::kPreview:
       return "preview";
     case PaneState::kSolved:
+      if (!context.explorer.loaded()->poses.empty()) return "along given poses";
       return pane.lost ? "lost track" : "solved";
   }
   return "";
+}
+
+/// Two links of a chain, apart while the cameras are not linked.
+void draw_link(const PaneContext& context, Side side, double left, float middle) {
+  const bool linked = context.settings().linked;
+  const float size = ImGui::GetFrameHeight(), r = context.pxf(3.2f),
+              apart = context.pxf(linked ? 3.0f : 5.0f);
+  ImGui::SetCursorScreenPos({static_cast<float>(left), middle - size / 2});
+  const char* name = side == Side::kA ? "link a" : "link b";
+  if (ImGui::InvisibleButton(name, {size, size})) context.perform(linked ? "linked off" : "linked on");
+  context.anchor_last(name);
+  const bool hovered = ImGui::IsItemHovered();
+  const ImU32 colour = to_imgui(linked || hovered ? context.style.text : context.style.faint_text);
+  const float x = static_cast<float>(left) + size / 2;
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  if (hovered)
+    list.AddRectFilled(ImGui::GetItemRectMin(), ImGui::GetItemRectMax(),
+                       ImGui::GetColorU32(ImGuiCol_ButtonHovered), context.pxf(3));
+  for (const float way : {-1.0f, 1.0f}) {
+    const ImVec2 from{x + way * apart - 1.6f * r, middle - r}, to{x + way * apart + 1.6f * r, middle + r};
+    list.AddRect(from, to, colour, r, 0, context.pxf(1.4f));
+  }
+  tooltip(context, std::string(linked ? "The cameras are linked. " : "The cameras are not linked. ") +
+                       find_command("linked")->help + "  [" + chord_of("linked") + "]");
 }
 
 /// The map's letter, its offset to drag or type, and how far it is.
@@ -112,6 +137,8 @@ void draw_header(const PaneContext& context, Side side, const PixelRect& place) 
     context.perform(Call{find_command(command), {std::clamp(std::round(offset_ms * 1e3) / 1e3, -1e4, 1e4)}},
                     context.transient.gesture);
   tooltip(context, find_command(command)->help + "  Drag it, or click twice to type.");
+  if (context.settings().layout == Layout::kSideBySide)
+    draw_link(context, side, static_cast<double>(ImGui::GetItemRectMax().x) + context.px(8), middle);
   const std::string state = state_in_words(context, side);
   ImGui::PushFont(context.fonts.small);
   const ImVec2 size = ImGui::CalcTextSize(state.c_str());
@@ -195,8 +222,6 @@ void draw_maps(const PaneContext& context, const PixelRect& place) {
   begin_panel(context, "maps", place, false);
   const Layout layout = context.settings().layout;
   const MapPlaces places = lay_out_maps(place, context.scale, layout);
-  const PixelRect& picture = places.picture_b.width > 0 ? places.picture_b : places.picture_a;
-  context.explorer.set_pane_aspect(picture.width / std::max(picture.height, 1.0));
   if (layout == Layout::kSwipe) {
     const double half = places.header_b.width / 2 - context.px(8);
     draw_header(context, Side::kA, {places.header_b.left, places.header_b.top, half, places.header_b.height});

@@ -16,23 +16,18 @@
 
 namespace sweepscope::ui {
 
-/// A point that was asked where it comes from.
-struct PickedPoint {
-  Side side = Side::kA;
-  std::uint32_t beam = 0;
-  Eigen::Vector3d place_m{0, 0, 0};
-};
-
 /// What the interface remembers besides the settings: nothing of it is worth keeping.
 struct Transient {
   bool palette = false, help = false, quit = false;
   std::string palette_query;
   int palette_choice = 0;
-  std::optional<std::string> asks_for;  // the command whose file is asked for
+  struct Asked {
+    std::string command, what;
+  };
+  std::optional<Asked> asks_for;  // the command whose file is asked for, and what of it
   std::string asked_text;
-  bool just_opened = false;  // the thing in front takes the keyboard
-  std::optional<PickedPoint> picked;
-  std::vector<Eigen::Vector3d> measured_m;        // none, one end, or both
+  bool just_opened = false;                       // the thing in front takes the keyboard
+  std::optional<Eigen::Vector3d> measure_from_m;  // the first end, until there is a second
   std::optional<Eigen::Vector2d> profile_from_m;  // while a profile is drawn
   std::string gesture;                            // of the drag that goes on
   int gestures = 0;
@@ -52,7 +47,6 @@ struct Transient {
   ImGuiID resting_on = 0;                // the widget whose tooltip comes next
   double resting_since_s = 0;
   std::vector<std::string> recent;
-  std::vector<std::string> dropped;  // files, in this frame
 };
 
 /// What every pane is drawn with.

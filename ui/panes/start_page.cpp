@@ -53,7 +53,7 @@ void draw_start_page(const PaneContext& context, const PixelRect& place) {
   button(context, "Open …", "ask open", context.px(200), true);
   ImGui::SameLine(0, context.pxf(14));
   ImGui::AlignTextToFramePadding();
-  ImGui::TextDisabled("or drop a bag, or a folder of one, onto this window");
+  ImGui::TextDisabled("or drop one onto this window");
   heading(context, "Or try a simulated one; its true offset is 24 ms");
   sample_button(context, "A room", "standing still, 4.5 s", "sample room-1");
   sample_button(context, "A metro station", "20 s of a walk around a pillar", "sample metro-station 20");

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <random>
 #include <thread>
 
 #include "render/image_difference.hpp"
@@ -72,13 +73,10 @@ class Runner {
                                                     {"wait", &Runner::wait},
                                                     {"screenshot", &Runner::screenshot},
                                                     {"expect", &Runner::expect},
-                                                    {"hover", &Runner::hover}};
+                                                    {"hover", &Runner::hover},
+                                                    {"wander", &Runner::wander}};
     const auto step = kSteps.find(line.words[0]);
-    if (step == kSteps.end()) {
-      auto done = ui_.explorer().perform(line.text);
-      settle();
-      return done;
-    }
+    if (step == kSteps.end()) return command(line.text);
     Words words(line.words);
     auto done = (this->*step->second)(words);
     if (done && words.any()) return wrong("too many words: " + words.rest());
@@ -86,6 +84,16 @@ class Runner {
   }
 
  private:
+  /// What it exports is there when the line is done.
+  Result<void> command(const std::string& line) {
+    auto done = ui_.explorer().perform(line);
+    settle();
+    if (!done) return done;
+    done = wait_until([&] { return !ui_.explorer().is_exporting(); }, "the file", most_s_);
+    if (auto why = ui_.explorer().take_export_failure()) return tl::unexpected(*why);
+    return done;
+  }
+
   void pump(std::span<const InputEvent> events) {
     do {
       const std::size_t now = events_of_next_frame(events);
@@ -226,6 +234,56 @@ class Runner {
     return {};
   }
 
+  /// A person who tries everything: clicks, drags, scrolls, keys and words wherever there is something.
+  Result<void> wander(Words& words) {
+    const auto actions = number(words.take());
+    const auto seed = words.any() ? number(words.take()) : std::optional(1.0);
+    if (!actions || !seed || *actions < 0 || *seed < 0) return wrong("wander ACTIONS [SEED]");
+    std::mt19937 random(static_cast<std::uint32_t>(*seed));
+    for (int i = 0; i < static_cast<int>(*actions); ++i) wander_once(random);
+    return {};
+  }
+
+  void wander_once(std::mt19937& random) {
+    const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random()) % n; };
+    std::vector<std::string> names = ui_.anchor_names();
+    std::erase_if(names, [](const std::string& name) { return name.ends_with("quit"); });
+    const auto somewhere = [&] {
+      const PixelRect rect = *ui_.anchor(names[below(names.size())]);
+      const auto share = [&] { return 0.1 + 0.8 * static_cast<double>(below(1000)) / 1000; };
+      return PixelPoint{std::round(rect.left + share() * rect.width),
+                        std::round(rect.top + share() * rect.height)};
+    };
+    const PixelPoint at = names.empty() ? PixelPoint{600, 400} : somewhere();
+    const int button = below(4) == 0 ? 1 : 0;
+    switch (below(8)) {
+      case 0: {
+        const Shortcut& shortcut = shortcuts()[below(shortcuts().size())];
+        const Chord chord = *parse_chord(shortcut.chord);
+        if (shortcut.line == "quit") return;
+        send({InputEvent::stroke(chord.key, true, chord.modifiers), InputEvent::stroke(chord.key, false, 0)});
+        return;
+      }
+      case 1:
+        return send({InputEvent::words(std::to_string(below(100))), InputEvent::stroke(keys::kEnter, true, 0),
+                     InputEvent::stroke(keys::kEnter, false, 0)});
+      case 2:
+        return send({InputEvent::move(at.x, at.y), InputEvent::scroll(static_cast<double>(below(9)) - 4)});
+      case 3: {
+        const PixelPoint to = names.empty() ? at : somewhere();
+        send({InputEvent::move(at.x, at.y)});
+        send({InputEvent::press(button, true)});
+        for (const double part : {0.3, 0.6, 1.0})
+          send({InputEvent::move(std::round(at.x + part * (to.x - at.x)),
+                                 std::round(at.y + part * (to.y - at.y)))});
+        return send({InputEvent::press(button, false)});
+      }
+      default:
+        send({InputEvent::move(at.x, at.y)});
+        return send({InputEvent::press(button, true), InputEvent::press(button, false)});
+    }
+  }
+
   Result<void> wait_until(const std::function<bool()>& there, const std::string& what, double most_s) {
     const auto begin = std::chrono::steady_clock::now();
     while (!there()) {
@@ -347,6 +405,10 @@ std::string script_help() {
       "  screenshot FILE.png                               the whole interface\n"
       "  expect NAME is|contains TEXT, expect NAME near VALUE WITHIN, expect NAME above|below VALUE\n"
       "  expect picture FILE.png                           the same picture, within the limits for pictures\n"
+      "  wander ACTIONS [SEED]                             tries everything, in an order that the seed "
+      "decides; "
+      "what\n"
+      "                                                    it exports lands in the working folder\n"
       "What can be expected:\n";
   for (const auto& [name, meaning] : Explorer::observables())
     text += fmt::format("  {:<20} {}\n", name, meaning);

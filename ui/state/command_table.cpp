@@ -116,6 +116,23 @@ Command profile() {
           }};
 }
 
+Command measure() {
+  const auto place = [](const char* name) { return number_of(name, "m", -1e5, 1e5, 0); };
+  return {"measure",
+          "Measured distance",
+          "Between two places of the map frame. From and to the same place: none.",
+          {place("X1"), place("Y1"), place("Z1"), place("X2"), place("Y2"), place("Z2")},
+          [](const Settings& s) {
+            const Eigen::Vector3d &a = s.measure_from_m, &b = s.measure_to_m;
+            return Values{a.x(), a.y(), a.z(), b.x(), b.y(), b.z()};
+          },
+          [](Settings& s, const Values& v) {
+            const auto at = [&](std::size_t i) { return std::get<double>(v[i]); };
+            s.measure_from_m = {at(0), at(1), at(2)};
+            s.measure_to_m = {at(3), at(4), at(5)};
+          }};
+}
+
 Command edit(Words words, std::vector<Parameter> parameters,
              std::function<void(Settings&, const Values&)> set) {
   return {words.name, words.title, words.help, std::move(parameters), {}, std::move(set)};
@@ -225,6 +242,11 @@ void add_fields_of_tools(std::vector<Command>& all) {
                         "distance, or draw a profile across a wall."},
                        &Settings::tool, {"look", "pick", "measure", "profile"}));
   all.push_back(profile());
+  all.push_back(measure());
+  all.push_back(numbers({"pick", "Point asked",
+                         "The point whose scan, beam, time, motor angle and places are shown. -1 -1: none."},
+                        &Settings::asked_scan, &Settings::asked_beam, number_of("SCAN", "", -1, 1e7, 1),
+                        number_of("BEAM", "", -1, 1e5, 1)));
   all.push_back(toggle({"scan-view", "Scan features",
                         "One scan with its edge points and plane points, as in the paper's Figure 2."},
                        &Settings::scan_view));
@@ -247,12 +269,12 @@ void add_fields_of_tools(std::vector<Command>& all) {
                 s.search_to_ms = std::get<double>(v[1]);
                 s.search_step_ms = std::get<double>(v[2]);
               }});
-  all.push_back(
-      choice({"method", "Method",
-              "Stationary: where odometry sees the least motion d (equation 3). Moving: where the map is "
-              "clearest, by matches n and their distance e (equations 6 and 7). Automatic: what the "
-              "motion test says."},
-             &Settings::method, {"automatic", "stationary", "moving"}));
+  all.push_back(choice(
+      {"method", "Method",
+       "Stationary: where odometry sees the least motion d (equation 3). Moving: where the map is "
+       "clearest, by matches n and their distance e (equations 6 and 7). Direct: as an unknown of the least "
+       "squares itself. Automatic: what the motion test says."},
+      &Settings::method, {"automatic", "stationary", "moving", "direct"}));
   all.push_back(
       choice({"fit", "Fit",
               "None: the best candidate. Parabola: the extremum of a parabola through those within 3 ms."},
@@ -301,8 +323,11 @@ void add_actions(std::vector<Command>& all) {
   const std::vector<std::string> scenes{"room-1",   "room-2",      "room-3",        "room-4",
                                         "room-5",   "room-6",      "metro-station", "parking-area",
                                         "cemetery", "lecture-room"};
-  all.push_back(
-      action({"open", "Open a recording", "A ROS 1 or ROS 2 bag, a folder of CSV tables, or a session saved before."}, {text_of("FILE")}));
+  all.push_back(action({"open", "Open a recording",
+                        "A recording (a bag of ROS 1 or 2, a folder of CSV tables), with where the rig went "
+                        "(TUM) where that is known; a session saved before; "
+                        "or an estimate that was written as JSON."},
+                       {text_of("FILE"), {.name = "POSES", .kind = Kind::kText, .optional = true}}));
   all.push_back(
       action({"sample", "Open a simulated sample",
               "A recording whose true offset is known to be 24 ms: a room, or the first seconds of a walk."},
@@ -312,6 +337,7 @@ void add_actions(std::vector<Command>& all) {
   all.push_back(action({"fit-view", "Fit the view", "Shows the whole map."}));
   all.push_back(action({"estimate", "Estimate the offset", "Searches the offset, in the background."}));
   all.push_back(action({"cancel", "Cancel", "Stops everything that runs in the background."}));
+  all.push_back(action({"solve", "Solve the maps", "Takes up again what was cancelled."}));
   all.push_back(action({"take-found", "Take the offset found", "Sets map B to the offset that was found."}));
   all.push_back(action({"undo", "Undo", "Takes back the last change of a setting."}));
   all.push_back(action({"redo", "Redo", "Makes it again."}));
@@ -328,13 +354,21 @@ void add_actions(std::vector<Command>& all) {
                        {choice_of("MAP", {"a", "b"}), text_of("FILE")}));
   all.push_back(action({"export-curve", "Export the criteria", "As CSV or JSON, by the file's ending."},
                        {text_of("FILE")}));
+  all.push_back(action({"export-report", "Export a report",
+                        "One HTML page into a folder: the offset, its evidence and the maps, as `sweepscope "
+                        "report` writes it."},
+                       {text_of("FOLDER")}));
   all.push_back(action({"palette", "All commands", "A list to search and to choose from."}));
   all.push_back(action({"help", "Keys", "The list of keys."}));
   all.push_back(
       action({"dismiss", "Close what is in front", "The palette, a dialog, a message, or the tool."}));
-  all.push_back(action(
-      {"ask", "Ask for a file", "Shows the dialog that asks for a command's file."},
-      {choice_of("COMMAND", {"open", "save-session", "export-picture", "export-cloud", "export-curve"})}));
+  all.push_back(action({"ask", "Ask for a file", "Shows the dialog that asks for a command's file."},
+                       {choice_of("COMMAND", {"open", "save-session", "export-picture", "export-cloud",
+                                              "export-curve", "export-report"}),
+                        {.name = "WHAT",
+                         .kind = Kind::kChoice,
+                         .choices = {"a", "b", "everything", "maps"},
+                         .optional = true}}));
   all.push_back(action({"quit", "Quit", "Ends the program."}));
 }
 
@@ -360,6 +394,7 @@ std::span<const Shortcut> shortcuts() {
       {"Ctrl+O", "ask open"},
       {"Ctrl+S", "ask save-session"},
       {"Ctrl+E", "ask export-picture"},
+      {"Ctrl+R", "ask export-report"},
       {"Ctrl+C", "copy-command"},
       {"Ctrl+Z", "undo"},
       {"Ctrl+Shift+Z", "redo"},
@@ -423,8 +458,11 @@ std::span<const MenuItem> menu_items() {
       {"File", "Save the session …", "ask save-session"},
       {"File", "", ""},
       {"File", "Export the picture …", "ask export-picture"},
-      {"File", "Export the points of map B …", "ask export-cloud"},
+      {"File", "Export the maps' picture alone …", "ask export-picture maps"},
+      {"File", "Export the points of map A …", "ask export-cloud a"},
+      {"File", "Export the points of map B …", "ask export-cloud b"},
       {"File", "Export the criteria …", "ask export-curve"},
+      {"File", "Export a report …", "ask export-report"},
       {"File", "Copy as command line", "copy-command"},
       {"File", "", ""},
       {"File", "Close the recording", "close"},
@@ -437,6 +475,7 @@ std::span<const MenuItem> menu_items() {
       {"Offset", "Take the offset found for B", "take-found"},
       {"Offset", "Swap A and B", "swap"},
       {"Offset", "Cancel what runs", "cancel"},
+      {"Offset", "Solve the maps", "solve"},
       {"View", "Side by side", "layout side-by-side"},
       {"View", "Swipe", "layout swipe"},
       {"View", "Flip between A and B", "flip"},

@@ -24,7 +24,7 @@ enum class Theme { kDark, kLight };
 enum class Backdrop { kTheme, kBlack, kWhite };
 enum class Tool { kLook, kPick, kMeasure, kProfile };
 enum class Search { kAutomatic, kRange };
-enum class SearchMethod { kAutomatic, kStationary, kMoving };
+enum class SearchMethod { kAutomatic, kStationary, kMoving, kDirect };
 enum class SearchFit { kAutomatic, kNone, kParabola };
 
 /// Everything that a person can set in the explorer, and that a session keeps. Data alone; each field has
@@ -49,6 +49,8 @@ struct Settings {
 
   Tool tool = Tool::kLook;
   Eigen::Vector2d profile_from_m{0, 0}, profile_to_m{0, 0};  // both the same: none
+  double asked_scan = -1, asked_beam = -1;                   // of the point that was asked; below 0: none
+  Eigen::Vector3d measure_from_m{0, 0, 0}, measure_to_m{0, 0, 0};  // both the same: none
   bool scan_view = false;
   double scan = 0;  // whose features the scan view shows
 

@@ -1,0 +1,98 @@
+#include "render/report/gather_report.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <system_error>
+
+#include "core/io/atomic_file.hpp"
+#include "core/io/estimate_json.hpp"
+#include "core/map/offset_map.hpp"
+#include "core/offset/motion_test.hpp"
+#include "core/recording/inspect.hpp"
+
+namespace sweepscope {
+namespace {
+
+constexpr double kOff_s = 0.005;
+constexpr double kLeastRatio = 1.3;  // of a wall's widths: a face that shows no difference tells nothing
+
+/// The kind of rig that an estimate was made for.
+std::optional<Method> kind_of(const Estimate& estimate) {
+  if (estimate.kind == "moving") return Method::kMoving;
+  if (estimate.kind == "stationary") return Method::kStationary;
+  return std::nullopt;
+}
+
+/// The maps 5 ms off and at the answer, and the face between them that tells most.
+Result<void> add_maps(ReportContent& content, const Recording& recording, std::optional<Method> assume,
+                      const Job& job) {
+  const double offset_s = std::round(*content.estimate.offset_s * 1e5) / 1e5;  // as it is printed
+  const std::vector<double> offsets_s{offset_s - kOff_s, offset_s};
+  MapOptions options;
+  options.assume = assume;
+  auto built = build_maps(recording, offsets_s, options, job);
+  if (!built) return tl::unexpected(built.error());
+  std::vector<MapOnPath> on_paths;
+  for (OffsetMap& map : *built) {
+    ComparedMap& next = content.maps.emplace_back();
+    next.offset_s = map.offset_s;
+    next.cloud = map.cloud;
+    next.path = std::move(map.trajectory);
+  }
+  for (const ComparedMap& map : content.maps) on_paths.push_back({map.cloud.get(), map.path});
+  SectionSearch search;
+  search.motor_axis = recording.rig.mount.axis;
+  const auto found = best_section(on_paths, search);
+  if (found && found->widths_mm.at(0) > kLeastRatio * found->widths_mm.at(1))
+    content.section = found->section;
+  return {};
+}
+
+/// What the direct method says of the same recording.
+Result<void> add_direct(ReportContent& content, const Recording& recording, const Job& job) {
+  EstimateOptions wanted;
+  wanted.method = Method::kDirect;
+  wanted.assume = kind_of(content.estimate);
+  auto found = estimate(recording, wanted, job);
+  if (!found) return tl::unexpected(found.error());
+  if (found->interrupted) return failure(ExitCode::kInterrupted, "Interrupted in the direct method.");
+  if (found->identifiable) content.direct = std::move(*found);
+  return {};
+}
+
+}  // namespace
+
+Result<ReportContent> gather_report(const Recording& recording, std::optional<Method> assume,
+                                    const Job& job) {
+  ReportContent content;
+  content.recording = inspect(recording);
+  const auto motion = test_motion(recording, job);
+  if (!motion) return tl::unexpected(motion.error());
+  if (motion->answered()) content.recording.motion = motion->moving() ? "moving" : "stationary";
+  EstimateOptions wanted;
+  wanted.assume = assume;
+  auto found = estimate(recording, wanted, job);
+  if (!found) return tl::unexpected(found.error());
+  if (found->interrupted) return failure(ExitCode::kInterrupted, "Interrupted while looking for the offset.");
+  content.estimate = std::move(*found);
+  if (!content.estimate.identifiable || !content.estimate.offset_s) return content;
+  return add_direct(content, recording, job)
+      .and_then([&] { return add_maps(content, recording, assume, job); })
+      .map([&] { return std::move(content); });
+}
+
+Result<void> write_report(const ReportContent& content, const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) {
+    return failure(ExitCode::kWrongUsage,
+                   fmt::format("{}: cannot be made: {}", folder.string(), error.message()));
+  }
+  return report_html(content)
+      .and_then([&](const std::string& page) { return write_file(folder / "report.html", page); })
+      .and_then(
+          [&] { return write_estimate_json(folder / "estimate.json", content.estimate, Timing::kNull); });
+}
+
+}  // namespace sweepscope

@@ -1,0 +1,238 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "core/io/atomic_file.hpp"
+#include "core/io/cloud_file.hpp"
+#include "core/io/estimate_json.hpp"
+#include "render/report/gather_report.hpp"
+#include "ui/model/explorer.hpp"
+#include "ui/state/session.hpp"
+
+namespace sweepscope::ui {
+namespace {
+
+tl::unexpected<Error> not_now(std::string why) {
+  return failure(ExitCode::kWrongUsage, std::move(why));
+}
+
+/// What a pane shows, in the order of time.
+MapCloud cloud_of(const CloudRequest& request, const PlacedCloud& placed) {
+  const Beams& beams = request.placement.loaded->beams;
+  const auto sweep_of = assign_sweeps(beams.recording->scans, request.placement.loaded->motor.sweeps,
+                                      request.placement.offset_s);
+  std::vector<std::size_t> order(placed.beams.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return placed.beams[a] < placed.beams[b]; });
+  MapCloud cloud;
+  for (const std::size_t i : order) {
+    const std::uint32_t beam = placed.beams[i];
+    MapPoint point{};
+    point.x = placed.points->xyz_m[i][0];
+    point.y = placed.points->xyz_m[i][1];
+    point.z = placed.points->xyz_m[i][2];
+    point.intensity = static_cast<float>(intensity_of(request.placement, beam));
+    point.sweep = static_cast<std::uint32_t>(sweep_of[beams.scan[beam]]);
+    point.time_s = beams.time_s(beam);
+    cloud.push_back(point);
+  }
+  return cloud;
+}
+
+/// A path in a session is that of the working folder, or lies beside the session.
+std::string found_beside(const std::string& path, const std::filesystem::path& session) {
+  std::error_code ignored;
+  if (path.empty() || std::filesystem::exists(path, ignored)) return path;
+  const std::filesystem::path beside = session.parent_path() / path;
+  return std::filesystem::exists(beside, ignored) ? beside.string() : path;
+}
+
+}  // namespace
+
+void Explorer::open(const std::string& path, const std::string& poses) {
+  if (!path.ends_with(".json")) return load(path, poses);
+  if (const auto done = open_json(path); !done) say(Message::Kind::kError, done.error().message);
+}
+
+void Explorer::load(const std::string& path, const std::string& poses) {
+  start_loading("Reading " + path, [=, reading = options_.reading](const Job& job) {
+    return load_file(path, poses, reading, job);
+  });
+}
+
+Result<void> Explorer::open_json(const std::string& path) {
+  const auto text = read_file(path);
+  if (!text) return tl::unexpected(text.error());
+  const auto json = nlohmann::json::parse(*text, nullptr, false);
+  const bool is_estimate =
+      json.is_object() && json.value("schema", nlohmann::json()) == "sweepscope.estimate/1";
+  return is_estimate ? open_estimate(*text, path) : open_session(*text, path);
+}
+
+Result<void> Explorer::open_estimate(const std::string& text, const std::string& path) {
+  if (!loaded_) return not_now(path + " is an estimate: open its recording first.");
+  auto estimate = parse_estimate_json(text, path);
+  if (!estimate) return tl::unexpected(estimate.error());
+  background_.cancel("estimate");
+  take(std::move(*estimate));
+  return {};
+}
+
+Result<void> Explorer::open_session(const std::string& text, const std::string& path) {
+  auto session = parse_session(text, path);
+  if (!session) return tl::unexpected(session.error());
+  if (session->source.empty()) {
+    change_settings(session->settings, {});
+    return {};
+  }
+  const auto call = parse_call(session->source);
+  const bool opens = call && call->command->name == "open" && !call->text(0).ends_with(".json");
+  if (!opens && !(call && call->command->name == "sample"))
+    return unreadable(fmt::format("{}: source: \"{}\" opens no recording", path, session->source));
+  if (opens)
+    load(found_beside(call->text(0), path), found_beside(call->text(1), path));
+  else if (auto done = perform(*call); !done)
+    return done;
+  session_settings_ = session->settings;
+  session_estimate_ = session->estimate;
+  return {};
+}
+
+void Explorer::start_loading(const std::string& title, std::function<Result<LoadedPtr>(const Job&)> load) {
+  background_.cancel("load");
+  session_settings_.reset();
+  session_estimate_.reset();
+  message_.reset();
+  const auto work = [this, load = std::move(load),
+                     assume = options_.assume](const Job& job) -> Background::Finish {
+    auto loaded = load(job);
+    if (!loaded) {
+      return [this, why = loaded.error().message] {
+        session_settings_.reset();
+        session_estimate_.reset();
+        say(Message::Kind::kError, why);
+      };
+    }
+    job.report("the first map", 0);
+    // At 0 ms whatever the settings are, so that the same lines always give the same picture.
+    auto first_map = map_without_solving(**loaded, stands(**loaded, assume), 0);
+    return [this, opened = *loaded, first_map] { take(opened, first_map); };
+  };
+  background_.start("load", "load", title, work);
+}
+
+void Explorer::close() {
+  background_.cancel_all("");
+  loaded_ = nullptr;
+  estimate_.reset();
+  message_.reset();
+  solved_.clear();
+  solved_order_.clear();
+  unsolvable_.clear();
+  cancelled_.clear();
+  provisional_ = nullptr;
+  features_ = nullptr;
+  span_maps_ = {nullptr, nullptr};
+  panes_ = {};
+  b_was_set_ = false;
+  view_fitted_ = false;
+}
+
+void Explorer::take(LoadedPtr loaded, SolvedMapPtr first_map) {
+  close();
+  loaded_ = std::move(loaded);
+  provisional_ = std::move(first_map);
+  if (session_settings_) {
+    change_settings(*session_settings_, {});
+    b_was_set_ = view_fitted_ = true;
+    estimate_ = session_estimate_;
+  } else {
+    Settings next = settings_;  // what was asked of the recording before means nothing here
+    next.asked_scan = next.asked_beam = -1;
+    next.profile_from_m = next.profile_to_m = {0, 0};
+    next.measure_from_m = next.measure_to_m = {0, 0, 0};
+    change_settings(next, {});
+    fit_view();
+  }
+  session_settings_.reset();
+  session_estimate_.reset();
+}
+
+std::string Explorer::suggested_file(const std::string& command, const std::string& what) const {
+  if (command == "open") return "";
+  const std::string name =
+      loaded_ ? std::filesystem::path(loaded_->recording.name).stem().string() : "sweepscope";
+  if (command == "save-session") return name + ".session.json";
+  if (command == "export-picture") return name + (what == "maps" ? "-maps.png" : ".png");
+  if (command == "export-curve") return name + "-criteria.csv";
+  if (command == "export-report") return name + "-report";
+  const double offset_ms = what == "a" ? settings_.offset_a_ms : settings_.offset_b_ms;
+  return fmt::format("{}-{}ms.pcd", name, offset_ms);
+}
+
+std::string Explorer::session_json() const {
+  return session_to_json({loaded_ ? loaded_->source : "", settings_, estimate_});
+}
+
+Result<void> Explorer::save_session(const std::string& path) {
+  auto written = write_file(path, session_json());
+  if (written) say(Message::Kind::kNote, fmt::format("The session is saved in {}.", path));
+  return written;
+}
+
+void Explorer::start_export(const std::string& title, std::function<Result<void>(const Job&)> write,
+                            const std::string& done) {
+  background_.start("export", kExport, title,
+                    [this, write = std::move(write), done](const Job& job) -> Background::Finish {
+                      const auto written = write(job);
+                      if (written) return [this, done] { say(Message::Kind::kNote, done); };
+                      return [this, why = written.error()] {
+                        export_failure_ = why;
+                        say(Message::Kind::kError, why.message);
+                      };
+                    });
+}
+
+Result<void> Explorer::export_cloud(Side side, const std::string& path) {
+  const Pane& shown = pane(side);
+  if (!shown.full || !shown.request) return not_now("The map's points are not all placed yet.");
+  start_export(
+      "Writing " + path,
+      [path, request = *shown.request, placed = shown.full](const Job&) {
+        return write_cloud(path, cloud_of(request, *placed));
+      },
+      fmt::format("{} points are saved in {}.", shown.full->beams.size(), path));
+  return {};
+}
+
+Result<void> Explorer::export_curve(const std::string& path) {
+  if (!estimate_) return not_now("There is no estimate to export yet.");
+  if (!path.ends_with(".csv") && !path.ends_with(".json"))
+    return not_now(fmt::format("{}: the criteria are written as .csv or .json", path));
+  auto written = path.ends_with(".csv") ? write_curve_csv(path, *estimate_)
+                                        : write_estimate_json(path, *estimate_, Timing::kNull);
+  if (written) say(Message::Kind::kNote, fmt::format("The criteria are saved in {}.", path));
+  return written;
+}
+
+Result<void> Explorer::export_report(const std::string& folder) {
+  if (!loaded_) return not_now("There is no recording to report on.");
+  const std::string shell = loaded_->shell.empty() ? loaded_->recording.name : loaded_->shell;
+  const std::string command =
+      fmt::format("sweepscope report {}{} -o {}", shell, options_.shell_options, folder);
+  start_export(
+      "Writing a report",
+      [loaded = loaded_, assume = options_.assume, folder, command](const Job& job) -> Result<void> {
+        auto content = gather_report(loaded->recording, assume, job);
+        if (!content) return tl::unexpected(content.error());
+        content->command = command;
+        job.report("drawing", 0);
+        return write_report(*content, folder);
+      },
+      fmt::format("The report is saved in {}.", (std::filesystem::path(folder) / "report.html").string()));
+  return {};
+}
+
+}  // namespace sweepscope::ui
