@@ -286,7 +286,7 @@ void summarise(JointWalk& walk) {
   walk.sigma_s = std::sqrt(1 / weights);
   // What the parts' own sigma leaves out (surfaces that are not flat, matches that are wrong) shows in how
   // they scatter. A few parts tell that badly: what was seen on other walks counts as kPriorParts more.
-  constexpr double kPriorParts = 4, kPriorScatter2 = 1.6;
+  constexpr double kPriorParts = 4, kPriorScatter2 = 1.1;
   double scatter2 = kPriorParts * kPriorScatter2;
   for (const JointWalkPart& part : walk.parts)
     scatter2 +=

@@ -7,7 +7,11 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <vector>
 
+#include "core/loam/feature_map.hpp"
+#include "core/offset/estimator.hpp"
 #include "core/offset/moving.hpp"
 #include "core/offset/stationary.hpp"
 #include "tests/core/engine_fixtures.hpp"
@@ -147,6 +151,64 @@ void moving_candidate_of_a_walk(State& state) {
   count_cost(state, walk());
 }
 
+// How cost grows: with the length of a recording, with the number of candidates, and with the size of a map.
+// Each figure is per unit, so a row's numbers stay where growth is linear.
+const Subject& walk_of(int duration_s) {
+  static std::map<int, Subject> subjects;
+  const auto found = subjects.find(duration_s);
+  if (found != subjects.end()) return found->second;
+  return subjects.try_emplace(duration_s, test::simulated("metro-station", kTruth_s, duration_s).recording)
+      .first->second;
+}
+
+void growth_with_length(State& state) {
+  const Subject& subject = walk_of(int(state.range(0)));
+  for (auto _ : state)
+    benchmark::DoNotOptimize(
+        moving_candidate(subject.problem, kTruth_s, Scoring::kTwoStage, MappingOptions(), Job()));
+  count_cost(state, subject);
+}
+
+void direct_growth_with_length(State& state) {
+  const Subject& subject = walk_of(int(state.range(0)));
+  EstimateOptions options;
+  options.method = Method::kDirect;
+  for (auto _ : state) benchmark::DoNotOptimize(estimate(subject.recording, options, Job()).value());
+  count_cost(state, subject);
+}
+
+void growth_with_candidates(State& state) {
+  EstimateOptions options;
+  options.method = Method::kMoving;
+  const double half_s = 0.5e-4 * double(state.range(0));
+  options.ranges = {{kTruth_s - half_s, kTruth_s + half_s, 1e-4}};
+  for (auto _ : state) benchmark::DoNotOptimize(estimate(walk().recording, options, Job()).value());
+  state.counters["s_per_candidate"] =
+      Counter(double(state.range(0)), Counter::kIsIterationInvariantRate | Counter::kInvert);
+}
+
+// Points of a wide plain, ten to the square metre; queries spread over it.
+void growth_with_map_size(State& state) {
+  const int points = int(state.range(0));
+  const double side_m = std::sqrt(points / 10.0);
+  FeatureMap map;
+  simulation::Random random(1, 1, 1);
+  const auto drawn = [&] {
+    return Eigen::Vector3f(float(side_m * random.uniform()), float(side_m * random.uniform()), 0);
+  };
+  for (int i = 0; i < points; ++i) map.insert(drawn(), std::uint32_t(i), i % 2 == 0 ? 1 : -1);
+  constexpr int kQueries = 1000;
+  std::vector<Eigen::Vector3f> queries_m(kQueries);
+  for (Eigen::Vector3f& query_m : queries_m) query_m = drawn();
+  Neighbours near;
+  for (auto _ : state)
+    for (const Eigen::Vector3f& query_m : queries_m) {
+      map.nearest(query_m, 1, SweepFilter::kAny, 10, 2, near);
+      benchmark::DoNotOptimize(near);
+    }
+  state.counters["s_per_query"] = Counter(kQueries, Counter::kIsIterationInvariantRate | Counter::kInvert);
+}
+
 BENCHMARK(reference)->Unit(benchmark::kMillisecond);
 BENCHMARK(features)->Unit(benchmark::kMillisecond);
 BENCHMARK(place_beams)->Unit(benchmark::kMillisecond);
@@ -156,6 +218,10 @@ BENCHMARK(stationary_candidate_of_a_room)->Unit(benchmark::kMillisecond);
 BENCHMARK(track_a_walk)->Unit(benchmark::kMillisecond);
 BENCHMARK(count_along_a_walk)->Unit(benchmark::kMillisecond);
 BENCHMARK(moving_candidate_of_a_walk)->Unit(benchmark::kMillisecond);
+BENCHMARK(growth_with_length)->Arg(20)->Arg(40)->Arg(80)->Unit(benchmark::kMillisecond);
+BENCHMARK(direct_growth_with_length)->Arg(20)->Arg(40)->Arg(80)->Unit(benchmark::kMillisecond);
+BENCHMARK(growth_with_candidates)->Arg(5)->Arg(10)->Arg(20)->Unit(benchmark::kMillisecond);
+BENCHMARK(growth_with_map_size)->Arg(10'000)->Arg(100'000)->Arg(1'000'000)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 
