@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <memory>
 
@@ -129,6 +131,14 @@ void declare_candidates(CLI::App& command, Options& options) {
       });
 }
 
+/// Whether something was asked for that only the paper's methods have: candidates, or their criteria.
+bool asks_for_candidates(const CLI::App& command) {
+  constexpr std::array kTheirs{"--range",       "--around",       "--fit",   "--scoring", "--weight-c",
+                               "--edge-gate-m", "--plane-gate-m", "--shard", "--resume"};
+  return std::any_of(kTheirs.begin(), kTheirs.end(),
+                     [&](const char* name) { return command.count(name) > 0; });
+}
+
 }  // namespace
 
 void add_estimate(CLI::App& app, ExitCode& exit_code) {
@@ -137,8 +147,11 @@ void add_estimate(CLI::App& app, ExitCode& exit_code) {
   options->input.declare(*command);
   options->output.declare(*command);
   declare_candidates(*command, *options);
-  command->callback(
-      [options, command, &exit_code] { exit_code = run(*options, deciding_options(*command)); });
+  command->callback([options, command, &exit_code] {
+    auto& method = options->input.estimate.method;
+    if (!method && !asks_for_candidates(*command)) method = Method::kDirect;
+    exit_code = run(*options, deciding_options(*command));
+  });
 }
 
 }  // namespace sweepscope::app

@@ -45,7 +45,8 @@ void declare_method(CLI::App& command, EstimateOptions& estimate) {
           "--method", [&estimate](const std::string& text) { estimate.method = parse_method(text); },
           "direct: the offset as an unknown of the least squares, for rigs that stood still and for walks; "
           "stationary: where odometry sees least motion (d); moving: where the map is clearest (n, e). "
-          "Default: stationary or moving, as the motion test says")
+          "Default: direct; with --range, --around or another option of the paper's methods, stationary or "
+          "moving, as the motion test says")
       ->type_name("M")
       ->check(CLI::IsMember({"stationary", "moving", "direct"}));
   command

@@ -19,7 +19,7 @@ class EstimateCommand : public test::ProgramTest {
 
 TEST_F(EstimateCommand, WritesTheJsonOfTheContract) {
   simulate("room-1 -o room.bag --offset-ms 7.3 --seed 5");
-  const Outcome outcome = run("estimate room.bag --json -");
+  const Outcome outcome = run("estimate room.bag --method stationary --json -");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const Json json = Json::parse(outcome.out);
   EXPECT_EQ(json["schema"], "sweepscope.estimate/1");
@@ -37,9 +37,16 @@ TEST_F(EstimateCommand, WritesTheJsonOfTheContract) {
   EXPECT_TRUE(json["curve"][0]["e_m"].is_null());
 }
 
-TEST_F(EstimateCommand, TheDirectMethodAnswersOnRequest) {
+TEST_F(EstimateCommand, AsksForCandidatesByThePapersMethods) {
   simulate("room-1 -o room.bag --offset-ms 7.3 --seed 5");
-  const Outcome outcome = run("estimate room.bag --method direct --json -");
+  const Outcome outcome = run("estimate room.bag --range 5:9:1 --json -");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(Json::parse(outcome.out)["method"], "stationary");
+}
+
+TEST_F(EstimateCommand, AnswersDirectlyWhereNothingElseIsAskedFor) {
+  simulate("room-1 -o room.bag --offset-ms 7.3 --seed 5");
+  const Outcome outcome = run("estimate room.bag --json -");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const Json json = Json::parse(outcome.out);
   EXPECT_EQ(json["schema"], "sweepscope.estimate/1");
