@@ -70,9 +70,8 @@ void answer(double offset_s, std::optional<double> sigma_s, double value, const 
   result.sigma_s = sigma_s;
 }
 
-void judge_drift(const std::vector<double>& times_s, const std::vector<double>& offsets_s, double recorded_s,
-                 std::optional<double> sigma_s, Estimate& result) {
-  const auto trend = trend_of(times_s, offsets_s);
+void judge_drift(const std::optional<Trend>& trend, double recorded_s, std::optional<double> sigma_s,
+                 Estimate& result) {
   if (!trend) return;
   result.drift_ppm = trend->slope * 1e6;
   add(result.reasons, drift_reason(*trend, recorded_s, sigma_s.value_or(0)));
@@ -94,7 +93,7 @@ void estimate_standing(const OffsetProblem& problem, double coarse_s, const std:
   if (sigma_s)
     sigma_s =
         std::hypot(*sigma_s, encoder_sigma_s(problem.recording->motor, problem.motor.median_speed_rad_s));
-  judge_drift(found.block_s, found.block_offset_s, duration_s(problem), sigma_s, result);
+  judge_drift(trend_of(found.block_s, found.block_offset_s), duration_s(problem), sigma_s, result);
   // Clocks that drift apart turn the last sweep against the first, too.
   if (result.reasons.empty())
     add(result.reasons,
@@ -148,15 +147,16 @@ void estimate_walking(const OffsetProblem& problem, double coarse_s, const std::
   const JointWalk& walk = *found.joint;
   sort_into(result.curve, found.curve);
   judge_walk(found, result);
-  std::vector<double> parts_s, parts_offset_s;
+  std::vector<double> parts_s, parts_offset_s, parts_sigma_s;
   for (const JointWalkPart& part : walk.parts) {
     parts_s.push_back(part.middle_s);
     parts_offset_s.push_back(part.offset_s);
+    parts_sigma_s.push_back(part.sigma_s);
   }
   const double speed_rad_s = problem.motor.median_speed_rad_s;
   std::optional<double> sigma_s = widened_by_sway(walk.sigma_s, found.sway_rad, speed_rad_s, result);
   sigma_s = std::hypot(*sigma_s, encoder_sigma_s(problem.recording->motor, speed_rad_s));
-  judge_drift(parts_s, parts_offset_s, duration_s(problem), sigma_s, result);
+  judge_drift(trend_of(parts_s, parts_offset_s, parts_sigma_s), duration_s(problem), walk.sigma_s, result);
   sigma_s = widened_by_halves(sigma_s, parts_offset_s, result);
   add(result.warnings, few_matches_warning(walk.matches, walk.features));
   answer(walk.offset_s, sigma_s, found.curve[1].e_m.value_or(0), scale, window_s, result);

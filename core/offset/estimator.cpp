@@ -334,8 +334,8 @@ class Search {
   }
 
   // The roll that n and e are counted without is as uncertain as its share in each sweep scatters.
-  // How far the answer lies from that of the joint least squares, and how far that one may be off. The scatter
-  // of the sweeps' rolls alone knows nothing of a wearer's sway, which errs all sweeps alike.
+  // How far the answer lies from that of the joint least squares, and how far that one may be off. The
+  // scatter of the sweeps' rolls alone knows nothing of a wearer's sway, which errs all sweeps alike.
   std::optional<double> sigma_of_walk(double offset_s) const {
     const MovingPass pass = moving_pass(problem_, offset_s, options_.mapping, job_);
     const auto sigma_rad = sigma_of_roll(pass.sweep_roll_rad);

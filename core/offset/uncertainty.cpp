@@ -76,4 +76,34 @@ std::optional<Trend> trend_of(const std::vector<double>& times, const std::vecto
   return trend;
 }
 
+std::optional<Trend> trend_of(const std::vector<double>& times, const std::vector<double>& values,
+                              const std::vector<double>& sigmas) {
+  const std::size_t n = times.size();
+  if (n < 2 || values.size() != n || sigmas.size() != n) return std::nullopt;
+  double weights = 0, time = 0, value = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double weight = 1 / (sigmas[i] * sigmas[i]);
+    weights += weight;
+    time += weight * times[i];
+    value += weight * values[i];
+  }
+  time /= weights;
+  value /= weights;
+  double spread = 0, slope = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double weight = 1 / (sigmas[i] * sigmas[i]);
+    spread += weight * (times[i] - time) * (times[i] - time);
+    slope += weight * (times[i] - time) * (values[i] - value);
+  }
+  if (!(spread > 0)) return std::nullopt;
+  slope /= spread;
+  double scatter2 = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double left = (values[i] - value - slope * (times[i] - time)) / sigmas[i];
+    scatter2 += left * left;
+  }
+  const double widening = n > 2 ? std::sqrt(std::max(1.0, scatter2 / double(n - 2))) : 1.0;
+  return Trend{slope, widening / std::sqrt(spread)};
+}
+
 }  // namespace sweepscope

@@ -32,4 +32,9 @@ struct Trend {
 };
 std::optional<Trend> trend_of(const std::vector<double>& times, const std::vector<double>& values);
 
+/// The same of values whose standard deviations are known, from two on; sigma is widened where the values
+/// scatter more about the slope than theirs say.
+std::optional<Trend> trend_of(const std::vector<double>& times, const std::vector<double>& values,
+                              const std::vector<double>& sigmas);
+
 }  // namespace sweepscope

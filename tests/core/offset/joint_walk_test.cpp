@@ -66,6 +66,21 @@ TEST(JointWalk, WithoutMatchesThereIsNone) {
   EXPECT_FALSE(solved(test::simulated("metro-station", 0.024, 40).recording, 0.024, options));
 }
 
+TEST(JointWalk, ClocksThatDriftApartAreRefusedAndMeasured) {
+  SimulationOptions options;
+  options.scene = "metro-station";
+  options.duration_s = 45;
+  options.clock_drift_ppm = 80;
+  EstimateOptions direct;
+  direct.method = Method::kDirect;
+  const auto found = estimate(simulate(options, Job())->recording, direct, Job());
+  EXPECT_FALSE(found->identifiable);
+  EXPECT_NEAR(found->drift_ppm.value_or(0), 80, 15);
+  const auto says = [](const std::string& text) { return text.find("drift apart") != text.npos; };
+  EXPECT_TRUE(std::any_of(found->reasons.begin(), found->reasons.end(), says))
+      << testing::PrintToString(found->reasons);
+}
+
 // A stride takes 1.11 s: with sweeps of half of it, the wearer's sway alternates as a wrong offset's roll
 // does.
 TEST(JointWalk, ASwayInStepWithTheMotorIsSaidAndWidensSigma) {

@@ -65,5 +65,17 @@ TEST(TrendOf, IsTheSlopeAndItsDoubt) {
   EXPECT_FALSE(trend_of({1, 2, 3}, {1, 2, 3}));
 }
 
+TEST(TrendOf, KnownSigmasWeighAndDoubt) {
+  const auto two = trend_of({0, 10}, {1, 2}, {0.3, 0.4});
+  EXPECT_NEAR(two->slope, 0.1, 1e-12);
+  EXPECT_NEAR(two->sigma, 0.05, 1e-12);  // 0.5 over 10
+  // A value that is known badly hardly counts.
+  EXPECT_NEAR(trend_of({0, 10, 20}, {1, 2, 30}, {0.1, 0.1, 1e4})->slope, 0.1, 1e-6);
+  // Scatter beyond the sigmas widens.
+  const double told = trend_of({0, 1, 2, 3}, {0, 0, 0, 0}, {1, 1, 1, 1})->sigma;
+  EXPECT_NEAR(trend_of({0, 1, 2, 3}, {9, -9, -9, 9}, {1, 1, 1, 1})->sigma, told * std::sqrt(324 / 2.0), 1e-9);
+  EXPECT_FALSE(trend_of({1}, {1}, {1}));
+}
+
 }  // namespace
 }  // namespace sweepscope
