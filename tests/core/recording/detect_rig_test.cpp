@@ -204,6 +204,22 @@ TEST_F(DetectRig, TransformsThatDoNotFollowTheMotorAreNotUsed) {
   EXPECT_NE(rig.mount_note.find("do not fit the motor's angles"), std::string::npos) << rig.mount_note;
 }
 
+TEST_F(DetectRig, ATransformStampedJustBeforeTheFirstSampleIsUsed) {
+  const Eigen::Vector3d axis(0, 1, 0);
+  write([&](test::TestDatabase& database) {
+    for (int i = 0; i < 100; ++i) {
+      const double stamp_s = test::kStart_s + 0.885 + 0.01 * i;  // the motor's samples begin at 0.9
+      const Eigen::Quaterniond rotation = turned(angle_rad(stamp_s), axis);
+      database.message(kMoving, receive_ns(stamp_s),
+                       transform_bytes(stamp_s, {{"mast", "laser", {0, 0, 1}, rotation}}));
+    }
+  });
+  const DetectedRig rig = detected();
+  EXPECT_TRUE(rig.mount_found) << rig.mount_note;
+  EXPECT_LT((rig.rig.mount.axis - axis).norm(), 1e-6);
+  EXPECT_LT(rig.rig.mount.laser_in_motor_rpy_deg.norm(), 1e-3);
+}
+
 TEST_F(DetectRig, AScanReceivedTooEarlyWasStampedAtItsEnd) {
   write([](test::TestDatabase&) {});
   EXPECT_EQ(detected().rig.laser.stamp_at, StampAt::kFirstBeam);  // received 30 ms after, and 4 ms long
