@@ -9,6 +9,10 @@
 
 #include "core/io/atomic_file.hpp"
 #include "core/io/cloud_file.hpp"
+#include "core/io/estimate_json.hpp"
+#include "core/simulation/simulate.hpp"
+#include "core/simulation/write_bag.hpp"
+#include "core/simulation/write_truth.hpp"
 #include "ui/model/explorer.hpp"
 #include "ui/model/picking.hpp"
 #include "ui/model/spatial_order.hpp"
@@ -171,6 +175,7 @@ TEST_F(InARoom, ASessionBringsEverythingBack) {
 TEST_F(InARoom, AnExportedMapHoldsThePointsShownInTheOrderOfTime) {
   const std::string path = scratch("map.pcd").string();
   perform(explorer_, "export-cloud b " + path);
+  rest(explorer_);
   const auto cloud = read_cloud(path);
   ASSERT_TRUE(cloud) << cloud.error().message;
   EXPECT_EQ((*cloud)->size(), explorer_.pane(Side::kB).full->points->size());
@@ -256,10 +261,134 @@ TEST(Failures, ABrokenFileGivesASentenceAndTheExplorerLivesOn) {
   std::filesystem::remove(path);
 }
 
+TEST_F(InARoom, AnEstimateFromAFileIsShownAsIfItHadBeenMadeHere) {
+  const std::string path = scratch("estimate.json").string();
+  Estimate estimate;
+  estimate.recording = "room-1";
+  estimate.method = "stationary";
+  estimate.identifiable = true;
+  estimate.offset_s = 0.0235;
+  ASSERT_TRUE(write_estimate_json(path, estimate, Timing::kNull));
+  perform(explorer_, "open " + path);
+  EXPECT_EQ(explorer_.observe("found-ms"), "23.5000");
+  EXPECT_EQ(explorer_.settings().offset_b_ms, 23.5);
+  EXPECT_EQ(explorer_.observe("recording"), "room-1") << "the recording stays";
+  std::filesystem::remove(path);
+}
+
+TEST_F(InARoom, FittingShowsAllThatThereIsFromWhereverItIsLookedAt) {
+  const PixelRect pane{0, 0, 300, 450};
+  explorer_.set_pane_aspect(pane.width / pane.height);
+  for (const char* line : {"look top", "look front", "look isometric"}) {
+    perform(explorer_, line);
+    perform(explorer_, "fit-view");
+    const Projection projection = projection_of(explorer_.settings().camera_a, false, pane);
+    std::size_t outside = 0;
+    const auto& points = explorer_.pane(Side::kA).full->points->xyz_m;
+    for (const auto& p : points) {
+      const auto at = projection({p[0], p[1], p[2]});
+      outside += at->x < 0 || at->y < 0 || at->x > pane.width || at->y > pane.height ? 1 : 0;
+    }
+    EXPECT_LT(static_cast<double>(outside), 0.05 * static_cast<double>(points.size())) << line;
+    EXPECT_LT(explorer_.settings().camera_a.height_m, 30) << line << ": and not much more";
+  }
+}
+
+TEST_F(InARoom, AnExportThatFailsSaysSoAndIsForgottenOnce) {
+  perform(explorer_, "export-cloud a /nowhere/map.pcd");
+  rest(explorer_);
+  ASSERT_TRUE(explorer_.message());
+  EXPECT_NE(explorer_.message()->text.find("/nowhere/map.pcd"), std::string::npos);
+  EXPECT_TRUE(explorer_.take_export_failure());
+  EXPECT_FALSE(explorer_.take_export_failure());
+}
+
+TEST_F(InARoom, AnotherRecordingForgetsWhatWasAskedOfTheOneBefore) {
+  for (const char* line : {"pick 10 100", "measure 0 0 0 1 1 1", "profile 0 0 1 1"}) perform(explorer_, line);
+  perform(explorer_, "sample room-2");
+  rest(explorer_);
+  EXPECT_EQ(explorer_.settings().asked_scan, -1);
+  EXPECT_EQ(explorer_.settings().measure_from_m, explorer_.settings().measure_to_m);
+  EXPECT_EQ(explorer_.settings().profile_from_m, explorer_.settings().profile_to_m);
+}
+
+TEST(OnAWalk, WhatWasCancelledIsTakenUpWhenItIsAskedForOrTheOffsetMoves) {
+  Explorer explorer;
+  perform(explorer, "sample metro-station 5");
+  while (explorer.is_loading()) {
+    explorer.update(0.01);
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  explorer.update(0.01);
+  ASSERT_EQ(explorer.pane(Side::kA).state, PaneState::kProvisional);
+  perform(explorer, "cancel");
+  for (int i = 0; i < 5; ++i) explorer.update(0.01);
+  EXPECT_NE(explorer.pane(Side::kA).problem.find("Cancelled"), std::string::npos);
+  EXPECT_TRUE(explorer.background().keys("solve ").empty());
+  perform(explorer, "solve");
+  rest(explorer);
+  EXPECT_EQ(explorer.pane(Side::kA).state, PaneState::kSolved);
+  EXPECT_EQ(explorer.pane(Side::kA).problem, "");
+}
+
+TEST(OnAWalk, AlongPosesThatAreKnownEveryOffsetIsThereAtOnce) {
+  SimulationOptions options;
+  options.scene = "metro-station";
+  options.duration_s = 4;
+  const auto made = simulate(options, Job());
+  ASSERT_TRUE(made);
+  const std::string bag = scratch("poses.bag").string(), poses = truth_tum_path(bag).string();
+  ASSERT_TRUE(write_bag(*made, bag, Job()));
+  ASSERT_TRUE(write_truth(*made, bag));
+  Explorer explorer;
+  perform(explorer, "open " + bag + " " + poses);
+  rest(explorer);
+  ASSERT_NE(explorer.loaded(), nullptr) << explorer.message()->text;
+  for (const char* line : {"offset-a 19", "offset-a 24"}) {
+    perform(explorer, line);
+    explorer.update(0.01);
+    EXPECT_EQ(explorer.pane(Side::kA).state, PaneState::kSolved) << line;
+    EXPECT_TRUE(explorer.background().keys("solve ").empty());
+  }
+  EXPECT_EQ(explorer.loaded()->source, "open " + bag + " " + poses);
+  std::filesystem::remove(bag);
+  std::filesystem::remove(poses);
+  std::filesystem::remove(truth_json_path(bag));
+}
+
+TEST(Failures, AFileThatIsNoSessionGivesAMessageAsARecordingDoes) {
+  const std::string path = scratch("no-session.json").string();
+  ASSERT_TRUE(write_file(path, "{}"));
+  Explorer explorer;
+  for (const std::string file : {path, std::string("/nowhere/at-all.json")}) {
+    perform(explorer, "open " + file);
+    ASSERT_TRUE(explorer.message()) << file;
+    EXPECT_NE(explorer.message()->text.find(file), std::string::npos) << explorer.message()->text;
+    perform(explorer, "theme light");
+  }
+  std::filesystem::remove(path);
+}
+
+TEST(Failures, ASessionOpensRecordingsAndDoesNothingElse) {
+  const std::string path = scratch("evil.json").string();
+  Explorer explorer;
+  for (const std::string source : {"save-session /tmp/x", "open " + path, "quit", "offset-a 19", "dance"}) {
+    ASSERT_TRUE(write_file(path, R"({"schema": "sweepscope.session/1", "source": ")" + source + "\"}"));
+    explorer.dismiss_message();
+    perform(explorer, "open " + path);
+    ASSERT_TRUE(explorer.message()) << source;
+    EXPECT_NE(explorer.message()->text.find("opens no recording"), std::string::npos)
+        << explorer.message()->text;
+    EXPECT_FALSE(explorer.is_loading());
+    EXPECT_EQ(explorer.settings(), Settings());
+  }
+  std::filesystem::remove(path);
+}
+
 TEST(Failures, WhatCannotBeDoneNowIsRefused) {
   Explorer explorer;
-  for (const char* line :
-       {"estimate", "take-found", "fit-view", "export-curve a.csv", "export-cloud a a.pcd"}) {
+  for (const char* line : {"estimate", "take-found", "fit-view", "export-curve a.csv", "export-cloud a a.pcd",
+                           "export-report a"}) {
     const auto done = explorer.perform(line);
     ASSERT_FALSE(done) << line;
     EXPECT_EQ(done.error().code, ExitCode::kWrongUsage);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <set>
 
@@ -135,6 +136,65 @@ TEST_F(Headless, ABrokenFileDroppedOnTheWindowGivesAMessageAndTheWindowLivesOn) 
   EXPECT_EQ(now("message"), "");
   expect_runs(kRoom);
   std::filesystem::remove(path);
+}
+
+TEST_F(Headless, AnAskedPointAndAMeasuredDistanceAreCommandsThatEscapeTakesBack) {
+  expect_runs(kRoom);
+  expect_runs("tool pick\nclick \"map a\" at 0.5 0.12");
+  EXPECT_NE(now("pick"), "-1 -1");
+  expect_runs("tool measure\nclick \"map a\" at 0.5 0.12\nclick \"map a\" at 0.5 0.9");
+  EXPECT_NE(now("measure"), "0 0 0 0 0 0");
+  expect_runs("key Escape\nexpect tool is look\nexpect pick is -1 -1\nexpect measure is 0 0 0 0 0 0");
+  expect_runs("undo");
+  EXPECT_NE(now("measure"), "0 0 0 0 0 0") << "one step back";
+}
+
+TEST_F(Headless, TheCopiedCommandLineMakesTheSamePicture) {
+  expect_runs(kRoom);
+  expect_runs("offset-a 19\noffset-b 24\nlayout swipe\ntheme light\ndrag \"map a\" by 30 20\nwait solved");
+  const Image here = ui_.screenshot();
+  expect_runs("copy-command");
+  std::string line = ui_.clipboard();
+  ASSERT_EQ(line.find("sweepscope view"), 0u) << line;
+  const auto folder = std::filesystem::temp_directory_path() / "sweepscope-copied";
+  std::filesystem::create_directories(folder);
+  line = "cd " + folder.string() + " && " + SWEEPSCOPE_EXECUTABLE +
+         line.substr(std::string("sweepscope").size());
+  ASSERT_EQ(std::system(line.c_str()), 0) << line;
+  const auto there = read_png(folder / "picture.png");
+  ASSERT_TRUE(there) << there.error().message;
+  EXPECT_TRUE(compare_images(*there, here).passes);
+  std::filesystem::remove_all(folder);
+}
+
+TEST_F(Headless, TheReportIsWrittenBesideTheInterface) {
+  expect_runs(kRoom);
+  const auto folder = std::filesystem::temp_directory_path() / "sweepscope-report-of-ui";
+  expect_runs("export-report " + folder.string() + "\nexpect message contains report.html");
+  const auto page = read_file(folder / "report.html");
+  ASSERT_TRUE(page) << page.error().message;
+  EXPECT_NE(page->find("t_motor = t_laser + offset"), std::string::npos);
+  expect_runs("frames 3");  // the interface draws on after the report's pictures were drawn
+  std::filesystem::remove_all(folder);
+}
+
+TEST_F(Headless, AnExportThatFailsEndsAScriptAndAnOpeningThatFailsDoesNot) {
+  expect_runs("open /nowhere/at-all.bag\nwait loaded\nexpect message contains at-all.bag");
+  expect_runs("open /nowhere/at-all.json\nexpect message contains at-all.json");
+  expect_runs(kRoom);
+  const auto done = run("export-picture /nowhere/a.png");
+  ASSERT_FALSE(done);
+  EXPECT_EQ(done.error().code, ExitCode::kWrongUsage);
+}
+
+TEST_F(Headless, WanderingLeavesTheInterfaceAlive) {
+  const auto folder = std::filesystem::temp_directory_path() / "sweepscope-wandered";
+  std::filesystem::create_directories(folder);
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(folder);
+  expect_runs("wander 30 1\nsample room-1\nwait solved\nwander 60 2\ncancel\nclose\nframes 2");
+  std::filesystem::current_path(before);
+  std::filesystem::remove_all(folder);
 }
 
 TEST_F(Headless, EveryStateHasAPictureOfItsOwn) {

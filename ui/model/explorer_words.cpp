@@ -108,7 +108,8 @@ std::optional<std::string> Explorer::observe(std::string_view name) const {
   const Command* command = find_command(name);
   if (command == nullptr || !command->is_field()) return std::nullopt;
   std::string words;
-  for (const Value& value : command->get(settings_)) words += (words.empty() ? "" : " ") + to_word(value);
+  for (const Value& value : command->get(settings_))
+    words += fmt::format("{}{}", words.empty() ? "" : " ", to_word(value));
   return words;
 }
 
@@ -117,7 +118,7 @@ std::string Explorer::command_line(int width_px, int height_px) const {
   if (loaded_ && loaded_->shell.empty())
     lines += loaded_->source + "; wait loaded; ";
   else if (loaded_)
-    recording = " " + loaded_->shell;
+    recording = fmt::format(" {}", loaded_->shell);
   for (const std::string& line : lines_to_reach(settings_)) lines += line + "; ";
   // Said even where it is the default: an estimate leaves alone what a person set.
   if (estimate_) lines += fmt::format("offset-b {}; estimate; ", settings_.offset_b_ms);

@@ -55,8 +55,8 @@ Result<LoadedPtr> load_file(const std::filesystem::path& path, const std::filesy
     if (!known) return tl::unexpected(known.error());
     if (known->size() < 2) return unreadable(poses.string() + ": a trajectory needs two poses at least.");
     loaded->poses = std::move(*known);
-    loaded->source += " " + ui::quoted(poses.string());
-    loaded->shell += " --poses " + shell_word(poses.string());
+    loaded->source += fmt::format(" {}", ui::quoted(poses.string()));
+    loaded->shell += fmt::format(" --poses {}", shell_word(poses.string()));
   }
   loaded->recording = std::move(*recording);
   return finish(std::move(loaded), job);
