@@ -39,7 +39,7 @@ install(DIRECTORY core DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sweepscope COMPON
         PATTERN "*.hpp")
 install(EXPORT sweepscope_engine NAMESPACE sweepscope:: FILE sweepscopeTargets.cmake DESTINATION ${package_folder}
         COMPONENT engine)
-configure_package_config_file(cmake/sweepscopeConfig.cmake.in ${PROJECT_BINARY_DIR}/sweepscopeConfig.cmake
+configure_package_config_file(core/sweepscopeConfig.cmake.in ${PROJECT_BINARY_DIR}/sweepscopeConfig.cmake
                               INSTALL_DESTINATION ${package_folder})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/sweepscopeConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/sweepscopeConfig.cmake ${PROJECT_BINARY_DIR}/sweepscopeConfigVersion.cmake
@@ -69,5 +69,5 @@ set(CPACK_DEBIAN_ENGINE_DESCRIPTION "engine of sweepscope, for other programs
  package: find_package(sweepscope) and link sweepscope::core.")
 # What the program is built with, for whoever builds with its engine.
 set(CPACK_DEBIAN_ENGINE_PACKAGE_DEPENDS
-    "libbz2-dev, libeigen3-dev, libembree-dev, libexpected-dev, libfmt-dev, liblz4-dev, libpcl-dev, librosbag-storage-dev, libroscpp-core-dev, libsensor-msgs-dev, libspdlog-dev, libtbb-dev, libxxhash-dev, libyaml-cpp-dev, nlohmann-json3-dev, pkg-config")
+    "libbz2-dev, libeigen3-dev, libembree-dev, libexpected-dev, libfmt-dev, liblz4-dev, libpcl-dev, librosbag-storage-dev, libroscpp-core-dev, libsensor-msgs-dev, libspdlog-dev, libsqlite3-dev, libtbb-dev, libxxhash-dev, libyaml-cpp-dev, libzstd-dev, nlohmann-json3-dev, pkg-config")
 include(CPack)
