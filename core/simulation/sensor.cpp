@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/simulation/portable_math.hpp"
 
@@ -105,7 +106,7 @@ void Sensor::cast_scan(std::size_t number, std::span<float> ranges_m, std::span<
 }
 
 MotorTrack Sensor::motor_track(double duration_s) const {
-  MotorTrack track;
+  std::vector<std::pair<double, double>> samples;  // stamp, angle
   const double period_s = 1 / options_.encoder_hz, step_rad = radians(options_.encoder_step_deg);
   const auto before = static_cast<std::int64_t>(std::ceil(kMotorMargin_s * options_.encoder_hz));
   const auto after =
@@ -117,9 +118,16 @@ MotorTrack Sensor::motor_track(double duration_s) const {
                           std::clamp(off_s, -0.45 * period_s, 0.45 * period_s);
     const double late_s = options_.stamp_jitter_s * Random(options_.seed, kMotorStamp, number).normal();
     const double stamp_s = true_s * (1 + options_.clock_drift_ppm * 1e-6) + options_.offset_s + late_s;
-    if (!track.time_s.empty() && whole_ns(stamp_s) <= track.time_s.back()) continue;
-    track.time_s.push_back(whole_ns(stamp_s));
-    track.angle_rad.push_back(std::floor(motor_.angle_rad(true_s) / step_rad + 0.5) * step_rad);
+    samples.emplace_back(whole_ns(stamp_s), std::floor(motor_.angle_rad(true_s) / step_rad + 0.5) * step_rad);
+  }
+  // As reading does with stamps out of order. Leaving those out that come too late would keep the late stamps
+  // rather than the early ones, and so shift the offset.
+  std::sort(samples.begin(), samples.end());
+  MotorTrack track;
+  for (const auto& [stamp_s, angle_rad] : samples) {
+    if (!track.time_s.empty() && stamp_s <= track.time_s.back()) continue;
+    track.time_s.push_back(stamp_s);
+    track.angle_rad.push_back(angle_rad);
   }
   return track;
 }

@@ -239,6 +239,21 @@ TEST(Simulate, FaultsDoWhatTheySay) {
   EXPECT_NE(mean_difference_m(simulated(slack).recording, exact), 0);
 }
 
+TEST(Simulate, StampsThatOvertakeEachOtherAreAllKeptInOrder) {
+  SimulationOptions options = clean();
+  options.duration_s = 4;
+  options.encoder_hz = 200;
+  const MotorTrack straight = simulated(options).recording.motor;
+  options.stamp_jitter_s = 0.004;
+  const MotorTrack jittered = simulated(options).recording.motor;
+  EXPECT_EQ(jittered.time_s.size(), straight.time_s.size());
+  EXPECT_TRUE(std::is_sorted(jittered.time_s.begin(), jittered.time_s.end()));
+  double late_s = 0;
+  for (std::size_t i = 0; i < straight.time_s.size(); ++i)
+    late_s += (jittered.time_s[i] - straight.time_s[i]) / double(straight.time_s.size());
+  EXPECT_NEAR(late_s, 0, 4 * 0.004 / std::sqrt(double(straight.time_s.size())));
+}
+
 TEST(Simulate, MixedPixelsLieBetweenBothSidesOfAnEdge) {
   SimulationOptions options = clean();
   const Recording exact = simulated(options).recording;
