@@ -7,6 +7,8 @@
 #include <limits>
 #include <numbers>
 
+#include "core/recording/stream_stamps.hpp"
+
 namespace sweepscope {
 namespace {
 
@@ -66,14 +68,9 @@ Remark stamps_reason(const Recording& recording, const SearchScale& scale) {
   constexpr std::size_t kLeastScans = 20;
   if (recording.report.laser_stamps.used != StampSource::kReceive) return std::nullopt;
   if (recording.scans.size() < kLeastScans) return std::nullopt;
-  std::vector<double> spacings_s;
-  for (std::size_t i = 1; i < recording.scans.size(); ++i)
-    spacings_s.push_back(recording.scans[i].first_beam_s - recording.scans[i - 1].first_beam_s);
-  const double period_s = median_of(spacings_s);
-  std::vector<double> uneven_s;
-  for (const double spacing_s : spacings_s) uneven_s.push_back(std::abs(std::remainder(spacing_s, period_s)));
-  std::sort(uneven_s.begin(), uneven_s.end());
-  const double spread_s = uneven_s[uneven_s.size() * 9 / 10];
+  std::vector<double> times_s;
+  for (const LaserScan& scan : recording.scans) times_s.push_back(scan.first_beam_s);
+  const double spread_s = unevenness_s(times_s), period_s = recording.report.laser_stamps.median_period_s;
   if (spread_s < std::max(period_s / 4, scale.unit_s / 2)) return std::nullopt;
   return fmt::format(
       "The scans' receive times come unevenly, by up to {:.0f} ms nine times in ten, where a scan takes "

@@ -62,8 +62,12 @@ LaserSummary inspect_laser(const Recording& recording) {
   laser.first_beam_deg = first.beam_angle_rad(0) * kDegPerRad;
   laser.last_beam_deg = first.beam_angle_rad(first.beams - 1.0) * kDegPerRad;
   laser.duration_s = recording.scans.back().first_beam_s - first.first_beam_s;
-  std::vector<double> scans_s;
-  for (const LaserScan& scan : recording.scans) scans_s.push_back(scan.last_beam_s() - scan.first_beam_s);
+  std::vector<double> scans_s, times_s;
+  for (const LaserScan& scan : recording.scans) {
+    scans_s.push_back(scan.last_beam_s() - scan.first_beam_s);
+    times_s.push_back(scan.first_beam_s);
+  }
+  laser.uneven_s = unevenness_s(times_s);
   laser.scan_s = median(std::move(scans_s));
   return laser;
 }
@@ -121,8 +125,15 @@ std::vector<std::string> expect(const LaserSummary& laser, const MotorSummary& m
   lines.push_back(
       fmt::format("1 ms of offset turns a scan by {:.3g} deg: {:.2g} mm at the median range of {:.3g} m.",
                   motor.deg_per_ms(), millimetres, laser.median_range_m));
-  lines.push_back(fmt::format("Expect an offset good to about {:.2g} ms ({} deg of the motor's angle).",
-                              kRepeatable_deg / motor.deg_per_ms(), kRepeatable_deg));
+  if (laser.stamp == StampSource::kReceive && laser.uneven_s > laser.median_period_s / 4) {
+    lines.push_back(
+        fmt::format("Expect a refusal: the scans' receive times come unevenly, by up to {:.0f} ms nine times "
+                    "in ten, where a scan takes {:.0f} ms.",
+                    1000 * laser.uneven_s, 1000 * laser.median_period_s));
+  } else {
+    lines.push_back(fmt::format("Expect an offset good to about {:.2g} ms ({} deg of the motor's angle).",
+                                kRepeatable_deg / motor.deg_per_ms(), kRepeatable_deg));
+  }
   if (motor.median_sweep_s > 0) {
     lines.push_back(fmt::format(
         "Offsets up to {:.4g} ms to either side can be told apart (a quarter of the motor's period).",

@@ -26,7 +26,8 @@ struct LaserSummary : StreamSummary {
   std::size_t fewest_beams = 0, most_beams = 0;  // of a scan
   double first_beam_deg = 0, last_beam_deg = 0;  // of the first scan
   StampAt stamp_at = StampAt::kFirstBeam;
-  double scan_s = 0;  // median time from a scan's first to its last beam
+  double uneven_s = 0;  // see unevenness_s() in stream_stamps.hpp
+  double scan_s = 0;    // median time from a scan's first to its last beam
   std::size_t beams = 0, usable_beams = 0;
   std::size_t nan = 0, infinite = 0, zero = 0, out_of_range = 0;  // of the whole file
   double median_range_m = 0;

@@ -108,6 +108,16 @@ TimeOrder order_by_time(std::span<const double> times_s) {
   return order;
 }
 
+double unevenness_s(std::span<const double> times_s) {
+  std::vector<double> left_s;
+  for (std::size_t i = 1; i < times_s.size(); ++i) left_s.push_back(times_s[i] - times_s[i - 1]);
+  const double period_s = median(left_s);
+  if (left_s.size() < 2 || !(period_s > 0)) return 0;
+  for (double& spacing_s : left_s) spacing_s = std::abs(std::remainder(spacing_s, period_s));
+  std::ranges::sort(left_s);
+  return left_s[left_s.size() * 9 / 10];
+}
+
 Spacing spacing(std::span<const double> times_s, double factor) {
   Spacing result;
   std::vector<double> spacings_s;

@@ -29,6 +29,10 @@ struct TimeOrder {
 };
 TimeOrder order_by_time(std::span<const double> times_s);
 
+/// How unevenly times come that should be a period apart: what their spacings leave beside whole periods,
+/// nine times in ten; at the most half a period. 0 of fewer than three times.
+double unevenness_s(std::span<const double> times_s);
+
 /// The spacing of times that ascend, and the spacings longer than `factor` times the median one.
 struct Spacing {
   double median_s = 0;

@@ -55,6 +55,7 @@ TEST(FlatReason, IsGivenWhereTheValleyIsShallow) {
 Recording received(const std::function<double(int i)>& late_s) {
   Recording recording;
   recording.report.laser_stamps.used = StampSource::kReceive;
+  recording.report.laser_stamps.median_period_s = 25 * kMs;
   for (int i = 0; i < 200; ++i) {
     if (i % 10 == 4) continue;
     LaserScan& scan = recording.scans.emplace_back();

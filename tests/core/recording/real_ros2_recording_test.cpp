@@ -51,6 +51,12 @@ TEST_F(LidarServo, ItsFaultsAreTold) {
   std::string warnings;
   for (const std::string& warning : summary.warnings) warnings += warning + "\n";
   EXPECT_NE(warnings.find("/lidar_servo_angle holds plain numbers"), std::string::npos) << warnings;
+  EXPECT_EQ(summary.laser.stamp_at, StampAt::kLastBeam);
+  std::string expectations;
+  for (const std::string& line : summary.expectations) expectations += line + "\n";
+  EXPECT_NE(expectations.find("Expect a refusal: the scans' receive times come unevenly"), std::string::npos)
+      << expectations;
+  EXPECT_EQ(expectations.find("Expect an offset good to"), std::string::npos) << expectations;
   EXPECT_NE(warnings.find("have no time_increment; scan_time / beams is used"), std::string::npos)
       << warnings;
 }
