@@ -6,8 +6,10 @@
 #include <sensor_msgs/LaserScan.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <memory>
 #include <system_error>
@@ -134,6 +136,7 @@ Result<void> write_bag(const Simulation& simulation, const std::filesystem::path
   const std::filesystem::path part = path.string() + ".part";
   remember_unfinished(part);
   std::error_code ignored;
+  errno = 0;
   try {
     if (!write_messages(simulation, part, job)) {
       std::filesystem::remove(part, ignored);
@@ -143,10 +146,10 @@ Result<void> write_bag(const Simulation& simulation, const std::filesystem::path
     std::filesystem::rename(part, path);
     forget_unfinished(part);
   } catch (const std::exception& error) {
+    const std::string reason = errno != 0 ? std::strerror(errno) : error.what();
     std::filesystem::remove(part, ignored);
     forget_unfinished(part);
-    return failure(ExitCode::kWrongUsage,
-                   fmt::format("{}: cannot be written: {}", path.string(), error.what()));
+    return failure(ExitCode::kWrongUsage, fmt::format("{}: cannot be written: {}", path.string(), reason));
   }
   return {};
 }
