@@ -6,6 +6,8 @@
 #include <sensor_msgs/LaserScan.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <limits>
 #include <memory>
 #include <stdexcept>
@@ -105,11 +107,12 @@ Result<void> write_ros1_bag(const RawLaser& laser, const RawJoint& joint, const 
   remember_unfinished(part);
   bool finished = false;
   std::string why;
+  errno = 0;
   try {
     finished = write_messages(laser, joint, part, compression, job);
     if (finished) std::filesystem::rename(part, path);
   } catch (const std::exception& error) {
-    why = error.what();
+    why = errno != 0 ? std::strerror(errno) : error.what();  // rosbag says less than the system
   }
   std::error_code ignored;
   if (!finished || !why.empty()) std::filesystem::remove(part, ignored);
