@@ -191,7 +191,7 @@ void measure_work(Person& person, const std::filesystem::path& folder) {
   (void)person.until_rest();
   person.perform("profile -1 0 1 0");
   print_frames("a profile is made", person.until_rest());
-  for (const std::string line :
+  for (const std::string& line :
        {"export-cloud a " + (folder / "a.pcd").string(), "export-picture " + (folder / "a.png").string(),
         "save-session " + (folder / "a.json").string(), "export-report " + (folder / "report").string()}) {
     person.perform(line);

@@ -360,7 +360,7 @@ TEST(Failures, AFileThatIsNoSessionGivesAMessageAsARecordingDoes) {
   const std::string path = scratch("no-session.json").string();
   ASSERT_TRUE(write_file(path, "{}"));
   Explorer explorer;
-  for (const std::string file : {path, std::string("/nowhere/at-all.json")}) {
+  for (const std::string& file : {path, std::string("/nowhere/at-all.json")}) {
     perform(explorer, "open " + file);
     ASSERT_TRUE(explorer.message()) << file;
     EXPECT_NE(explorer.message()->text.find(file), std::string::npos) << explorer.message()->text;
@@ -372,7 +372,8 @@ TEST(Failures, AFileThatIsNoSessionGivesAMessageAsARecordingDoes) {
 TEST(Failures, ASessionOpensRecordingsAndDoesNothingElse) {
   const std::string path = scratch("evil.json").string();
   Explorer explorer;
-  for (const std::string source : {"save-session /tmp/x", "open " + path, "quit", "offset-a 19", "dance"}) {
+  for (const std::string& source :
+       std::vector<std::string>{"save-session /tmp/x", "open " + path, "quit", "offset-a 19", "dance"}) {
     ASSERT_TRUE(write_file(path, R"({"schema": "sweepscope.session/1", "source": ")" + source + "\"}"));
     explorer.dismiss_message();
     perform(explorer, "open " + path);

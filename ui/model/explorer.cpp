@@ -107,7 +107,7 @@ void Explorer::cancel() {
   background_.cancel_all("");
   session_settings_.reset();
   session_estimate_.reset();
-  if (!loaded_ || without_solving()) return;
+  if (!loaded_) return;
   for (const Side side : kBothSides) {
     if (!solved_at(offset_s(side))) cancelled_.insert(std::llround(offset_s(side) * 1e9));
   }

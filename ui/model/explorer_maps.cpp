@@ -67,7 +67,7 @@ SolvedMapPtr Explorer::nearest_solved(double offset_s) const {
 
 Placement Explorer::placement_of(Side side) const {
   const double offset = offset_s(side);
-  SolvedMapPtr map = without_solving() ? provisional_ : solved_at(offset);
+  SolvedMapPtr map = solved_at(offset);
   if (!map) map = nearest_solved(offset);
   if (!map) map = provisional_;
   return {loaded_, std::move(map), offset};
@@ -178,7 +178,6 @@ void Explorer::update_features() {
 }
 
 void Explorer::update_solving() {
-  if (without_solving()) return;
   std::vector<std::int64_t> wanted;
   for (const Side side : kBothSides) {
     const std::int64_t ns = to_ns(offset_s(side));

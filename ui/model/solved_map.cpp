@@ -58,6 +58,8 @@ void describe_points(const Loaded& loaded, SolvedMap& map) {
 
 Result<SolvedMapPtr> solve_map(const Loaded& loaded, double offset_s, std::optional<Method> assume,
                                const Job& job) {
+  const bool standing = assume ? *assume == Method::kStationary : !loaded.moving.value_or(false);
+  if (standing || !loaded.poses.empty()) return map_without_solving(loaded, standing, offset_s);
   MapOptions options;
   options.assume = assume;
   const std::array offsets_s{offset_s};

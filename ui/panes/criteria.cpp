@@ -162,6 +162,7 @@ void draw_one(const PaneContext& context, const Chart& chart, const PixelRect& p
   ImGui::SetCursorScreenPos({static_cast<float>(place.left), static_cast<float>(place.top)});
   ImGui::InvisibleButton(fmt::format("chart title {}", number).c_str(),
                          {static_cast<float>(place.width * 0.6), context.pxf(18)});
+  context.anchor_last(fmt::format("chart title {}", number));
   tooltip(context, meaning(chart.title));
 }
 

@@ -19,8 +19,8 @@ Places lay_out(double width_px, double height_px, double scale, const Settings& 
                bool has_recording) {
   const double menu = 30 * scale, status = 28 * scale;
   const bool panels = settings.panels && has_recording && width_px > 760 * scale;
-  const double left = panels ? std::min(292 * scale, 0.24 * width_px) : 0;
-  const double right = panels ? std::min(244 * scale, 0.2 * width_px) : 0;
+  const double left = panels ? std::min(292 * scale, 0.26 * width_px) : 0;
+  const double right = panels ? std::min(244 * scale, 0.24 * width_px) : 0;
   const double middle = height_px - menu - status;
   const bool criteria = settings.criteria && has_recording && middle > 420 * scale;
   const double below = criteria ? std::clamp(0.29 * middle, 190 * scale, 300 * scale) : 0;
