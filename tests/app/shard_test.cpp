@@ -102,7 +102,7 @@ TEST_F(Shards, AKilledRunGoesOnWhereItWas) {
 }
 
 TEST_F(Shards, TheDefaultSearchResumesToo) {
-  expect_done("estimate room.bag --no-timing --json one.json");
+  expect_done("estimate room.bag --method stationary --no-timing --json one.json");
   kill_at({"estimate", "room.bag", "--resume", "kept.candidates", "--threads", "1"}, "kept.candidates", 15);
   expect_done("estimate room.bag --resume kept.candidates --no-timing --json resumed.json");
   EXPECT_EQ(file("resumed.json"), file("one.json"));
