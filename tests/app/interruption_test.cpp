@@ -106,14 +106,14 @@ std::size_t lines_in(const std::string& text) {
 void wait_until_it_listens(pid_t child, int signal) {
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
   while (std::chrono::steady_clock::now() < deadline) {
+    std::error_code gone;
+    const auto program = std::filesystem::read_symlink("/proc/" + std::to_string(child) + "/exe", gone);
+    // The shell that begins it handles signals of its own; so first who it is, and then what it handles.
+    const bool begun = program == std::filesystem::canonical(SWEEPSCOPE_EXECUTABLE);
     const std::string status = test::contents_of("/proc/" + std::to_string(child) + "/status");
     const std::size_t at = status.find("SigCgt:");
     const unsigned long long caught =
         at == std::string::npos ? 0 : std::strtoull(status.c_str() + at + 7, nullptr, 16);
-    std::error_code gone;
-    const auto program = std::filesystem::read_symlink("/proc/" + std::to_string(child) + "/exe", gone);
-    // The shell that begins it handles signals of its own.
-    const bool begun = program == std::filesystem::canonical(SWEEPSCOPE_EXECUTABLE);
     if (begun && (caught >> (signal - 1) & 1) != 0) return;
     std::this_thread::sleep_for(milliseconds(1));
   }
