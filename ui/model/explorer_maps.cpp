@@ -126,7 +126,8 @@ void Explorer::update_panes(double seconds_since_last) {
 void Explorer::show(Side side, CloudRequest request) {
   Pane& pane = pane_of(side);
   const SolvedMap& map = *request.placement.map;
-  const bool exact = without_solving() || to_ns(map.offset_s) == to_ns(request.placement.offset_s);
+  const bool exact =
+      without_solving() || (!map.provisional && to_ns(map.offset_s) == to_ns(request.placement.offset_s));
   pane.state = map.provisional ? PaneState::kProvisional : exact ? PaneState::kSolved : PaneState::kPreview;
   pane.lost = map.lost;
   const auto why = unsolvable_.find(to_ns(request.placement.offset_s));
