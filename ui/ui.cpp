@@ -87,8 +87,9 @@ void Ui::Parts::open_front(const std::string& name, const Call& call) {
   if (name == "ask") transient.asks_for = Transient::Asked{call.text(0), call.text(1)};
   transient.palette_query.clear();
   transient.palette_choice = 0;
-  transient.asked_text =
-      transient.asks_for ? explorer.suggested_file(transient.asks_for->command, transient.asks_for->what) : "";
+  transient.asked_text = transient.asks_for
+                             ? explorer.suggested_file(transient.asks_for->command, transient.asks_for->what)
+                             : "";
   transient.just_opened = true;
 }
 
