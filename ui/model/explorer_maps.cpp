@@ -132,7 +132,7 @@ void Explorer::show(Side side, CloudRequest request) {
   pane.lost = map.lost;
   const auto why = unsolvable_.find(to_ns(request.placement.offset_s));
   pane.problem = why != unsolvable_.end() ? why->second : "";
-  if (!exact && cancelled_.contains(to_ns(request.placement.offset_s)))
+  if (pane.state != PaneState::kSolved && cancelled_.contains(to_ns(request.placement.offset_s)))
     pane.problem = "Cancelled. Move the offset, or ask for it in the menu: Offset, Solve the maps.";
   if (pane.request == request) return;
   const Placement* other = request.other ? &*request.other : nullptr;
