@@ -15,7 +15,7 @@ constexpr std::array<ImWchar, 21> kGlyphs{0x0020, 0x00FF,  // Latin
                                           0x2010, 0x2027,  // dashes, ellipsis
                                           0x2070, 0x209C,  // superscripts and subscripts
                                           0x2190, 0x2199,  // arrows
-                                          0x2212, 0x2212,  // minus
+                                          0x2212, 0x221A,  // minus to root
                                           0x2248, 0x2248, 0x2264, 0x2265, 0x25A0, 0x25FF,  // shapes
                                           0x2713, 0x2713, 0};
 
