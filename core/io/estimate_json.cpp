@@ -81,9 +81,15 @@ std::string optional_text(const Json& object, const char* key) {
   return found->get<std::string>();
 }
 
+/// Beyond a thousand seconds no clocks lie apart, and a millisecond would lose its last digits.
+double seconds(double milliseconds, const std::string& name) {
+  if (!(std::abs(milliseconds) <= 1e6)) throw BadValue(name + " lies beyond 1000 s");
+  return milliseconds / 1e3;
+}
+
 std::optional<double> optional_seconds(const Json& object, const char* key) {
   const auto milliseconds = optional_number(object, key);
-  return milliseconds ? std::optional(*milliseconds / 1e3) : std::nullopt;
+  return milliseconds ? std::optional(seconds(*milliseconds, key)) : std::nullopt;
 }
 
 std::vector<CurvePoint> curve_from_json(const Json& curve) {
@@ -93,7 +99,7 @@ std::vector<CurvePoint> curve_from_json(const Json& curve) {
     const std::string where = fmt::format("curve[{}].", points.size());
     CurvePoint point;
     if (!object.is_object()) throw BadValue(where + " is not an object");
-    point.offset_s = required<double>(object, "offset_ms", where) / 1e3;
+    point.offset_s = seconds(required<double>(object, "offset_ms", where), where + "offset_ms");
     for (const CurveColumn& column : kCurveColumns)
       point.*column.value = optional_number(object, column.key, where);
     points.push_back(point);
@@ -107,8 +113,8 @@ std::vector<CriterionOptimum> criteria_from_json(const Json& criteria) {
   for (const auto& [key, object] : criteria.items()) {
     const std::string where = fmt::format("criteria.{}.", key);
     if (!object.is_object()) throw BadValue(where + " is not an object");
-    optima.push_back(
-        {key, required<double>(object, "offset_ms", where) / 1e3, required<double>(object, "value", where)});
+    optima.push_back({key, seconds(required<double>(object, "offset_ms", where), where + "offset_ms"),
+                      required<double>(object, "value", where)});
   }
   return optima;
 }
@@ -175,6 +181,8 @@ Result<Estimate> parse_estimate_json(std::string_view text, std::string_view nam
     return estimate_from_json(Json::parse(text));
   } catch (const Json::parse_error& error) {
     return unreadable(fmt::format("{}: not JSON: broken at byte {}", name, error.byte));
+  } catch (const Json::out_of_range&) {
+    return unreadable(fmt::format("{}: not an estimate: a number in it is too large", name));
   } catch (const BadValue& error) {
     return unreadable(fmt::format("{}: not an estimate: {}", name, error.what()));
   }

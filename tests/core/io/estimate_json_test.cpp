@@ -125,11 +125,15 @@ TEST(EstimateJson, ErrorsNameTheFileAndThePlace) {
   };
   EXPECT_EQ(message("{\"schema\": "), "a.json: not JSON: broken at byte 12");
   EXPECT_EQ(message("[]"), "a.json: not an estimate: it is not a JSON object");
+  EXPECT_EQ(message("[1e999]"), "a.json: not an estimate: a number in it is too large");
   EXPECT_EQ(message(R"({"schema": "other/1"})"),
             "a.json: not an estimate: schema is not sweepscope.estimate/1");
   std::string text = estimate_to_json(stationary_estimate());
   text.replace(text.find("0.049"), 5, "\"abc\"");
   EXPECT_EQ(message(text), "a.json: not an estimate: curve[0].rotation_rad is neither a number nor null");
+  text = estimate_to_json(stationary_estimate());
+  text.replace(text.find("19.1"), 4, "1e12");
+  EXPECT_EQ(message(text), "a.json: not an estimate: curve[0].offset_ms lies beyond 1000 s");
 }
 
 TEST(EstimateJson, ANameThatIsNotUtf8StillMakesADocument) {
