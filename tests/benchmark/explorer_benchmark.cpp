@@ -77,10 +77,10 @@ class Person {
   Times until(const Condition& there) {
     Times times;
     const auto begin = Clock::now();
-    while (!there()) {
+    do {
       times.add(frame());
       if (seconds_since(begin) > 900) give_up("That took longer than 15 minutes.");
-    }
+    } while (!there());
     return times;
   }
   Times until_rest() {
