@@ -51,6 +51,10 @@ Result<std::string> convert(const Options& options) {
   if (!joint) return tl::unexpected(joint.error());
   const RawLaser& scans = raw->lasers[*laser];
   const RawJoint& motor = raw->joints[*joint];
+  if (scans.of_clouds) {
+    return unreadable(fmt::format("{}: {} holds clouds, and only a 2D scanner's recording is converted",
+                                  options.recording.string(), scans.topic));
+  }
   const auto written =
       write_recording(scans, motor, *format, options.compression, options.output, progress.job());
   if (!written) return tl::unexpected(written.error());

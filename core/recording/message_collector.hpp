@@ -11,6 +11,7 @@
 
 #include "core/error.hpp"
 #include "core/recording/messages.hpp"
+#include "core/recording/point_cloud.hpp"
 #include "core/recording/raw_recording.hpp"
 
 namespace sweepscope {
@@ -53,10 +54,13 @@ class MessageCollector {
     bool may_be_motor = true;           // false: another topic is the rig's motor.topic
     std::map<std::string, std::size_t, std::less<>> joints;
     std::string first_malformed;  // the place
+    CloudReader clouds;
+    std::string cloud_problem;  // of the first cloud that is of no use
   };
 
   const MessageType* type_of(const Topic& topic);
   bool add_scan(const Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message);
+  bool add_cloud(Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message);
   bool add_joints(Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message);
   bool add_frames(const Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message);
   RawJoint& joint_of(Entry& entry, std::string_view joint);
