@@ -1,5 +1,7 @@
 #include "ui/ui.hpp"
 
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -45,11 +47,13 @@ struct Ui::Parts {
   void dismiss();
   void use_keys(std::span<const InputEvent> events);
   void use_drops(std::span<const InputEvent> events);
+  void frame(std::span<const InputEvent> events, double seconds_since_last);
   void draw(const PaneContext& panes);
   double pane_aspect() const;
   void remember_opened();
   void write_picture();
 
+  tbb::task_arena alone{1};
   Options options;
   gl::Context& context;
   Explorer explorer;
@@ -212,22 +216,24 @@ const Explorer& Ui::explorer() const {
 }
 
 void Ui::frame(std::span<const InputEvent> events, double seconds_since_last) {
-  Parts& p = *parts_;
-  p.host.use(p.explorer.settings().theme, p.scale());
-  p.use_keys(events);
-  p.use_drops(events);
-  p.transient.camera_moved_s += seconds_since_last;
-  p.explorer.set_pane_aspect(p.pane_aspect());
-  p.explorer.update(seconds_since_last);
-  p.remember_opened();
-  p.host.begin_frame(events, seconds_since_last);
-  p.anchors.clear();
-  const double scale = p.scale();
-  const PaneContext panes{p.explorer, p.transient, p.host.fonts(), p.style(), scale, {&p.view_a, &p.view_b},
-                          p.anchors};
-  p.draw(panes);
-  p.host.end_frame(p.style().page);
-  if (p.picture_asked && p.frames_until_picture-- == 0) p.write_picture();
+  // By this thread alone: shared with threads that come after it, a part of the frame would wait for them.
+  parts_->alone.execute([&] { parts_->frame(events, seconds_since_last); });
+}
+
+void Ui::Parts::frame(std::span<const InputEvent> events, double seconds_since_last) {
+  host.use(explorer.settings().theme, scale());
+  use_keys(events);
+  use_drops(events);
+  transient.camera_moved_s += seconds_since_last;
+  explorer.set_pane_aspect(pane_aspect());
+  explorer.update(seconds_since_last);
+  remember_opened();
+  host.begin_frame(events, seconds_since_last);
+  anchors.clear();
+  const PaneContext panes{explorer, transient, host.fonts(), style(), scale(), {&view_a, &view_b}, anchors};
+  draw(panes);
+  host.end_frame(style().page);
+  if (picture_asked && frames_until_picture-- == 0) write_picture();
 }
 
 Image Ui::screenshot() {

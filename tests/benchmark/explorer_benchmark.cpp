@@ -56,7 +56,9 @@ void print_frames(const std::string& what, const Times& times) {
 /// The interface, frame by frame at the pace of a display.
 class Person {
  public:
-  explicit Person(gl::Context& context) : ui_(context, Ui::Options()) {}
+  explicit Person(gl::Context& context) : ui_(context, Ui::Options()) {
+    explorer().background().come_after_the_interface();  // as in a window
+  }
 
   Explorer& explorer() { return ui_.explorer(); }
   Ui& ui() { return ui_; }
