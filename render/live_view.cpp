@@ -20,7 +20,7 @@
 namespace sweepscope {
 namespace {
 
-constexpr std::size_t kSlicePoints = 65536;
+constexpr std::size_t kSlicePoints = 32768;
 
 /// A cloud cut into actors, which are made when they are first drawn.
 struct Slices {
@@ -179,7 +179,12 @@ void LiveView::draw(double budget_s) {
   parts_->context.make_current();
   const double end_s = now_s() + budget_s;
   const std::size_t at_once = 1 + parts_->coarse.actors.size();  // a picture without them would flicker
-  while (!done() && (parts_->drawn < at_once || now_s() < end_s)) parts_->draw_next();
+  while (!done() && (parts_->drawn < at_once || now_s() < end_s)) {
+    parts_->draw_next();
+    // What only waits to be drawn has taken no time yet: it would pile up, and a later frame would wait for
+    // all.
+    if (parts_->drawn >= at_once && !done()) parts_->window->WaitForCompletion();
+  }
 }
 
 bool LiveView::done() const {

@@ -35,6 +35,12 @@ std::string renderer_of_current() {
   return name != nullptr ? reinterpret_cast<const char*>(name) : "";
 }
 
+void finish_drawing(Context& context) {
+  context.make_current();
+  load_functions();
+  glFinish();
+}
+
 Image read_default_framebuffer(Context& context) {
   context.make_current();
   load_functions();

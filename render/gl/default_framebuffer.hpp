@@ -14,6 +14,9 @@ void begin_default_framebuffer(Context& context, Colour colour);
 /// What draws with the current context.
 std::string renderer_of_current();
 
+/// Waits until everything is drawn, as a window does before it shows a frame.
+void finish_drawing(Context& context);
+
 /// What the default framebuffer holds.
 Image read_default_framebuffer(Context& context);
 
