@@ -129,16 +129,29 @@ void draw_grips(const PaneContext& context, const ChartLayout& layout) {
   }
 }
 
-/// Over the empty chart.
+/// Over the empty chart, on a plate so that grid and handles pass behind it.
 void draw_hint(const PaneContext& context, const PixelRect& plot) {
-  paint_text(*ImGui::GetWindowDrawList(),
-             {{plot.left + plot.width / 2, plot.top + plot.height * 0.4},
-              "Estimate the offset to see the criteria here. The handles work already.",
-              context.px(13),
-              context.style.faint_text,
-              AlignX::kCentre,
-              AlignY::kMiddle},
-             context.fonts);
+  const std::array<const char*, 2> lines{"Estimate the offset to see the criteria here.",
+                                         "The handles work already."};
+  const double size_px = context.px(13), line_px = context.px(19), margin = context.px(8);
+  double width = 0;
+  for (const char* line : lines) width = std::max(width, text_width_px(line, size_px) + 2 * margin);
+  if (width > plot.width) return;
+  const PixelPoint middle{plot.left + plot.width / 2, plot.top + plot.height * 0.4};
+  const PixelRect plate{middle.x - width / 2, middle.y - line_px - margin / 2, width, 2 * line_px + margin};
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddRectFilled({static_cast<float>(plate.left), static_cast<float>(plate.top)},
+                     {static_cast<float>(plate.right()), static_cast<float>(plate.bottom())},
+                     to_imgui(context.style.panel), context.pxf(3));
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    paint_text(list,
+               {{middle.x, middle.y + (static_cast<double>(i) - 0.5) * line_px},
+                lines[i],
+                size_px,
+                context.style.faint_text,
+                AlignX::kCentre,
+                AlignY::kMiddle},
+               context.fonts);
 }
 
 void draw_one(const PaneContext& context, const Chart& chart, const PixelRect& place, std::size_t number) {
