@@ -75,8 +75,7 @@ Result<void> write_records(AtomicFile& file, const MapCloud& cloud) {
 Result<void> write_cloud(const std::filesystem::path& path, const MapCloud& cloud) {
   const std::string extension = path.extension().string();
   if (extension != ".pcd" && extension != ".ply") {
-    return failure(ExitCode::kWrongUsage, fmt::format("{}: a map is written as .pcd or .ply, not as \"{}\"",
-                                                      path.string(), extension));
+    return failure(ExitCode::kWrongUsage, path.string() + ": a map is written as .pcd or .ply");
   }
   return AtomicFile::create(path).and_then([&](AtomicFile&& file) -> Result<void> {
     const std::string header = extension == ".pcd" ? pcd_header(cloud.size()) : ply_header(cloud.size());

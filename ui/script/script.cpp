@@ -241,7 +241,10 @@ class Runner {
     if (!actions || !seed || *actions < 0 || *seed < 0) return wrong("wander ACTIONS [SEED]");
     std::mt19937 random(static_cast<std::uint32_t>(*seed));
     for (int i = 0; i < static_cast<int>(*actions); ++i) wander_once(random);
-    return {};
+    // A file that could not be written was told in the window, as a person is told: no fault of the script's.
+    auto done = wait_until([&] { return !ui_.explorer().is_exporting(); }, "the file", most_s_);
+    (void)ui_.explorer().take_export_failure();
+    return done;
   }
 
   void wander_once(std::mt19937& random) {
