@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/commands.hpp"
+#include "app/estimate_options.hpp"
 #include "app/look_texts.hpp"
 #include "app/offset_texts.hpp"
 #include "app/progress.hpp"
@@ -34,6 +35,7 @@ struct CompareOptions {
   bool no_curve = false;
   std::string draw_in = "offscreen";
   LookTexts look;
+  std::vector<std::string> given;  // the options, as they were given
 };
 
 tl::unexpected<Error> wrong_usage(std::string message) {
@@ -75,14 +77,21 @@ struct Compared {
   std::optional<Estimate> estimate;
 };
 
-/// The paper's criteria of that kind of recording, whatever method an estimate would take.
+/// The paper's criteria of that kind of recording, whatever method an estimate would take. Finished
+/// candidates are kept beside the picture until all are there.
 Result<Estimate> curve_about(const Recording& recording, bool moving, const CompareOptions& options,
-                             const Job& job) {
+                             const RecordingOptions& source, const Job& job) {
   const auto [least, greatest] = std::minmax_element(options.offsets_ms.begin(), options.offsets_ms.end());
   EstimateOptions wanted;
   wanted.method = moving ? Method::kMoving : Method::kStationary;
   wanted.ranges = {{(*least - 5) * 1e-3, (*greatest + 5) * 1e-3, 1e-3}};
-  return estimate(recording, wanted, job);
+  const auto kept = keep_while_working(options.output + ".candidates", source, options.given);
+  if (!kept) return tl::unexpected(kept.error());
+  auto curve = estimate(recording, wanted, **kept, {}, job);
+  if (curve && curve->interrupted) curve = failure(ExitCode::kInterrupted, "interrupted");
+  if (!curve) return tl::unexpected(ended(curve.error(), **kept));
+  (*kept)->remove();
+  return curve;
 }
 
 Result<Compared> from_recording(const CompareOptions& options, bool by_features) {
@@ -119,9 +128,8 @@ Result<Compared> from_recording(const CompareOptions& options, bool by_features)
     if (features) next.feature_kinds = feature_kinds(*features, *map.cloud);
   }
   if (!options.curve.empty() || options.no_curve) return compared;
-  auto curve = curve_about(*recording, built->front().moving, options, progress.job());
+  auto curve = curve_about(*recording, built->front().moving, options, reading, progress.job());
   if (!curve) return tl::unexpected(curve.error());
-  if (curve->interrupted) return failure(ExitCode::kInterrupted, "Interrupted while computing the criteria.");
   compared.estimate = std::move(*curve);
   return compared;
 }
@@ -199,7 +207,8 @@ void add_compare(CLI::App& app, ExitCode& exit_code) {
   CLI::App* command = app.add_subcommand("compare", "Maps side by side, seen alike, with the criteria below");
   auto options = std::make_shared<CompareOptions>();
   declare(*command, *options);
-  command->callback([options, &exit_code] {
+  command->callback([options, command, &exit_code] {
+    options->given = deciding_options(*command);
     const auto threads = options->recording.limit_threads();
     if (const auto done = compare(*options); !done) exit_code = fail(done.error());
   });

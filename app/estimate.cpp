@@ -46,15 +46,6 @@ Result<std::unique_ptr<CandidateFile>> open_candidates(const Options& options, c
       });
 }
 
-ExitCode say_interrupted(const CandidateFile* candidates, const std::string& path) {
-  const std::string kept =
-      candidates == nullptr
-          ? std::string()
-          : fmt::format("; {} finished candidates are in {}, and the same command goes on from there",
-                        candidates->held(), path);
-  return fail({ExitCode::kInterrupted, "interrupted" + kept});
-}
-
 ExitCode say_shard(const Options& options, const Estimate& estimate, const CandidateFile& candidates,
                    const std::string& path) {
   for (const std::string& reason : estimate.reasons) fmt::print("nothing to compute: {}\n", reason);
@@ -73,7 +64,9 @@ ExitCode conclude(const Options& options, const Estimate& found, CandidateFile* 
   if (!options.shard) {
     if (const auto written = options.output.write(found); !written) return fail(written.error());
   }
-  if (found.interrupted) return say_interrupted(candidates, path);
+  if (found.interrupted)
+    return fail(
+        {ExitCode::kInterrupted, candidates == nullptr ? "interrupted" : candidates->interrupted_in_words()});
   return options.shard ? say_shard(options, found, *candidates, path) : say_answer(found, options.output);
 }
 

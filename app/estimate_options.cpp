@@ -166,6 +166,22 @@ Result<CandidateSearch> candidate_search(const RecordingOptions& recording,
   return search;
 }
 
+Result<std::unique_ptr<CandidateFile>> keep_while_working(const std::filesystem::path& path,
+                                                          const RecordingOptions& recording,
+                                                          std::vector<std::string> deciding) {
+  return candidate_search(recording, std::move(deciding)).and_then([&](const CandidateSearch& search) {
+    return CandidateFile::open_while_working(path, search);
+  });
+}
+
+Error ended(Error error, CandidateFile& kept) {
+  if (error.code == ExitCode::kInterrupted && kept.held() > 0)
+    error.message = kept.interrupted_in_words();
+  else
+    kept.remove();
+  return error;
+}
+
 ExitCode say_answer(const Estimate& estimate, const EstimateOutput& output) {
   if (!output.on_stdout()) print_answer(estimate);
   return estimate.identifiable ? ExitCode::kDone : ExitCode::kNotIdentifiable;

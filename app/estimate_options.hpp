@@ -1,5 +1,7 @@
 #pragma once
 
+#include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -35,6 +37,14 @@ std::vector<std::string> deciding_options(const CLI::App& command);
 
 /// What candidates computed from these options belong to.
 Result<CandidateSearch> candidate_search(const RecordingOptions& recording, std::vector<std::string> options);
+
+/// What a command keeps of its work while it is at it, in a file that goes with the work's end. `of`: of what
+/// the candidates are.
+Result<std::unique_ptr<CandidateFile>> keep_while_working(const std::filesystem::path& path,
+                                                          const RecordingOptions& recording,
+                                                          std::vector<std::string> deciding);
+/// Ends that: where the work was interrupted its error says what is kept, else the file is taken away.
+Error ended(Error error, CandidateFile& kept);
 
 /// The answer on stdout, unless a file goes there, and the exit code.
 ExitCode say_answer(const Estimate& estimate, const EstimateOutput& output);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/commands.hpp"
+#include "app/estimate_options.hpp"
 #include "app/offset_texts.hpp"
 #include "app/progress.hpp"
 #include "app/recording_options.hpp"
@@ -20,18 +21,24 @@ namespace {
 struct Options {
   RecordingOptions recording;
   std::string folder, command;
+  std::vector<std::string> given;  // the options, as they were given
 };
 
+/// Finished candidates are kept in the report's folder until all are there.
 Result<ReportContent> gather(const Options& options) {
   const Progress progress;
-  return options.recording.read(progress.job())
-      .and_then([&](const Recording& recording) {
-        return gather_report(recording, parse_method(options.recording.assume), progress.job());
-      })
-      .map([&](ReportContent content) {
-        content.command = options.command;
-        return content;
-      });
+  const auto recording = options.recording.read(progress.job());
+  if (!recording) return tl::unexpected(recording.error());
+  if (const auto made = make_report_folder(options.folder); !made) return tl::unexpected(made.error());
+  const auto kept = keep_while_working(std::filesystem::path(options.folder) / "report.candidates",
+                                       options.recording, options.given);
+  if (!kept) return tl::unexpected(kept.error());
+  auto content =
+      gather_report(*recording, parse_method(options.recording.assume), kept->get(), progress.job());
+  if (!content) return tl::unexpected(ended(content.error(), **kept));
+  (*kept)->remove();
+  content->command = options.command;
+  return content;
 }
 
 ExitCode run(const Options& options) {
@@ -62,7 +69,10 @@ void add_report(CLI::App& app, ExitCode& exit_code, const std::vector<std::strin
   command->add_option("-o,--output", options->folder, "The folder for report.html and estimate.json")
       ->type_name("DIR")
       ->required();
-  command->callback([options, &exit_code] { exit_code = run(*options); });
+  command->callback([options, command, &exit_code] {
+    options->given = deciding_options(*command);
+    exit_code = run(*options);
+  });
 }
 
 }  // namespace sweepscope::app

@@ -217,6 +217,16 @@ Result<std::unique_ptr<CandidateFile>> CandidateFile::open(const std::filesystem
   return file;
 }
 
+Result<std::unique_ptr<CandidateFile>> CandidateFile::open_while_working(const std::filesystem::path& path,
+                                                                         const CandidateSearch& search) {
+  std::error_code ignored;
+  if (std::filesystem::is_regular_file(path, ignored)) {
+    const auto there = read_candidates(path);
+    if (!there || !difference(there->search, search).empty()) std::filesystem::remove(path, ignored);
+  }
+  return open(path, search);
+}
+
 Result<void> CandidateFile::take_up() {
   const auto text = read_file(path_);
   if (!text) return tl::unexpected(text.error());
@@ -265,6 +275,16 @@ std::optional<Error> CandidateFile::failed() const {
 std::size_t CandidateFile::held() const {
   const std::lock_guard lock(mutex_);
   return points_.size();
+}
+
+std::string CandidateFile::interrupted_in_words() const {
+  return fmt::format("interrupted; {} finished candidates are in {}, and the same command goes on from there",
+                     held(), path_.string());
+}
+
+void CandidateFile::remove() {
+  std::error_code ignored;
+  std::filesystem::remove(path_, ignored);
 }
 
 Result<void> CandidateFile::put_in_order() {

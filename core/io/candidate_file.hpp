@@ -49,6 +49,10 @@ class CandidateFile final : public CandidateStore {
   /// shard, is in use, or cannot be written; kUnreadableInput where it is no such file.
   static Result<std::unique_ptr<CandidateFile>> open(const std::filesystem::path& path,
                                                      const CandidateSearch& search);
+  /// The same for a file that a command keeps while it works, beside what it makes: one that belongs to
+  /// another search is begun anew.
+  static Result<std::unique_ptr<CandidateFile>> open_while_working(const std::filesystem::path& path,
+                                                                   const CandidateSearch& search);
   ~CandidateFile() override;
 
   std::optional<CurvePoint> find(double offset_s) override;
@@ -59,6 +63,10 @@ class CandidateFile final : public CandidateStore {
 
   std::size_t taken_up() const { return taken_up_; }
   std::size_t held() const;
+  /// What is said after an interruption: how many candidates are kept, and where.
+  std::string interrupted_in_words() const;
+  /// Takes the file away: what its candidates were for is there.
+  void remove();
 
  private:
   CandidateFile(std::filesystem::path path, const CandidateSearch& search, int descriptor);

@@ -263,7 +263,7 @@ Result<FeatureSet> extract_features(const Recording& recording, const FeatureOpt
     done += block.size();
     job.report("features", double(done) / double(scans));
   });
-  if (job.cancelled()) return failure(ExitCode::kInterrupted, "Interrupted while extracting features.");
+  if (job.cancelled()) return failure(ExitCode::kInterrupted, "interrupted while extracting features");
   for (const ScanFeatures& scan : per_scan) {
     append(set.edges, scan.edges);
     append(set.planes, scan.planes);

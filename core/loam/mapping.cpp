@@ -307,7 +307,7 @@ Result<TrackedWalk> track(const std::vector<PlacedSweep>& sweeps, const Eigen::V
       sweeps.begin() + std::ptrdiff_t(std::min(sweeps.size(), first + std::size_t(options.velocity_sweeps))));
   Tracker tracker(options, motor_axis, find_first_twist_per_s(beginning, motor_axis, options));
   for (std::size_t i = first; i < sweeps.size(); ++i) {
-    if (job.cancelled()) return failure(ExitCode::kInterrupted, "Interrupted while tracking.");
+    if (job.cancelled()) return failure(ExitCode::kInterrupted, "interrupted while tracking");
     tracker.add(sweeps[i]);
     job.report("tracking", double(i + 1) / double(sweeps.size()));
   }

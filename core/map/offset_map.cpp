@@ -174,7 +174,7 @@ Result<std::vector<OffsetMap>> build_maps(const Recording& recording, std::span<
   tbb::parallel_for(std::size_t{0}, offsets_s.size(), [&](std::size_t i) {
     maps[i] = build_one(*problem, offsets_s[i], moving, options, i == 0 ? job : part);
   });
-  if (job.cancelled()) return failure(ExitCode::kInterrupted, "Interrupted while building the map.");
+  if (job.cancelled()) return failure(ExitCode::kInterrupted, "interrupted while building the map");
   return maps;
 }
 

@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "core/io/atomic_file.hpp"
+#include "core/io/candidate_file.hpp"
 #include "core/io/content_hash.hpp"
 #include "core/io/estimate_json.hpp"
 #include "core/map/feature_points.hpp"
@@ -117,13 +118,27 @@ Result<std::string> FigureData::estimate_key(const EstimateSpec& spec) const {
   });
 }
 
-Result<Estimate> FigureData::compute(const std::string& name, const EstimateSpec& spec) {
+/// Finished candidates are kept until there is an answer; the direct method has none.
+Result<Estimate> FigureData::compute(const std::string& name, const EstimateSpec& spec,
+                                     const std::string& key) {
   const auto data = recording(spec.recording);
   if (!data) return tl::unexpected(data.error());
   said_("estimate " + name);
-  auto computed = sweepscope::estimate(**data, spec.options, job_);
-  if (!computed) return computed;
-  if (computed->interrupted) return failure(ExitCode::kInterrupted, "Interrupted in estimate " + name + ".");
+  if (spec.options.method == Method::kDirect) {
+    auto computed = sweepscope::estimate(**data, spec.options, job_);
+    if (computed && computed->interrupted)
+      return failure(ExitCode::kInterrupted, "interrupted in estimate " + name);
+    return computed;
+  }
+  CandidateSearch search;
+  search.recording = spec.recording;
+  search.recording_hash = key;
+  const auto kept = CandidateFile::open_while_working(cache_folder_ / (key + ".candidates"), search);
+  if (!kept) return tl::unexpected(kept.error());
+  auto computed = sweepscope::estimate(**data, spec.options, **kept, {}, job_);
+  if (computed && computed->interrupted)
+    return failure(ExitCode::kInterrupted, (*kept)->interrupted_in_words());
+  (*kept)->remove();
   return computed;
 }
 
@@ -135,7 +150,7 @@ Result<Estimate> FigureData::computed_or_cached(const std::string& name, const E
   if (std::filesystem::exists(path, ignored)) {
     if (auto found = read_estimate_json(path)) return found;
   }
-  const auto computed = compute(name, spec);
+  const auto computed = compute(name, spec, *key);
   if (!computed) return tl::unexpected(computed.error());
   // Drawn from what the file holds, so that the first run's pictures are the second's.
   const std::string json = estimate_to_json(*computed, Timing::kNull);

@@ -192,12 +192,12 @@ class FigureMaker {
   Result<std::vector<std::filesystem::path>> make_all() {
     const std::size_t count = recipe_.figures.size() + recipe_.tables.size();
     for (const FigureSpec& figure : recipe_.figures) {
-      if (job_.cancelled()) return failure(ExitCode::kInterrupted, "Interrupted.");
+      if (job_.cancelled()) return failure(ExitCode::kInterrupted, "interrupted");
       job_.report("figures", static_cast<double>(files_.size()) / static_cast<double>(count));
       if (auto made = write(figure); !made) return tl::unexpected(in_recipe(made.error(), figure.name));
     }
     for (const TableSpec& table : recipe_.tables) {
-      if (job_.cancelled()) return failure(ExitCode::kInterrupted, "Interrupted.");
+      if (job_.cancelled()) return failure(ExitCode::kInterrupted, "interrupted");
       if (auto made = write(table); !made) return tl::unexpected(in_recipe(made.error(), table.name));
     }
     return std::move(files_);

@@ -56,7 +56,7 @@ Result<void> add_direct(ReportContent& content, const Recording& recording, cons
   wanted.assume = kind_of(content.estimate);
   auto found = estimate(recording, wanted, job);
   if (!found) return tl::unexpected(found.error());
-  if (found->interrupted) return failure(ExitCode::kInterrupted, "Interrupted in the direct method.");
+  if (found->interrupted) return failure(ExitCode::kInterrupted, "interrupted in the direct method");
   if (found->identifiable) content.direct = std::move(*found);
   return {};
 }
@@ -64,7 +64,7 @@ Result<void> add_direct(ReportContent& content, const Recording& recording, cons
 }  // namespace
 
 Result<ReportContent> gather_report(const Recording& recording, std::optional<Method> assume,
-                                    const Job& job) {
+                                    CandidateStore* kept, const Job& job) {
   ReportContent content;
   content.recording = inspect(recording);
   const auto motion = test_motion(recording, job);
@@ -72,9 +72,10 @@ Result<ReportContent> gather_report(const Recording& recording, std::optional<Me
   if (motion->answered()) content.recording.motion = motion->moving() ? "moving" : "stationary";
   EstimateOptions wanted;
   wanted.assume = assume;
-  auto found = estimate(recording, wanted, job);
+  auto found =
+      kept != nullptr ? estimate(recording, wanted, *kept, {}, job) : estimate(recording, wanted, job);
   if (!found) return tl::unexpected(found.error());
-  if (found->interrupted) return failure(ExitCode::kInterrupted, "Interrupted while looking for the offset.");
+  if (found->interrupted) return failure(ExitCode::kInterrupted, "interrupted while looking for the offset");
   content.estimate = std::move(*found);
   if (!content.estimate.identifiable || !content.estimate.offset_s) return content;
   return add_direct(content, recording, job)
@@ -82,14 +83,17 @@ Result<ReportContent> gather_report(const Recording& recording, std::optional<Me
       .map([&] { return std::move(content); });
 }
 
-Result<void> write_report(const ReportContent& content, const std::filesystem::path& folder) {
+Result<void> make_report_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error) {
-    return failure(ExitCode::kWrongUsage,
-                   fmt::format("{}: cannot be made: {}", folder.string(), error.message()));
-  }
-  return report_html(content)
+  if (!error) return {};
+  return failure(ExitCode::kWrongUsage,
+                 fmt::format("{}: cannot be made: {}", folder.string(), error.message()));
+}
+
+Result<void> write_report(const ReportContent& content, const std::filesystem::path& folder) {
+  return make_report_folder(folder)
+      .and_then([&] { return report_html(content); })
       .and_then([&](const std::string& page) { return write_file(folder / "report.html", page); })
       .and_then(
           [&] { return write_estimate_json(folder / "estimate.json", content.estimate, Timing::kNull); });

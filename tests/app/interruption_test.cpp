@@ -174,6 +174,64 @@ TEST_F(Interruption, AnInterruptedEstimateKeepsItsFinishedCandidates) {
   EXPECT_GE(json["curve"].size(), 1U);
 }
 
+/// Commands that keep candidates without being asked, and the file that they keep them in.
+constexpr Case kKeepers[] = {
+    {"compare", "compare walk.bag --offsets-ms 19,24 -o out.png", "out.png.candidates"},
+    {"figures", "figures recipe.yaml -o out", "out/cache"},
+    {"report", "report walk.bag -o out", "out/report.candidates"},
+};
+
+class Keepers : public Interruption {
+ protected:
+  /// The lines of the kept file; of a folder: of the one in it.
+  std::size_t kept_lines() const {
+    std::filesystem::path path = folder_ / GetParam().output;
+    if (std::filesystem::is_directory(path)) {
+      for (const auto& entry : std::filesystem::directory_iterator(path))
+        if (entry.path().extension() == ".candidates") path = entry.path();
+    }
+    return std::filesystem::is_regular_file(path) ? lines_in(test::contents_of(path)) : 0;
+  }
+  Outcome interrupted_after(std::size_t lines) const {
+    const pid_t child = begin(GetParam().arguments);
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(120);
+    while (kept_lines() < lines && std::chrono::steady_clock::now() < deadline)
+      std::this_thread::sleep_for(milliseconds(2));
+    kill(child, SIGINT);
+    return ended(child);
+  }
+};
+
+TEST_P(Keepers, GoOnFromWhereTheyWereInterrupted) {
+  const Outcome first = interrupted_after(3);
+  EXPECT_EQ(first.exit_code, 130) << first.err;
+  EXPECT_NE(first.err.find(std::string("finished candidates are in ") + GetParam().output), std::string::npos)
+      << first.err;
+  const std::size_t kept = kept_lines();
+  EXPECT_GE(kept, 3U);
+  const Outcome second = interrupted_after(kept + 1);
+  EXPECT_EQ(second.exit_code, 130) << second.err;
+  EXPECT_GT(kept_lines(), kept);
+}
+
+INSTANTIATE_TEST_SUITE_P(WithoutBeingAsked, Keepers, ::testing::ValuesIn(kKeepers),
+                         [](const auto& one) { return one.param.name; });
+
+TEST_F(Interruption, AComparisonThatWentOnIsTheSameAndLeavesNothingBehind) {
+  const std::string arguments = "compare walk.bag --offsets-ms 20,22 -o out.png";
+  const pid_t child = begin(arguments);
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(120);
+  while (lines_in(test::contents_of(folder_ / "out.png.candidates")) < 3 &&
+         std::chrono::steady_clock::now() < deadline)
+    std::this_thread::sleep_for(milliseconds(2));
+  kill(child, SIGINT);
+  ASSERT_EQ(ended(child).exit_code, 130);
+  ASSERT_EQ(ended(begin(arguments)).exit_code, 0);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "out.png.candidates"));
+  ASSERT_EQ(ended(begin("compare walk.bag --offsets-ms 20,22 -o whole.png")).exit_code, 0);
+  EXPECT_EQ(test::contents_of(folder_ / "out.png"), test::contents_of(folder_ / "whole.png"));
+}
+
 /// Outputs that cannot be written: quick commands.
 constexpr Case kWriters[] = {
     {"estimate_json", "estimate room.bag --method stationary --range 23:25:1 --json out.json", "out.json"},

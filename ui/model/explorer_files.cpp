@@ -225,7 +225,7 @@ Result<void> Explorer::export_report(const std::string& folder) {
   start_export(
       "Writing a report",
       [loaded = loaded_, assume = options_.assume, folder, command](const Job& job) -> Result<void> {
-        auto content = gather_report(loaded->recording, assume, job);
+        auto content = gather_report(loaded->recording, assume, nullptr, job);
         if (!content) return tl::unexpected(content.error());
         content->command = command;
         job.report("drawing", 0);
