@@ -233,6 +233,8 @@ void Ui::Parts::frame(std::span<const InputEvent> events, double seconds_since_l
   const PaneContext panes{explorer, transient, host.fonts(), style(), scale(), {&view_a, &view_b}, anchors};
   draw(panes);
   host.end_frame(style().page);
+  // A software renderer would let frames pile up, hundreds of megabytes of them, until one must wait for all.
+  gl::finish_drawing(context);
   if (picture_asked && frames_until_picture-- == 0) write_picture();
 }
 

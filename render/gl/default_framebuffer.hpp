@@ -14,7 +14,7 @@ void begin_default_framebuffer(Context& context, Colour colour);
 /// What draws with the current context.
 std::string renderer_of_current();
 
-/// Waits until everything is drawn, as a window does before it shows a frame.
+/// Waits until everything is drawn.
 void finish_drawing(Context& context);
 
 /// What the default framebuffer holds.

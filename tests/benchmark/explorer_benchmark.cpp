@@ -57,7 +57,7 @@ void print_frames(const std::string& what, const Times& times) {
 /// The interface, frame by frame at the pace of a display.
 class Person {
  public:
-  explicit Person(gl::Context& context) : context_(context), ui_(context, Ui::Options()) {
+  explicit Person(gl::Context& context) : ui_(context, Ui::Options()) {
     explorer().background().come_after_the_interface();  // as in a window
   }
 
@@ -71,7 +71,6 @@ class Person {
   double frame(std::vector<InputEvent> events = {}) {
     const auto begin = Clock::now();
     ui_.frame(events, 1.0 / 60);
-    gl::finish_drawing(context_);
     const double took_s = seconds_since(begin);
     if (took_s < 1.0 / 60) std::this_thread::sleep_for(std::chrono::duration<double>(1.0 / 60 - took_s));
     return took_s;
@@ -112,7 +111,6 @@ class Person {
   }
 
  private:
-  gl::Context& context_;
   Ui ui_;
 };
 
