@@ -45,6 +45,7 @@ class FeatureMap {
 
  private:
   static constexpr int kBlock = 16;
+  static constexpr int kBrickBits = 2, kBrick = 1 << kBrickBits;  // cells along a brick's edge
   static constexpr std::uint32_t kNone = 0xffffffffu;
   struct Block {
     std::array<float, kBlock> x{}, y{}, z{};
@@ -56,24 +57,38 @@ class FeatureMap {
     std::array<std::uint32_t, 2> first{kNone, kNone};  // blocks, by direction
     std::array<std::uint32_t, 2> taken{0, 0};          // thirds of the cell that hold a point
   };
-  struct Slot {
-    std::uint64_t key = ~std::uint64_t{0};
-    std::uint32_t cell = kNone;
+  // Neighbouring cells, which are hashed as one: a query's 27 lie in at most 8 bricks.
+  struct Brick {
+    Brick() { cells.fill(kNone); }
+    std::array<std::uint32_t, kBrick * kBrick * kBrick> cells;
   };
+  struct Slot {
+    std::uint64_t key = kNoKey;
+    std::uint32_t brick = kNone;
+  };
+  static constexpr std::uint64_t kNoKey = ~std::uint64_t{0};
   struct Level {
     float inverse_cell = 0, cell_m = 0;
     double radius_m = 0;
     std::vector<Slot> slots;
+    std::vector<Brick> bricks;
     std::vector<Cell> cells;
     std::vector<Block> blocks;
     std::size_t points = 0;
+    Slot last;  // the brick that a point was added to: the next one mostly lies there as well
   };
+  class NearbyCells;
+  class NearestList;
   static std::uint64_t key_of(int x, int y, int z);
   static std::size_t hash_of(std::uint64_t key);
-  static const Cell* find(const Level& level, std::uint64_t key);
-  static Cell& find_or_add(Level& level, std::uint64_t key);
+  static int place_in_brick(int x, int y, int z);
+  static std::uint32_t find_brick(const Level& level, std::uint64_t key);
+  static std::uint32_t find_or_add_brick(Level& level, std::uint64_t key);
+  static Cell& find_or_add(Level& level, int x, int y, int z);
   static void grow(Level& level);
   static void add_point(Level& level, std::uint32_t& first, const Eigen::Vector3f& p_m, std::uint32_t line);
+  // Offers the points of a chain of blocks.
+  static void search(const Level& level, std::uint32_t first, const Eigen::Vector3f& p_m, NearestList& list);
 
   std::array<Level, kLevels> levels_;
   bool thinned_;
