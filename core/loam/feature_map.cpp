@@ -70,7 +70,7 @@ class FeatureMap::NearestList {
 
   float limit_m2() const { return limit_m2_; }
 
-  // `place` is 16 times the candidate's block plus its place there.
+  // `place` is the candidate's block times kBlock, plus its place there.
   void offer(float squared_m2, std::uint32_t line, std::uint32_t place) {
     int of_line = 0;
     for (const std::uint32_t kept : line_) of_line += kept == line ? 1 : 0;
@@ -161,8 +161,9 @@ void FeatureMap::clear() {
     level.bricks.clear();
     level.cells.clear();
     level.blocks.clear();
+    level.before.clear();
     level.points = 0;
-    level.last = {};
+    level.latest = {};
   }
 }
 
@@ -193,7 +194,7 @@ std::uint32_t FeatureMap::find_brick(const Level& level, std::uint64_t key) {
 }
 
 std::uint32_t FeatureMap::find_or_add_brick(Level& level, std::uint64_t key) {
-  if (level.last.key == key) return level.last.brick;
+  if (level.latest.key == key) return level.latest.brick;
   if (2 * (level.bricks.size() + 1) > level.slots.size()) grow(level);
   const std::size_t mask = level.slots.size() - 1;
   std::size_t i = hash_of(key) & mask;
@@ -202,8 +203,8 @@ std::uint32_t FeatureMap::find_or_add_brick(Level& level, std::uint64_t key) {
     level.slots[i] = {key, static_cast<std::uint32_t>(level.bricks.size())};
     level.bricks.emplace_back();
   }
-  level.last = level.slots[i];
-  return level.last.brick;
+  level.latest = level.slots[i];
+  return level.latest.brick;
 }
 
 FeatureMap::Cell& FeatureMap::find_or_add(Level& level, int x, int y, int z) {
@@ -229,16 +230,15 @@ void FeatureMap::grow(Level& level) {
   }
 }
 
-void FeatureMap::add_point(Level& level, std::uint32_t& first, const Eigen::Vector3f& p_m,
+void FeatureMap::add_point(Level& level, Cell& cell, int side, const Eigen::Vector3f& p_m,
                            std::uint32_t line) {
-  if (first == kNone || level.blocks[first].count == kBlock) {
-    Block block;
-    block.next = first;
-    first = static_cast<std::uint32_t>(level.blocks.size());
-    level.blocks.push_back(block);
+  const std::uint32_t i = cell.points[side]++ % kBlock;
+  if (i == 0) {
+    level.before.push_back(cell.last[side]);
+    cell.last[side] = static_cast<std::uint32_t>(level.blocks.size());
+    level.blocks.emplace_back();
   }
-  Block& block = level.blocks[first];
-  const std::uint32_t i = block.count++;
+  Block& block = level.blocks[cell.last[side]];
   block.x[i] = p_m.x();
   block.y[i] = p_m.y();
   block.z[i] = p_m.z();
@@ -260,7 +260,7 @@ void FeatureMap::insert(const Eigen::Vector3f& p_m, std::uint32_t line, int dire
       if (cell.taken[side] >> place & 1u) continue;
       cell.taken[side] |= 1u << place;
     }
-    add_point(level, cell.first[side], p_m, line);
+    add_point(level, cell, side, p_m, line);
   }
 }
 
@@ -285,21 +285,22 @@ void FeatureMap::nearest(const Eigen::Vector3f& p_m, int level_index, SweepFilte
     const Cell* cell = cells.find(x.own + x.step[step.x], y.own + y.step[step.y], z.own + z.step[step.z]);
     if (cell == nullptr) continue;
     for (int side = 0; side < 2; ++side)
-      if (static_cast<int>(filter) >> side & 1) search(level, cell->first[side], p_m, list);
+      if (static_cast<int>(filter) >> side & 1) search(level, *cell, side, p_m, list);
   }
   list.write(level, found);
 }
 
-void FeatureMap::search(const Level& level, std::uint32_t first, const Eigen::Vector3f& p_m,
+void FeatureMap::search(const Level& level, const Cell& cell, int side, const Eigen::Vector3f& p_m,
                         NearestList& list) {
-  for (std::uint32_t b = first; b != kNone; b = level.blocks[b].next) {
+  std::uint32_t filled = (cell.points[side] + kBlock - 1) % kBlock + 1;
+  for (std::uint32_t b = cell.last[side]; b != kNone; b = level.before[b], filled = kBlock) {
     const Block& block = level.blocks[b];
     std::array<float, kBlock> squared_m2;
-    for (int i = 0; i < kBlock; ++i) {
+    for (std::uint32_t i = 0; i < kBlock; ++i) {
       const float x = block.x[i] - p_m.x(), y = block.y[i] - p_m.y(), z = block.z[i] - p_m.z();
       squared_m2[i] = x * x + y * y + z * z;
     }
-    for (std::uint32_t i = 0; i < block.count; ++i)
+    for (std::uint32_t i = 0; i < filled; ++i)
       if (squared_m2[i] < list.limit_m2()) list.offer(squared_m2[i], block.line[i], kBlock * b + i);
   }
 }

@@ -44,18 +44,18 @@ class FeatureMap {
   void clear();
 
  private:
-  static constexpr int kBlock = 16;
+  static constexpr std::uint32_t kBlock = 12;
   static constexpr int kBrickBits = 2, kBrick = 1 << kBrickBits;  // cells along a brick's edge
   static constexpr std::uint32_t kNone = 0xffffffffu;
-  struct Block {
+  // Points of one cell and direction, mostly all of them: three cache lines.
+  struct alignas(64) Block {
     std::array<float, kBlock> x{}, y{}, z{};
-    std::array<std::uint32_t, kBlock> line;
-    std::uint32_t count = 0;
-    std::uint32_t next = kNone;
+    std::array<std::uint32_t, kBlock> line{};
   };
+  // By direction: points, the block that the last one is in (see Level::before), and the thirds of the cell
+  // that hold one.
   struct Cell {
-    std::array<std::uint32_t, 2> first{kNone, kNone};  // blocks, by direction
-    std::array<std::uint32_t, 2> taken{0, 0};          // thirds of the cell that hold a point
+    std::array<std::uint32_t, 2> points{0, 0}, last{kNone, kNone}, taken{0, 0};
   };
   // Neighbouring cells, which are hashed as one: a query's 27 lie in at most 8 bricks.
   struct Brick {
@@ -74,8 +74,9 @@ class FeatureMap {
     std::vector<Brick> bricks;
     std::vector<Cell> cells;
     std::vector<Block> blocks;
+    std::vector<std::uint32_t> before;  // each block's predecessor in its cell, full
     std::size_t points = 0;
-    Slot last;  // the brick that a point was added to: the next one mostly lies there as well
+    Slot latest;  // the brick that a point was added to: the next one mostly lies there as well
   };
   class NearbyCells;
   class NearestList;
@@ -86,9 +87,10 @@ class FeatureMap {
   static std::uint32_t find_or_add_brick(Level& level, std::uint64_t key);
   static Cell& find_or_add(Level& level, int x, int y, int z);
   static void grow(Level& level);
-  static void add_point(Level& level, std::uint32_t& first, const Eigen::Vector3f& p_m, std::uint32_t line);
-  // Offers the points of a chain of blocks.
-  static void search(const Level& level, std::uint32_t first, const Eigen::Vector3f& p_m, NearestList& list);
+  static void add_point(Level& level, Cell& cell, int side, const Eigen::Vector3f& p_m, std::uint32_t line);
+  // Offers a cell's points of one direction.
+  static void search(const Level& level, const Cell& cell, int side, const Eigen::Vector3f& p_m,
+                     NearestList& list);
 
   std::array<Level, kLevels> levels_;
   bool thinned_;
