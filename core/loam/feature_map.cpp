@@ -122,6 +122,17 @@ class FeatureMap::NearestList {
   std::array<std::uint32_t, kRoom> line_, place_;
 };
 
+// The cells that a query reaches, the nearest first, and how many points they hold.
+struct FeatureMap::CellsInReach {
+  struct At {
+    const Cell* cell;
+    float gap_m2;  // squared distance from the query
+  };
+  std::array<At, 27> at;
+  int count = 0;
+  std::uint32_t points = 0;
+};
+
 // The cells about a query; their bricks are looked up when first asked for.
 class FeatureMap::NearbyCells {
  public:
@@ -271,23 +282,44 @@ int FeatureMap::level_for(double radius_m) const {
 }
 
 void FeatureMap::nearest(const Eigen::Vector3f& p_m, int level_index, SweepFilter filter, int most,
-                         int per_line, Neighbours& found) const {
-  static constexpr std::array<CellStep, 27> kSteps = near_first();
+                         int per_line, Neighbours& found, int least) const {
   const Level& level = levels_[level_index];
   const auto radius = static_cast<float>(level.radius_m);
   NearestList list(std::min(most, Neighbours::kMax), per_line, radius * radius);
-
-  const Slabs x(p_m.x(), level.inverse_cell, level.cell_m), y(p_m.y(), level.inverse_cell, level.cell_m),
-      z(p_m.z(), level.inverse_cell, level.cell_m);
-  NearbyCells cells(level, x.own, y.own, z.own);
-  for (const CellStep& step : kSteps) {
-    if (x.gap_m2[step.x] + y.gap_m2[step.y] + z.gap_m2[step.z] >= list.limit_m2()) continue;
-    const Cell* cell = cells.find(x.own + x.step[step.x], y.own + y.step[step.y], z.own + z.step[step.z]);
-    if (cell == nullptr) continue;
-    for (int side = 0; side < 2; ++side)
-      if (static_cast<int>(filter) >> side & 1) search(level, *cell, side, p_m, list);
+  CellsInReach cells;
+  gather(level, p_m, radius * radius, filter, cells);
+  if (cells.points >= std::uint32_t(least)) {
+    for (int i = 0; i < cells.count; ++i) {
+      if (cells.at[i].gap_m2 >= list.limit_m2()) continue;
+      for (int side = 0; side < 2; ++side)
+        if (static_cast<int>(filter) >> side & 1) search(level, *cells.at[i].cell, side, p_m, list);
+    }
   }
   list.write(level, found);
+}
+
+void FeatureMap::gather(const Level& level, const Eigen::Vector3f& p_m, float limit_m2, SweepFilter filter,
+                        CellsInReach& cells) {
+  static constexpr std::array<CellStep, 27> kSteps = near_first();
+  const Slabs x(p_m.x(), level.inverse_cell, level.cell_m), y(p_m.y(), level.inverse_cell, level.cell_m),
+      z(p_m.z(), level.inverse_cell, level.cell_m);
+  NearbyCells nearby(level, x.own, y.own, z.own);
+  for (const CellStep& step : kSteps) {
+    const float gap_m2 = x.gap_m2[step.x] + y.gap_m2[step.y] + z.gap_m2[step.z];
+    if (gap_m2 >= limit_m2) continue;
+    const Cell* cell = nearby.find(x.own + x.step[step.x], y.own + y.step[step.y], z.own + z.step[step.z]);
+    if (cell == nullptr) continue;
+    cells.at[cells.count++] = {cell, gap_m2};
+    for (int side = 0; side < 2; ++side) {
+      if ((static_cast<int>(filter) >> side & 1) == 0 || cell->points[side] == 0) continue;
+      cells.points += cell->points[side];
+      // Scattered over memory: they are on their way while the other cells are looked up.
+      const Block& block = level.blocks[cell->last[side]];
+      __builtin_prefetch(block.x.data());
+      __builtin_prefetch(block.y.data() + 4);
+      __builtin_prefetch(block.line.data());
+    }
+  }
 }
 
 void FeatureMap::search(const Level& level, const Cell& cell, int side, const Eigen::Vector3f& p_m,

@@ -36,9 +36,10 @@ class FeatureMap {
   int level_for(double radius_m) const;
   double search_radius_m(int level) const { return levels_[level].radius_m; }
 
-  /// The nearest points, at most `most` and at most `per_line` of one scan line.
+  /// The nearest points, at most `most` and at most `per_line` of one scan line. Where it shows at once that
+  /// they cannot be `least`, none.
   void nearest(const Eigen::Vector3f& p_m, int level, SweepFilter filter, int most, int per_line,
-               Neighbours& found) const;
+               Neighbours& found, int least = 1) const;
 
   std::size_t size() const { return levels_[0].points; }
   void clear();
@@ -79,6 +80,7 @@ class FeatureMap {
     Slot latest;  // the brick that a point was added to: the next one mostly lies there as well
   };
   class NearbyCells;
+  struct CellsInReach;
   class NearestList;
   static std::uint64_t key_of(int x, int y, int z);
   static std::size_t hash_of(std::uint64_t key);
@@ -88,6 +90,8 @@ class FeatureMap {
   static Cell& find_or_add(Level& level, int x, int y, int z);
   static void grow(Level& level);
   static void add_point(Level& level, Cell& cell, int side, const Eigen::Vector3f& p_m, std::uint32_t line);
+  static void gather(const Level& level, const Eigen::Vector3f& p_m, float limit_m2, SweepFilter filter,
+                     CellsInReach& cells);
   // Offers a cell's points of one direction.
   static void search(const Level& level, const Cell& cell, int side, const Eigen::Vector3f& p_m,
                      NearestList& list);
