@@ -47,8 +47,7 @@ struct MatchedFeature {
   double u;
   float range_m;
   std::optional<Patch> patch = std::nullopt;
-  Eigen::Vector3d searched_at_m = Eigen::Vector3d::Zero();
-  double keep_within_m2 = -1;  // squared distance from there within which the patch is kept
+  Eigen::Vector3d searched_at_m = Eigen::Vector3d::Constant(1e30);
 };
 
 template <typename Patch>
@@ -99,14 +98,11 @@ class SweepMatcher {
  private:
   template <typename Patch, typename Search>
   void refresh(MatchedFeature<Patch>& feature, const Eigen::Vector3d& p_m, const Search& search) {
-    if ((p_m - feature.searched_at_m).squaredNorm() < feature.keep_within_m2) return;
+    const double reach_m = options_.reuse_within_m;
+    if ((p_m - feature.searched_at_m).squaredNorm() < reach_m * reach_m) return;
     feature.patch = search();
     feature.searched_at_m = p_m;
-    const double wide_m2 = near_.count > 0 ? double(near_.squared_distance_m2[near_.count - 1]) : 0.0;
-    feature.keep_within_m2 =
-        std::max(square(options_.reuse_within_m), square(options_.reuse_share) * wide_m2);
   }
-  static double square(double x) { return x * x; }
 
   void add(const Eigen::Vector3d& p_m, const Eigen::Vector3d& normal, double distance_m, double u,
            const Eigen::Vector3d& pivot_m, SweepEquations& equations) const {
@@ -279,6 +275,20 @@ Vector6d find_first_twist_per_s(const std::vector<PlacedSweep>& sweeps, const Ei
   return twist_per_s;
 }
 
+// The first sweeps with every other feature to match: enough for a first velocity.
+std::vector<PlacedSweep> beginning_of(const std::vector<PlacedSweep>& sweeps, std::size_t first,
+                                      std::size_t count) {
+  const auto from = sweeps.begin() + std::ptrdiff_t(first);
+  std::vector<PlacedSweep> beginning(from, from + std::ptrdiff_t(std::min(count, sweeps.size() - first)));
+  for (PlacedSweep& sweep : beginning)
+    for (std::vector<PlacedFeature>* features : {&sweep.planes, &sweep.edges}) {
+      bool matched = false;
+      for (PlacedFeature& feature : *features)
+        if (feature.sharp) feature.sharp = matched = !matched;
+    }
+  return beginning;
+}
+
 // A recording mostly begins within a sweep. What is left of that one may see too little to be matched to, and
 // the whole map would stand on it.
 std::size_t first_whole_sweep(const std::vector<PlacedSweep>& sweeps) {
@@ -313,9 +323,8 @@ bool lost_track(const TrackedWalk& walk, const MappingOptions& options) {
 Result<TrackedWalk> track(const std::vector<PlacedSweep>& sweeps, const Eigen::Vector3d& motor_axis,
                           const MappingOptions& options, const Job& job) {
   const std::size_t first = first_whole_sweep(sweeps);
-  const std::vector<PlacedSweep> beginning(
-      sweeps.begin() + std::ptrdiff_t(first),
-      sweeps.begin() + std::ptrdiff_t(std::min(sweeps.size(), first + std::size_t(options.velocity_sweeps))));
+  const std::vector<PlacedSweep> beginning =
+      beginning_of(sweeps, first, std::size_t(options.velocity_sweeps));
   Tracker tracker(options, motor_axis, find_first_twist_per_s(beginning, motor_axis, options));
   for (std::size_t i = first; i < sweeps.size(); ++i) {
     if (job.cancelled()) return failure(ExitCode::kInterrupted, "Interrupted while tracking.");

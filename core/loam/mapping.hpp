@@ -27,8 +27,7 @@ struct MappingOptions {
   double twist_change_sigma = 0.08;     // rad and m per sweep: how freely the motion changes
   int most_iterations = 6;
   double step_tolerance = 5e-4;  // m and rad
-  double reuse_within_m = 0.03;  // a match is searched anew once its point moved by more ...
-  double reuse_share = 0;        // ... and by more than this part of how far its neighbours reach
+  double reuse_within_m = 0.03;  // a match is searched anew once its point moved by more
   int settling_sweeps = 8;       // not counted: the map is still being begun
   int velocity_rounds = 6;       // to find the first velocity
   int velocity_sweeps = 4;
