@@ -275,20 +275,6 @@ Vector6d find_first_twist_per_s(const std::vector<PlacedSweep>& sweeps, const Ei
   return twist_per_s;
 }
 
-// The first sweeps with every other feature to match: enough for a first velocity.
-std::vector<PlacedSweep> beginning_of(const std::vector<PlacedSweep>& sweeps, std::size_t first,
-                                      std::size_t count) {
-  const auto from = sweeps.begin() + std::ptrdiff_t(first);
-  std::vector<PlacedSweep> beginning(from, from + std::ptrdiff_t(std::min(count, sweeps.size() - first)));
-  for (PlacedSweep& sweep : beginning)
-    for (std::vector<PlacedFeature>* features : {&sweep.planes, &sweep.edges}) {
-      bool matched = false;
-      for (PlacedFeature& feature : *features)
-        if (feature.sharp) feature.sharp = matched = !matched;
-    }
-  return beginning;
-}
-
 // A recording mostly begins within a sweep. What is left of that one may see too little to be matched to, and
 // the whole map would stand on it.
 std::size_t first_whole_sweep(const std::vector<PlacedSweep>& sweeps) {
@@ -323,8 +309,9 @@ bool lost_track(const TrackedWalk& walk, const MappingOptions& options) {
 Result<TrackedWalk> track(const std::vector<PlacedSweep>& sweeps, const Eigen::Vector3d& motor_axis,
                           const MappingOptions& options, const Job& job) {
   const std::size_t first = first_whole_sweep(sweeps);
-  const std::vector<PlacedSweep> beginning =
-      beginning_of(sweeps, first, std::size_t(options.velocity_sweeps));
+  const std::vector<PlacedSweep> beginning(
+      sweeps.begin() + std::ptrdiff_t(first),
+      sweeps.begin() + std::ptrdiff_t(std::min(sweeps.size(), first + std::size_t(options.velocity_sweeps))));
   Tracker tracker(options, motor_axis, find_first_twist_per_s(beginning, motor_axis, options));
   for (std::size_t i = first; i < sweeps.size(); ++i) {
     if (job.cancelled()) return failure(ExitCode::kInterrupted, "Interrupted while tracking.");
