@@ -2,87 +2,179 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace sweepscope {
 namespace {
-
-// Keeps the nearest candidates in order, at most `per_line` of one scan line.
-class NearestList {
- public:
-  NearestList(Neighbours& found, int most, int per_line, float limit_m2)
-      : found_(found), most_(most), per_line_(per_line), limit_m2_(limit_m2) {}
-
-  float limit_m2() const { return limit_m2_; }
-
-  void offer(float squared_m2, float x, float y, float z, std::uint32_t line) {
-    int of_line = 0, farthest_of_line = -1;
-    for (int i = 0; i < found_.count; ++i) {
-      if (found_.line[i] != line) continue;
-      ++of_line;
-      farthest_of_line = i;
-    }
-    if (of_line >= per_line_) {
-      if (squared_m2 >= found_.squared_distance_m2[farthest_of_line]) return;
-      remove(farthest_of_line);
-    } else if (found_.count == most_) {
-      remove(most_ - 1);
-    }
-    int place = found_.count++;
-    for (; place > 0 && found_.squared_distance_m2[place - 1] > squared_m2; --place) move(place - 1, place);
-    found_.p_m[place] = {x, y, z};
-    found_.squared_distance_m2[place] = squared_m2;
-    found_.line[place] = line;
-    if (found_.count == most_) limit_m2_ = found_.squared_distance_m2[most_ - 1];
-  }
-
- private:
-  void move(int from, int to) {
-    found_.p_m[to] = found_.p_m[from];
-    found_.squared_distance_m2[to] = found_.squared_distance_m2[from];
-    found_.line[to] = found_.line[from];
-  }
-  void remove(int i) {
-    for (; i + 1 < found_.count; ++i) move(i + 1, i);
-    --found_.count;
-  }
-
-  Neighbours& found_;
-  int most_, per_line_;
-  float limit_m2_;
-};
 
 int count_lines(const Neighbours& found) {
   int lines = 0;
   for (int i = 0; i < found.count; ++i) {
     bool seen = false;
-    for (int k = 0; k < i; ++k) seen = seen || found.line[k] == found.line[i];
+    for (int k = 0; k < i; ++k) seen |= found.line[k] == found.line[i];
     lines += seen ? 0 : 1;
   }
   return lines;
 }
 
-int cell_index(float value_m, float inverse_cell) {
-  return static_cast<int>(std::floor(value_m * inverse_cell));
+int whole(float value) {
+  const int truncated = static_cast<int>(value);
+  return truncated - (value < float(truncated) ? 1 : 0);
 }
 
+// A query's own cell and its neighbours, by axis: 0 the own slab of cells, 1 the neighbour on the side where
+// the query lies, 2 the one on the other side.
+struct CellStep {
+  std::uint8_t x, y, z;
+};
+
+// The nearest cells first: what they hold narrows the search in the others.
+constexpr std::array<CellStep, 27> near_first() {
+  std::array<CellStep, 27> steps{};
+  std::size_t count = 0;
+  for (int rank = 0; rank <= 12; ++rank)
+    for (int i = 0; i < 27; ++i) {
+      const std::array<int, 3> step{i % 3, i / 3 % 3, i / 9};
+      int of_step = 0;
+      for (const int s : step) of_step += s * s;
+      if (of_step == rank)
+        steps[count++] = {std::uint8_t(step[0]), std::uint8_t(step[1]), std::uint8_t(step[2])};
+    }
+  return steps;
+}
+
+// The slabs of cells along one axis: which they are, and how far they lie from the query, squared.
+struct Slabs {
+  Slabs(float value_m, float inverse_cell, float cell_m) {
+    const float scaled = value_m * inverse_cell;
+    own = whole(scaled);
+    const float below_m = value_m - float(own) * cell_m, above_m = float(own + 1) * cell_m - value_m;
+    const int side = above_m < below_m ? 1 : -1;
+    step = {0, side, -side};
+    const float near_m = std::min(below_m, above_m), far_m = std::max(below_m, above_m);
+    gap_m2 = {0, near_m * near_m, far_m * far_m};
+  }
+  int own;
+  std::array<int, 3> step;
+  std::array<float, 3> gap_m2;
+};
+
 }  // namespace
+
+// Keeps the nearest candidates in order, at most `per_line` of one scan line.
+class FeatureMap::NearestList {
+ public:
+  NearestList(int most, int per_line, float limit_m2)
+      : most_(most), per_line_(per_line), limit_m2_(limit_m2) {
+    line_.fill(kNone);
+  }
+
+  float limit_m2() const { return limit_m2_; }
+
+  // `place` is the candidate's block times kBlock, plus its place there.
+  void offer(float squared_m2, std::uint32_t line, std::uint32_t place) {
+    int of_line = 0;
+    for (const std::uint32_t kept : line_) of_line += kept == line ? 1 : 0;
+    if (of_line >= per_line_) {
+      int farthest = count_ - 1;
+      while (line_[farthest] != line) --farthest;
+      if (squared_m2 >= squared_m2_[farthest]) return;
+      remove(farthest);
+    } else if (count_ == most_) {
+      remove(most_ - 1);
+    }
+    int at = count_++;
+    for (; at > 0 && squared_m2_[at - 1] > squared_m2; --at) move(at - 1, at);
+    squared_m2_[at] = squared_m2;
+    line_[at] = line;
+    place_[at] = place;
+    if (count_ == most_) limit_m2_ = squared_m2_[most_ - 1];
+  }
+
+  void write(const Level& level, Neighbours& found) const {
+    found.count = count_;
+    for (int i = 0; i < count_; ++i) {
+      const Block& block = level.blocks[place_[i] / kBlock];
+      const std::uint32_t at = place_[i] % kBlock;
+      found.p_m[i] = {block.x[at], block.y[at], block.z[at]};
+      found.squared_distance_m2[i] = squared_m2_[i];
+      found.line[i] = line_[i];
+    }
+    found.lines = count_lines(found);
+  }
+
+ private:
+  static constexpr int kRoom = 12;  // whole vectors
+  static_assert(kRoom >= Neighbours::kMax);
+
+  void move(int from, int to) {
+    squared_m2_[to] = squared_m2_[from];
+    line_[to] = line_[from];
+    place_[to] = place_[from];
+  }
+  void remove(int i) {
+    for (; i + 1 < count_; ++i) move(i + 1, i);
+    line_[--count_] = kNone;
+  }
+
+  int count_ = 0, most_, per_line_;
+  float limit_m2_;
+  std::array<float, kRoom> squared_m2_;
+  std::array<std::uint32_t, kRoom> line_, place_;
+};
+
+// The cells that a query reaches, the nearest first, and how many points they hold.
+struct FeatureMap::CellsInReach {
+  struct At {
+    const Cell* cell;
+    float gap_m2;  // squared distance from the query
+  };
+  std::array<At, 27> at;
+  int count = 0;
+  std::uint32_t points = 0;
+};
+
+// The cells about a query; their bricks are looked up when first asked for.
+class FeatureMap::NearbyCells {
+ public:
+  NearbyCells(const Level& level, int x, int y, int z)
+      : level_(level), x_((x - 1) >> kBrickBits), y_((y - 1) >> kBrickBits), z_((z - 1) >> kBrickBits) {
+    bricks_.fill(kUnknown);
+  }
+
+  const Cell* find(int x, int y, int z) {
+    const int bx = x >> kBrickBits, by = y >> kBrickBits, bz = z >> kBrickBits;
+    std::uint32_t& brick = bricks_[(bx - x_) + 2 * (by - y_) + 4 * (bz - z_)];
+    if (brick == kUnknown) brick = find_brick(level_, key_of(bx, by, bz));
+    if (brick == kNone) return nullptr;
+    const std::uint32_t cell = level_.bricks[brick].cells[place_in_brick(x, y, z)];
+    return cell == kNone ? nullptr : &level_.cells[cell];
+  }
+
+ private:
+  static constexpr std::uint32_t kUnknown = kNone - 1;
+  const Level& level_;
+  int x_, y_, z_;  // the first brick
+  std::array<std::uint32_t, 8> bricks_;
+};
 
 FeatureMap::FeatureMap(double cell_m, bool thinned) : thinned_(thinned) {
   for (int l = 0; l < kLevels; ++l) {
     levels_[l].cell_m = static_cast<float>(cell_m * (1 << l));
     levels_[l].inverse_cell = 1.0f / levels_[l].cell_m;
     levels_[l].radius_m = levels_[l].cell_m * 5.0 / 6.0;
-    levels_[l].slots.resize(1024);
+    levels_[l].slots.resize(256);
   }
 }
 
 void FeatureMap::clear() {
   for (Level& level : levels_) {
     std::fill(level.slots.begin(), level.slots.end(), Slot{});
+    level.bricks.clear();
     level.cells.clear();
     level.blocks.clear();
+    level.before.clear();
     level.points = 0;
+    level.latest = {};
   }
 }
 
@@ -99,26 +191,42 @@ std::size_t FeatureMap::hash_of(std::uint64_t key) {
   return static_cast<std::size_t>(key >> 20);
 }
 
-const FeatureMap::Cell* FeatureMap::find(const Level& level, std::uint64_t key) {
+int FeatureMap::place_in_brick(int x, int y, int z) {
+  constexpr int kMask = kBrick - 1;
+  return (x & kMask) + kBrick * ((y & kMask) + kBrick * (z & kMask));
+}
+
+std::uint32_t FeatureMap::find_brick(const Level& level, std::uint64_t key) {
   const std::size_t mask = level.slots.size() - 1;
   for (std::size_t i = hash_of(key) & mask;; i = (i + 1) & mask) {
     const Slot& slot = level.slots[i];
-    if (slot.cell == kNone) return nullptr;
-    if (slot.key == key) return &level.cells[slot.cell];
+    if (slot.key == key || slot.brick == kNone) return slot.brick;
   }
 }
 
-FeatureMap::Cell& FeatureMap::find_or_add(Level& level, std::uint64_t key) {
-  if (2 * (level.cells.size() + 1) > level.slots.size()) grow(level);
+std::uint32_t FeatureMap::find_or_add_brick(Level& level, std::uint64_t key) {
+  if (level.latest.key == key) return level.latest.brick;
+  if (2 * (level.bricks.size() + 1) > level.slots.size()) grow(level);
   const std::size_t mask = level.slots.size() - 1;
-  for (std::size_t i = hash_of(key) & mask;; i = (i + 1) & mask) {
-    Slot& slot = level.slots[i];
-    if (slot.cell == kNone) {
-      slot = {key, static_cast<std::uint32_t>(level.cells.size())};
-      return level.cells.emplace_back();
-    }
-    if (slot.key == key) return level.cells[slot.cell];
+  std::size_t i = hash_of(key) & mask;
+  while (level.slots[i].brick != kNone && level.slots[i].key != key) i = (i + 1) & mask;
+  if (level.slots[i].brick == kNone) {
+    level.slots[i] = {key, static_cast<std::uint32_t>(level.bricks.size())};
+    level.bricks.emplace_back();
   }
+  level.latest = level.slots[i];
+  return level.latest.brick;
+}
+
+FeatureMap::Cell& FeatureMap::find_or_add(Level& level, int x, int y, int z) {
+  const std::uint32_t brick =
+      find_or_add_brick(level, key_of(x >> kBrickBits, y >> kBrickBits, z >> kBrickBits));
+  std::uint32_t& cell = level.bricks[brick].cells[place_in_brick(x, y, z)];
+  if (cell == kNone) {
+    cell = static_cast<std::uint32_t>(level.cells.size());
+    level.cells.emplace_back();
+  }
+  return level.cells[cell];
 }
 
 void FeatureMap::grow(Level& level) {
@@ -126,23 +234,22 @@ void FeatureMap::grow(Level& level) {
   old.swap(level.slots);
   const std::size_t mask = level.slots.size() - 1;
   for (const Slot& slot : old) {
-    if (slot.cell == kNone) continue;
+    if (slot.brick == kNone) continue;
     std::size_t i = hash_of(slot.key) & mask;
-    while (level.slots[i].cell != kNone) i = (i + 1) & mask;
+    while (level.slots[i].brick != kNone) i = (i + 1) & mask;
     level.slots[i] = slot;
   }
 }
 
-void FeatureMap::add_point(Level& level, std::uint32_t& first, const Eigen::Vector3f& p_m,
+void FeatureMap::add_point(Level& level, Cell& cell, int side, const Eigen::Vector3f& p_m,
                            std::uint32_t line) {
-  if (first == kNone || level.blocks[first].count == kBlock) {
-    Block block;
-    block.next = first;
-    first = static_cast<std::uint32_t>(level.blocks.size());
-    level.blocks.push_back(block);
+  const std::uint32_t i = cell.points[side]++ % kBlock;
+  if (i == 0) {
+    level.before.push_back(cell.last[side]);
+    cell.last[side] = static_cast<std::uint32_t>(level.blocks.size());
+    level.blocks.emplace_back();
   }
-  Block& block = level.blocks[first];
-  const std::uint32_t i = block.count++;
+  Block& block = level.blocks[cell.last[side]];
   block.x[i] = p_m.x();
   block.y[i] = p_m.y();
   block.z[i] = p_m.z();
@@ -154,18 +261,17 @@ void FeatureMap::insert(const Eigen::Vector3f& p_m, std::uint32_t line, int dire
   const int side = direction > 0 ? 1 : 0;
   for (Level& level : levels_) {
     const Eigen::Vector3f scaled = p_m * level.inverse_cell;
-    const int x = static_cast<int>(std::floor(scaled.x())), y = static_cast<int>(std::floor(scaled.y())),
-              z = static_cast<int>(std::floor(scaled.z()));
-    Cell& cell = find_or_add(level, key_of(x, y, z));
+    const int x = whole(scaled.x()), y = whole(scaled.y()), z = whole(scaled.z());
+    Cell& cell = find_or_add(level, x, y, z);
     if (thinned_) {
-      const auto third = [](float value, int whole) {
-        return std::min(2, static_cast<int>(3 * (value - float(whole))));
+      const auto third = [](float value, int below) {
+        return std::min(2, static_cast<int>(3 * (value - float(below))));
       };
       const int place = third(scaled.x(), x) + 3 * third(scaled.y(), y) + 9 * third(scaled.z(), z);
       if (cell.taken[side] >> place & 1u) continue;
       cell.taken[side] |= 1u << place;
     }
-    add_point(level, cell.first[side], p_m, line);
+    add_point(level, cell, side, p_m, line);
   }
 }
 
@@ -176,47 +282,59 @@ int FeatureMap::level_for(double radius_m) const {
 }
 
 void FeatureMap::nearest(const Eigen::Vector3f& p_m, int level_index, SweepFilter filter, int most,
-                         int per_line, Neighbours& found) const {
+                         int per_line, Neighbours& found, int least) const {
   const Level& level = levels_[level_index];
   const auto radius = static_cast<float>(level.radius_m);
-  found.count = 0;
-  NearestList list(found, std::min(most, Neighbours::kMax), per_line, radius * radius);
-
-  const int cx = cell_index(p_m.x(), level.inverse_cell), cy = cell_index(p_m.y(), level.inverse_cell),
-            cz = cell_index(p_m.z(), level.inverse_cell);
-  const auto gap = [&](int d, int c, float value) {  // distance from the point to the slab of cells at c + d
-    if (d == 0) return 0.0f;
-    return d < 0 ? value - float(c) * level.cell_m : float(c + 1) * level.cell_m - value;
-  };
-  // The own cell first: what it holds narrows the search in the others.
-  static constexpr std::array<int, 3> kOrder{0, -1, 1};
-  for (const int dx : kOrder) {
-    const float gx = gap(dx, cx, p_m.x());
-    for (const int dy : kOrder) {
-      const float gy = gap(dy, cy, p_m.y());
-      for (const int dz : kOrder) {
-        const float gz = gap(dz, cz, p_m.z());
-        if (gx * gx + gy * gy + gz * gz >= list.limit_m2()) continue;
-        const Cell* cell = find(level, key_of(cx + dx, cy + dy, cz + dz));
-        if (cell == nullptr) continue;
-        for (int side = 0; side < 2; ++side) {
-          if ((static_cast<int>(filter) >> side & 1) == 0) continue;
-          for (std::uint32_t b = cell->first[side]; b != kNone; b = level.blocks[b].next) {
-            const Block& block = level.blocks[b];
-            std::array<float, kBlock> squared;
-            for (int i = 0; i < kBlock; ++i) {
-              const float x = block.x[i] - p_m.x(), y = block.y[i] - p_m.y(), z = block.z[i] - p_m.z();
-              squared[i] = x * x + y * y + z * z;
-            }
-            for (std::uint32_t i = 0; i < block.count; ++i)
-              if (squared[i] < list.limit_m2())
-                list.offer(squared[i], block.x[i], block.y[i], block.z[i], block.line[i]);
-          }
-        }
-      }
+  NearestList list(std::min(most, Neighbours::kMax), per_line, radius * radius);
+  CellsInReach cells;
+  gather(level, p_m, radius * radius, filter, cells);
+  if (cells.points >= std::uint32_t(least)) {
+    for (int i = 0; i < cells.count; ++i) {
+      if (cells.at[i].gap_m2 >= list.limit_m2()) continue;
+      for (int side = 0; side < 2; ++side)
+        if (static_cast<int>(filter) >> side & 1) search(level, *cells.at[i].cell, side, p_m, list);
     }
   }
-  found.lines = count_lines(found);
+  list.write(level, found);
+}
+
+void FeatureMap::gather(const Level& level, const Eigen::Vector3f& p_m, float limit_m2, SweepFilter filter,
+                        CellsInReach& cells) {
+  static constexpr std::array<CellStep, 27> kSteps = near_first();
+  const Slabs x(p_m.x(), level.inverse_cell, level.cell_m), y(p_m.y(), level.inverse_cell, level.cell_m),
+      z(p_m.z(), level.inverse_cell, level.cell_m);
+  NearbyCells nearby(level, x.own, y.own, z.own);
+  for (const CellStep& step : kSteps) {
+    const float gap_m2 = x.gap_m2[step.x] + y.gap_m2[step.y] + z.gap_m2[step.z];
+    if (gap_m2 >= limit_m2) continue;
+    const Cell* cell = nearby.find(x.own + x.step[step.x], y.own + y.step[step.y], z.own + z.step[step.z]);
+    if (cell == nullptr) continue;
+    cells.at[cells.count++] = {cell, gap_m2};
+    for (int side = 0; side < 2; ++side) {
+      if ((static_cast<int>(filter) >> side & 1) == 0 || cell->points[side] == 0) continue;
+      cells.points += cell->points[side];
+      // Scattered over memory: they are on their way while the other cells are looked up.
+      const Block& block = level.blocks[cell->last[side]];
+      __builtin_prefetch(block.x.data());
+      __builtin_prefetch(block.y.data() + 4);
+      __builtin_prefetch(block.line.data());
+    }
+  }
+}
+
+void FeatureMap::search(const Level& level, const Cell& cell, int side, const Eigen::Vector3f& p_m,
+                        NearestList& list) {
+  std::uint32_t filled = (cell.points[side] + kBlock - 1) % kBlock + 1;
+  for (std::uint32_t b = cell.last[side]; b != kNone; b = level.before[b], filled = kBlock) {
+    const Block& block = level.blocks[b];
+    std::array<float, kBlock> squared_m2;
+    for (std::uint32_t i = 0; i < kBlock; ++i) {
+      const float x = block.x[i] - p_m.x(), y = block.y[i] - p_m.y(), z = block.z[i] - p_m.z();
+      squared_m2[i] = x * x + y * y + z * z;
+    }
+    for (std::uint32_t i = 0; i < filled; ++i)
+      if (squared_m2[i] < list.limit_m2()) list.offer(squared_m2[i], block.line[i], kBlock * b + i);
+  }
 }
 
 }  // namespace sweepscope

@@ -36,44 +36,65 @@ class FeatureMap {
   int level_for(double radius_m) const;
   double search_radius_m(int level) const { return levels_[level].radius_m; }
 
-  /// The nearest points, at most `most` and at most `per_line` of one scan line.
+  /// The nearest points, at most `most` and at most `per_line` of one scan line. Where it shows at once that
+  /// they cannot be `least`, none.
   void nearest(const Eigen::Vector3f& p_m, int level, SweepFilter filter, int most, int per_line,
-               Neighbours& found) const;
+               Neighbours& found, int least = 1) const;
 
   std::size_t size() const { return levels_[0].points; }
   void clear();
 
  private:
-  static constexpr int kBlock = 16;
+  static constexpr std::uint32_t kBlock = 12;
+  static constexpr int kBrickBits = 2, kBrick = 1 << kBrickBits;  // cells along a brick's edge
   static constexpr std::uint32_t kNone = 0xffffffffu;
-  struct Block {
+  // Points of one cell and direction, mostly all of them: three cache lines.
+  struct alignas(64) Block {
     std::array<float, kBlock> x{}, y{}, z{};
-    std::array<std::uint32_t, kBlock> line;
-    std::uint32_t count = 0;
-    std::uint32_t next = kNone;
+    std::array<std::uint32_t, kBlock> line{};
   };
+  // By direction: points, the block that the last one is in (see Level::before), and the thirds of the cell
+  // that hold one.
   struct Cell {
-    std::array<std::uint32_t, 2> first{kNone, kNone};  // blocks, by direction
-    std::array<std::uint32_t, 2> taken{0, 0};          // thirds of the cell that hold a point
+    std::array<std::uint32_t, 2> points{0, 0}, last{kNone, kNone}, taken{0, 0};
+  };
+  // Neighbouring cells, which are hashed as one: a query's 27 lie in at most 8 bricks.
+  struct Brick {
+    Brick() { cells.fill(kNone); }
+    std::array<std::uint32_t, kBrick * kBrick * kBrick> cells;
   };
   struct Slot {
-    std::uint64_t key = ~std::uint64_t{0};
-    std::uint32_t cell = kNone;
+    std::uint64_t key = kNoKey;
+    std::uint32_t brick = kNone;
   };
+  static constexpr std::uint64_t kNoKey = ~std::uint64_t{0};
   struct Level {
     float inverse_cell = 0, cell_m = 0;
     double radius_m = 0;
     std::vector<Slot> slots;
+    std::vector<Brick> bricks;
     std::vector<Cell> cells;
     std::vector<Block> blocks;
+    std::vector<std::uint32_t> before;  // each block's predecessor in its cell, full
     std::size_t points = 0;
+    Slot latest;  // the brick that a point was added to: the next one mostly lies there as well
   };
+  class NearbyCells;
+  struct CellsInReach;
+  class NearestList;
   static std::uint64_t key_of(int x, int y, int z);
   static std::size_t hash_of(std::uint64_t key);
-  static const Cell* find(const Level& level, std::uint64_t key);
-  static Cell& find_or_add(Level& level, std::uint64_t key);
+  static int place_in_brick(int x, int y, int z);
+  static std::uint32_t find_brick(const Level& level, std::uint64_t key);
+  static std::uint32_t find_or_add_brick(Level& level, std::uint64_t key);
+  static Cell& find_or_add(Level& level, int x, int y, int z);
   static void grow(Level& level);
-  static void add_point(Level& level, std::uint32_t& first, const Eigen::Vector3f& p_m, std::uint32_t line);
+  static void add_point(Level& level, Cell& cell, int side, const Eigen::Vector3f& p_m, std::uint32_t line);
+  static void gather(const Level& level, const Eigen::Vector3f& p_m, float limit_m2, SweepFilter filter,
+                     CellsInReach& cells);
+  // Offers a cell's points of one direction.
+  static void search(const Level& level, const Cell& cell, int side, const Eigen::Vector3f& p_m,
+                     NearestList& list);
 
   std::array<Level, kLevels> levels_;
   bool thinned_;

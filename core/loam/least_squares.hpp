@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>
+#include <array>
 
 #include "core/geometry/pose.hpp"
 
@@ -44,36 +45,59 @@ inline double bend_at(double u) {
 class SweepEquations {
  public:
   void add(const Vector6d& row, double residual, double weight, double u) {
-    const Matrix6d outer = (weight * row) * row.transpose();
-    const Vector6d gradient = (weight * residual) * row;
-    const double v = 1.0 - u, b = bend_at(u);
-    begin_begin_ += v * v * outer;
-    begin_end_ += u * v * outer;
-    end_end_ += u * u * outer;
-    begin_bend_ += v * b * outer;
-    end_bend_ += u * b * outer;
-    bend_bend_ += b * b * outer;
-    begin_ += v * gradient;
-    end_ += u * gradient;
-    bend_ += b * gradient;
+    std::array<double, kTerms> terms{};  // the lower triangle of the row's square, then its gradient
+    std::size_t term = 0;
+    for (int i = 0; i < 6; ++i) {
+      const double weighted = weight * row[i];
+      for (int j = 0; j <= i; ++j) terms[term++] = weighted * row[j];
+      terms[kTriangle + std::size_t(i)] = weighted * residual;
+    }
+    const Polynomial powers{1, u, u * u, u * u * u, (u * u) * (u * u)};
+    for (std::size_t power = 0; power < moments_.size(); ++power)
+      for (std::size_t k = 0; k < kTerms; ++k) moments_[power][k] += powers[power] * terms[k];
   }
 
   Matrix18d matrix() const {
     Matrix18d a;
-    a << begin_begin_, begin_end_, begin_bend_, begin_end_, end_end_, end_bend_, begin_bend_, end_bend_,
-        bend_bend_;
+    for (int p = 0; p < 3; ++p)
+      for (int q = 0; q < 3; ++q) a.block<6, 6>(6 * p, 6 * q) = block(product(kShares[p], kShares[q]));
     return a;
   }
   Vector18d gradient() const {
-    Vector18d g;
-    g << begin_, end_, bend_;
+    Vector18d g = Vector18d::Zero();
+    for (int p = 0; p < 3; ++p)
+      for (std::size_t power = 0; power < 3; ++power)
+        for (int i = 0; i < 6; ++i)
+          g[6 * p + i] += kShares[p][power] * moments_[power][kTriangle + std::size_t(i)];
     return g;
   }
 
  private:
-  Matrix6d begin_begin_ = Matrix6d::Zero(), begin_end_ = Matrix6d::Zero(), end_end_ = Matrix6d::Zero();
-  Matrix6d begin_bend_ = Matrix6d::Zero(), end_bend_ = Matrix6d::Zero(), bend_bend_ = Matrix6d::Zero();
-  Vector6d begin_ = Vector6d::Zero(), end_ = Vector6d::Zero(), bend_ = Vector6d::Zero();
+  // All shares are polynomials of u, so it does to sum each point's terms times the powers of u.
+  using Polynomial = std::array<double, 5>;
+  static constexpr std::array<Polynomial, 3> kShares{{{1, -1}, {0, 1}, {0, 4, -4}}};  // begin, end, bend
+  static constexpr std::size_t kTriangle = 21, kTerms = kTriangle + 7;  // one unused: whole vectors
+
+  static constexpr Polynomial product(const Polynomial& a, const Polynomial& b) {
+    Polynomial c{};
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 3; ++j) c[i + j] += a[i] * b[j];
+    return c;
+  }
+  Matrix6d block(const Polynomial& share) const {
+    Matrix6d m;
+    std::size_t term = 0;
+    for (int i = 0; i < 6; ++i)
+      for (int j = 0; j <= i; ++j, ++term) {
+        double sum = 0;
+        for (std::size_t power = 0; power < moments_.size(); ++power)
+          sum += share[power] * moments_[power][term];
+        m(i, j) = m(j, i) = sum;
+      }
+    return m;
+  }
+
+  std::array<std::array<double, kTerms>, 5> moments_{};
 };
 
 /// Minimises x' A x / 2 + g' x, leaving the directions alone whose eigenvalue is below `least_eigenvalue`:

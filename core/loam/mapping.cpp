@@ -40,39 +40,53 @@ void count_one(bool found, double distance_m, double gate_m, double cap_m, Match
   count.distance_sum_m += distance_m;
 }
 
+// A feature to be matched, and the patch that it was matched to last.
+template <typename Patch>
+struct MatchedFeature {
+  Eigen::Vector3d p_in_base_m;
+  double u;
+  float range_m;
+  std::optional<Patch> patch = std::nullopt;
+  Eigen::Vector3d searched_at_m = Eigen::Vector3d::Constant(1e30);
+};
+
+template <typename Patch>
+std::vector<MatchedFeature<Patch>> to_match(const std::vector<PlacedFeature>& features) {
+  std::vector<MatchedFeature<Patch>> found;
+  found.reserve(features.size() / 2);
+  for (const PlacedFeature& feature : features)
+    if (feature.sharp) found.push_back({feature.p_in_base_m, feature.u, feature.range_m});
+  return found;
+}
+
 // One sweep's matches with the map, kept from step to step while their points hardly move.
 class SweepMatcher {
  public:
   SweepMatcher(const SweepMaps& maps, const PlacedSweep& sweep, const SearchRule& rule,
                const MappingOptions& options)
       : maps_(maps),
-        sweep_(sweep),
         rule_(rule),
         options_(options),
-        planes_(sweep.planes.size()),
-        edges_(sweep.edges.size()) {}
+        planes_(to_match<PlanePatch>(sweep.planes)),
+        edges_(to_match<LinePatch>(sweep.edges)) {}
 
   // Adds the matches at the given poses to the equations; counts them too.
   MatchCount linearise(const SweepPose& pose, SweepEquations& equations) {
     const SweepMotion motion = pose.motion();
     const Eigen::Vector3d pivot_m = pose.pivot_m();
     MatchCount count;
-    for (std::size_t i = 0; i < planes_.size(); ++i) {
-      const PlacedFeature& feature = sweep_.planes[i];
-      if (!feature.sharp) continue;
+    for (MatchedFeature<PlanePatch>& feature : planes_) {
       const Eigen::Vector3d p_m = motion(feature.p_in_base_m, feature.u);
-      refresh(planes_[i], p_m, [&] { return find_plane(maps_.planes, p_m, feature.range_m, rule_, near_); });
-      const auto& plane = planes_[i].patch;
+      refresh(feature, p_m, [&] { return find_plane(maps_.planes, p_m, feature.range_m, rule_, near_); });
+      const auto& plane = feature.patch;
       const double distance_m = plane ? (p_m - plane->centre_m).dot(plane->normal) : 0.0;
       count_one(plane.has_value(), std::abs(distance_m), options_.plane_gate_m, options_.cost_cap_m, count);
       if (plane) add(p_m, plane->normal, distance_m, feature.u, pivot_m, equations);
     }
-    for (std::size_t i = 0; i < edges_.size(); ++i) {
-      const PlacedFeature& feature = sweep_.edges[i];
-      if (!feature.sharp) continue;
+    for (MatchedFeature<LinePatch>& feature : edges_) {
       const Eigen::Vector3d p_m = motion(feature.p_in_base_m, feature.u);
-      refresh(edges_[i], p_m, [&] { return find_line(maps_.edges, p_m, feature.range_m, rule_, near_); });
-      const auto& line = edges_[i].patch;
+      refresh(feature, p_m, [&] { return find_line(maps_.edges, p_m, feature.range_m, rule_, near_); });
+      const auto& line = feature.patch;
       const Eigen::Vector3d away_m = line ? from_line(*line, p_m) : Eigen::Vector3d::Zero();
       const double distance_m = away_m.norm();
       count_one(line.has_value(), distance_m, options_.edge_gate_m, options_.cost_cap_m, count);
@@ -82,18 +96,12 @@ class SweepMatcher {
   }
 
  private:
-  template <typename Patch>
-  struct Match {
-    std::optional<Patch> patch;
-    Eigen::Vector3d searched_at_m = Eigen::Vector3d::Constant(1e30);
-  };
-
   template <typename Patch, typename Search>
-  void refresh(Match<Patch>& match, const Eigen::Vector3d& p_m, const Search& search) {
+  void refresh(MatchedFeature<Patch>& feature, const Eigen::Vector3d& p_m, const Search& search) {
     const double reach_m = options_.reuse_within_m;
-    if ((p_m - match.searched_at_m).squaredNorm() < reach_m * reach_m) return;
-    match.patch = search();
-    match.searched_at_m = p_m;
+    if ((p_m - feature.searched_at_m).squaredNorm() < reach_m * reach_m) return;
+    feature.patch = search();
+    feature.searched_at_m = p_m;
   }
 
   void add(const Eigen::Vector3d& p_m, const Eigen::Vector3d& normal, double distance_m, double u,
@@ -104,11 +112,10 @@ class SweepMatcher {
   }
 
   const SweepMaps& maps_;
-  const PlacedSweep& sweep_;
   SearchRule rule_;
   const MappingOptions& options_;
-  std::vector<Match<PlanePatch>> planes_;
-  std::vector<Match<LinePatch>> edges_;
+  std::vector<MatchedFeature<PlanePatch>> planes_;
+  std::vector<MatchedFeature<LinePatch>> edges_;
   Neighbours near_;
 };
 

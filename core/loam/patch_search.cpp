@@ -11,7 +11,7 @@ std::optional<double> nearest_on_finest(const FeatureMap& map, const Eigen::Vect
                                         Neighbours& near) {
   const int coarsest = map.level_for(std::max(rule.radius_m, rule.radius_slope * range_m));
   for (int level = 0; level <= coarsest; ++level) {
-    map.nearest(p_m, level, rule.filter, most, rule.patch.per_line, near);
+    map.nearest(p_m, level, rule.filter, most, rule.patch.per_line, near, least);
     if (near.count >= least && near.lines >= least_lines) return map.search_radius_m(level);
   }
   return std::nullopt;

@@ -48,13 +48,15 @@ bool Curve::compute(const std::vector<double>& offsets_s, const Job& job) {
   std::vector<std::optional<CurvePoint>> computed(wanted_s.size());
   std::atomic<std::size_t> done{0};
   const Job part = Job::part_of(job);
-  tbb::parallel_for(std::size_t{0}, wanted_s.size(), [&](std::size_t i) {
+  const auto compute_one = [&](std::size_t i) {
     if (job.cancelled()) return;
     CurvePoint point = candidate_(wanted_s[i], part);
     if (job.cancelled()) return;
     computed[i] = point;
     job.report("candidates", double(++done) / double(wanted_s.size()));
-  });
+  };
+  // One candidate a task: a run of several at the end would leave the other threads idle.
+  tbb::parallel_for(std::size_t{0}, wanted_s.size(), compute_one, tbb::simple_partitioner());
   for (const auto& point : computed)
     if (point) points_.push_back(*point);
   std::sort(points_.begin(), points_.end(),

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <fstream>
 #include <limits>
 #include <map>
+#include <string>
 #include <vector>
 
 #include "core/loam/feature_map.hpp"
@@ -66,6 +68,22 @@ const Subject& walk() {
   static const Subject subject(test::simulated("metro-station", kTruth_s, 20).recording);
   return subject;
 }
+
+// The most memory that the program held since the last `forget`, from Linux's own books.
+class PeakMemory {
+ public:
+  static void forget() { std::ofstream("/proc/self/clear_refs") << 5; }
+  static double mb() {
+    std::ifstream status("/proc/self/status");
+    for (std::string word; status >> word;)
+      if (word == "VmHWM:") {
+        double kb = 0;
+        status >> kb;
+        return kb / 1024;
+      }
+    return 0;
+  }
+};
 
 void count_cost(State& state, const Subject& subject) {
   const auto per = [&](double amount) {
@@ -152,7 +170,8 @@ void moving_candidate_of_a_walk(State& state) {
 }
 
 // How cost grows: with the length of a recording, with the number of candidates, and with the size of a map.
-// Each figure is per unit, so a row's numbers stay where growth is linear.
+// Each cost is per unit, so a row's numbers stay where growth is linear; `peak_mb` is the program's,
+// recordings included.
 const Subject& walk_of(int duration_s) {
   static std::map<int, Subject> subjects;
   const auto found = subjects.find(duration_s);
@@ -163,18 +182,22 @@ const Subject& walk_of(int duration_s) {
 
 void growth_with_length(State& state) {
   const Subject& subject = walk_of(int(state.range(0)));
+  PeakMemory::forget();
   for (auto _ : state)
     benchmark::DoNotOptimize(
         moving_candidate(subject.problem, kTruth_s, Scoring::kTwoStage, MappingOptions(), Job()));
   count_cost(state, subject);
+  state.counters["peak_mb"] = PeakMemory::mb();
 }
 
 void direct_growth_with_length(State& state) {
   const Subject& subject = walk_of(int(state.range(0)));
   EstimateOptions options;
   options.method = Method::kDirect;
+  PeakMemory::forget();
   for (auto _ : state) benchmark::DoNotOptimize(estimate(subject.recording, options, Job()).value());
   count_cost(state, subject);
+  state.counters["peak_mb"] = PeakMemory::mb();
 }
 
 void growth_with_candidates(State& state) {
@@ -182,9 +205,11 @@ void growth_with_candidates(State& state) {
   options.method = Method::kMoving;
   const double half_s = 0.5e-4 * double(state.range(0));
   options.ranges = {{kTruth_s - half_s, kTruth_s + half_s, 1e-4}};
+  PeakMemory::forget();
   for (auto _ : state) benchmark::DoNotOptimize(estimate(walk().recording, options, Job()).value());
   state.counters["s_per_candidate"] =
       Counter(double(state.range(0)), Counter::kIsIterationInvariantRate | Counter::kInvert);
+  state.counters["peak_mb"] = PeakMemory::mb();
 }
 
 // Points of a wide plain, ten to the square metre; queries spread over it.
@@ -201,12 +226,14 @@ void growth_with_map_size(State& state) {
   std::vector<Eigen::Vector3f> queries_m(kQueries);
   for (Eigen::Vector3f& query_m : queries_m) query_m = drawn();
   Neighbours near;
+  PeakMemory::forget();
   for (auto _ : state)
     for (const Eigen::Vector3f& query_m : queries_m) {
       map.nearest(query_m, 1, SweepFilter::kAny, 10, 2, near);
       benchmark::DoNotOptimize(near);
     }
   state.counters["s_per_query"] = Counter(kQueries, Counter::kIsIterationInvariantRate | Counter::kInvert);
+  state.counters["peak_mb"] = PeakMemory::mb();
 }
 
 BENCHMARK(reference)->Unit(benchmark::kMillisecond);
