@@ -141,8 +141,8 @@ std::string laser_text(const LaserSummary& laser) {
                       : "";
   return "laser\n" + row("topic", laser.topic) +
          row("scans", fmt::format("{}{} of {} beams from {:.1f} to {:.1f} deg in {:.1f} ms{}", laser.used,
-                                  of_clouds, beams, laser.first_beam_deg, laser.last_beam_deg, 1000 * laser.scan_s,
-                                  laser.intensities ? ", with intensities" : "")) +
+                                  of_clouds, beams, laser.first_beam_deg, laser.last_beam_deg,
+                                  1000 * laser.scan_s, laser.intensities ? ", with intensities" : "")) +
          stream_text(laser, laser.stamp_at == StampAt::kFirstBeam  ? ", taken as the first beam's"
                             : laser.stamp_at == StampAt::kLastBeam ? ", taken as the last beam's"
                                                                    : ", taken as the scan's arrival") +

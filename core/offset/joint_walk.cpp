@@ -204,7 +204,9 @@ class Part {
         ++result_.features;
         const Vector3d p_m = in_map_m(sweep, feature);
         const auto plane = find_plane(planes, p_m, feature.range_m, rule, near_);
-        if (plane) add(line_of(sweep, feature), p_m, plane->normal, (p_m - plane->centre_m).dot(plane->normal), equations);
+        if (plane)
+          add(line_of(sweep, feature), p_m, plane->normal, (p_m - plane->centre_m).dot(plane->normal),
+              equations);
       }
       for (const PlacedFeature& feature : sweep.edges) {
         if (!feature.sharp) continue;
@@ -236,8 +238,7 @@ class Part {
   std::uint32_t line_of(const PlacedSweep& sweep, const PlacedFeature& feature) const {
     if (slices_ == 1) return feature.line;
     const LaserScan& scan = problem_.recording->scans[feature.line];
-    const double u =
-        (time_s(sweep, feature) - scan.first_beam_s) / (scan.last_beam_s() - scan.first_beam_s);
+    const double u = (time_s(sweep, feature) - scan.first_beam_s) / (scan.last_beam_s() - scan.first_beam_s);
     const double slice = std::clamp(std::floor(u * slices_), 0.0, slices_ - 1.0);
     return feature.line * slices_ + static_cast<std::uint32_t>(slice);
   }

@@ -106,8 +106,7 @@ bool ScanAssembler::assemble() {
     clean(raw, std::span(raw_.ranges_m).subspan(raw.first_range, raw.beams));
     placed.push_back(scan);
     times_s.push_back(scan.first_beam_s);
-    if (raw_.of_clouds)
-      cloud_spans_s_.push_back(raw.cloud_end_after_stamp_s - raw.first_beam_after_stamp_s);
+    if (raw_.of_clouds) cloud_spans_s_.push_back(raw.cloud_end_after_stamp_s - raw.first_beam_after_stamp_s);
   }
   if (placed.empty()) return false;
   if (raw_.of_clouds) {

@@ -62,7 +62,8 @@ std::string no_line(const Points& points) {
   for (std::size_t i = 1; i < points.size(); ++i)
     if (angle_between_rad(points[i - 1].p_m, points[i].p_m) > kMostApart_rad) ++apart;
   if (4 * apart < points.size()) return "";
-  return "its points have no field that says which beam each is of (ring, line or channel), and neighbours in "
+  return "its points have no field that says which beam each is of (ring, line or channel), and neighbours "
+         "in "
          "time lie far apart";
 }
 

@@ -14,14 +14,15 @@ namespace sweepscope {
 
 /// The clouds of one topic (sensor_msgs/PointCloud2 with a time per point) as scan lines: one per ring where
 /// there is a field `ring`, `line` or `channel`, else one per 10 ms, numbered within the cloud like rings;
-/// points that neighbours in time lie far beside are then of several beams, and refused. Points of a line are sorted by time and
-/// laid on a grid of equal time steps, the median step from point to point, since drivers leave out beams
-/// that returned nothing; those are NaN. All lines of a ring begin near one azimuth, that of the first cloud.
+/// points that neighbours in time lie far beside are then of several beams, and refused. Points of a line are
+/// sorted by time and laid on a grid of equal time steps, the median step from point to point, since drivers
+/// leave out beams that returned nothing; those are NaN. All lines of a ring begin near one azimuth, that of
+/// the first cloud.
 ///
 /// A point's time is a field `t`, `time`, `timestamp` or `offset_time`, in the units of drivers: an integer
-/// counts ns, or us where a cloud would take less than 0.5 ms; a number beyond any recording's length is a time since 1970 in s, ms, us or ns; else it is
-/// after the stamp, in s, ms, us or ns by how long a cloud then takes. Points without a range (0 0 0, NaN)
-/// are left out.
+/// counts ns, or us where a cloud would take less than 0.5 ms; a number beyond any recording's length is a
+/// time since 1970 in s, ms, us or ns; else it is after the stamp, in s, ms, us or ns by how long a cloud
+/// then takes. Points without a range (0 0 0, NaN) are left out.
 class CloudReader {
  public:
   /// Adds a cloud's lines; false, and nothing added, where the message is malformed, or its points have no

@@ -5,7 +5,8 @@
 
 namespace sweepscope {
 
-Result<RawRecording> read_ros1_recording(const std::filesystem::path& path, const Rig& rig, const Job& job, CloudDetail clouds) {
+Result<RawRecording> read_ros1_recording(const std::filesystem::path& path, const Rig& rig, const Job& job,
+                                         CloudDetail clouds) {
   RawRecording raw;
   raw.file = path.string();
   raw.name = path.filename().string();

@@ -118,7 +118,8 @@ std::optional<BagStorage> bag_storage(std::string_view beginning) {
   return std::nullopt;
 }
 
-Result<RawRecording> read_ros2_file(const fs::path& path, const Rig& rig, const Job& job, CloudDetail clouds) {
+Result<RawRecording> read_ros2_file(const fs::path& path, const Rig& rig, const Job& job,
+                                    CloudDetail clouds) {
   RawRecording raw = named_recording(path);
   MessageCollector collector(rig, raw, clouds);
   const auto damage = collect(path, collector, job);
@@ -133,7 +134,8 @@ bool is_ros2_folder(const fs::path& folder) {
   return fs::exists(folder / kMetadata, ignored) || !found_files(folder).empty();
 }
 
-Result<RawRecording> read_ros2_folder(const fs::path& folder, const Rig& rig, const Job& job, CloudDetail clouds) {
+Result<RawRecording> read_ros2_folder(const fs::path& folder, const Rig& rig, const Job& job,
+                                      CloudDetail clouds) {
   std::error_code ignored;
   const bool described = fs::exists(folder / kMetadata, ignored);
   const auto files = described ? named_files(folder) : found_files(folder);

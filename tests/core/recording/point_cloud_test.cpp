@@ -95,6 +95,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Unit{"time", CloudType::kFloat32, 0, 1, 12'000'000'000},          // Velodyne
                     Unit{"time", CloudType::kFloat32, -0.1, 1, 11'900'000'000},       // since the end
                     Unit{"time", CloudType::kFloat32, 0, 1e6, 12'000'000'000},        // Livox, us
+                    Unit{"t", CloudType::kUint32, 0, 1e6, 12'000'000'000},            // whole us
                     Unit{"offset_time", CloudType::kUint32, 0, 1e9, 12'000'000'000},  // Livox
                     Unit{"timestamp", CloudType::kFloat64, 1.7e9, 1, 1'700'000'000'000'000'000},  // Hesai
                     Unit{"timestamp", CloudType::kFloat64, 1.7e18, 1e9,
@@ -120,6 +121,7 @@ TEST(PointCloud, WithoutRingsALineIsASliceOfTime) {
   ASSERT_EQ(laser.scans.size(), 3U);
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(laser.scans[i].beams, 100U);
+    EXPECT_EQ(laser.scans[i].ring, i);  // told apart by their place in the cloud
     EXPECT_NEAR(laser.scans[i].first_beam_after_stamp_s, 0.01 * double(i), 1e-9);
     EXPECT_NEAR(laser.scans[i].angle_increment_rad, kStep_rad, 1e-5);
   }
@@ -138,6 +140,71 @@ TEST(PointCloud, CloudsWithoutTimesAreOfNoUseAndItIsSaid) {
   EXPECT_FALSE(reader.add(Encoding::kCdr, as_span(nameless.message(MessageBytes::kCdr, 1, 0)), 0, laser));
   EXPECT_NE(reader.problem().find("no time of their own"), std::string::npos);
   EXPECT_TRUE(laser.scans.empty());
+}
+
+TEST(PointCloud, BeamsThatNoFieldTellsApartAreNoLine) {
+  for (const bool at_once : {true, false}) {
+    CloudBytes cloud("t", CloudType::kUint32, false);
+    for (int beam = 0; beam < 300; ++beam)
+      add(cloud, beam, (at_once ? beam / 3 : beam) * 1e5, beam % 3 * 0.3);
+    CloudReader reader;
+    RawLaser laser;
+    EXPECT_FALSE(reader.add(Encoding::kCdr, as_span(cloud.message(MessageBytes::kCdr, 1, 0)), 0, laser));
+    EXPECT_NE(reader.problem().find("which beam each is of"), std::string::npos) << reader.problem();
+    EXPECT_TRUE(laser.scans.empty());
+  }
+}
+
+TEST(PointCloud, PointsThatAreNotNumbersAreLeftOut) {
+  CloudBytes cloud("time", CloudType::kFloat32, true);
+  const float nan = std::nanf("");
+  for (int beam = 0; beam < 40; ++beam) {
+    if (beam % 4 == 1) cloud.point(nan, nan, nan, beam * kStep_s);
+    if (beam % 4 == 2) cloud.point(0, 0, 0, beam * kStep_s);
+    if (beam % 4 == 3) cloud.point(1, 1, 1, nan);
+    if (beam % 4 == 0 || beam == 1) add(cloud, beam, beam * kStep_s);
+  }
+  const RawLaser laser = read(cloud.message(MessageBytes::kCdr, 12, 0));
+  ASSERT_EQ(laser.scans.size(), 1U);
+  for (const float range_m : laser.ranges_m)
+    EXPECT_TRUE(std::isnan(range_m) || std::abs(range_m - 5) < 1e-4) << range_m;
+}
+
+/// A message whose sizes are as given, with room for ten points of 16 bytes.
+std::string cloud_of_sizes(std::uint32_t height, std::uint32_t width, std::uint32_t row_bytes,
+                           std::uint32_t time_offset) {
+  MessageBytes message(MessageBytes::kRos1);
+  message.header(12, 0, "lidar").number(height).number(width).number(std::uint32_t{4});
+  const auto field = [&](const char* name, std::uint32_t offset, std::uint8_t type) {
+    message.text(name).number(offset).number(type).number(std::uint32_t{1});
+  };
+  field("x", 0, 7);
+  field("y", 4, 7);
+  field("z", 8, 7);
+  field("t", time_offset, 6);
+  message.number(std::uint8_t{0}).number(std::uint32_t{16}).number(row_bytes);
+  return message.array(std::vector<std::uint8_t>(160, 1)).number(std::uint8_t{1}).bytes();
+}
+
+TEST(PointCloud, SizesThatDoNotFitTheDataAreMalformed) {
+  const auto whole = [](std::uint32_t height, std::uint32_t width, std::uint32_t row_bytes,
+                        std::uint32_t time_offset) {
+    const std::string message = cloud_of_sizes(height, width, row_bytes, time_offset);
+    return decode_cloud(Encoding::kRos1, as_span(message)).has_value();
+  };
+  constexpr std::uint32_t kHuge = 0xFFFFFFFF;
+  EXPECT_TRUE(whole(1, 10, 160, 12));
+  EXPECT_TRUE(whole(1, 10, 0, 12));  // of one row some drivers leave it at 0
+  EXPECT_TRUE(whole(2, 5, 80, 12));
+  EXPECT_TRUE(whole(0, 0, 0, 12));
+  EXPECT_FALSE(whole(1, 11, 160, 12));
+  EXPECT_FALSE(whole(2, 10, 160, 12));
+  EXPECT_FALSE(whole(kHuge, 1, 0, 12));  // rows that overlap
+  EXPECT_FALSE(whole(2, 5, 64, 12));
+  EXPECT_FALSE(whole(kHuge, kHuge, kHuge, 12));
+  EXPECT_FALSE(whole(1, kHuge, 160, 12));
+  EXPECT_FALSE(whole(1, 10, 160, 13));
+  EXPECT_FALSE(whole(1, 10, 160, kHuge));
 }
 
 TEST(PointCloud, EveryCutMessageAndAnyLyingSizeIsMalformed) {
