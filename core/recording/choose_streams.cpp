@@ -115,6 +115,11 @@ Result<std::size_t> choose_laser(const RawRecording& raw, const Rig& rig) {
                     raw.file, *rig.laser.topic, any) +
         first_warning(raw));
   }
+  for (const RawLaser& laser : raw.lasers) {
+    if (!laser.of_clouds || !raw.warnings.empty()) continue;
+    return unreadable(fmt::format("{}: no cloud on {} holds a line of points with a place and a time",
+                                  raw.file, laser.topic));
+  }
   return unreadable(nothing_usable(raw, "sensor_msgs/LaserScan", "/LaserScan"));
 }
 

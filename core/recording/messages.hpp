@@ -43,7 +43,6 @@ template <typename T>
 struct PackedArray {
   std::span<const std::byte> bytes;
   bool swapped = false;  // big-endian
-  bool dense = false;    // as it says: no point is invalid
 
   std::size_t size() const { return bytes.size() / sizeof(T); }
   T operator[](std::size_t i) const;
@@ -77,6 +76,7 @@ struct DecodedCloud {
   std::vector<CloudField> fields;
   std::span<const std::byte> data;
   bool swapped = false;  // big-endian
+  bool dense = false;    // as it says: no point is invalid
 
   std::size_t points() const { return std::size_t{height} * width; }
   double value(std::size_t point, const CloudField& field) const;

@@ -58,9 +58,13 @@ double angle_between_rad(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
 template <typename Points>
 std::string no_line(const Points& points) {
   constexpr double kMostApart_rad = 3 * std::numbers::pi / 180;
+  constexpr double kOneBeam_rad = 0.1 * std::numbers::pi / 180;  // further returns of it come at its time
   std::size_t apart = 0;
-  for (std::size_t i = 1; i < points.size(); ++i)
-    if (angle_between_rad(points[i - 1].p_m, points[i].p_m) > kMostApart_rad) ++apart;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const bool at_once = points[i].time == points[i - 1].time;
+    const double most_rad = at_once ? kOneBeam_rad : kMostApart_rad;
+    if (angle_between_rad(points[i - 1].p_m, points[i].p_m) > most_rad) ++apart;
+  }
   if (4 * apart < points.size()) return "";
   return "its points have no field that says which beam each is of (ring, line or channel), and neighbours "
          "in "

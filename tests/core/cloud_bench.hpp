@@ -66,7 +66,8 @@ struct CloudBench {
   RawRecording raw(CloudDetail detail = CloudDetail::kLines) const {
     RawRecording raw;
     raw.file = raw.name = "clouds";
-    MessageCollector collector(rig(), raw, detail);
+    const Rig of_bench = rig();
+    MessageCollector collector(of_bench, raw, detail);
     play(MessageBytes::kCdr, [&](const char* topic, const char* type, std::int64_t receive,
                                  const auto& bytes) {
       const std::size_t number = collector.number_of({topic, type, Encoding::kCdr});

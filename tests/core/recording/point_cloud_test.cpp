@@ -146,7 +146,7 @@ TEST(PointCloud, BeamsThatNoFieldTellsApartAreNoLine) {
   for (const bool at_once : {true, false}) {
     CloudBytes cloud("t", CloudType::kUint32, false);
     for (int beam = 0; beam < 300; ++beam)
-      add(cloud, beam, (at_once ? beam / 3 : beam) * 1e5, beam % 3 * 0.3);
+      add(cloud, beam, (at_once ? beam / 3 : beam) * 1e5, beam % 3 * (at_once ? 0.03 : 0.3));
     CloudReader reader;
     RawLaser laser;
     EXPECT_FALSE(reader.add(Encoding::kCdr, as_span(cloud.message(MessageBytes::kCdr, 1, 0)), 0, laser));
