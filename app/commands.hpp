@@ -15,6 +15,7 @@ void add_convert(CLI::App& app, ExitCode& exit_code);
 void add_rig(CLI::App& app, ExitCode& exit_code);
 void add_simulate(CLI::App& app, ExitCode& exit_code);
 void add_estimate(CLI::App& app, ExitCode& exit_code);
+void add_calibrate(CLI::App& app, ExitCode& exit_code);
 void add_merge(CLI::App& app, ExitCode& exit_code);
 void add_map(CLI::App& app, ExitCode& exit_code);
 void add_compare(CLI::App& app, ExitCode& exit_code);

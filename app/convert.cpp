@@ -43,7 +43,7 @@ Result<std::string> convert(const Options& options) {
   const auto rig = options.rig ? read_rig(*options.rig) : Result<Rig>(Rig());
   if (!rig) return tl::unexpected(rig.error());
   const Progress progress;
-  const auto raw = read_raw_recording(options.recording, *rig, progress.job());
+  const auto raw = read_raw_recording(options.recording, *rig, progress.job(), CloudDetail::kWhole);
   if (!raw) return tl::unexpected(raw.error());
   const auto laser = choose_laser(*raw, *rig);
   if (!laser) return tl::unexpected(laser.error());
@@ -56,8 +56,10 @@ Result<std::string> convert(const Options& options) {
   if (!written) return tl::unexpected(written.error());
   for (const std::string& warning : raw->warnings)
     progress.say(printable(fmt::format("warning: {}: {}", raw->name, warning)));
-  return fmt::format("{}: {} scans of {} and {} samples of {} on {}\n", options.output.string(),
-                     scans.scans.size(), scans.topic, motor.stamps.size(), motor.joint, motor.topic);
+  return fmt::format("{}: {} {} of {} and {} samples of {} on {}\n", options.output.string(),
+                     scans.of_clouds ? scans.clouds.size() : scans.scans.size(),
+                     scans.of_clouds ? "clouds" : "scans", scans.topic, motor.stamps.size(), motor.joint,
+                     motor.topic);
 }
 
 ExitCode run(const Options& options) {

@@ -53,7 +53,8 @@ Json laser_json(const LaserSummary& laser) {
                    {"out_of_range_ranges", laser.out_of_range},
                    {"median_range_m", laser.median_range_m},
                    {"scans_without_motor", laser.scans_without_motor},
-                   {"intensities", laser.intensities}});
+                   {"intensities", laser.intensities},
+                   {"rings", laser.rings}});
   return json;
 }
 
@@ -135,10 +136,13 @@ std::string laser_text(const LaserSummary& laser) {
   const double usable =
       laser.beams > 0 ? 100.0 * static_cast<double>(laser.usable_beams) / static_cast<double>(laser.beams)
                       : 0;
+  const std::string of_clouds =
+      laser.rings > 0 ? fmt::format(" of clouds, on {} {},", laser.rings, laser.rings > 1 ? "rings" : "ring")
+                      : "";
   return "laser\n" + row("topic", laser.topic) +
-         row("scans", fmt::format("{} of {} beams from {:.1f} to {:.1f} deg in {:.1f} ms{}", laser.used,
-                                  beams, laser.first_beam_deg, laser.last_beam_deg, 1000 * laser.scan_s,
-                                  laser.intensities ? ", with intensities" : "")) +
+         row("scans", fmt::format("{}{} of {} beams from {:.1f} to {:.1f} deg in {:.1f} ms{}", laser.used,
+                                  of_clouds, beams, laser.first_beam_deg, laser.last_beam_deg,
+                                  1000 * laser.scan_s, laser.intensities ? ", with intensities" : "")) +
          stream_text(laser, laser.stamp_at == StampAt::kFirstBeam  ? ", taken as the first beam's"
                             : laser.stamp_at == StampAt::kLastBeam ? ", taken as the last beam's"
                                                                    : ", taken as the scan's arrival") +

@@ -32,6 +32,7 @@ int run(int argc, char** argv) {
   app::add_rig(app, exit_code);
   app::add_simulate(app, exit_code);
   app::add_estimate(app, exit_code);
+  app::add_calibrate(app, exit_code);
   app::add_merge(app, exit_code);
   app::add_map(app, exit_code);
   app::add_compare(app, exit_code);

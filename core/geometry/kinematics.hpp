@@ -22,6 +22,10 @@ class Kinematics {
     return motor_from_laser_ *
            Eigen::Vector3d(range_m * std::cos(angle_rad), range_m * std::sin(angle_rad), 0.0);
   }
+  /// The same of a beam in any direction (unit length, laser's frame).
+  Eigen::Vector3d point_in_motor(double range_m, const Eigen::Vector3d& direction) const {
+    return motor_from_laser_ * Eigen::Vector3d(range_m * direction);
+  }
   /// Where a point of the motor frame is in the base frame at a motor angle.
   Eigen::Vector3d base_from_motor(const Eigen::Vector3d& p_in_motor, double motor_angle_rad) const {
     const double c = std::cos(motor_angle_rad), s = std::sin(motor_angle_rad);

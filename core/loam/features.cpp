@@ -207,7 +207,8 @@ class LineFeatures {
 
   bool push(const LaserScan& scan, std::uint32_t scan_index, int beam, double range_m, bool sharp,
             std::vector<Feature>& features) const {
-    const Eigen::Vector3d p_in_motor_m = kinematics_.point_in_motor(range_m, scan.beam_angle_rad(beam));
+    const Eigen::Vector3d p_in_motor_m =
+        kinematics_.point_in_motor(range_m, recording_.direction(scan, static_cast<std::uint32_t>(beam)));
     if (kinematics_.distance_to_axis_m(p_in_motor_m) < options_.axis_sine * range_m) return false;
     features.push_back({p_in_motor_m.cast<float>(), static_cast<float>(range_m), scan.beam_s(beam),
                         scan_index, static_cast<std::uint16_t>(beam), sharp});

@@ -43,7 +43,7 @@ class BeamPlacer {
       const double time_s = scan.beam_s(beam);
       const double u = (time_s - pose.begin_s) / (pose.end_s - pose.begin_s);
       const Eigen::Vector3d p_in_motor_m =
-          kinematics_.point_in_motor(ranges_m[beam], scan.beam_angle_rad(beam));
+          kinematics_.point_in_motor(ranges_m[beam], recording_.direction(scan, beam));
       const Eigen::Vector3d p_m =
           motion(kinematics_.base_from_motor(p_in_motor_m, motor_.angle_at(time_s + offset_s_)), u);
       MapPoint point{};

@@ -131,7 +131,7 @@ Beams collect_beams(const Recording& recording) {
     for (std::uint32_t beam = 0; beam < scan.beams; ++beam) {
       if (!std::isfinite(ranges_m[beam])) continue;
       const Eigen::Vector3f p_m =
-          kinematics.point_in_motor(ranges_m[beam], scan.beam_angle_rad(beam)).cast<float>();
+          kinematics.point_in_motor(ranges_m[beam], recording.direction(scan, beam)).cast<float>();
       beams.p_in_motor_m.push_back({p_m.x(), p_m.y(), p_m.z()});
       beams.scan.push_back(i);
       beams.beam.push_back(beam);

@@ -21,7 +21,7 @@ struct CoarseSum {
 // 1 / r goes as A cos(angle) + B sin(angle), which two lines tell.
 void add_differences(const StillGrid& grid, const StillPoints& points, std::size_t line, const LinePool& pool,
                      const StillPatchOptions& patches, CoarseSum& total) {
-  StillNeighbours neighbours(points, pool, patches);
+  StillNeighbours neighbours(points, pool, line, patches);
   for (std::size_t bin = line % 2; bin < points.bins; bin += 2) {
     const std::size_t cell = line * points.bins + bin;
     if (!points.placed[cell]) continue;
@@ -110,7 +110,7 @@ class Linearisation {
  private:
   LineResiduals of_line(std::size_t line, const LinePool& pool) const {
     LineResiduals found;
-    StillNeighbours neighbours(points_, pool, patches_);
+    StillNeighbours neighbours(points_, pool, line, patches_);
     for (std::size_t bin = 0; bin < points_.bins; ++bin) {
       const std::size_t cell = line * points_.bins + bin;
       if (!points_.placed[cell]) continue;

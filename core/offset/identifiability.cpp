@@ -69,7 +69,8 @@ Remark stamps_reason(const Recording& recording, const SearchScale& scale) {
   if (recording.report.laser_stamps.used != StampSource::kReceive) return std::nullopt;
   if (recording.scans.size() < kLeastScans) return std::nullopt;
   std::vector<double> times_s;
-  for (const LaserScan& scan : recording.scans) times_s.push_back(scan.first_beam_s);
+  for (const LaserScan& scan : recording.scans)
+    if (scan.ring == recording.scans.front().ring) times_s.push_back(scan.first_beam_s);
   const double spread_s = unevenness_s(times_s), period_s = recording.report.laser_stamps.median_period_s;
   if (spread_s < std::max(period_s / 4, scale.unit_s / 2)) return std::nullopt;
   return fmt::format(
@@ -143,9 +144,10 @@ Remark sigma_reason(std::optional<double> sigma_s, const SearchScale& scale) {
 }
 
 Remark aliased_warning(const Recording& recording, const MotorMotion& motor) {
-  std::vector<double> periods_s;
-  for (std::size_t i = 1; i < recording.scans.size(); ++i)
-    periods_s.push_back(recording.scans[i].first_beam_s - recording.scans[i - 1].first_beam_s);
+  std::vector<double> stamps_s, periods_s;
+  for (const LaserScan& scan : recording.scans)
+    if (scan.ring == recording.scans.front().ring) stamps_s.push_back(scan.first_beam_s);
+  for (std::size_t i = 1; i < stamps_s.size(); ++i) periods_s.push_back(stamps_s[i] - stamps_s[i - 1]);
   const double period_s = median_of(periods_s);
   if (!(period_s > 0) || motor.sweeps.size() < 4) return std::nullopt;
   const double scans = motor.median_sweep_s / period_s;

@@ -15,7 +15,20 @@ namespace {
 
 using Eigen::Vector3d;
 
-// What a scan's points share: where the motor's axis was, how fast it turned, and between which knots.
+// A ring of a 3D scanner takes a whole turn: its points share a motion only over a part of that.
+constexpr double kLongestSlice_s = 0.025;
+
+std::uint32_t slices_per_scan(const Recording& recording) {
+  if (recording.directions.empty()) return 1;
+  double longest_s = 0;
+  for (const LaserScan& scan : recording.scans)
+    longest_s = std::max(longest_s, scan.last_beam_s() - scan.first_beam_s);
+  constexpr double kMost = 64;
+  return static_cast<std::uint32_t>(std::clamp(std::ceil(longest_s / kLongestSlice_s), 1.0, kMost));
+}
+
+// What the points of a scan, or of a slice of one, share: where the motor's axis was, how fast it turned, and
+// between which knots.
 struct ScanMotion {
   SmoothPath::Place place;
   Vector3d base_in_map_m, turning_rad_s;
@@ -125,7 +138,10 @@ class Part {
  public:
   Part(const OffsetProblem& problem, const std::vector<SweepPose>& sweeps, double offset_s,
        const JointWalkOptions& options)
-      : problem_(cut(problem, sweeps, offset_s)), options_(options), path_(sweeps, options.knot_s) {
+      : problem_(cut(problem, sweeps, offset_s)),
+        options_(options),
+        slices_(slices_per_scan(*problem.recording)),
+        path_(sweeps, options.knot_s) {
     result_.middle_s = (sweeps.front().begin_s + sweeps.back().end_s) / 2;
     result_.offset_s = offset_s;
   }
@@ -171,7 +187,7 @@ class Part {
   void linearise(PartEquations& equations) {
     const std::vector<PlacedSweep> sweeps = place_sweeps(problem_, result_.offset_s);
     FeatureMap edges, planes;
-    scans_.resize(problem_.recording->scans.size());
+    scans_.resize(problem_.recording->scans.size() * slices_);
     last_line_ = kNoLine;
     for (const PlacedSweep& sweep : sweeps) {
       for (const PlacedFeature& feature : sweep.edges) insert(sweep, feature, edges);
@@ -188,7 +204,9 @@ class Part {
         ++result_.features;
         const Vector3d p_m = in_map_m(sweep, feature);
         const auto plane = find_plane(planes, p_m, feature.range_m, rule, near_);
-        if (plane) add(feature, p_m, plane->normal, (p_m - plane->centre_m).dot(plane->normal), equations);
+        if (plane)
+          add(line_of(sweep, feature), p_m, plane->normal, (p_m - plane->centre_m).dot(plane->normal),
+              equations);
       }
       for (const PlacedFeature& feature : sweep.edges) {
         if (!feature.sharp) continue;
@@ -197,30 +215,41 @@ class Part {
         const auto line = find_line(edges, p_m, feature.range_m, rule, near_);
         const Vector3d away_m = line ? from_line(*line, p_m) : Vector3d::Zero();
         const double distance_m = away_m.norm();
-        if (distance_m > 1e-9) add(feature, p_m, away_m / distance_m, distance_m, equations);
+        if (distance_m > 1e-9) add(line_of(sweep, feature), p_m, away_m / distance_m, distance_m, equations);
       }
     }
   }
 
   void insert(const PlacedSweep& sweep, const PlacedFeature& feature, FeatureMap& map) {
-    map.insert(in_map_m(sweep, feature).cast<float>(), feature.line, sweep.direction);
-    if (feature.line == last_line_) return;
-    last_line_ = feature.line;
+    const std::uint32_t line = line_of(sweep, feature);
+    map.insert(in_map_m(sweep, feature).cast<float>(), line, sweep.direction);
+    if (line == last_line_) return;
+    last_line_ = line;
     const LaserScan& scan = problem_.recording->scans[feature.line];
-    const double middle_s = scan.beam_s((scan.beams - 1.0) / 2);
+    const double slice = line % slices_, beams = (scan.beams - 1.0) / slices_;
+    const double middle_s = scan.beam_s((slice + 0.5) * beams);
     const Pose pose = path_.at(middle_s);
     const double rate_rad_s = sweep.direction * problem_.motor.sweeps[sweep.sweep].speed_rad_s;
-    scans_[feature.line] = {path_.place(middle_s), pose.translation_m,
-                            rate_rad_s * (pose.rotation * problem_.recording->rig.mount.axis.normalized())};
+    scans_[line] = {path_.place(middle_s), pose.translation_m,
+                    rate_rad_s * (pose.rotation * problem_.recording->rig.mount.axis.normalized())};
+  }
+
+  // The number of a feature's scan line, or of the slice of it.
+  std::uint32_t line_of(const PlacedSweep& sweep, const PlacedFeature& feature) const {
+    if (slices_ == 1) return feature.line;
+    const LaserScan& scan = problem_.recording->scans[feature.line];
+    const double u = (time_s(sweep, feature) - scan.first_beam_s) / (scan.last_beam_s() - scan.first_beam_s);
+    const double slice = std::clamp(std::floor(u * slices_), 0.0, slices_ - 1.0);
+    return feature.line * slices_ + static_cast<std::uint32_t>(slice);
   }
 
   // One match: a point of one direction, its surface from points of the other.
-  void add(const PlacedFeature& feature, const Vector3d& p_m, const Vector3d& normal, double distance_m,
+  void add(std::uint32_t line, const Vector3d& p_m, const Vector3d& normal, double distance_m,
            PartEquations& equations) {
     row_.clear();
-    double slope = add_point(feature.line, p_m, normal, 1);
-    result_.lever_m2 += square(normal.dot(arm_m(feature.line, p_m)));
-    result_.reach_m2 += arm_m(feature.line, p_m).squaredNorm();
+    double slope = add_point(line, p_m, normal, 1);
+    result_.lever_m2 += square(normal.dot(arm_m(line, p_m)));
+    result_.reach_m2 += arm_m(line, p_m).squaredNorm();
     for (int i = 0; i < near_.count; ++i) {
       const auto at = std::size_t(i);
       slope += add_point(near_.line[at], near_.p_m[at].cast<double>(), normal, -1.0 / near_.count);
@@ -247,6 +276,7 @@ class Part {
 
   OffsetProblem problem_;
   const JointWalkOptions& options_;
+  std::uint32_t slices_;  // of every scan
   SmoothPath path_;
   JointWalkPart result_;
   std::vector<ScanMotion> scans_;

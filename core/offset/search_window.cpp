@@ -94,7 +94,8 @@ Result<OffsetProblem> prepare_problem(const Recording& recording, double least_s
   problem.motor = find_sweeps(recording.motor);
   problem.scan_used = scans_covered(recording, least_s, greatest_s);
   std::vector<double> stamps_s;
-  for (const LaserScan& scan : recording.scans) stamps_s.push_back(scan.first_beam_s);
+  for (const LaserScan& scan : recording.scans)
+    if (scan.ring == recording.scans.front().ring) stamps_s.push_back(scan.first_beam_s);
   problem.line_spacing_rad = problem.motor.median_speed_rad_s * median_spacing_s(stamps_s);
   return problem;
 }

@@ -68,7 +68,7 @@ std::optional<SweepShift> shift_between(const StillPoints& points, const LinePoo
   std::vector<PointOnPlane> matches;
   SweepShift shift;
   for (const std::uint32_t line : source) {
-    StillNeighbours neighbours(points, target, patches);
+    StillNeighbours neighbours(points, target, line, patches);
     for (std::size_t bin = 0; bin < points.bins; ++bin) {
       const std::size_t cell = line * points.bins + bin;
       if (!points.placed[cell]) continue;

@@ -87,6 +87,10 @@ StillPoints place_still(const StillGrid& grid, double offset_s, StillDetail deta
     }
     points.pool[sweep.direction > 0 ? 1 : 0].push_back(std::uint32_t(line));
   }
+  const auto ring_of = [&](std::uint32_t scan) { return problem.recording->scans[scan].ring; };
+  if (std::ranges::any_of(grid.scan,
+                          [&](std::uint32_t scan) { return ring_of(scan) != ring_of(grid.scan[0]); }))
+    for (const std::uint32_t scan : grid.scan) points.ring.push_back(ring_of(scan));
   const std::size_t middle = grid.bins / 2;
   for (LinePool& pool : points.pool)
     std::stable_sort(pool.begin(), pool.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -112,6 +116,14 @@ StillPatchOptions still_patch_options(const OffsetProblem& problem) {
   options.reach_rad = std::max(1.6 * problem.line_spacing_rad, 4 * options.least_gap_rad);
   options.thickness_m += problem.features->range_noise_m;
   return options;
+}
+
+StillNeighbours::StillNeighbours(const StillPoints& points, const LinePool& pool, std::size_t line,
+                                 const StillPatchOptions& options)
+    : points_(points), pool_(points.ring.empty() ? pool : of_ring_), options_(options) {
+  if (points.ring.empty()) return;
+  for (const std::uint32_t other : pool)
+    if (points.ring[other] == points.ring[line]) of_ring_.push_back(other);
 }
 
 void StillNeighbours::seek(double angle_rad, std::size_t bin) {

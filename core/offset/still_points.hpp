@@ -41,6 +41,7 @@ struct StillPoints {
   std::vector<Eigen::Vector3d> p_m;  // per cell, base frame
   std::vector<char> placed;          // per cell
   std::array<LinePool, 2> pool;      // all lines turning down, up
+  std::vector<std::uint16_t> ring;   // per line; empty where there is one ring only
 
   std::size_t lines() const { return sweep.size(); }
   const LinePool& against(int turning) const { return pool[turning > 0 ? 0 : 1]; }
@@ -74,8 +75,11 @@ struct StillPatch {
 /// Goes through a line's cells in order and finds each one's neighbours among the lines of a pool.
 class StillNeighbours {
  public:
-  StillNeighbours(const StillPoints& points, const LinePool& pool, const StillPatchOptions& options)
-      : points_(points), pool_(pool), options_(options) {}
+  /// Of a scanner with rings only the lines of the given line's own ring: their bins lie beside each other.
+  StillNeighbours(const StillPoints& points, const LinePool& pool, std::size_t line,
+                  const StillPatchOptions& options);
+  StillNeighbours(const StillNeighbours&) = delete;
+  StillNeighbours& operator=(const StillNeighbours&) = delete;
 
   /// The lines next below and above a motor angle at a bin, both with a point there and within reach.
   struct Pair {
@@ -92,6 +96,7 @@ class StillNeighbours {
 
   static constexpr int kMostPoints = 24;
   const StillPoints& points_;
+  LinePool of_ring_;
   const LinePool& pool_;
   const StillPatchOptions& options_;
   std::size_t next_ = 0;  // the first of the pool's lines at or above the angle

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 
 #include "core/recording/choose_streams.hpp"
@@ -38,6 +39,8 @@ class ScanAssembler {
  private:
   bool place(const RawScan& raw, LaserScan& scan);
   void set_epoch();
+  bool check_cloud_times(const std::vector<LaserScan>& lines);
+  void order_lines(std::vector<LaserScan>& lines);
   void take_ranges();
   void clean(const RawScan& raw, std::span<float> ranges_m);
   void warn_of_drops();
@@ -46,6 +49,8 @@ class ScanAssembler {
   RawLaser& raw_;
   Recording& recording_;
   ReadReport& report_;
+  std::vector<double> cloud_spans_s_;  // of the lines placed
+  std::string cloud_problem_;
   std::size_t without_stamp_ = 0, without_beams_ = 0, without_increment_ = 0, increment_from_scan_time_ = 0;
 };
 
@@ -79,9 +84,12 @@ bool ScanAssembler::place(const RawScan& raw, LaserScan& scan) {
     if (!usable_increment(scan.time_increment_s)) return ++without_increment_, false;
     if (!of_rig) ++increment_from_scan_time_;
   }
+  scan.ring = raw.ring;
   const double stamp_s = since_s(ns, recording_.epoch_ns);
   const bool first = recording_.rig.laser.stamp_at == StampAt::kFirstBeam;
-  scan.first_beam_s = first ? stamp_s : stamp_s - (raw.beams - 1.0) * scan.time_increment_s;
+  const double end_s =
+      raw_.of_clouds ? raw.cloud_end_after_stamp_s : (raw.beams - 1.0) * scan.time_increment_s;
+  scan.first_beam_s = stamp_s + raw.first_beam_after_stamp_s - (first ? 0 : end_s);
   return true;
 }
 
@@ -98,16 +106,62 @@ bool ScanAssembler::assemble() {
     clean(raw, std::span(raw_.ranges_m).subspan(raw.first_range, raw.beams));
     placed.push_back(scan);
     times_s.push_back(scan.first_beam_s);
+    if (raw_.of_clouds) cloud_spans_s_.push_back(raw.cloud_end_after_stamp_s - raw.first_beam_after_stamp_s);
   }
   if (placed.empty()) return false;
-  const TimeOrder order = order_by_time(times_s);
-  report_.scans_out_of_order = order.out_of_order;
-  report_.scans_doubled = order.doubled;
-  for (const std::size_t i : order.kept) recording_.scans.push_back(placed[i]);
+  if (raw_.of_clouds) {
+    if (!check_cloud_times(placed)) return false;
+    order_lines(placed);
+  } else {
+    const TimeOrder order = order_by_time(times_s);
+    report_.scans_out_of_order = order.out_of_order;
+    report_.scans_doubled = order.doubled;
+    for (const std::size_t i : order.kept) recording_.scans.push_back(placed[i]);
+  }
   take_ranges();
   warn_of_drops();
   warn_of_overlap();
   return true;
+}
+
+/// Drivers have many units for the times of points. One misread shows, since a cloud takes about as long as
+/// from it to the next: false where it takes another time altogether.
+bool ScanAssembler::check_cloud_times(const std::vector<LaserScan>& lines) {
+  constexpr double kLeastPart = 0.02, kMostPart = 50;
+  const std::uint16_t ring = std::ranges::min(lines, {}, &LaserScan::ring).ring;
+  std::vector<double> times_s, spans_s;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (lines[i].ring != ring) continue;
+    times_s.push_back(lines[i].first_beam_s);
+    spans_s.push_back(cloud_spans_s_[i]);
+  }
+  std::ranges::sort(times_s);
+  const double period_s = spacing(times_s, kScanGapFactor).median_s, span_s = median(spans_s);
+  if (times_s.size() < 3 || !(period_s > 0)) return true;
+  if (span_s > kLeastPart * period_s && span_s < kMostPart * period_s) return true;
+  cloud_problem_ = fmt::format(
+      "by their points' times clouds take {:.3g} s, and they follow every {:.3g} s: the times are in no unit "
+      "that is known",
+      span_s, period_s);
+  return false;
+}
+
+/// The lines of clouds in the order of time: rings may begin at one instant, a ring has no two lines there.
+void ScanAssembler::order_lines(std::vector<LaserScan>& lines) {
+  std::map<std::uint16_t, double> latest_s;
+  for (const LaserScan& line : lines) {
+    const auto [found, is_new] = latest_s.try_emplace(line.ring, line.first_beam_s);
+    if (!is_new && line.first_beam_s < found->second) ++report_.scans_out_of_order;
+    found->second = std::max(found->second, line.first_beam_s);
+  }
+  const auto key = [](const LaserScan& line) { return std::pair(line.first_beam_s, line.ring); };
+  std::ranges::stable_sort(lines, {}, key);
+  for (const LaserScan& line : lines) {
+    if (!recording_.scans.empty() && key(recording_.scans.back()) == key(line))
+      ++report_.scans_doubled;
+    else
+      recording_.scans.push_back(line);
+  }
 }
 
 /// Marks what is no range with NaN, and counts it by its kind.
@@ -142,24 +196,27 @@ void ScanAssembler::take_ranges() {
   if (in_order && next == raw_.ranges_m.size()) {
     recording_.ranges_m = std::move(raw_.ranges_m);
     if (intensities) recording_.intensities = std::move(raw_.intensities);
+    recording_.directions = std::move(raw_.directions);
     return;
   }
   recording_.ranges_m.reserve(next);
   if (intensities) recording_.intensities.reserve(next);
   for (LaserScan& scan : recording_.scans) {
-    const auto append = [&](const std::vector<float>& from, std::vector<float>& to) {
+    const auto append = [&](const auto& from, auto& to) {
       const auto first = from.begin() + static_cast<std::ptrdiff_t>(scan.first_range);
       to.insert(to.end(), first, first + scan.beams);
     };
     const std::size_t first_range = recording_.ranges_m.size();
     append(raw_.ranges_m, recording_.ranges_m);
     if (intensities) append(raw_.intensities, recording_.intensities);
+    if (!raw_.directions.empty()) append(raw_.directions, recording_.directions);
     scan.first_range = first_range;
   }
 }
 
 std::string ScanAssembler::reason() const {
   std::vector<std::string> reasons;
+  if (!cloud_problem_.empty()) reasons.push_back(cloud_problem_);
   if (without_stamp_ > 0) reasons.push_back(fmt::format("{} have no stamp", without_stamp_));
   if (without_beams_ > 0) reasons.push_back(fmt::format("{} have no beams with directions", without_beams_));
   if (without_increment_ > 0) {
@@ -186,6 +243,7 @@ void ScanAssembler::warn_of_drops() {
 void ScanAssembler::warn_of_overlap() {
   std::vector<double> times_s, durations_s;
   for (const LaserScan& scan : recording_.scans) {
+    if (scan.ring != recording_.scans.front().ring) continue;
     times_s.push_back(scan.first_beam_s);
     durations_s.push_back(scan.last_beam_s() - scan.first_beam_s);
   }

@@ -18,6 +18,10 @@ class CdrWriter {
     number(static_cast<std::uint32_t>(text.size() + 1));
     bytes_.append(text).append(1, '\0');
   }
+  void array(std::span<const std::byte> bytes) {
+    number(static_cast<std::uint32_t>(bytes.size()));
+    bytes_.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  }
   template <typename T>
   void array(std::span<const T> numbers) {
     number(static_cast<std::uint32_t>(numbers.size()));
@@ -52,6 +56,26 @@ std::string cdr_laser_scan(const RawLaser& laser, std::size_t scan) {
   return writer.take();
 }
 
+std::string cdr_cloud(const RawCloud& cloud) {
+  CdrWriter writer;
+  writer.header(cloud.stamps.header_ns, cloud.frame);
+  writer.number(cloud.height);
+  writer.number(cloud.width);
+  writer.number(static_cast<std::uint32_t>(cloud.fields.size()));
+  for (const RawCloud::Field& field : cloud.fields) {
+    writer.text(field.name);
+    writer.number(field.offset);
+    writer.number(field.datatype);
+    writer.number(field.count);
+  }
+  writer.number(static_cast<std::uint8_t>(cloud.big_endian));
+  writer.number(cloud.point_bytes);
+  writer.number(cloud.row_bytes);
+  writer.array(std::span(cloud.data));
+  writer.number(static_cast<std::uint8_t>(cloud.dense));
+  return writer.take();
+}
+
 std::string cdr_joint_state(const RawJoint& joint, std::size_t sample) {
   CdrWriter writer;
   writer.header(joint.stamps[sample].header_ns, "");
@@ -74,6 +98,39 @@ const char* const kLaserScanDefinition =
     "float32 range_max\n"
     "float32[] ranges\n"
     "float32[] intensities\n"
+    "================================================================================\n"
+    "MSG: std_msgs/Header\n"
+    "builtin_interfaces/Time stamp\n"
+    "string frame_id\n"
+    "================================================================================\n"
+    "MSG: builtin_interfaces/Time\n"
+    "int32 sec\n"
+    "uint32 nanosec\n";
+
+const char* const kPointCloudDefinition =
+    "std_msgs/Header header\n"
+    "uint32 height\n"
+    "uint32 width\n"
+    "PointField[] fields\n"
+    "bool is_bigendian\n"
+    "uint32 point_step\n"
+    "uint32 row_step\n"
+    "uint8[] data\n"
+    "bool is_dense\n"
+    "================================================================================\n"
+    "MSG: sensor_msgs/PointField\n"
+    "uint8 INT8=1\n"
+    "uint8 UINT8=2\n"
+    "uint8 INT16=3\n"
+    "uint8 UINT16=4\n"
+    "uint8 INT32=5\n"
+    "uint8 UINT32=6\n"
+    "uint8 FLOAT32=7\n"
+    "uint8 FLOAT64=8\n"
+    "string name\n"
+    "uint32 offset\n"
+    "uint8 datatype\n"
+    "uint32 count\n"
     "================================================================================\n"
     "MSG: std_msgs/Header\n"
     "builtin_interfaces/Time stamp\n"

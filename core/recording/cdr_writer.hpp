@@ -9,11 +9,14 @@ namespace sweepscope {
 
 /// A sensor_msgs/msg/LaserScan in ROS 2's serialisation (CDR, little-endian).
 std::string cdr_laser_scan(const RawLaser& laser, std::size_t scan);
+/// A sensor_msgs/msg/PointCloud2, likewise.
+std::string cdr_cloud(const RawCloud& cloud);
 /// A sensor_msgs/msg/JointState of one joint, likewise.
 std::string cdr_joint_state(const RawJoint& joint, std::size_t sample);
 
 /// Their definitions with those that they use, as MCAP's schemas ("ros2msg") hold them.
 extern const char* const kLaserScanDefinition;
+extern const char* const kPointCloudDefinition;
 extern const char* const kJointStateDefinition;
 
 }  // namespace sweepscope

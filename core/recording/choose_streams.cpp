@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 namespace sweepscope {
@@ -34,7 +35,8 @@ std::string list_of(const std::vector<std::string>& lines) {
 std::string list_of_topics(const RawRecording& raw, std::string_view type_end) {
   std::vector<std::string> lines;
   for (const RecordedTopic& topic : raw.topics) {
-    if (!topic.type.ends_with(type_end)) continue;
+    const bool cloud = type_end == "/LaserScan" && topic.type.ends_with("/PointCloud2");
+    if (!topic.type.ends_with(type_end) && !cloud) continue;
     lines.push_back(fmt::format("{}   {}   {} messages", topic.name, topic.type, topic.messages));
   }
   return lines.empty() ? " nothing" : list_of(lines);
@@ -96,6 +98,9 @@ Result<std::size_t> choose_laser(const RawRecording& raw, const Rig& rig) {
     if (rig.laser.topic && *rig.laser.topic != laser.topic) continue;
     if (!laser.scans.empty()) usable.push_back(i);
   }
+  // Where nothing is named, a scanner's own scans go before clouds: those may be made of anything.
+  const auto of_scans = [&](std::size_t i) { return !raw.lasers[i].of_clouds; };
+  if (std::ranges::any_of(usable, of_scans)) std::erase_if(usable, std::not_fn(of_scans));
   if (usable.size() == 1) return usable.front();
   if (usable.size() > 1) {
     return unreadable(fmt::format(
@@ -109,6 +114,11 @@ Result<std::size_t> choose_laser(const RawRecording& raw, const Rig& rig) {
         fmt::format("{}: has no usable scans on {}, the rig's laser.topic; its topics of scans are:{}",
                     raw.file, *rig.laser.topic, any) +
         first_warning(raw));
+  }
+  for (const RawLaser& laser : raw.lasers) {
+    if (!laser.of_clouds || !raw.warnings.empty()) continue;
+    return unreadable(fmt::format("{}: no cloud on {} holds a line of points with a place and a time",
+                                  raw.file, laser.topic));
   }
   return unreadable(nothing_usable(raw, "sensor_msgs/LaserScan", "/LaserScan"));
 }

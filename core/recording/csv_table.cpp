@@ -21,7 +21,7 @@ Result<bool> CsvTable::read_line() {
   while (true) {
     if (block_at_ == block_.size()) {
       block_.resize(kBlock_bytes);
-      block_.resize(file_.read(std::as_writable_bytes(std::span(block_))));
+      block_.resize(file_->read(std::as_writable_bytes(std::span(block_))));
       block_at_ = 0;
       if (block_.empty()) break;
     }
@@ -82,15 +82,29 @@ Result<CsvTable> CsvTable::open(const std::filesystem::path& path) {
   CsvTable table(std::move(*file), path.string());
   const auto read = table.read_line();
   if (!read) return tl::unexpected(read.error());
-  if (table.line_.starts_with(kByteOrderMark)) table.line_.erase(0, kByteOrderMark.size());
-  if (!table.split_line() || table.cells_.size() > kMostColumns)
-    return unreadable(fmt::format("{}: line 1 does not name columns", table.name_));
-  table.columns_ = table.cells_;
-  for (auto name = table.columns_.begin(); name != table.columns_.end(); ++name) {
-    if (!name->empty() && std::find(std::next(name), table.columns_.end(), *name) != table.columns_.end())
-      return unreadable(fmt::format("{}: line 1 names column {} twice", table.name_, *name));
-  }
+  if (auto named = table.name_columns(); !named) return tl::unexpected(named.error());
   return table;
+}
+
+Result<CsvTable> CsvTable::of_lines(std::string name, std::string_view first_line, std::size_t line_number) {
+  CsvTable table(std::nullopt, std::move(name));
+  table.line_ = first_line;
+  table.line_number_ = table.first_line_ = line_number;
+  if (auto named = table.name_columns(); !named) return tl::unexpected(named.error());
+  return table;
+}
+
+/// Of the present line, the first.
+Result<void> CsvTable::name_columns() {
+  if (line_.starts_with(kByteOrderMark)) line_.erase(0, kByteOrderMark.size());
+  if (!split_line() || cells_.size() > kMostColumns)
+    return unreadable(fmt::format("{} does not name columns", place()));
+  columns_ = cells_;
+  for (auto name = columns_.begin(); name != columns_.end(); ++name) {
+    if (!name->empty() && std::find(std::next(name), columns_.end(), *name) != columns_.end())
+      return unreadable(fmt::format("{} names column {} twice", place(), *name));
+  }
+  return {};
 }
 
 std::size_t CsvTable::column(std::string_view name) const {
@@ -107,9 +121,20 @@ Result<bool> CsvTable::next() {
       cut_short_ = true;
       return false;
     }
-    return unreadable(fmt::format("{}: line {} has {} cells, and line 1 names {} columns", name_,
-                                  line_number_, cells_.size(), columns_.size()));
+    return unreadable(wrong_count());
   }
+}
+
+Result<void> CsvTable::take(std::string_view line, std::size_t line_number) {
+  line_ = line;
+  line_number_ = line_number;
+  if (split_line() && cells_.size() == columns_.size()) return {};
+  return unreadable(wrong_count());
+}
+
+std::string CsvTable::wrong_count() const {
+  return fmt::format("{} has {} cells, and line {} names {} columns", place(), cells_.size(), first_line_,
+                     columns_.size());
 }
 
 std::string_view CsvTable::cell(std::size_t column) const {
@@ -117,12 +142,15 @@ std::string_view CsvTable::cell(std::size_t column) const {
 }
 
 std::string CsvTable::place(std::size_t column) const {
-  return fmt::format("{}: line {}, column {}", name_, line_number_,
-                     column < columns_.size() ? columns_[column] : "?");
+  return fmt::format("{}, column {}", place(), column < columns_.size() ? columns_[column] : "?");
+}
+
+std::string CsvTable::place() const {
+  return fmt::format("{}: line {}", name_, line_number_);
 }
 
 double CsvTable::fraction_read() const {
-  return static_cast<double>(file_.position()) / static_cast<double>(file_.size());
+  return file_ ? static_cast<double>(file_->position()) / static_cast<double>(file_->size()) : 0;
 }
 
 }  // namespace sweepscope

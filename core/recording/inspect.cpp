@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "core/geometry/sweeps.hpp"
 #include "core/recording/stream_stamps.hpp"
@@ -65,7 +66,12 @@ LaserSummary inspect_laser(const Recording& recording) {
   std::vector<double> scans_s, times_s;
   for (const LaserScan& scan : recording.scans) {
     scans_s.push_back(scan.last_beam_s() - scan.first_beam_s);
-    times_s.push_back(scan.first_beam_s);
+    if (scan.ring == first.ring) times_s.push_back(scan.first_beam_s);
+  }
+  if (!recording.directions.empty()) {
+    std::set<std::uint16_t> rings;
+    for (const LaserScan& scan : recording.scans) rings.insert(scan.ring);
+    laser.rings = rings.size();
   }
   laser.uneven_s = unevenness_s(times_s);
   laser.scan_s = median(std::move(scans_s));

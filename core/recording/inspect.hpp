@@ -24,6 +24,7 @@ struct StreamSummary {
 
 struct LaserSummary : StreamSummary {
   std::size_t fewest_beams = 0, most_beams = 0;  // of a scan
+  std::size_t rings = 0;                         // of a 3D scanner, or slices of its clouds; 0: a 2D scanner
   double first_beam_deg = 0, last_beam_deg = 0;  // of the first scan
   StampAt stamp_at = StampAt::kFirstBeam;
   double uneven_s = 0;  // see unevenness_s() in stream_stamps.hpp

@@ -7,6 +7,10 @@
 namespace sweepscope {
 namespace {
 
+bool is_laser(MessageKind kind) {
+  return kind == MessageKind::kLaserScan || kind == MessageKind::kCloud;
+}
+
 JointSource source_of(MessageKind kind) {
   switch (kind) {
     case MessageKind::kFloat64:
@@ -42,7 +46,7 @@ const MessageType* MessageCollector::type_of(const Topic& topic) {
     return nullptr;
   }
   if (type->kind == MessageKind::kTransforms) return type;
-  const bool laser = type->kind == MessageKind::kLaserScan;
+  const bool laser = is_laser(type->kind);
   const auto& wanted = laser ? rig_.laser.topic : rig_.motor.topic;
   return wanted && *wanted != topic.name ? nullptr : type;
 }
@@ -57,8 +61,10 @@ std::size_t MessageCollector::number_of(const Topic& topic) {
     entry.laser = raw_.lasers.size();
     entry.may_be_motor = !rig_.motor.topic || *rig_.motor.topic == topic.name;
     raw_.topics.push_back({topic.name, topic.type});
-    if (entry.type != nullptr && entry.type->kind == MessageKind::kLaserScan)
+    if (entry.type != nullptr && is_laser(entry.type->kind)) {
       raw_.lasers.emplace_back().topic = topic.name;
+      raw_.lasers.back().of_clouds = entry.type->kind == MessageKind::kCloud;
+    }
   }
   return found->second;
 }
@@ -70,9 +76,15 @@ std::optional<Error> MessageCollector::add(std::size_t topic, std::int64_t recei
   RecordedTopic& counts = raw_.topics[topic];
   ++counts.messages;
   if (entry.type == nullptr) return std::nullopt;
-  const bool laser = entry.type->kind == MessageKind::kLaserScan;
-  const bool whole = laser ? add_scan(entry, receive_ns, message) : add_joints(entry, receive_ns, message);
+  const bool whole = entry.type->kind == MessageKind::kLaserScan ? add_scan(entry, receive_ns, message)
+                     : entry.type->kind == MessageKind::kCloud   ? add_cloud(entry, receive_ns, message)
+                                                                 : add_joints(entry, receive_ns, message);
   if (!whole && counts.malformed++ == 0) entry.first_malformed = place();
+  if (cloud_bytes_ > kMostCloudBytes)
+    return Error{ExitCode::kUnreadableInput,
+                 fmt::format("{}: holds more than {} GiB of clouds, more than are converted at once; cut it "
+                             "into parts, or name the topic in a rig file",
+                             raw_.file, kMostCloudBytes >> 30)};
   return too_much(raw_.file, beams_, joint_samples_);
 }
 
@@ -102,6 +114,35 @@ bool MessageCollector::add_scan(const Entry& entry, std::int64_t receive_ns,
   laser.scans.push_back(scan);
   beams_ += scan.beams;
   return true;
+}
+
+bool MessageCollector::add_cloud(Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message) {
+  constexpr std::size_t kBeamsOfScans_a_beam = 4;  // a beam of a cloud has a direction besides
+  RawLaser& laser = raw_.lasers[entry.laser];
+  const std::size_t before = laser.ranges_m.size();
+  const bool used = entry.clouds.add(entry.topic.encoding, message, receive_ns, laser);
+  beams_ += kBeamsOfScans_a_beam * (laser.ranges_m.size() - before);
+  if (used && clouds_ == CloudDetail::kWhole) keep_cloud(entry, receive_ns, message, laser);
+  if (!used && entry.cloud_problem.empty()) entry.cloud_problem = entry.clouds.problem();
+  return used;
+}
+
+void MessageCollector::keep_cloud(const Entry& entry, std::int64_t receive_ns,
+                                  std::span<const std::byte> message, RawLaser& laser) {
+  const auto decoded = decode_cloud(entry.topic.encoding, message);
+  RawCloud& cloud = laser.clouds.emplace_back();
+  cloud.stamps = {decoded->header_ns, receive_ns};
+  cloud.frame = decoded->frame;
+  cloud.height = decoded->height;
+  cloud.width = decoded->width;
+  cloud.point_bytes = decoded->point_bytes;
+  cloud.row_bytes = decoded->row_bytes;
+  cloud.big_endian = decoded->swapped;
+  cloud.dense = decoded->dense;
+  for (const CloudField& field : decoded->fields)
+    cloud.fields.push_back({std::string(field.name), field.offset, field.datatype, field.count});
+  cloud.data.assign(decoded->data.begin(), decoded->data.end());
+  cloud_bytes_ += cloud.data.size();
 }
 
 bool MessageCollector::add_joints(Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message) {
@@ -159,9 +200,11 @@ void MessageCollector::finish() {
   for (const auto& [key, number] : numbers_) {
     const RecordedTopic& topic = raw_.topics[number];
     if (topic.malformed == 0) continue;
+    const std::string& cloud_problem = entries_[number].cloud_problem;
     raw_.warnings.push_back(
-        fmt::format("{} of {} messages on {} are malformed and were skipped, the first at {}",
-                    topic.malformed, topic.messages, topic.name, entries_[number].first_malformed));
+        fmt::format("{} of {} messages on {} are {} and were skipped, the first at {}{}", topic.malformed,
+                    topic.messages, topic.name, cloud_problem.empty() ? "malformed" : "of no use",
+                    entries_[number].first_malformed, cloud_problem.empty() ? "" : ": " + cloud_problem));
   }
 }
 

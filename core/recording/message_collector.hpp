@@ -11,6 +11,7 @@
 
 #include "core/error.hpp"
 #include "core/recording/messages.hpp"
+#include "core/recording/point_cloud.hpp"
 #include "core/recording/raw_recording.hpp"
 
 namespace sweepscope {
@@ -19,6 +20,8 @@ namespace sweepscope {
 /// messages cannot fill the memory.
 inline constexpr std::size_t kMostBeams = std::size_t{1} << 29;
 inline constexpr std::size_t kMostJointSamples = std::size_t{1} << 27;
+/// Where clouds are kept whole, of their bytes.
+inline constexpr std::size_t kMostCloudBytes = std::size_t{1} << 33;
 
 /// The refusal of a file that holds more beams or joint samples than that; empty where it does not.
 std::optional<Error> too_much(const std::string& file, std::size_t beams, std::size_t joint_samples);
@@ -35,7 +38,8 @@ class MessageCollector {
   };
 
   /// Both must outlive it.
-  MessageCollector(const Rig& rig, RawRecording& raw) : rig_(rig), raw_(raw) {}
+  MessageCollector(const Rig& rig, RawRecording& raw, CloudDetail clouds = CloudDetail::kLines)
+      : rig_(rig), raw_(raw), clouds_(clouds) {}
 
   /// The number of a topic, for add(): the same for the same name, type and encoding.
   std::size_t number_of(const Topic& topic);
@@ -53,22 +57,28 @@ class MessageCollector {
     bool may_be_motor = true;           // false: another topic is the rig's motor.topic
     std::map<std::string, std::size_t, std::less<>> joints;
     std::string first_malformed;  // the place
+    CloudReader clouds;
+    std::string cloud_problem;  // of the first cloud that is of no use
   };
 
   const MessageType* type_of(const Topic& topic);
   bool add_scan(const Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message);
+  bool add_cloud(Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message);
+  void keep_cloud(const Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message,
+                  RawLaser& laser);
   bool add_joints(Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message);
   bool add_frames(const Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message);
   RawJoint& joint_of(Entry& entry, std::string_view joint);
 
   const Rig& rig_;
   RawRecording& raw_;
+  CloudDetail clouds_;
   std::vector<Entry> entries_;  // like RawRecording::topics
   std::map<std::tuple<std::string, std::string, Encoding>, std::size_t> numbers_;
   std::vector<DecodedJoint> joints_;
   std::vector<DecodedTransform> transforms_;
   std::map<std::string, std::size_t, std::less<>> frames_;  // by the child, in RawRecording::frames
-  std::size_t beams_ = 0, joint_samples_ = 0;
+  std::size_t beams_ = 0, joint_samples_ = 0, cloud_bytes_ = 0;
 };
 
 }  // namespace sweepscope

@@ -15,6 +15,7 @@ namespace {
 
 constexpr MessageType kTypes[] = {
     {"sensor_msgs/LaserScan", "90c7ef2dc6895d81024acba2ac42f369", MessageKind::kLaserScan},
+    {"sensor_msgs/PointCloud2", "1158d486dd51d683ce2f1be655c3c181", MessageKind::kCloud},
     {"sensor_msgs/JointState", "3066dcd76a6cfaef579bd0f34173e9fd", MessageKind::kJointState},
     {"dynamixel_msgs/JointState", "2b8449320cde76616338e2539db27c32", MessageKind::kDynamixel},
     {"std_msgs/Float64", "fdb28210bfa9d7c91146260178d9a584", MessageKind::kFloat64},
@@ -200,6 +201,67 @@ std::optional<DecodedScan> decode_laser_scan(Encoding encoding, std::span<const 
   return scan;
 }
 
+std::size_t CloudField::size() const {
+  constexpr std::size_t kSizes[] = {0, 1, 1, 2, 2, 4, 4, 4, 8};  // int8, uint8, int16, ... float32, float64
+  return datatype < std::size(kSizes) ? kSizes[datatype] : 0;
+}
+
+double DecodedCloud::value(std::size_t point, const CloudField& field) const {
+  const std::byte* bytes =
+      data.data() + point / width * row_bytes + point % width * point_bytes + field.offset;
+  switch (field.datatype) {
+    case 1:
+      return loaded<std::int8_t>(bytes, false);
+    case 2:
+      return loaded<std::uint8_t>(bytes, false);
+    case 3:
+      return loaded<std::int16_t>(bytes, swapped);
+    case 4:
+      return loaded<std::uint16_t>(bytes, swapped);
+    case 5:
+      return loaded<std::int32_t>(bytes, swapped);
+    case 6:
+      return loaded<std::uint32_t>(bytes, swapped);
+    case 7:
+      return double{loaded<float>(bytes, swapped)};
+    default:
+      return loaded<double>(bytes, swapped);
+  }
+}
+
+std::optional<DecodedCloud> decode_cloud(Encoding encoding, std::span<const std::byte> message) {
+  constexpr std::uint32_t kMostFields = 256;
+  Cursor cursor(encoding, message);
+  DecodedCloud cloud;
+  cloud.header_ns = cursor.header_ns(&cloud.frame);
+  cloud.height = cursor.number<std::uint32_t>();
+  cloud.width = cursor.number<std::uint32_t>();
+  const auto fields = cursor.number<std::uint32_t>();
+  if (fields > kMostFields) return std::nullopt;
+  for (std::uint32_t i = 0; i < fields && cursor.whole(); ++i) {
+    CloudField& field = cloud.fields.emplace_back();
+    field.name = cursor.text();
+    field.offset = cursor.number<std::uint32_t>();
+    field.datatype = cursor.number<std::uint8_t>();
+    field.count = cursor.number<std::uint32_t>();
+  }
+  cloud.swapped = cursor.number<std::uint8_t>() != 0;
+  cloud.point_bytes = cursor.number<std::uint32_t>();
+  cloud.row_bytes = cursor.number<std::uint32_t>();
+  cloud.data = cursor.array<std::byte>().bytes;
+  cloud.dense = cursor.number<std::uint8_t>() != 0;
+  if (!cursor.at_end()) return std::nullopt;
+  if (cloud.points() == 0) return cloud;
+  for (const CloudField& field : cloud.fields)
+    if (std::uint64_t{field.offset} + field.size() > cloud.point_bytes) return std::nullopt;
+  const std::uint64_t row = std::uint64_t{cloud.width} * cloud.point_bytes;
+  if (cloud.point_bytes == 0 || row > cloud.data.size()) return std::nullopt;
+  // Rows that overlap would be more points than there are bytes. Of one row drivers leave the step at 0.
+  if (cloud.height > 1 && cloud.row_bytes < row) return std::nullopt;
+  if (std::uint64_t{cloud.row_bytes} * (cloud.height - 1) > cloud.data.size() - row) return std::nullopt;
+  return cloud;
+}
+
 bool decode_joints(MessageKind kind, Encoding encoding, std::span<const std::byte> message,
                    const Eigen::Vector3d& axis, std::vector<DecodedJoint>& joints) {
   joints.clear();
@@ -218,6 +280,7 @@ bool decode_joints(MessageKind kind, Encoding encoding, std::span<const std::byt
     case MessageKind::kTransforms:
       return decode_turned_frames(cursor, axis, joints);
     case MessageKind::kLaserScan:
+    case MessageKind::kCloud:
       break;
   }
   return false;

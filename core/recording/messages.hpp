@@ -17,7 +17,16 @@ namespace sweepscope {
 /// How a message is serialised: by ROS 1, or by ROS 2 as plain CDR (XCDR1) of either byte order.
 enum class Encoding { kRos1, kCdr };
 
-enum class MessageKind { kLaserScan, kJointState, kDynamixel, kFloat64, kFloat32, kInt32, kTransforms };
+enum class MessageKind {
+  kLaserScan,
+  kCloud,
+  kJointState,
+  kDynamixel,
+  kFloat64,
+  kFloat32,
+  kInt32,
+  kTransforms
+};
 
 struct MessageType {
   std::string_view name;  // as in ROS 1: package/Type
@@ -49,6 +58,30 @@ struct DecodedScan {
   PackedArray<float> ranges_m, intensities;
 };
 
+/// A number of every point of a cloud.
+struct CloudField {
+  std::string_view name;
+  std::uint32_t offset = 0;   // in a point's bytes
+  std::uint8_t datatype = 0;  // as sensor_msgs/PointField numbers them
+  std::uint32_t count = 1;    // of an array the first number is taken
+
+  std::size_t size() const;  // 0: an unknown type
+  bool whole_number() const { return datatype < 7; }
+};
+
+struct DecodedCloud {
+  std::int64_t header_ns = 0;
+  std::string_view frame;
+  std::uint32_t height = 0, width = 0, point_bytes = 0, row_bytes = 0;
+  std::vector<CloudField> fields;
+  std::span<const std::byte> data;
+  bool swapped = false;  // big-endian
+  bool dense = false;    // as it says: no point is invalid
+
+  std::size_t points() const { return std::size_t{height} * width; }
+  double value(std::size_t point, const CloudField& field) const;
+};
+
 /// One joint's position in a message; std_msgs have no header (0 ns), and their only joint is "data".
 struct DecodedJoint {
   std::int64_t header_ns = 0;
@@ -66,6 +99,9 @@ struct DecodedTransform {
 
 /// Empty where the message is malformed.
 std::optional<DecodedScan> decode_laser_scan(Encoding encoding, std::span<const std::byte> message);
+
+/// A cloud's fields lie within its points, and its points within its data.
+std::optional<DecodedCloud> decode_cloud(Encoding encoding, std::span<const std::byte> message);
 
 /// Fills `joints`, whose memory is used again from call to call; false where the message is malformed. Of a
 /// transform the joint is the child frame, and its position the angle about `axis` (unit length, in the

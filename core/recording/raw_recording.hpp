@@ -25,6 +25,9 @@ struct RawScan {
   float range_min_m = 0, range_max_m = 0;
   std::size_t first_range = 0;  // of beam 0 in RawLaser::ranges_m
   std::uint32_t beams = 0;
+  std::uint16_t ring = 0;
+  // Of a line of a cloud: when its first beam, and the cloud's last one, were fired after the stamp.
+  double first_beam_after_stamp_s = 0, cloud_end_after_stamp_s = 0;
 };
 
 /// The direction of a scan's last beam, for RawScan::angle_max_rad where a format has none.
@@ -33,14 +36,36 @@ inline float last_beam_angle_rad(const RawScan& scan) {
   return static_cast<float>(double{scan.angle_min_rad} + steps * double{scan.angle_increment_rad});
 }
 
+/// A cloud as it was recorded, for writing it into another format.
+struct RawCloud {
+  struct Field {
+    std::string name;
+    std::uint32_t offset = 0;
+    std::uint8_t datatype = 0;
+    std::uint32_t count = 1;
+  };
+  MessageStamps stamps;
+  std::string frame;
+  std::uint32_t height = 0, width = 0, point_bytes = 0, row_bytes = 0;
+  bool big_endian = false, dense = false;
+  std::vector<Field> fields;
+  std::vector<std::byte> data;
+};
+
+/// What is kept of clouds: the scan lines that they are read as, or the clouds themselves besides.
+enum class CloudDetail { kLines, kWhole };
+
 /// The scans of one topic in the order of the file.
 struct RawLaser {
   std::string topic;
-  std::string frame;  // of the first message's header
+  std::string frame;       // of the first message's header
+  bool of_clouds = false;  // the scans are lines of a 3D scanner's clouds
   std::vector<RawScan> scans;
   std::vector<float> ranges_m;
   std::vector<float> intensities;  // like ranges_m as long as every scan had them
   bool has_intensities = true;
+  std::vector<Eigen::Vector3f> directions;  // of clouds, like ranges_m: see Recording::directions
+  std::vector<RawCloud> clouds;             // with CloudDetail::kWhole, those that lines were read from
 };
 
 /// What a joint's positions come from. Where the rig names neither topic nor joint, the motor is sought among

@@ -34,12 +34,13 @@ Recording window(const Recording& recording, double from_s, double to_s) {
     if (since_s < from_s || since_s > to_s) continue;
     const std::size_t source = scan.first_range;
     scan.first_range = part.ranges_m.size();
-    const auto copy = [&](const std::vector<float>& from, std::vector<float>& to) {
+    const auto copy = [&](const auto& from, auto& to) {
       to.insert(to.end(), from.begin() + std::ptrdiff_t(source),
                 from.begin() + std::ptrdiff_t(source + scan.beams));
     };
     copy(recording.ranges_m, part.ranges_m);
     if (!recording.intensities.empty()) copy(recording.intensities, part.intensities);
+    if (!recording.directions.empty()) copy(recording.directions, part.directions);
     part.scans.push_back(scan);
   }
   if (part.scans.empty()) return part;

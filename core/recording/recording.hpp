@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -12,7 +14,9 @@
 namespace sweepscope {
 
 /// One scan line of the laser. Beam i was fired at `first_beam_s + i * time_increment_s`, in the direction
-/// `angle_min_rad + i * angle_increment_rad` about the laser's z axis, 0 along its x axis.
+/// `angle_min_rad + i * angle_increment_rad` about the laser's z axis, 0 along its x axis. Of a 3D scanner a
+/// line is one ring of one turn, or a slice of time; these angles then say how its beams lie beside each
+/// other, and Recording::direction() where they go.
 struct LaserScan {
   double first_beam_s = 0;      // laser clock, seconds since Recording::epoch_ns
   double time_increment_s = 0;  // > 0
@@ -20,6 +24,7 @@ struct LaserScan {
   double angle_increment_rad = 0;
   std::size_t first_range = 0;  // index of beam 0 in Recording::ranges_m
   std::uint32_t beams = 0;
+  std::uint16_t ring = 0;  // of a 3D scanner with rings, from 0; else 0
 
   double beam_s(double beam) const { return first_beam_s + beam * time_increment_s; }
   double beam_angle_rad(double beam) const { return angle_min_rad + beam * angle_increment_rad; }
@@ -79,11 +84,19 @@ struct Recording {
   std::vector<LaserScan> scans;
   std::vector<float> ranges_m;     // of all scans, one after the other
   std::vector<float> intensities;  // like ranges_m, or empty
+  /// Of 3D scanners the beams' unit directions in the laser's frame, like ranges_m; else empty.
+  std::vector<Eigen::Vector3f> directions;
   MotorTrack motor;
   ReadReport report;
 
   std::span<const float> ranges(const LaserScan& scan) const {
     return {ranges_m.data() + scan.first_range, scan.beams};
+  }
+  /// Where a beam goes, in the laser's frame: unit length.
+  Eigen::Vector3d direction(const LaserScan& scan, std::uint32_t beam) const {
+    if (!directions.empty()) return directions[scan.first_range + beam].cast<double>();
+    const double angle_rad = scan.beam_angle_rad(beam);
+    return {std::cos(angle_rad), std::sin(angle_rad), 0.0};
   }
 };
 

@@ -25,7 +25,8 @@ bool can_compress(RecordingFormat format, std::string_view compression);
 
 /// Writes a laser and a motor's joint as they were read: both stamps, ranges before any is judged, positions
 /// before the rig's scale and zero, the names of topics and joint. All formats read back as the same
-/// recording. MCAP files are of the ROS 2 profile.
+/// recording. MCAP files are of the ROS 2 profile. Clouds must have been read whole (CloudDetail), and are
+/// not written as CSV.
 Result<void> write_recording(const RawLaser& laser, const RawJoint& joint, RecordingFormat format,
                              const std::string& compression, const std::filesystem::path& output,
                              const Job& job);

@@ -5,11 +5,12 @@
 
 namespace sweepscope {
 
-Result<RawRecording> read_ros1_recording(const std::filesystem::path& path, const Rig& rig, const Job& job) {
+Result<RawRecording> read_ros1_recording(const std::filesystem::path& path, const Rig& rig, const Job& job,
+                                         CloudDetail clouds) {
   RawRecording raw;
   raw.file = path.string();
   raw.name = path.filename().string();
-  MessageCollector collector(rig, raw);
+  MessageCollector collector(rig, raw, clouds);
   const auto visit = [&](const BagMessage& message) {
     const BagConnection& from = message.connection;
     const std::size_t topic =

@@ -118,9 +118,10 @@ std::optional<BagStorage> bag_storage(std::string_view beginning) {
   return std::nullopt;
 }
 
-Result<RawRecording> read_ros2_file(const fs::path& path, const Rig& rig, const Job& job) {
+Result<RawRecording> read_ros2_file(const fs::path& path, const Rig& rig, const Job& job,
+                                    CloudDetail clouds) {
   RawRecording raw = named_recording(path);
-  MessageCollector collector(rig, raw);
+  MessageCollector collector(rig, raw, clouds);
   const auto damage = collect(path, collector, job);
   if (!damage) return tl::unexpected(damage.error());
   collector.finish();
@@ -133,13 +134,14 @@ bool is_ros2_folder(const fs::path& folder) {
   return fs::exists(folder / kMetadata, ignored) || !found_files(folder).empty();
 }
 
-Result<RawRecording> read_ros2_folder(const fs::path& folder, const Rig& rig, const Job& job) {
+Result<RawRecording> read_ros2_folder(const fs::path& folder, const Rig& rig, const Job& job,
+                                      CloudDetail clouds) {
   std::error_code ignored;
   const bool described = fs::exists(folder / kMetadata, ignored);
   const auto files = described ? named_files(folder) : found_files(folder);
   if (!files) return tl::unexpected(files.error());
   RawRecording raw = named_recording(folder);
-  MessageCollector collector(rig, raw);
+  MessageCollector collector(rig, raw, clouds);
   std::vector<std::string> damages;
   for (const fs::path& file : *files) {
     const auto damage = collect(file, collector, job);

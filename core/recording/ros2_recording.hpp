@@ -17,13 +17,15 @@ std::optional<BagStorage> bag_storage(std::string_view beginning);
 
 /// The scans and joints of one file: an SQLite database as rosbag2 writes it, or an MCAP file, of ROS 2's
 /// profile (cdr) or of ROS 1's (ros1). Those that the rig rules out by name are counted and not kept.
-Result<RawRecording> read_ros2_file(const std::filesystem::path& path, const Rig& rig, const Job& job);
+Result<RawRecording> read_ros2_file(const std::filesystem::path& path, const Rig& rig, const Job& job,
+                                    CloudDetail clouds = CloudDetail::kLines);
 
 /// True where the folder is a ROS 2 bag's: it has a metadata.yaml, or files that are stored as one.
 bool is_ros2_folder(const std::filesystem::path& folder);
 
 /// A bag's folder: the files that its metadata.yaml names, in that order; without one, all that are bags, by
 /// name. What is compressed as a whole, or message by message, is refused.
-Result<RawRecording> read_ros2_folder(const std::filesystem::path& folder, const Rig& rig, const Job& job);
+Result<RawRecording> read_ros2_folder(const std::filesystem::path& folder, const Rig& rig, const Job& job,
+                                      CloudDetail clouds = CloudDetail::kLines);
 
 }  // namespace sweepscope

@@ -79,7 +79,7 @@ class McapWriter {
   McapWriter(AtomicFile& file, std::string compression)
       : file_(file), compression_(compression == "none" ? "" : std::move(compression)) {}
 
-  Result<void> begin(const std::string& scan_topic, const std::string& joint_topic);
+  Result<void> begin(const RawLaser& laser, const std::string& joint_topic);
   Result<void> message(ChannelId channel, std::uint64_t log_ns, std::uint64_t publish_ns,
                        const std::string& data);
   Result<void> end();
@@ -105,7 +105,7 @@ Result<void> McapWriter::write(const std::string& bytes) {
   return file_.write(bytes);
 }
 
-Result<void> McapWriter::begin(const std::string& scan_topic, const std::string& joint_topic) {
+Result<void> McapWriter::begin(const RawLaser& laser, const std::string& joint_topic) {
   const auto describe = [&](ChannelId id, const char* type, const char* definition,
                             const std::string& topic) {
     const std::uint16_t number = id;
@@ -115,7 +115,10 @@ Result<void> McapWriter::begin(const std::string& scan_topic, const std::string&
         record(McapOp::kChannel,
                Content().number(number).number(number).text(topic).text("cdr").number(std::uint32_t{0}));
   };
-  describe(kScans, "sensor_msgs/msg/LaserScan", kLaserScanDefinition, scan_topic);
+  if (laser.of_clouds)
+    describe(kScans, "sensor_msgs/msg/PointCloud2", kPointCloudDefinition, laser.topic);
+  else
+    describe(kScans, "sensor_msgs/msg/LaserScan", kLaserScanDefinition, laser.topic);
   describe(kJoints, "sensor_msgs/msg/JointState", kJointStateDefinition, joint_topic);
   chunk_ = descriptions_;
   return write(std::string(kMcapMagic) +
@@ -202,17 +205,26 @@ Result<void> McapWriter::end() {
   return write(tail + std::string(kMcapMagic));
 }
 
+/// A scan, or a cloud where the laser's are clouds.
+std::string laser_message(const RawLaser& laser, std::size_t number) {
+  return laser.of_clouds ? cdr_cloud(laser.clouds[number]) : cdr_laser_scan(laser, number);
+}
+
+const MessageStamps& laser_stamps(const RawLaser& laser, std::size_t number) {
+  return laser.of_clouds ? laser.clouds[number].stamps : laser.scans[number].stamps;
+}
+
 Result<void> write_messages(const RawLaser& laser, const RawJoint& joint, McapWriter& writer,
                             const Job& job) {
   const std::vector<WrittenMessage> all = write_order(laser, joint);
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (job.cancelled()) return failure(ExitCode::kInterrupted, "interrupted");
     const std::size_t number = all[i].number;
-    const auto& stamps = all[i].is_scan ? laser.scans[number].stamps : joint.stamps[number];
+    const auto& stamps = all[i].is_scan ? laser_stamps(laser, number) : joint.stamps[number];
     auto written =
         writer.message(all[i].is_scan ? kScans : kJoints, static_cast<std::uint64_t>(all[i].receive_ns),
                        static_cast<std::uint64_t>(stamps.header_ns),
-                       all[i].is_scan ? cdr_laser_scan(laser, number) : cdr_joint_state(joint, number));
+                       all[i].is_scan ? laser_message(laser, number) : cdr_joint_state(joint, number));
     if (!written) return written;
     if (i % 512 == 0) job.report("writing", static_cast<double>(i) / static_cast<double>(all.size()));
   }
@@ -226,7 +238,7 @@ Result<void> write_mcap(const RawLaser& laser, const RawJoint& joint, const std:
   auto file = AtomicFile::create(path);
   if (!file) return tl::unexpected(file.error());
   McapWriter writer(*file, compression);
-  return writer.begin(laser.topic, joint.topic)
+  return writer.begin(laser, joint.topic)
       .and_then([&] { return write_messages(laser, joint, writer, job); })
       .and_then([&] { return writer.end(); })
       .and_then([&] { return file->commit(); });

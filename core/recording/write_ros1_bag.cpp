@@ -4,6 +4,7 @@
 #include <rosbag/bag.h>
 #include <sensor_msgs/JointState.h>
 #include <sensor_msgs/LaserScan.h>
+#include <sensor_msgs/PointCloud2.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -31,6 +32,7 @@ struct MessageAllocator : std::allocator<T> {
   };
 };
 using LaserScanMessage = sensor_msgs::LaserScan_<MessageAllocator<void>>;
+using PointCloudMessage = sensor_msgs::PointCloud2_<MessageAllocator<void>>;
 using JointStateMessage = sensor_msgs::JointState_<MessageAllocator<void>>;
 
 ros::Time ros_time(std::int64_t ns) {
@@ -63,6 +65,29 @@ LaserScanMessage scan_message(const RawLaser& laser, std::size_t number) {
   return message;
 }
 
+PointCloudMessage cloud_message(const RawCloud& cloud, std::size_t number) {
+  PointCloudMessage message;
+  message.header.seq = static_cast<std::uint32_t>(number);
+  message.header.stamp = ros_time(cloud.stamps.header_ns);
+  message.header.frame_id.assign(cloud.frame.begin(), cloud.frame.end());
+  message.height = cloud.height;
+  message.width = cloud.width;
+  for (const RawCloud::Field& field : cloud.fields) {
+    auto& added = message.fields.emplace_back();
+    added.name.assign(field.name.begin(), field.name.end());
+    added.offset = field.offset;
+    added.datatype = field.datatype;
+    added.count = field.count;
+  }
+  message.is_bigendian = cloud.big_endian;
+  message.point_step = cloud.point_bytes;
+  message.row_step = cloud.row_bytes;
+  message.data.resize(cloud.data.size());
+  std::memcpy(message.data.data(), cloud.data.data(), cloud.data.size());
+  message.is_dense = cloud.dense;
+  return message;
+}
+
 JointStateMessage joint_message(const RawJoint& joint, std::size_t number) {
   JointStateMessage message;
   message.header.seq = static_cast<std::uint32_t>(number);
@@ -89,7 +114,9 @@ bool write_messages(const RawLaser& laser, const RawJoint& joint, const std::fil
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (job.cancelled()) return false;
     const ros::Time received = std::max(ros_time(all[i].receive_ns), ros::TIME_MIN);
-    if (all[i].is_scan)
+    if (all[i].is_scan && laser.of_clouds)
+      bag.write(laser.topic, received, cloud_message(laser.clouds[all[i].number], all[i].number));
+    else if (all[i].is_scan)
       bag.write(laser.topic, received, scan_message(laser, all[i].number));
     else
       bag.write(joint.topic, received, joint_message(joint, all[i].number));

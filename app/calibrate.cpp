@@ -1,0 +1,187 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <memory>
+
+#include "app/commands.hpp"
+#include "app/estimate_options.hpp"
+#include "app/offset_texts.hpp"
+#include "app/progress.hpp"
+#include "app/say.hpp"
+#include "core/live/calibration.hpp"
+#include "core/live/ros_source.hpp"
+#include "core/live/stream_source.hpp"
+#include "core/recording/choose_streams.hpp"
+#include "core/recording/recording_writer.hpp"
+
+namespace sweepscope::app {
+namespace {
+
+struct Options {
+  std::string source;
+  RecordingOptions recording;  // --rig, --stamps and --threads
+  CalibrationOptions calibration;
+  std::filesystem::path record;
+  EstimateOutput output;
+};
+
+constexpr const char* kLines =
+    "\nThe lines on standard input are those of a CSV recording's two tables, mixed as they come, with the "
+    "word "
+    "scan or motor before each. The first of each word names its columns:\n"
+    "  scan,stamp_s,angle_min_rad,angle_increment_rad,time_increment_s,ranges_m\n"
+    "  motor,stamp_s,angle_rad\n"
+    "  motor,1700000000.000,0.0131\n"
+    "  scan,1700000000.004,-1.5708,0.004363,1.736e-5,3.21 3.20 nan 3.22\n"
+    "Columns are those of the tables (README, Recordings): stamp_s and/or receive_s in s; angle_min_rad, "
+    "angle_increment_rad, ranges_m in m with spaces between them [intensities, time_increment_s, "
+    "scan_time_s, "
+    "range_min_m, range_max_m, topic]; angle_rad, angle_deg or position [topic, joint]. Empty lines and "
+    "those "
+    "that begin with # are left aside.";
+
+Result<std::unique_ptr<LiveSource>> open_source(const Options& options) {
+  if (options.source == "-")
+    return std::make_unique<StreamSource>(STDIN_FILENO, "standard input", options.calibration.rig);
+  return open_ros_source(options.calibration.rig);
+}
+
+Result<RecordingFormat> record_format(const std::filesystem::path& output) {
+  if (const auto format = recording_format_of(output)) return *format;
+  return failure(
+      ExitCode::kWrongUsage,
+      fmt::format("{}: its name stands for no format: OUT.bag, OUT.mcap, or OUT for a folder of CSV",
+                  output.string()));
+}
+
+Result<void> keep(const RawRecording& heard, const Options& options, RecordingFormat format) {
+  const auto laser = choose_laser(heard, options.calibration.rig);
+  if (!laser) return tl::unexpected(laser.error());
+  const auto joint = choose_joint(heard, options.calibration.rig);
+  if (!joint) return tl::unexpected(joint.error());
+  return write_recording(heard.lasers[*laser], heard.joints[*joint], format, "none", options.record, Job());
+}
+
+void tell_running(const Progress& progress, const HeardSoFar& heard, const Result<Estimate>& answer) {
+  const std::string what = !answer            ? answer.error().message
+                           : answer->offset_s ? fmt::format("{:.3f} ms +- {:.3f} ms", *answer->offset_s * 1e3,
+                                                            answer->sigma_s.value_or(0) * 1e3)
+                                              : answer->reasons.front();
+  progress.say(printable(fmt::format("{:5.1f} s, {} scans, {} samples of the motor: {}", heard.seconds,
+                                     heard.scans, heard.motor_samples, what.substr(0, what.find('\n')))));
+}
+
+std::string words_of(ListeningEnd end, const HeardSoFar& heard, const CalibrationOptions& options) {
+  const std::string much = fmt::format("{:.1f} of {:g} s", heard.seconds, options.seconds);
+  switch (end) {
+    case ListeningEnd::kHeardEnough:
+      return "";
+    case ListeningEnd::kInputEnded:
+      return fmt::format("The input ended after {}.", much);
+    case ListeningEnd::kSilence:
+      return fmt::format("Nothing new was heard for {:g} s, after {}.", options.silence_s, much);
+    case ListeningEnd::kCancelled:
+      return fmt::format("Interrupted after {}.", much);
+  }
+  return "";
+}
+
+Result<Estimate> run_calibration(Options& options) {
+  if (options.recording.rig) {
+    const auto rig = read_rig(*options.recording.rig);
+    if (!rig) return tl::unexpected(rig.error());
+    options.calibration.rig = *rig;
+  }
+  options.calibration.stamps = options.recording.stamps;
+  auto format = options.record.empty() ? RecordingFormat::kCsv : record_format(options.record);
+  if (!format) return tl::unexpected(format.error());
+  const Progress progress;
+  auto source = open_source(options);
+  if (!source) return tl::unexpected(source.error());
+  const auto end = listen(**source, options.calibration, progress.job(),
+                          [&](const HeardSoFar& heard, const Result<Estimate>& answer) {
+                            tell_running(progress, heard, answer);
+                          });
+  if (!end) return tl::unexpected(end.error());
+  RawRecording heard = (*source)->heard();
+  const std::string ended = words_of(*end, heard_so_far(heard), options.calibration);
+  if (!ended.empty()) heard.warnings.push_back(ended);
+  Result<void> kept;
+  if (!options.record.empty()) kept = keep(heard, options, *format);
+  // What was heard is used after an interruption as well.
+  auto found = calibrate(std::move(heard), options.calibration, Job());
+  if (!kept && (!found || found->identifiable)) return tl::unexpected(kept.error());
+  if (!kept) found->warnings.push_back(fmt::format("Nothing was recorded: {}", kept.error().message));
+  return found;
+}
+
+ExitCode run(Options& options) {
+  const auto threads = options.recording.limit_threads();
+  const auto found = run_calibration(options);
+  if (!found) return fail(found.error());
+  const auto written = options.output.write(*found);
+  if (!written) return fail(written.error());
+  return say_answer(*found, options.output);
+}
+
+}  // namespace
+
+void add_calibrate(CLI::App& app, ExitCode& exit_code) {
+  CLI::App* command = app.add_subcommand(
+      "calibrate", "Find the offset of a running rig that stands still: t_motor = t_laser + offset");
+  const auto options = std::make_shared<Options>();
+  const bool ros = ros_source_is_built();
+  const std::string sources =
+      ros ? "- for lines on standard input, or ros for a running ROS 1 system"
+          : "- for lines on standard input (a running ROS 1 system: not built in here)";
+  command->add_option("SOURCE", options->source, sources)
+      ->required()
+      ->check(CLI::IsMember(ros ? std::vector<std::string>{"-", "ros"} : std::vector<std::string>{"-"}));
+  command
+      ->add_option("--seconds", options->calibration.seconds,
+                   "Listen to so many seconds of scans, by their stamps")
+      ->check(CLI::Range(0.5, 600.0))
+      ->capture_default_str()
+      ->type_name("S");
+  command
+      ->add_option("--silence-s", options->calibration.silence_s,
+                   "End listening after so many seconds without anything new")
+      ->check(CLI::Range(0.1, 3600.0))
+      ->capture_default_str()
+      ->type_name("S");
+  command
+      ->add_option("--record", options->record,
+                   "Keep what was heard: OUT.bag, OUT.mcap, or OUT for a folder with scans.csv and motor.csv")
+      ->type_name("OUT");
+  command
+      ->add_option("--rig", options->recording.rig,
+                   "Rig file: topics, joint, stamps and mount (default: detected, rolling about x)")
+      ->type_name("F");
+  command
+      ->add_option_function<std::string>(
+          "--stamps",
+          [options](const std::string& text) {
+            options->recording.stamps = text == "header" ? StampSource::kHeader : StampSource::kReceive;
+          },
+          "Stamps of both streams: header or receive (default: the rig's, else header)")
+      ->type_name("S")
+      ->check(CLI::IsMember({"header", "receive"}));
+  options->calibration.estimate.method = Method::kDirect;
+  command
+      ->add_option_function<std::string>(
+          "--method",
+          [options](const std::string& text) { options->calibration.estimate.method = parse_method(text); },
+          "direct (default) or stationary, as of estimate")
+      ->type_name("M")
+      ->check(CLI::IsMember({"direct", "stationary"}));
+  command
+      ->add_option("--threads", options->recording.threads,
+                   "Threads (default: as many as there are processors)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1024));
+  options->output.declare(*command);
+  command->footer(kLines);
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace sweepscope::app

@@ -1,0 +1,129 @@
+#include "core/live/calibration.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <future>
+#include <numbers>
+
+#include "core/offset/motion_test.hpp"
+#include "core/recording/assemble.hpp"
+
+namespace sweepscope {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+std::int64_t any_stamp_ns(const MessageStamps& stamps) {
+  return stamps.header_ns != 0 ? stamps.header_ns : stamps.receive_ns;
+}
+
+/// An answer being worked out beside the listening, about what was heard when it was begun.
+class RunningAnswer {
+ public:
+  ~RunningAnswer() { job_.cancel(); }  // the future's destructor waits
+
+  bool idle() const { return !answer_.valid(); }
+  void begin(LiveSource& source, const CalibrationOptions& options) {
+    about_ = heard_so_far(source.so_far());
+    answer_ = std::async(std::launch::async, [this, &options, raw = source.heard()]() mutable {
+      return calibrate(std::move(raw), options, job_);
+    });
+  }
+  /// None where there is none, or it is not finished.
+  std::optional<Result<Estimate>> take() {
+    if (idle() || answer_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return std::nullopt;
+    return answer_.get();
+  }
+  const HeardSoFar& about() const { return about_; }
+
+ private:
+  Job job_;
+  HeardSoFar about_;
+  std::future<Result<Estimate>> answer_;
+};
+
+Estimate refused(const RawRecording& raw, std::string reason) {
+  Estimate estimate;
+  estimate.recording = raw.name;
+  estimate.method = "direct";
+  estimate.warnings = raw.warnings;
+  estimate.reasons = {std::move(reason)};
+  return estimate;
+}
+
+}  // namespace
+
+HeardSoFar heard_so_far(const RawRecording& raw) {
+  HeardSoFar heard;
+  for (const RawLaser& laser : raw.lasers) {
+    if (laser.scans.size() <= heard.scans) continue;
+    heard.scans = laser.scans.size();
+    heard.seconds = static_cast<double>(any_stamp_ns(laser.scans.back().stamps) -
+                                        any_stamp_ns(laser.scans.front().stamps)) *
+                    1e-9;
+  }
+  for (const RawJoint& joint : raw.joints) heard.motor_samples += joint.stamps.size();
+  return heard;
+}
+
+Result<ListeningEnd> listen(
+    LiveSource& source, const CalibrationOptions& options, const Job& job,
+    const std::function<void(const HeardSoFar& heard, const Result<Estimate>& answer)>& tell) {
+  constexpr std::chrono::milliseconds kAtATime(50);
+  RunningAnswer running;
+  HeardSoFar before;
+  double next_answer_s = options.every_s;
+  Clock::time_point latest = Clock::now();
+  while (!job.cancelled()) {
+    const auto more = source.listen(kAtATime);
+    if (!more) return tl::unexpected(more.error());
+    const HeardSoFar heard = heard_so_far(source.so_far());
+    if (heard.scans != before.scans || heard.motor_samples != before.motor_samples) latest = Clock::now();
+    before = heard;
+    job.report("listening", heard.seconds / options.seconds);
+    if (heard.seconds >= options.seconds) return ListeningEnd::kHeardEnough;
+    if (!*more) return ListeningEnd::kInputEnded;
+    if (Clock::now() - latest > std::chrono::duration<double>(options.silence_s))
+      return ListeningEnd::kSilence;
+    if (const auto answer = running.take()) tell(running.about(), *answer);
+    if (running.idle() && heard.seconds >= next_answer_s) {
+      running.begin(source, options);
+      next_answer_s = heard.seconds + options.every_s;
+    }
+  }
+  return ListeningEnd::kCancelled;
+}
+
+Result<Estimate> calibrate(RawRecording heard, const CalibrationOptions& options, const Job& job) {
+  const HeardSoFar so_far = heard_so_far(heard);
+  if (so_far.scans == 0) return refused(heard, "No scans were heard.");
+  if (so_far.motor_samples == 0) return refused(heard, "No angles of a motor were heard.");
+  const auto recording = assemble(std::move(heard), options.rig, options.stamps);
+  if (!recording) return tl::unexpected(recording.error());
+  const auto motion = test_motion(*recording, job);
+  if (!motion) return tl::unexpected(motion.error());
+  const bool moved = motion->answered() && motion->moving();
+  const std::string seen = fmt::format(
+      "{} of {} pairs of sweeps of the same direction lie apart; at the median by {:.3f} m and "
+      "{:.2f} deg.",
+      motion->moved, motion->pairs, motion->median_translation_m,
+      motion->median_rotation_rad * 180 / std::numbers::pi);
+  EstimateOptions estimate_options = options.estimate;
+  estimate_options.assume = Method::kStationary;
+  auto found = estimate(*recording, estimate_options, job);
+  if (!found || !motion->answered()) return found;
+  if (!found->kind.empty()) {
+    found->kind = moved ? "moving" : "stationary";
+    found->kind_reason = seen;
+  }
+  if (moved) {
+    found->reasons.push_back("The rig moved: a calibration wants it to stand still.");
+    found->identifiable = false;
+    found->offset_s.reset();
+    found->sigma_s.reset();
+  }
+  return found;
+}
+
+}  // namespace sweepscope

@@ -1,0 +1,110 @@
+#include "core/live/ros_link.hpp"
+
+#include <ros/callback_queue.h>
+#include <ros/ros.h>
+
+#include <list>
+
+namespace sweepscope {
+
+/// Any message, as bytes.
+struct AnyRosMessage {
+  std::vector<std::uint8_t> bytes;
+};
+
+}  // namespace sweepscope
+
+namespace ros {
+namespace message_traits {
+
+template <>
+struct IsMessage<sweepscope::AnyRosMessage> : TrueType {};
+template <>
+struct IsMessage<const sweepscope::AnyRosMessage> : TrueType {};
+template <>
+struct MD5Sum<sweepscope::AnyRosMessage> {
+  static const char* value() { return "*"; }
+};
+template <>
+struct DataType<sweepscope::AnyRosMessage> {
+  static const char* value() { return "*"; }
+};
+template <>
+struct Definition<sweepscope::AnyRosMessage> {
+  static const char* value() { return ""; }
+};
+
+}  // namespace message_traits
+namespace serialization {
+
+template <>
+struct Serializer<sweepscope::AnyRosMessage> {
+  template <typename Stream>
+  static void read(Stream& stream, sweepscope::AnyRosMessage& message) {
+    message.bytes.assign(stream.getData(), stream.getData() + stream.getLength());
+    stream.advance(stream.getLength());
+  }
+};
+
+}  // namespace serialization
+}  // namespace ros
+
+namespace sweepscope {
+namespace {
+
+class RoscppLink : public RosLink {
+ public:
+  RoscppLink() { node_.setCallbackQueue(&queue_); }
+
+  std::vector<RosTopic> topics() override {
+    ros::master::V_TopicInfo found;
+    ros::master::getTopics(found);
+    std::vector<RosTopic> topics;
+    for (const ros::master::TopicInfo& topic : found) topics.push_back({topic.name, topic.datatype});
+    return topics;
+  }
+
+  void subscribe(const std::string& topic) override {
+    constexpr std::uint32_t kQueued = 2000;
+    const boost::function<void(const Event&)> take = [this, topic](const Event& event) {
+      const ros::M_string& said = event.getConnectionHeader();
+      const auto value = [&](const char* key) {
+        const auto found = said.find(key);
+        return found == said.end() ? std::string() : found->second;
+      };
+      const std::string type = value("type"), md5sum = value("md5sum");
+      const std::vector<std::uint8_t>& bytes = event.getMessage()->bytes;
+      const auto received_ns = static_cast<std::int64_t>(event.getReceiptTime().toNSec());
+      if (take_ != nullptr) (*take_)({topic, type, md5sum, received_ns, bytes.data(), bytes.size()});
+    };
+    subscribers_.push_back(node_.subscribe<AnyRosMessage>(topic, kQueued, take, ros::VoidConstPtr(),
+                                                          ros::TransportHints().tcpNoDelay()));
+  }
+
+  void receive(std::chrono::milliseconds most, const std::function<void(const RosMessage&)>& take) override {
+    take_ = &take;
+    queue_.callAvailable(ros::WallDuration(static_cast<double>(most.count()) * 1e-3));
+    take_ = nullptr;
+  }
+
+ private:
+  using Event = ros::MessageEvent<AnyRosMessage const>;
+
+  ros::CallbackQueue queue_;
+  ros::NodeHandle node_;
+  std::list<ros::Subscriber> subscribers_;
+  const std::function<void(const RosMessage&)>* take_ = nullptr;
+};
+
+}  // namespace
+
+std::unique_ptr<RosLink> RosLink::open() {
+  // Signals stay the program's, and nothing is published.
+  ros::init(
+      ros::M_string(), "sweepscope",
+      ros::init_options::NoSigintHandler | ros::init_options::AnonymousName | ros::init_options::NoRosout);
+  if (!ros::master::check()) return nullptr;
+  return std::make_unique<RoscppLink>();
+}
+
+}  // namespace sweepscope

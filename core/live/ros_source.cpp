@@ -1,0 +1,98 @@
+#include "core/live/ros_source.hpp"
+
+#ifdef SWEEPSCOPE_HAS_ROS
+#include <cstdlib>
+#include <optional>
+#include <set>
+#include <span>
+
+#include "core/live/ros_link.hpp"
+#include "core/recording/message_collector.hpp"
+#endif
+
+namespace sweepscope {
+
+#ifdef SWEEPSCOPE_HAS_ROS
+
+namespace {
+
+class RosSource : public LiveSource {
+ public:
+  RosSource(std::unique_ptr<RosLink> link, const Rig& rig) : link_(std::move(link)), collector_(rig, raw_) {
+    raw_.file = raw_.name = "ROS";
+  }
+
+  Result<bool> listen(std::chrono::milliseconds most) override {
+    constexpr std::chrono::milliseconds kBetweenLooks(500);
+    const auto now = std::chrono::steady_clock::now();
+    if (subscribed_.empty() || now - looked_ > kBetweenLooks) {
+      subscribe();
+      looked_ = now;
+    }
+    std::optional<Error> error;
+    link_->receive(most, [&](const RosMessage& message) {
+      const std::size_t topic = collector_.number_of({message.topic, message.type, Encoding::kRos1, true,
+                                                      message.md5sum.empty() ? "*" : message.md5sum});
+      const auto bytes = std::as_bytes(std::span(message.bytes, message.size));
+      ++messages_;
+      if (error) return;
+      error = collector_.add(topic, message.receive_ns, bytes,
+                             [&] { return "message " + std::to_string(messages_) + " heard"; });
+    });
+    if (error) return tl::unexpected(*error);
+    return true;
+  }
+  const RawRecording& so_far() const override { return raw_; }
+  RawRecording heard() override {
+    const std::size_t warnings = raw_.warnings.size();
+    collector_.finish();
+    RawRecording heard = raw_;
+    raw_.warnings.resize(warnings);
+    return heard;
+  }
+
+ private:
+  void subscribe() {
+    for (const RosTopic& topic : link_->topics())
+      if (find_message_type(topic.type) != nullptr && subscribed_.insert(topic.name).second)
+        link_->subscribe(topic.name);
+  }
+
+  std::unique_ptr<RosLink> link_;
+  RawRecording raw_;
+  MessageCollector collector_;
+  std::set<std::string> subscribed_;
+  std::chrono::steady_clock::time_point looked_;
+  std::size_t messages_ = 0;
+};
+
+}  // namespace
+
+bool ros_source_is_built() {
+  return true;
+}
+
+Result<std::unique_ptr<LiveSource>> open_ros_source(const Rig& rig) {
+  auto link = RosLink::open();
+  if (!link) {
+    const char* master = std::getenv("ROS_MASTER_URI");
+    return unreadable(std::string("ROS: no master answers at ") +
+                      (master != nullptr ? master : "http://localhost:11311") + " (ROS_MASTER_URI)");
+  }
+  return std::make_unique<RosSource>(std::move(link), rig);
+}
+
+#else
+
+bool ros_source_is_built() {
+  return false;
+}
+
+Result<std::unique_ptr<LiveSource>> open_ros_source(const Rig&) {
+  return failure(ExitCode::kWrongUsage,
+                 "ROS: this build cannot listen to ROS 1; it was made without roscpp (libroscpp-dev)");
+}
+
+#endif
+
+}  // namespace sweepscope

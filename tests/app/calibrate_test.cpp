@@ -1,0 +1,97 @@
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "tests/app/program.hpp"
+
+namespace sweepscope {
+namespace {
+
+/// room.bag, and its lines as a driver would send them: stream.csv, in the order of time.
+class CalibrateCommand : public test::ProgramTest {
+ protected:
+  void SetUp() override {
+    ProgramTest::SetUp();
+    ASSERT_EQ(run("simulate room-1 --duration-s 6 --offset-ms 17.3 -o room.bag").exit_code, 0);
+    ASSERT_EQ(run("convert room.bag -o tables").exit_code, 0);
+    std::ofstream stream(folder_ / "stream.csv");
+    std::multimap<std::string, std::string> lines;  // by the stamp, whose digits are as many everywhere
+    for (const char* word : {"scan", "motor"}) {
+      std::ifstream table(folder_ / (word == std::string("scan") ? "tables/scans.csv" : "tables/motor.csv"));
+      std::string line;
+      std::getline(table, line);
+      stream << word << ',' << line << '\n';
+      while (std::getline(table, line)) lines.emplace(line.substr(0, line.find(',')), word + (',' + line));
+    }
+    for (const auto& [stamp, line] : lines) stream << line << '\n';
+  }
+  /// The offset in ms and all else that an estimate's JSON says.
+  static nlohmann::json parsed(const std::string& text) {
+    return nlohmann::json::parse(text, nullptr, false);
+  }
+};
+
+TEST_F(CalibrateCommand, FindsWhatEstimateFindsInTheSameRecording) {
+  const Outcome live = run("calibrate - --seconds 60 --record kept.bag --json - --no-timing <stream.csv");
+  ASSERT_EQ(live.exit_code, 0) << live.err;
+  const Outcome file = run("estimate room.bag --json - --no-timing");
+  const auto said = parsed(live.out), expected = parsed(file.out);
+  ASSERT_TRUE(said.is_object()) << live.out;
+  EXPECT_EQ(said["offset_ms"], expected["offset_ms"]);
+  EXPECT_EQ(said["sigma_ms"], expected["sigma_ms"]);
+  EXPECT_EQ(said["schema"], expected["schema"]);
+  EXPECT_EQ(said["kind"], "stationary");
+  EXPECT_NEAR(said["offset_ms"].get<double>(), 17.3, 0.1);
+  EXPECT_NE(said["warnings"].dump().find("The input ended after"), std::string::npos);
+  const auto kept = parsed(run("estimate kept.bag --json - --no-timing").out);
+  EXPECT_EQ(kept["offset_ms"], expected["offset_ms"]);
+}
+
+TEST_F(CalibrateCommand, HearsForTheSecondsAskedForAndSaysHowFarItIs) {
+  const Outcome outcome = run("calibrate - --seconds 4.5 --record kept <stream.csv");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.out.rfind("offset   17.", 0), 0U) << outcome.out;
+  EXPECT_TRUE(exists("kept/scans.csv"));
+  EXPECT_TRUE(exists("kept/motor.csv"));
+}
+
+TEST_F(CalibrateCommand, AnInterruptionEndsTheListeningAndUsesWhatWasHeard) {
+  // The input stays open behind what there is; the signal comes once all of that was taken.
+  std::ofstream(folder_ / "interrupt.sh") << "mkfifo lines\n"
+                                             "(cat stream.csv; echo > sent; exec sleep 60) > lines &\n"
+                                             "feeder=$!\n"
+                                             "\"$1\" calibrate - --seconds 300 --silence-s 300 "
+                                             "--record kept.mcap --json out.json < lines &\n"
+                                             "calibrate=$!\n"
+                                             "while [ ! -e sent ]; do sleep 0.05; done\n"
+                                             "kill -TERM $calibrate\n"
+                                             "wait $calibrate; code=$?\n"
+                                             "kill $feeder\n"
+                                             "exit $code\n";
+  const std::string command =
+      "cd '" + folder_.string() + "' && bash interrupt.sh '" SWEEPSCOPE_EXECUTABLE "' >said.out 2>said.err";
+  const int status = std::system(command.c_str());
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 0) << test::contents_of(folder_ / "said.err");
+  const auto said = parsed(test::contents_of(folder_ / "out.json"));
+  ASSERT_TRUE(said.is_object());
+  EXPECT_NEAR(said["offset_ms"].get<double>(), 17.3, 0.1);
+  EXPECT_NE(said["warnings"].dump().find("Interrupted after"), std::string::npos) << said["warnings"];
+  EXPECT_TRUE(exists("kept.mcap"));
+}
+
+TEST_F(CalibrateCommand, WhatIsTooLittleIsRefused) {
+  const Outcome nothing = run("calibrate - --json - </dev/null");
+  EXPECT_EQ(nothing.exit_code, 4) << nothing.err;
+  EXPECT_EQ(parsed(nothing.out)["identifiable"], false);
+  EXPECT_EQ(parsed(nothing.out)["reasons"][0], "No scans were heard.");
+  const Outcome wrong = run("calibrate - <tables/scans.csv --record kept.bag");
+  EXPECT_EQ(wrong.exit_code, 4) << wrong.err;
+  EXPECT_NE(wrong.err.find("begins with neither scan nor motor"), std::string::npos) << wrong.err;
+  EXPECT_FALSE(exists("kept.bag"));
+  EXPECT_EQ(run("calibrate").exit_code, 2);
+  EXPECT_EQ(run("calibrate - --record out.xyz </dev/null").exit_code, 2);
+}
+
+}  // namespace
+}  // namespace sweepscope

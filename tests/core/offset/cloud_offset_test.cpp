@@ -1,0 +1,122 @@
+// Offsets from clouds of 3D scanners, against the truth that the rays were made with.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/offset/estimator.hpp"
+#include "core/simulation/scene.hpp"
+#include "tests/core/cloud_bench.hpp"
+
+namespace sweepscope {
+namespace {
+
+using test::CloudBench, test::kDegree;
+
+std::string reasons(const Estimate& estimate) {
+  std::string text;
+  for (const std::string& reason : estimate.reasons) text += reason + "\n";
+  return text;
+}
+
+Estimate estimated(const Recording& recording, const EstimateOptions& options) {
+  auto found = estimate(recording, options, Job());
+  EXPECT_TRUE(found);
+  return found ? *found : Estimate();
+}
+
+EstimateOptions direct() {
+  EstimateOptions options;
+  options.method = Method::kDirect;
+  return options;
+}
+
+/// Within three of its own sigmas, and those worth having.
+void expect_answer(const Estimate& found, const char* kind, double truth_s, double most_sigma_ms) {
+  ASSERT_TRUE(found.offset_s) << reasons(found);
+  ASSERT_TRUE(found.sigma_s);
+  EXPECT_EQ(found.kind, kind);
+  EXPECT_LT(*found.sigma_s * 1e3, most_sigma_ms);
+  EXPECT_NEAR(*found.offset_s * 1e3, truth_s * 1e3, 3 * *found.sigma_s * 1e3);
+}
+
+TEST(CloudOffset, StandingInAHall) {
+  const CloudBench bench;
+  const Recording recording = bench.record();
+  EXPECT_EQ(recording.scans.size(), 185U * 16U);
+  EXPECT_TRUE(recording.report.warnings.empty()) << recording.report.warnings.front();
+  EXPECT_NEAR(recording.report.laser_stamps.median_period_s, 0.1, 1e-6);
+  expect_answer(estimated(recording, direct()), "stationary", bench.offset_s, 0.5);
+}
+
+TEST(CloudOffset, StandingRolledSpunTheOtherWayAndTwiceAsFast) {
+  CloudBench bench;
+  bench.offset_s = -0.0311;
+  bench.clockwise = false;
+  bench.axis = Eigen::Vector3d::UnitX();
+  bench.turn_s = 0.05;
+  bench.sweep_s = 1.33;
+  bench.beams = 360;
+  bench.duration_s = 11;
+  expect_answer(estimated(bench.record(), direct()), "stationary", bench.offset_s, 1.0);
+}
+
+TEST(CloudOffset, StandingInAFurnishedRoom) {
+  const auto scene = simulation::make_scene("room-2");
+  const auto stand = std::get<simulation::Stand>(scene->motion);
+  CloudBench bench;
+  bench.mesh = scene->mesh;
+  bench.world_from_base = [&](double) {
+    return Eigen::Isometry3d(Eigen::Translation3d(stand.position_m) *
+                             Eigen::AngleAxisd(stand.yaw_deg * kDegree, Eigen::Vector3d::UnitZ()));
+  };
+  bench.offset_s = 0.0071;
+  bench.swing_deg = 60;
+  bench.sweep_s = 3.1;
+  bench.duration_s = 20;
+  bench.noise_m = 0.02;
+  expect_answer(estimated(bench.record(), direct()), "stationary", bench.offset_s, 1.0);
+}
+
+TEST(CloudOffset, APlaneScannerWhoseDriverSendsClouds) {
+  CloudBench bench;
+  bench.rings = 1;
+  bench.ring_field = false;  // lines are slices of time
+  bench.turn_s = 0.025;
+  bench.beams = 720;
+  bench.axis = Eigen::Vector3d::UnitX();
+  bench.sweep_s = 0.513;
+  bench.swing_deg = 90;
+  bench.duration_s = 4.5;
+  bench.offset_s = -0.0127;
+  expect_answer(estimated(bench.record(), direct()), "stationary", bench.offset_s, 0.2);
+}
+
+TEST(CloudOffset, AWalkInAHall) {
+  CloudBench bench;
+  bench.world_from_base = test::walk_in_hall;
+  bench.sweep_s = 1.57;
+  bench.duration_s = 42;
+  bench.offset_s = -0.0186;
+  const Recording recording = bench.record();
+  expect_answer(estimated(recording, direct()), "moving", bench.offset_s, 2.0);
+  EstimateOptions moving;
+  moving.method = Method::kMoving;
+  moving.ranges = {{bench.offset_s - 0.003, bench.offset_s + 0.0031, 0.001}};
+  const Estimate found = estimated(recording, moving);
+  ASSERT_TRUE(found.offset_s) << reasons(found);
+  EXPECT_NEAR(*found.offset_s * 1e3, bench.offset_s * 1e3, 1.0);
+}
+
+TEST(CloudOffset, NoLeverNoAnswer) {
+  CloudBench bench;
+  bench.axis = Eigen::Vector3d::UnitZ();  // turned about the scanner's own axis in an empty field
+  bench.laser_in_motor_m = Eigen::Vector3d::Zero();
+  bench.mesh = simulation::box({-40, -40, -1.6}, {40, 40, -1.5});
+  bench.duration_s = 9;
+  const Estimate found = estimated(bench.record(), direct());
+  EXPECT_FALSE(found.offset_s);
+  EXPECT_FALSE(found.reasons.empty());
+}
+
+}  // namespace
+}  // namespace sweepscope
