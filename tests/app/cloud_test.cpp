@@ -1,5 +1,7 @@
 // Recordings of clouds, through the shipped executable.
+#include <algorithm>
 #include <fstream>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "core/recording/recording_writer.hpp"
