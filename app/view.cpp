@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <charconv>
 #include <chrono>
@@ -82,7 +83,15 @@ Result<std::vector<ui::Script>> scripts_of(const ViewOptions& options) {
   return scripts;
 }
 
+/// Clouds come and go by the hundred megabytes: what is let go goes back to the system at once.
+void return_memory() {
+  constexpr int kKept_bytes = 1 << 20, kMostArenas = 4;
+  mallopt(M_MMAP_THRESHOLD, kKept_bytes);
+  mallopt(M_ARENA_MAX, kMostArenas);
+}
+
 Result<void> view(const ViewOptions& options) {
+  return_memory();
   const auto size = parse_size(options.size);
   if (!size) return tl::unexpected(size.error());
   const auto scripts = scripts_of(options);
