@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -138,6 +139,7 @@ void Explorer::close() {
   panes_ = {};
   b_was_set_ = false;
   view_fitted_ = false;
+  malloc_trim(0);  // what was small and is free goes back to the system, too
 }
 
 void Explorer::take(LoadedPtr loaded, SolvedMapPtr first_map) {
