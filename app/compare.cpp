@@ -75,22 +75,20 @@ Result<std::vector<ComparedMap>> maps_from_files(const CompareOptions& options) 
 struct Compared {
   std::vector<ComparedMap> maps;
   std::optional<Estimate> estimate;
+  std::unique_ptr<CandidateFile> kept;  // the estimate's candidates, until the picture is there
 };
 
 /// The paper's criteria of that kind of recording, whatever method an estimate would take. Finished
-/// candidates are kept beside the picture until all are there.
+/// candidates are kept beside the picture.
 Result<Estimate> curve_about(const Recording& recording, bool moving, const CompareOptions& options,
-                             const RecordingOptions& source, const Job& job) {
+                             CandidateFile& kept, const Job& job) {
   const auto [least, greatest] = std::minmax_element(options.offsets_ms.begin(), options.offsets_ms.end());
   EstimateOptions wanted;
   wanted.method = moving ? Method::kMoving : Method::kStationary;
   wanted.ranges = {{(*least - 5) * 1e-3, (*greatest + 5) * 1e-3, 1e-3}};
-  const auto kept = keep_while_working(options.output + ".candidates", source, options.given);
-  if (!kept) return tl::unexpected(kept.error());
-  auto curve = estimate(recording, wanted, **kept, {}, job);
+  auto curve = estimate(recording, wanted, kept, {}, job);
   if (curve && curve->interrupted) curve = failure(ExitCode::kInterrupted, "interrupted");
-  if (!curve) return tl::unexpected(ended(curve.error(), **kept));
-  (*kept)->remove();
+  if (!curve) return tl::unexpected(ended(curve.error(), kept));
   return curve;
 }
 
@@ -128,7 +126,10 @@ Result<Compared> from_recording(const CompareOptions& options, bool by_features)
     if (features) next.feature_kinds = feature_kinds(*features, *map.cloud);
   }
   if (!options.curve.empty() || options.no_curve) return compared;
-  auto curve = curve_about(*recording, built->front().moving, options, reading, progress.job());
+  auto kept = keep_while_working(options.output + ".candidates", reading, options.given);
+  if (!kept) return tl::unexpected(kept.error());
+  compared.kept = std::move(*kept);
+  auto curve = curve_about(*recording, built->front().moving, options, *compared.kept, progress.job());
   if (!curve) return tl::unexpected(curve.error());
   compared.estimate = std::move(*curve);
   return compared;
@@ -140,7 +141,7 @@ Result<Compared> compared_maps(const CompareOptions& options, bool by_features) 
   for (const std::string& input : options.inputs) map_files += is_map_file(input) ? 1 : 0;
   if (map_files == options.inputs.size())
     return maps_from_files(options).map([](std::vector<ComparedMap> maps) {
-      return Compared{std::move(maps), {}};
+      return Compared{std::move(maps), {}, {}};
     });
   if (map_files > 0 || options.inputs.size() > 1)
     return wrong_usage("compare takes one recording, or two to four maps (.pcd or .ply)");
@@ -163,9 +164,13 @@ Result<void> compare(const CompareOptions& options) {
   const Estimate* curve = compared->estimate ? &*compared->estimate : nullptr;
   const auto canvas = backend(options.draw_in).and_then(make_canvas);
   if (!canvas) return tl::unexpected(canvas.error());
-  return comparison_picture(compared->maps, curve, *picture).and_then([&](const Picture& drawn) {
-    return write_picture(options.output, drawn, comparison_texts(compared->maps, *picture), **canvas);
-  });
+  return comparison_picture(compared->maps, curve, *picture)
+      .and_then([&](const Picture& drawn) {
+        return write_picture(options.output, drawn, comparison_texts(compared->maps, *picture), **canvas);
+      })
+      .map([&] {
+        if (compared->kept) compared->kept->remove();
+      });
 }
 
 void declare(CLI::App& command, CompareOptions& options) {

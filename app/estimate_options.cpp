@@ -175,10 +175,10 @@ Result<std::unique_ptr<CandidateFile>> keep_while_working(const std::filesystem:
 }
 
 Error ended(Error error, CandidateFile& kept) {
-  if (error.code == ExitCode::kInterrupted && kept.held() > 0)
-    error.message = kept.interrupted_in_words();
-  else
+  if (kept.held() == 0)
     kept.remove();
+  else if (error.code == ExitCode::kInterrupted)
+    error.message = kept.interrupted_in_words();
   return error;
 }
 

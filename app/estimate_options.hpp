@@ -38,12 +38,13 @@ std::vector<std::string> deciding_options(const CLI::App& command);
 /// What candidates computed from these options belong to.
 Result<CandidateSearch> candidate_search(const RecordingOptions& recording, std::vector<std::string> options);
 
-/// What a command keeps of its work while it is at it, in a file that goes with the work's end. `of`: of what
-/// the candidates are.
+/// What a command keeps of its work while it is at it, in a file that it takes away once what it makes is
+/// written.
 Result<std::unique_ptr<CandidateFile>> keep_while_working(const std::filesystem::path& path,
                                                           const RecordingOptions& recording,
                                                           std::vector<std::string> deciding);
-/// Ends that: where the work was interrupted its error says what is kept, else the file is taken away.
+/// The error of work that failed: where it was interrupted it says what is kept. A file that holds nothing is
+/// taken away.
 Error ended(Error error, CandidateFile& kept);
 
 /// The answer on stdout, unless a file goes there, and the exit code.

@@ -24,8 +24,8 @@ struct Options {
   std::vector<std::string> given;  // the options, as they were given
 };
 
-/// Finished candidates are kept in the report's folder until all are there.
-Result<ReportContent> gather(const Options& options) {
+/// Finished candidates are kept in the report's folder until the report is there.
+Result<ReportContent> make(const Options& options) {
   const Progress progress;
   const auto recording = options.recording.read(progress.job());
   if (!recording) return tl::unexpected(recording.error());
@@ -36,16 +36,17 @@ Result<ReportContent> gather(const Options& options) {
   auto content =
       gather_report(*recording, parse_method(options.recording.assume), kept->get(), progress.job());
   if (!content) return tl::unexpected(ended(content.error(), **kept));
-  (*kept)->remove();
   content->command = options.command;
+  if (const auto written = write_report(*content, options.folder); !written)
+    return tl::unexpected(written.error());
+  (*kept)->remove();
   return content;
 }
 
 ExitCode run(const Options& options) {
   const auto threads = options.recording.limit_threads();
-  const auto content = gather(options);
+  const auto content = make(options);
   if (!content) return fail(content.error());
-  if (const auto written = write_report(*content, options.folder); !written) return fail(written.error());
   fmt::print("{}\n", (std::filesystem::path(options.folder) / "report.html").string());
   for (const std::string& reason : content->estimate.reasons) say("{}\n", reason);
   return content->estimate.identifiable ? ExitCode::kDone : ExitCode::kNotIdentifiable;

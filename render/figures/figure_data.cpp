@@ -118,7 +118,11 @@ Result<std::string> FigureData::estimate_key(const EstimateSpec& spec) const {
   });
 }
 
-/// Finished candidates are kept until there is an answer; the direct method has none.
+std::filesystem::path FigureData::candidates_of(const std::string& key) const {
+  return cache_folder_ / (key + ".candidates");
+}
+
+/// Finished candidates are kept until the answer is written; the direct method has none.
 Result<Estimate> FigureData::compute(const std::string& name, const EstimateSpec& spec,
                                      const std::string& key) {
   const auto data = recording(spec.recording);
@@ -133,12 +137,11 @@ Result<Estimate> FigureData::compute(const std::string& name, const EstimateSpec
   CandidateSearch search;
   search.recording = spec.recording;
   search.recording_hash = key;
-  const auto kept = CandidateFile::open_while_working(cache_folder_ / (key + ".candidates"), search);
+  const auto kept = CandidateFile::open_while_working(candidates_of(key), search);
   if (!kept) return tl::unexpected(kept.error());
   auto computed = sweepscope::estimate(**data, spec.options, **kept, {}, job_);
   if (computed && computed->interrupted)
     return failure(ExitCode::kInterrupted, (*kept)->interrupted_in_words());
-  (*kept)->remove();
   return computed;
 }
 
@@ -154,7 +157,10 @@ Result<Estimate> FigureData::computed_or_cached(const std::string& name, const E
   if (!computed) return tl::unexpected(computed.error());
   // Drawn from what the file holds, so that the first run's pictures are the second's.
   const std::string json = estimate_to_json(*computed, Timing::kNull);
-  return write_file(path, json).and_then([&] { return parse_estimate_json(json, path.string()); });
+  return write_file(path, json).and_then([&] {
+    std::filesystem::remove(candidates_of(*key), ignored);
+    return parse_estimate_json(json, path.string());
+  });
 }
 
 Result<const Estimate*> FigureData::estimate(const std::string& name) {

@@ -40,6 +40,7 @@ class FigureData {
   Result<const Source*> source(const std::string& name);
   Result<std::string> fingerprint(const std::string& recording) const;
   Result<std::string> estimate_key(const EstimateSpec& spec) const;
+  std::filesystem::path candidates_of(const std::string& key) const;
   Result<Estimate> compute(const std::string& name, const EstimateSpec& spec, const std::string& key);
   Result<Estimate> computed_or_cached(const std::string& name, const EstimateSpec& spec);
   Result<void> build(const std::string& recording, bool true_poses, bool with_features,
