@@ -1,7 +1,6 @@
 #include "render/colouring.hpp"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -10,6 +9,7 @@
 
 #include "core/map/cloud_distance.hpp"
 #include "core/map/surface_thickness.hpp"
+#include "core/parallel.hpp"
 
 namespace sweepscope {
 namespace {
@@ -22,8 +22,8 @@ constexpr Colour kOrange{242, 180, 41}, kBlue{58, 146, 214}, kGrey{104, 110, 118
 template <typename ValueOf>
 std::vector<float> each_point(const ComparedMap& map, ValueOf value_of) {
   std::vector<float> values(map.size());
-  tbb::parallel_for(std::size_t{0}, values.size(),
-                    [&](std::size_t i) { values[i] = static_cast<float>(value_of((*map.cloud)[i])); });
+  for_each_index(values.size(),
+                 [&](std::size_t i) { values[i] = static_cast<float>(value_of((*map.cloud)[i])); });
   return values;
 }
 

@@ -1,7 +1,5 @@
 #include "render/comparison_points.hpp"
-
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
+#include "core/parallel.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -104,7 +102,7 @@ std::shared_ptr<const ColouredPoints> points_seen(const SlabPoints& map, const P
                                                   float least_height_m) {
   constexpr double kCellsPerPixel = 2;
   std::vector<char> seen(map.points.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, seen.size()), [&](const auto& range) {
+  for_each_block(seen.size(), 1, [&](const auto& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i) {
       const auto& p = map.points.xyz_m[i];
       if (map.above_path_m[i] < least_height_m) continue;

@@ -1,7 +1,6 @@
 #include "render/morton.hpp"
+#include "core/parallel.hpp"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
@@ -37,7 +36,7 @@ std::vector<MortonKey> along_morton_curve(std::span<const std::array<float, 3>> 
                                           std::span<const std::uint32_t> chosen,
                                           const std::array<float, 3>& origin_m, double edge_m) {
   std::vector<MortonKey> keys(chosen.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, chosen.size(), 4096), [&](const auto& range) {
+  for_each_block(chosen.size(), 4096, [&](const auto& range) {
     for (std::size_t k = range.begin(); k < range.end(); ++k)
       keys[k] = {code_of(points_m[chosen[k]], origin_m, edge_m), chosen[k]};
   });

@@ -1,7 +1,5 @@
 #include "core/loam/features.hpp"
-
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
+#include "core/parallel.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -256,7 +254,7 @@ Result<FeatureSet> extract_features(const Recording& recording, const FeatureOpt
   const std::size_t scans = recording.scans.size();
   std::vector<ScanFeatures> per_scan(scans);
   std::atomic<std::size_t> done{0};
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, scans, 64), [&](const auto& block) {
+  for_each_block(scans, 64, [&](const auto& block) {
     LineFeatures line(recording, kinematics, options, set.range_noise_m);
     if (job.cancelled()) return;
     for (std::size_t i = block.begin(); i < block.end(); ++i)

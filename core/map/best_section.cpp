@@ -1,5 +1,3 @@
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include "core/map/cross_section.hpp"
 #include "core/map/section_points.hpp"
 #include "core/map/surface_thickness.hpp"
+#include "core/parallel.hpp"
 
 namespace sweepscope {
 namespace {
@@ -262,8 +261,8 @@ std::optional<FoundSection> best_section(std::span<const MapOnPath> maps, const 
     for (std::size_t i = 0; i < tried.size(); ++i) points[i].push_back({map.cloud, std::move(near[i])});
   }
   std::vector<std::optional<Measured>> found(tried.size());
-  tbb::parallel_for(std::size_t{0}, tried.size(),
-                    [&](std::size_t i) { found[i] = measured(tried[i], sharpest, points[i], rig, search); });
+  for_each_index(tried.size(),
+                 [&](std::size_t i) { found[i] = measured(tried[i], sharpest, points[i], rig, search); });
   const Measured* best = nullptr;
   for (const auto& section : found)
     if (section && (best == nullptr || section->score > best->score)) best = &*section;

@@ -1,13 +1,11 @@
 #include "core/map/cloud_distance.hpp"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "core/map/voxel_grid.hpp"
+#include "core/parallel.hpp"
 
 namespace sweepscope {
 namespace {
@@ -110,7 +108,7 @@ std::vector<float> distances_to_m(const MapCloud& from, const MapCloud& to, cons
   const double cell_m = options.cap_m / kRings;
   const VoxelGrid asking(from, cell_m), grid(to, cell_m);
   const VoxelLevel cubes = asking.level(0), level = grid.level(0);
-  tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, cubes.cells(), 256), [&](const auto& block) {
+  for_each_block(cubes.cells(), 256, [&](const auto& block) {
     CubeSearch search(grid, level, options.cap_m);
     for (std::uint32_t cube = block.begin(); cube < block.end(); ++cube) {
       search.enter(cubes.place(cube));

@@ -1,14 +1,12 @@
 #include "core/map/cross_section.hpp"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "core/map/section_points.hpp"
+#include "core/parallel.hpp"
 
 namespace sweepscope {
 namespace {
@@ -153,7 +151,7 @@ std::vector<std::vector<std::uint32_t>> points_near(const MapCloud& cloud,
   constexpr std::size_t kBlock = 1 << 16;
   using PerSection = std::vector<std::vector<std::uint32_t>>;
   std::vector<PerSection> blocks((cloud.size() + kBlock - 1) / kBlock, PerSection(sections.size()));
-  tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t block) {
+  for_each_index(blocks.size(), [&](std::size_t block) {
     const std::size_t end = std::min(cloud.size(), (block + 1) * kBlock);
     for (std::size_t i = block * kBlock; i < end; ++i) {
       const MapPoint& p = cloud.points[i];

@@ -1,7 +1,5 @@
 #include "core/map/feature_points.hpp"
-
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
+#include "core/parallel.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -61,7 +59,7 @@ std::vector<FeatureKind> feature_kinds(const FeatureSet& features, const MapClou
   append(features.planes, FeatureKind::kPlane, stamped);
   std::sort(stamped.begin(), stamped.end());
   std::vector<FeatureKind> kinds(cloud.size(), FeatureKind::kNone);
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cloud.size(), 16384), [&](const auto& block) {
+  for_each_block(cloud.size(), 16384, [&](const auto& block) {
     for (std::size_t i = block.begin(); i < block.end(); ++i) {
       const double time_s = cloud.points[i].time_s;
       const auto at =

@@ -1,7 +1,6 @@
 #include "core/map/offset_map.hpp"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include "core/map/pose_reader.hpp"
 #include "core/offset/search_window.hpp"
 #include "core/offset/still_motion.hpp"
+#include "core/parallel.hpp"
 
 namespace sweepscope {
 namespace {
@@ -171,7 +171,7 @@ Result<std::vector<OffsetMap>> build_maps(const Recording& recording, std::span<
     return failure(ExitCode::kUnreadableInput, "A trajectory of one pose places nothing: two at least.");
   std::vector<OffsetMap> maps(offsets_s.size());
   const Job part = Job::part_of(job);
-  tbb::parallel_for(std::size_t{0}, offsets_s.size(), [&](std::size_t i) {
+  for_each_index(offsets_s.size(), [&](std::size_t i) {
     maps[i] = build_one(*problem, offsets_s[i], moving, options, i == 0 ? job : part);
   });
   if (job.cancelled()) return failure(ExitCode::kInterrupted, "interrupted while building the map");

@@ -1,14 +1,12 @@
 #include "core/map/replace_points.hpp"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "core/geometry/kinematics.hpp"
 #include "core/map/pose_reader.hpp"
+#include "core/parallel.hpp"
 
 namespace sweepscope {
 namespace {
@@ -110,7 +108,7 @@ void place_all(const Beams& beams, const FixedPath& path, double offset_s, const
   constexpr std::size_t kScansATime = 32;
   const std::vector<LaserScan>& scans = beams.recording->scans;
   const Kinematics kinematics(beams.recording->rig.mount);
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, scans.size(), kScansATime), [&](const auto& range) {
+  for_each_block(scans.size(), kScansATime, [&](const auto& range) {
     MotorReader motor(beams.recording->motor);
     for (std::size_t s = range.begin(); s < range.end(); ++s) {
       place_scan(beams, path, s, motor, kinematics, offset_s, begin(s), begin(s + 1), index, xyz_m);

@@ -1,8 +1,5 @@
 #include "core/map/surface_thickness.hpp"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -12,6 +9,7 @@
 #include <limits>
 
 #include "core/map/voxel_grid.hpp"
+#include "core/parallel.hpp"
 
 namespace sweepscope {
 namespace {
@@ -188,12 +186,11 @@ std::vector<LocalSurface> local_surfaces(const MapCloud& cloud, const ThicknessO
   for (int doublings = 0; doublings <= options.doublings; ++doublings) {
     const VoxelLevel level = grid.level(doublings);
     std::vector<CellSurface> fitted(level.cells());
-    const tbb::blocked_range<std::uint32_t> all(0, level.cells(), 256);
-    tbb::parallel_for(all, [&](const auto& block) {
+    for_each_block(level.cells(), 256, [&](const auto& block) {
       SurfaceFitter fitter(cloud, grid, level, options);
       for (std::uint32_t cell = block.begin(); cell < block.end(); ++cell) fitted[cell] = fitter.fit(cell);
     });
-    tbb::parallel_for(all, [&](const auto& block) {
+    for_each_block(level.cells(), 256, [&](const auto& block) {
       for (std::uint32_t cell = block.begin(); cell < block.end(); ++cell) {
         const LocalSurface surface = sharpest(fitted, level, cell);
         for (std::uint32_t i = level.begin(cell); i < level.begin(cell + 1); ++i)

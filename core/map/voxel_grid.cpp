@@ -1,7 +1,6 @@
 #include "core/map/voxel_grid.hpp"
+#include "core/parallel.hpp"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
@@ -99,8 +98,7 @@ VoxelGrid::VoxelGrid(const MapCloud& cloud, double finest_m)
       keys_(cloud.size()) {
   std::vector<std::pair<std::uint64_t, std::uint32_t>> order(cloud.size());
   const double inverse_cell = 1 / finest_m;
-  const tbb::blocked_range<std::size_t> all(0, cloud.size(), 16384);
-  tbb::parallel_for(all, [&](const auto& block) {
+  for_each_block(cloud.size(), 16384, [&](const auto& block) {
     for (std::size_t i = block.begin(); i < block.end(); ++i) {
       const MapPoint& p = cloud.points[i];
       order[i] = {morton(cell_of(p.x, inverse_cell, kHalf), cell_of(p.y, inverse_cell, kHalf),
@@ -109,7 +107,7 @@ VoxelGrid::VoxelGrid(const MapCloud& cloud, double finest_m)
     }
   });
   tbb::parallel_sort(order);
-  tbb::parallel_for(all, [&](const auto& block) {
+  for_each_block(cloud.size(), 16384, [&](const auto& block) {
     for (std::size_t i = block.begin(); i < block.end(); ++i) {
       const MapPoint& p = cloud.points[order[i].second];
       keys_[i] = order[i].first;

@@ -1,6 +1,5 @@
 #include "core/offset/candidates.hpp"
-
-#include <tbb/parallel_for.h>
+#include "core/parallel.hpp"
 
 #include <Eigen/QR>
 #include <algorithm>
@@ -55,8 +54,7 @@ bool Curve::compute(const std::vector<double>& offsets_s, const Job& job) {
     computed[i] = point;
     job.report("candidates", double(++done) / double(wanted_s.size()));
   };
-  // One candidate a task: a run of several at the end would leave the other threads idle.
-  tbb::parallel_for(std::size_t{0}, wanted_s.size(), compute_one, tbb::simple_partitioner());
+  for_each_task(wanted_s.size(), compute_one);
   for (const auto& point : computed)
     if (point) points_.push_back(*point);
   std::sort(points_.begin(), points_.end(),

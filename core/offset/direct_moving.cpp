@@ -1,12 +1,11 @@
 #include "core/offset/direct_moving.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "core/offset/candidates.hpp"
 #include "core/offset/uncertainty.hpp"
+#include "core/parallel.hpp"
 
 namespace sweepscope {
 namespace {
@@ -15,7 +14,7 @@ namespace {
 std::vector<CurvePoint> sides(const OffsetProblem& problem, const JointWalk& walk,
                               const MovingDirectOptions& options) {
   std::vector<CurvePoint> curve(3);
-  tbb::parallel_for(std::size_t{0}, curve.size(), [&](std::size_t i) {
+  for_each_index(curve.size(), [&](std::size_t i) {
     CurvePoint& point = curve[i];
     point.offset_s = walk.offset_s + (double(i) - 1) * options.side_s;
     std::vector<PlacedSweep> sweeps = place_sweeps(problem, point.offset_s);

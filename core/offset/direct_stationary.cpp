@@ -1,11 +1,10 @@
 #include "core/offset/direct_stationary.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "core/loam/least_squares.hpp"
+#include "core/parallel.hpp"
 
 namespace sweepscope {
 namespace {
@@ -84,7 +83,7 @@ class Linearisation {
   /// All lines against the other direction's.
   std::vector<LineResiduals> residuals() const {
     std::vector<LineResiduals> found(points_.lines());
-    tbb::parallel_for(std::size_t{0}, points_.lines(), [&](std::size_t line) {
+    for_each_index(points_.lines(), [&](std::size_t line) {
       if (points_.sweep[line] != kNoSweep)
         found[line] = of_line(line, points_.against(points_.direction[line]));
     });
@@ -100,7 +99,7 @@ class Linearisation {
       for (const std::uint32_t line : points_.pool[side])
         if (block_of_line[line] < blocks) pools[block_of_line[line]][side].push_back(line);
     std::vector<LineResiduals> found(points_.lines());
-    tbb::parallel_for(std::size_t{0}, points_.lines(), [&](std::size_t line) {
+    for_each_index(points_.lines(), [&](std::size_t line) {
       if (block_of_line[line] < blocks)
         found[line] = of_line(line, pools[block_of_line[line]][points_.direction[line] > 0 ? 0 : 1]);
     });
@@ -281,7 +280,7 @@ std::vector<CurvePoint> stationary_coarse_curve(const StillGrid& grid, const std
                                                 const Job& job) {
   const StillPatchOptions patches = still_patch_options(*grid.problem);
   std::vector<CurvePoint> curve(offsets_s.size());
-  tbb::parallel_for(std::size_t{0}, offsets_s.size(), [&](std::size_t i) {
+  for_each_index(offsets_s.size(), [&](std::size_t i) {
     curve[i].offset_s = offsets_s[i];
     if (!job.cancelled()) curve[i].capped_cost_m = coarse_cost_m(grid, patches, offsets_s[i]);
   });

@@ -1,7 +1,5 @@
 #include "core/offset/joint_walk.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
@@ -9,6 +7,7 @@
 
 #include "core/loam/patch_search.hpp"
 #include "core/loam/smooth_path.hpp"
+#include "core/parallel.hpp"
 
 namespace sweepscope {
 namespace {
@@ -332,7 +331,7 @@ std::optional<JointWalk> solve_joint_walk(const OffsetProblem& problem, const st
   const std::vector<std::vector<SweepPose>> cuts = parts_of(tracked, options.part_s);
   std::vector<JointWalkPart> parts(cuts.size());
   std::vector<std::vector<SweepPose>> sweeps = cuts;
-  tbb::parallel_for(std::size_t{0}, cuts.size(), [&](std::size_t i) {
+  for_each_index(cuts.size(), [&](std::size_t i) {
     Part part(problem, cuts[i], offset_s, options);
     part.solve(job);
     parts[i] = part.result();

@@ -87,72 +87,68 @@ std::string cdr_joint_state(const RawJoint& joint, std::size_t sample) {
   return writer.take();
 }
 
-const char* const kLaserScanDefinition =
-    "std_msgs/Header header\n"
-    "float32 angle_min\n"
-    "float32 angle_max\n"
-    "float32 angle_increment\n"
-    "float32 time_increment\n"
-    "float32 scan_time\n"
-    "float32 range_min\n"
-    "float32 range_max\n"
-    "float32[] ranges\n"
-    "float32[] intensities\n"
-    "================================================================================\n"
-    "MSG: std_msgs/Header\n"
-    "builtin_interfaces/Time stamp\n"
-    "string frame_id\n"
-    "================================================================================\n"
-    "MSG: builtin_interfaces/Time\n"
-    "int32 sec\n"
-    "uint32 nanosec\n";
+namespace {
 
-const char* const kPointCloudDefinition =
-    "std_msgs/Header header\n"
-    "uint32 height\n"
-    "uint32 width\n"
-    "PointField[] fields\n"
-    "bool is_bigendian\n"
-    "uint32 point_step\n"
-    "uint32 row_step\n"
-    "uint8[] data\n"
-    "bool is_dense\n"
-    "================================================================================\n"
-    "MSG: sensor_msgs/PointField\n"
-    "uint8 INT8=1\n"
-    "uint8 UINT8=2\n"
-    "uint8 INT16=3\n"
-    "uint8 UINT16=4\n"
-    "uint8 INT32=5\n"
-    "uint8 UINT32=6\n"
-    "uint8 FLOAT32=7\n"
-    "uint8 FLOAT64=8\n"
-    "string name\n"
-    "uint32 offset\n"
-    "uint8 datatype\n"
-    "uint32 count\n"
-    "================================================================================\n"
-    "MSG: std_msgs/Header\n"
-    "builtin_interfaces/Time stamp\n"
-    "string frame_id\n"
-    "================================================================================\n"
-    "MSG: builtin_interfaces/Time\n"
-    "int32 sec\n"
-    "uint32 nanosec\n";
+/// A message's own members, and below them what its header is made of.
+std::string with_header(const char* members) {
+  return std::string("std_msgs/Header header\n") + members +
+         "================================================================================\n"
+         "MSG: std_msgs/Header\n"
+         "builtin_interfaces/Time stamp\n"
+         "string frame_id\n"
+         "================================================================================\n"
+         "MSG: builtin_interfaces/Time\n"
+         "int32 sec\n"
+         "uint32 nanosec\n";
+}
 
-const char* const kJointStateDefinition =
-    "std_msgs/Header header\n"
-    "string[] name\n"
-    "float64[] position\n"
-    "float64[] velocity\n"
-    "float64[] effort\n"
-    "================================================================================\n"
-    "MSG: std_msgs/Header\n"
-    "builtin_interfaces/Time stamp\n"
-    "string frame_id\n"
-    "================================================================================\n"
-    "MSG: builtin_interfaces/Time\n"
-    "int32 sec\n"
-    "uint32 nanosec\n";
+}  // namespace
+
+std::string laser_scan_definition() {
+  return with_header(
+      "float32 angle_min\n"
+      "float32 angle_max\n"
+      "float32 angle_increment\n"
+      "float32 time_increment\n"
+      "float32 scan_time\n"
+      "float32 range_min\n"
+      "float32 range_max\n"
+      "float32[] ranges\n"
+      "float32[] intensities\n");
+}
+
+std::string point_cloud_definition() {
+  return with_header(
+      "uint32 height\n"
+      "uint32 width\n"
+      "PointField[] fields\n"
+      "bool is_bigendian\n"
+      "uint32 point_step\n"
+      "uint32 row_step\n"
+      "uint8[] data\n"
+      "bool is_dense\n"
+      "================================================================================\n"
+      "MSG: sensor_msgs/PointField\n"
+      "uint8 INT8=1\n"
+      "uint8 UINT8=2\n"
+      "uint8 INT16=3\n"
+      "uint8 UINT16=4\n"
+      "uint8 INT32=5\n"
+      "uint8 UINT32=6\n"
+      "uint8 FLOAT32=7\n"
+      "uint8 FLOAT64=8\n"
+      "string name\n"
+      "uint32 offset\n"
+      "uint8 datatype\n"
+      "uint32 count\n");
+}
+
+std::string joint_state_definition() {
+  return with_header(
+      "string[] name\n"
+      "float64[] position\n"
+      "float64[] velocity\n"
+      "float64[] effort\n");
+}
 
 }  // namespace sweepscope

@@ -15,8 +15,8 @@ std::string cdr_cloud(const RawCloud& cloud);
 std::string cdr_joint_state(const RawJoint& joint, std::size_t sample);
 
 /// Their definitions with those that they use, as MCAP's schemas ("ros2msg") hold them.
-extern const char* const kLaserScanDefinition;
-extern const char* const kPointCloudDefinition;
-extern const char* const kJointStateDefinition;
+std::string laser_scan_definition();
+std::string point_cloud_definition();
+std::string joint_state_definition();
 
 }  // namespace sweepscope

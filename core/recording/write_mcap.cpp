@@ -106,7 +106,7 @@ Result<void> McapWriter::write(const std::string& bytes) {
 }
 
 Result<void> McapWriter::begin(const RawLaser& laser, const std::string& joint_topic) {
-  const auto describe = [&](ChannelId id, const char* type, const char* definition,
+  const auto describe = [&](ChannelId id, const char* type, const std::string& definition,
                             const std::string& topic) {
     const std::uint16_t number = id;
     descriptions_ +=
@@ -116,10 +116,10 @@ Result<void> McapWriter::begin(const RawLaser& laser, const std::string& joint_t
                Content().number(number).number(number).text(topic).text("cdr").number(std::uint32_t{0}));
   };
   if (laser.of_clouds)
-    describe(kScans, "sensor_msgs/msg/PointCloud2", kPointCloudDefinition, laser.topic);
+    describe(kScans, "sensor_msgs/msg/PointCloud2", point_cloud_definition(), laser.topic);
   else
-    describe(kScans, "sensor_msgs/msg/LaserScan", kLaserScanDefinition, laser.topic);
-  describe(kJoints, "sensor_msgs/msg/JointState", kJointStateDefinition, joint_topic);
+    describe(kScans, "sensor_msgs/msg/LaserScan", laser_scan_definition(), laser.topic);
+  describe(kJoints, "sensor_msgs/msg/JointState", joint_state_definition(), joint_topic);
   chunk_ = descriptions_;
   return write(std::string(kMcapMagic) +
                record(McapOp::kHeader, Content().text("ros2").text("sweepscope " SWEEPSCOPE_VERSION)));

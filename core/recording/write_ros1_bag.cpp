@@ -15,22 +15,12 @@
 #include <system_error>
 
 #include "core/io/unfinished_files.hpp"
+#include "core/recording/ros_allocator.hpp"
 #include "core/recording/write_order.hpp"
 
 namespace sweepscope {
 namespace {
 
-/// ROS's headers ask their allocator for rebind, which C++20's standard allocator no longer has.
-template <typename T>
-struct MessageAllocator : std::allocator<T> {
-  MessageAllocator() = default;
-  template <typename U>
-  MessageAllocator(const MessageAllocator<U>&) {}
-  template <typename U>
-  struct rebind {
-    using other = MessageAllocator<U>;
-  };
-};
 using LaserScanMessage = sensor_msgs::LaserScan_<MessageAllocator<void>>;
 using PointCloudMessage = sensor_msgs::PointCloud2_<MessageAllocator<void>>;
 using JointStateMessage = sensor_msgs::JointState_<MessageAllocator<void>>;

@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <limits>
 
+#include "core/parallel.hpp"
 #include "core/simulation/portable_math.hpp"
 #include "core/simulation/ray_caster.hpp"
 #include "core/simulation/scene.hpp"
@@ -74,7 +74,7 @@ bool cast_scans(const Sensor& sensor, Recording& recording, const Job& job) {
   const std::size_t scans = recording.scans.size();
   std::atomic<std::size_t> done{0};
   std::atomic<bool> stopped{false};
-  tbb::parallel_for(std::size_t{0}, scans, [&](std::size_t i) {
+  for_each_index(scans, [&](std::size_t i) {
     if (stopped || job.cancelled()) {
       stopped = true;
       return;

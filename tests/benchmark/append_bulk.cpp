@@ -7,22 +7,13 @@
 #include <std_msgs/Float64.h>
 
 #include <cstdlib>
-#include <memory>
 #include <string_view>
+
+#include "core/recording/ros_allocator.hpp"
 
 namespace {
 
-/// ROS's headers ask their allocator for rebind, which C++20's standard allocator no longer has.
-template <typename T>
-struct MessageAllocator : std::allocator<T> {
-  MessageAllocator() = default;
-  template <typename U>
-  MessageAllocator(const MessageAllocator<U>&) {}
-  template <typename U>
-  struct rebind {
-    using other = MessageAllocator<U>;
-  };
-};
+using sweepscope::MessageAllocator;
 
 ros::Time time_of(std::uint64_t number) {
   return {static_cast<std::uint32_t>(1'700'000'000 + number / 1000),

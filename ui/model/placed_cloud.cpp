@@ -1,13 +1,12 @@
 #include "ui/model/placed_cloud.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
 
 #include "core/map/surface_thickness.hpp"
+#include "core/parallel.hpp"
 
 namespace sweepscope::ui {
 namespace {
@@ -61,7 +60,7 @@ class Shown {
   template <typename Shows>
   Shown(const std::vector<std::uint32_t>& slots, const Shows& shows)
       : slots_(slots), shown_(slots.size()), first_((slots.size() + kBlock - 1) / kBlock + 1, 0) {
-    tbb::parallel_for(std::size_t{0}, first_.size() - 1, [&](std::size_t block) {
+    for_each_index(first_.size() - 1, [&](std::size_t block) {
       std::size_t count = 0;
       for (std::size_t k = block * kBlock; k < end_of(block); ++k) {
         shown_[k] = shows(slots_[k]) ? 1 : 0;
@@ -76,7 +75,7 @@ class Shown {
   /// Calls `use` with the number among those shown, and with the slot.
   template <typename Use>
   void for_each(const Use& use) const {
-    tbb::parallel_for(std::size_t{0}, first_.size() - 1, [&](std::size_t block) {
+    for_each_index(first_.size() - 1, [&](std::size_t block) {
       std::size_t at = first_[block];
       for (std::size_t k = block * kBlock; k < end_of(block); ++k) {
         if (shown_[k] != 0) use(at++, slots_[k]);
