@@ -1,5 +1,6 @@
 #include "ui/ui.hpp"
 
+#include <malloc.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -49,6 +50,7 @@ struct Ui::Parts {
   void use_drops(std::span<const InputEvent> events);
   void frame(std::span<const InputEvent> events, double seconds_since_last);
   void draw(const PaneContext& panes);
+  void let_go();
   double pane_aspect() const;
   void remember_opened();
   void write_picture();
@@ -59,6 +61,7 @@ struct Ui::Parts {
   Explorer explorer;
   ImGuiHost host;
   LiveView view_a, view_b;
+  bool holds_recording = false;  // or what is left of one that was closed
   Transient transient;
   std::map<std::string, PixelRect> anchors;
   std::string remembered;  // the source that the recent list knows already
@@ -144,6 +147,7 @@ void Ui::Parts::draw(const PaneContext& panes) {
   const Places places = lay_out(width, height, panes.scale, explorer.settings(), open);
   const PixelRect whole{0, 0, width, height};
   if (open) {
+    holds_recording = true;
     draw_recording_panel(panes, places.left);
     draw_maps(panes, places.maps);
     draw_criteria(panes, places.criteria);
@@ -164,6 +168,16 @@ void Ui::Parts::draw(const PaneContext& panes) {
   draw_message(panes, whole);
   if (!ImGui::IsMouseDown(0)) transient.handle.reset();
   explorer.hold_handle(transient.handle.has_value() || ImGui::IsAnyItemActive());
+}
+
+/// Once what still worked on a closed recording has ended, its memory goes back to the system, small pieces
+/// too.
+void Ui::Parts::let_go() {
+  if (explorer.loaded() != nullptr || !holds_recording || !explorer.background().status().empty()) return;
+  for (LiveView* view : {&view_a, &view_b}) view->show(nullptr, nullptr);
+  transient.profiles = {};
+  malloc_trim(0);
+  holds_recording = false;
 }
 
 /// Of a map's picture, once a recording is open.
@@ -228,6 +242,7 @@ void Ui::Parts::frame(std::span<const InputEvent> events, double seconds_since_l
   explorer.set_pane_aspect(pane_aspect());
   explorer.update(seconds_since_last);
   remember_opened();
+  let_go();
   host.begin_frame(events, seconds_since_last);
   anchors.clear();
   const PaneContext panes{explorer, transient, host.fonts(), style(), scale(), {&view_a, &view_b}, anchors};

@@ -70,12 +70,13 @@ class SweepMatcher {
         planes_(to_match<PlanePatch>(sweep.planes)),
         edges_(to_match<LinePatch>(sweep.edges)) {}
 
-  // Adds the matches at the given poses to the equations; counts them too.
-  MatchCount linearise(const SweepPose& pose, SweepEquations& equations) {
+  // Adds the matches of every `stride`-th feature at the given poses to the equations; counts them too.
+  MatchCount linearise(const SweepPose& pose, std::size_t stride, SweepEquations& equations) {
     const SweepMotion motion = pose.motion();
     const Eigen::Vector3d pivot_m = pose.pivot_m();
     MatchCount count;
-    for (MatchedFeature<PlanePatch>& feature : planes_) {
+    for (std::size_t i = 0; i < planes_.size(); i += stride) {
+      MatchedFeature<PlanePatch>& feature = planes_[i];
       const Eigen::Vector3d p_m = motion(feature.p_in_base_m, feature.u);
       refresh(feature, p_m, [&] { return find_plane(maps_.planes, p_m, feature.range_m, rule_, near_); });
       const auto& plane = feature.patch;
@@ -83,7 +84,8 @@ class SweepMatcher {
       count_one(plane.has_value(), std::abs(distance_m), options_.plane_gate_m, options_.cost_cap_m, count);
       if (plane) add(p_m, plane->normal, distance_m, feature.u, pivot_m, equations);
     }
-    for (MatchedFeature<LinePatch>& feature : edges_) {
+    for (std::size_t i = 0; i < edges_.size(); i += stride) {
+      MatchedFeature<LinePatch>& feature = edges_[i];
       const Eigen::Vector3d p_m = motion(feature.p_in_base_m, feature.u);
       refresh(feature, p_m, [&] { return find_line(maps_.edges, p_m, feature.range_m, rule_, near_); });
       const auto& line = feature.patch;
@@ -204,13 +206,14 @@ class Tracker {
     MatchCount count;
     for (int iteration = 0; iteration < options_.most_iterations; ++iteration) {
       const Eigen::Vector3d pivot_m = pose.pivot_m();
+      const bool rough = grown && iteration < options_.rough_iterations;
       SweepEquations equations;
-      count = matcher.linearise(pose, equations);
+      count = matcher.linearise(pose, rough ? std::size_t(options_.rough_stride) : 1, equations);
       const Vector18d step = step_of(equations, last, pose, pivot_m);
       pose.begin = stepped(pose.begin, step.head<6>(), pivot_m);
       pose.end = stepped(pose.end, step.segment<6>(6), pivot_m);
       pose.bend += step.tail<6>();
-      if (step.cwiseAbs().maxCoeff() < options_.step_tolerance) break;
+      if (!rough && step.cwiseAbs().maxCoeff() < options_.step_tolerance) break;
     }
     pose.features = count.features;
     pose.matches = count.matches;
@@ -275,6 +278,15 @@ Vector6d find_first_twist_per_s(const std::vector<PlacedSweep>& sweeps, const Ei
   return twist_per_s;
 }
 
+// Leaves every other feature to the map alone: enough for a first guess.
+void match_half(PlacedSweep& sweep) {
+  for (std::vector<PlacedFeature>* features : {&sweep.edges, &sweep.planes}) {
+    bool keep = false;
+    for (PlacedFeature& feature : *features)
+      if (feature.sharp) feature.sharp = keep = !keep;
+  }
+}
+
 // A recording mostly begins within a sweep. What is left of that one may see too little to be matched to, and
 // the whole map would stand on it.
 std::size_t first_whole_sweep(const std::vector<PlacedSweep>& sweeps) {
@@ -309,9 +321,10 @@ bool lost_track(const TrackedWalk& walk, const MappingOptions& options) {
 Result<TrackedWalk> track(const std::vector<PlacedSweep>& sweeps, const Eigen::Vector3d& motor_axis,
                           const MappingOptions& options, const Job& job) {
   const std::size_t first = first_whole_sweep(sweeps);
-  const std::vector<PlacedSweep> beginning(
+  std::vector<PlacedSweep> beginning(
       sweeps.begin() + std::ptrdiff_t(first),
       sweeps.begin() + std::ptrdiff_t(std::min(sweeps.size(), first + std::size_t(options.velocity_sweeps))));
+  for (PlacedSweep& sweep : beginning) match_half(sweep);
   Tracker tracker(options, motor_axis, find_first_twist_per_s(beginning, motor_axis, options));
   for (std::size_t i = first; i < sweeps.size(); ++i) {
     if (job.cancelled()) return failure(ExitCode::kInterrupted, "interrupted while tracking");

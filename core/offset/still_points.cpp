@@ -94,6 +94,7 @@ StillPoints place_still(const StillGrid& grid, double offset_s, StillDetail deta
   const std::size_t middle = grid.bins / 2;
   for (LinePool& pool : points.pool)
     std::stable_sort(pool.begin(), pool.end(), [&](std::uint32_t a, std::uint32_t b) {
+      if (points.ring_of(a) != points.ring_of(b)) return points.ring_of(a) < points.ring_of(b);
       return points.angle_rad[a * grid.bins + middle] < points.angle_rad[b * grid.bins + middle];
     });
   return points;
@@ -120,11 +121,10 @@ StillPatchOptions still_patch_options(const OffsetProblem& problem) {
 
 StillNeighbours::StillNeighbours(const StillPoints& points, const LinePool& pool, std::size_t line,
                                  const StillPatchOptions& options)
-    : points_(points), pool_(points.ring.empty() ? pool : of_ring_), options_(options) {
-  if (points.ring.empty()) return;
-  for (const std::uint32_t other : pool)
-    if (points.ring[other] == points.ring[line]) of_ring_.push_back(other);
-}
+    : points_(points),
+      pool_(std::ranges::equal_range(pool, points.ring_of(std::uint32_t(line)), {},
+                                     [&](std::uint32_t other) { return points.ring_of(other); })),
+      options_(options) {}
 
 void StillNeighbours::seek(double angle_rad, std::size_t bin) {
   while (next_ < pool_.size() && points_.angle_rad[cell(next_, bin)] < angle_rad) ++next_;

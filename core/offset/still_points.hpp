@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/geometry/kinematics.hpp"
@@ -27,7 +28,7 @@ struct StillGrid {
 /// The grid of the scans that are used. The problem must outlive it.
 StillGrid still_grid(const OffsetProblem& problem);
 
-/// The scan lines of some sweeps of one direction, in the order of their motor angle.
+/// The scan lines of some sweeps of one direction, ring by ring, in the order of their motor angle.
 using LinePool = std::vector<std::uint32_t>;
 
 /// The grid's points at one offset. Cells within a reversal's unsteady part are not `placed`.
@@ -40,10 +41,11 @@ struct StillPoints {
   std::vector<float> speed_rad_s;    // per cell, the motor's, signed
   std::vector<Eigen::Vector3d> p_m;  // per cell, base frame
   std::vector<char> placed;          // per cell
-  std::array<LinePool, 2> pool;      // all lines turning down, up
   std::vector<std::uint16_t> ring;   // per line; empty where there is one ring only
+  std::array<LinePool, 2> pool;      // all lines turning down, up
 
   std::size_t lines() const { return sweep.size(); }
+  std::uint16_t ring_of(std::uint32_t line) const { return ring.empty() ? std::uint16_t{0} : ring[line]; }
   const LinePool& against(int turning) const { return pool[turning > 0 ? 0 : 1]; }
 };
 
@@ -51,7 +53,7 @@ struct StillPoints {
 enum class StillDetail { kAngles, kPoints };
 StillPoints place_still(const StillGrid& grid, double offset_s, StillDetail detail);
 
-/// The lines of each sweep by its index, in the order of the motor's angle.
+/// The lines of each sweep by its index.
 std::vector<LinePool> pools_by_sweep(const StillPoints& points);
 
 /// How a point's neighbours are chosen. Lines as near to each other as encoder steps tell nothing of a
@@ -96,8 +98,7 @@ class StillNeighbours {
 
   static constexpr int kMostPoints = 24;
   const StillPoints& points_;
-  LinePool of_ring_;
-  const LinePool& pool_;
+  std::span<const std::uint32_t> pool_;  // of the line's own ring
   const StillPatchOptions& options_;
   std::size_t next_ = 0;  // the first of the pool's lines at or above the angle
   std::array<std::size_t, kMostPoints> near_;

@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <malloc.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -139,7 +138,6 @@ void Explorer::close() {
   panes_ = {};
   b_was_set_ = false;
   view_fitted_ = false;
-  malloc_trim(0);  // what was small and is free goes back to the system, too
 }
 
 void Explorer::take(LoadedPtr loaded, SolvedMapPtr first_map) {

@@ -10,7 +10,7 @@ namespace sweepscope::ui {
 namespace {
 
 constexpr double kMoving_s = 0.2;       // after the last move of a camera, thinned points alone are drawn
-constexpr double kDrawBudget_s = 0.02;  // of each pane and frame
+constexpr double kDrawBudget_s = 0.012;  // of each pane and frame; a slice may go beyond it
 
 ImVec2 corner(const PixelRect& rect) {
   return {static_cast<float>(rect.left), static_cast<float>(rect.top)};
