@@ -9,7 +9,7 @@
 namespace sweepscope::ui {
 namespace {
 
-constexpr double kMoving_s = 0.2;       // after the last move of a camera, thinned points alone are drawn
+constexpr double kMoving_s = 0.2;        // after the last move of a camera, thinned points alone are drawn
 constexpr double kDrawBudget_s = 0.012;  // of each pane and frame; a slice may go beyond it
 
 ImVec2 corner(const PixelRect& rect) {
