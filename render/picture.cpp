@@ -1,13 +1,16 @@
 #include "render/picture.hpp"
 
+#include <vtk_glew.h>
+
 #include <fmt/format.h>
 #include <vtkActor.h>
 #include <vtkCamera.h>
 #include <vtkContextActor.h>
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkOpenGLPolyDataMapper.h>
 #include <vtkPolyData.h>
-#include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
 #include <vtkRendererCollection.h>
@@ -25,6 +28,7 @@ namespace sweepscope {
 namespace {
 
 constexpr int kSupersampling = 2;
+constexpr std::size_t kSlicePoints = 65536;
 
 std::vector<std::array<std::uint8_t, 3>> colours_of(const ColouredPoints& points, const ColourScale& scale) {
   std::vector<std::array<std::uint8_t, 3>> rgb;
@@ -36,15 +40,35 @@ std::vector<std::array<std::uint8_t, 3>> colours_of(const ColouredPoints& points
   return rgb;
 }
 
-vtkSmartPointer<vtkActor> to_actor(const CloudLayer& layer, const ColourScale& scale) {
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputData(to_polydata(layer.points->xyz_m, colours_of(*layer.points, scale)));
-  mapper->SetColorModeToDirectScalars();
-  auto actor = vtkSmartPointer<vtkActor>::New();
-  actor->SetMapper(mapper);
-  actor->GetProperty()->LightingOff();
-  actor->GetProperty()->SetPointSize(static_cast<float>(layer.point_size_px * kSupersampling));
-  return actor;
+/// Returns when its points are drawn. A software renderer draws for all contexts with the same threads: an
+/// interface beside would have to wait for whole clouds.
+class PatientMapper final : public vtkOpenGLPolyDataMapper {
+ public:
+  static PatientMapper* New();
+  vtkTypeMacro(PatientMapper, vtkOpenGLPolyDataMapper)
+
+      void RenderPieceFinish(vtkRenderer* renderer, vtkActor* actor) override {
+    Superclass::RenderPieceFinish(renderer, actor);
+    glFinish();
+  }
+};
+vtkStandardNewMacro(PatientMapper);
+
+/// The layer in slices, in its own order.
+void add_actors(const CloudLayer& layer, const ColourScale& scale, vtkRenderer& renderer) {
+  const auto rgb = colours_of(*layer.points, scale);
+  for (std::size_t from = 0; from < rgb.size(); from += kSlicePoints) {
+    const std::size_t count = std::min(kSlicePoints, rgb.size() - from);
+    vtkNew<PatientMapper> mapper;
+    mapper->SetInputData(to_polydata(std::span(layer.points->xyz_m).subspan(from, count),
+                                     std::span(rgb).subspan(from, count)));
+    mapper->SetColorModeToDirectScalars();
+    vtkNew<vtkActor> actor;
+    actor->SetMapper(mapper);
+    actor->GetProperty()->LightingOff();
+    actor->GetProperty()->SetPointSize(static_cast<float>(layer.point_size_px * kSupersampling));
+    renderer.AddActor(actor);
+  }
 }
 
 void set_background(vtkRenderer& renderer, Colour colour) {
@@ -72,7 +96,7 @@ vtkSmartPointer<vtkRenderer> to_renderer(const View& view, const Picture& pictur
                         1 - view.place.top / height);
   set_background(*renderer, view.scene.background);
   for (const CloudLayer& layer : view.scene.clouds) {
-    if (layer.points && layer.points->size() > 0) renderer->AddActor(to_actor(layer, view.scene.colours));
+    if (layer.points) add_actors(layer, view.scene.colours, *renderer);
   }
   set_camera(*renderer, view.scene.camera);
   return renderer;

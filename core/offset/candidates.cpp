@@ -81,17 +81,47 @@ double Parabola::at(double offset_s) const {
   return scale * (c0 + (c1 + c2 * x) * x);
 }
 
-std::optional<Parabola> fitted_parabola(const std::vector<CurvePoint>& curve, CurveValue value,
-                                        std::size_t best, double reach_s) {
+namespace {
+
+constexpr std::size_t kLeastFitted = 5;
+
+struct Span {
+  std::size_t first, last;
+
+  std::size_t size() const { return last - first + 1; }
+};
+
+// The contiguous present points round `best`.
+Span present_within(const std::vector<CurvePoint>& curve, CurveValue value, std::size_t best,
+                    double reach_s) {
   const double centre_s = curve[best].offset_s;
+  Span span{best, best};
   const auto belongs = [&](std::size_t i) {
     return (curve[i].*value).has_value() && std::abs(curve[i].offset_s - centre_s) <= reach_s + 1e-9;
   };
-  std::size_t first = best, last = best;
-  while (first > 0 && belongs(first - 1)) --first;
-  while (last + 1 < curve.size() && belongs(last + 1)) ++last;
+  while (span.first > 0 && belongs(span.first - 1)) --span.first;
+  while (span.last + 1 < curve.size() && belongs(span.last + 1)) ++span.last;
+  return span;
+}
+
+// As far to one side as to the other where enough is left: a valley is no parabola, and what one side has
+// more of pulls.
+Span fitted_span(const std::vector<CurvePoint>& curve, CurveValue value, std::size_t best, double reach_s) {
+  const Span all = present_within(curve, value, best, reach_s);
+  const double even_s = std::min(curve[best].offset_s - curve[all.first].offset_s,
+                                 curve[all.last].offset_s - curve[best].offset_s);
+  const Span even = present_within(curve, value, best, even_s);
+  return even.size() >= kLeastFitted ? even : all;
+}
+
+}  // namespace
+
+std::optional<Parabola> fitted_parabola(const std::vector<CurvePoint>& curve, CurveValue value,
+                                        std::size_t best, double reach_s) {
+  const double centre_s = curve[best].offset_s;
+  const auto [first, last] = fitted_span(curve, value, best, reach_s);
   const auto count = static_cast<Eigen::Index>(last - first + 1);
-  if (count < 5) return std::nullopt;
+  if (count < Eigen::Index(kLeastFitted)) return std::nullopt;
   Eigen::MatrixXd powers(count, 3);
   Eigen::VectorXd values(count);
   const double best_value = *(curve[best].*value), scale = best_value == 0 ? 1.0 : best_value;

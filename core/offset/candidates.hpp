@@ -72,8 +72,9 @@ std::optional<Parabola> parabola_behind(const std::vector<CurvePoint>& curve, Cu
                                         const CriterionOptimum& optimum);
 
 /// The extremum of the parabola fitted to the contiguous present values within `reach_s` of point `best` (the
-/// authors' 2018 follow-up), with the value of the point nearest to it. The grid point itself where they are
-/// fewer than 5, or the parabola bends the wrong way or has its extremum outside them.
+/// authors' 2018 follow-up), with the value of the point nearest to it. They reach as far to one side as to
+/// the other, unless fewer than 5 would be left. The grid point itself where they are fewer than 5, or the
+/// parabola bends the wrong way or has its extremum outside them.
 CriterionOptimum fitted_extremum(const std::vector<CurvePoint>& curve, CurveValue value, std::size_t best,
                                  double reach_s);
 

@@ -97,6 +97,17 @@ TEST(FittedExtremum, PointsBeyondAFailedCandidateDoNotBelong) {
   EXPECT_DOUBLE_EQ(fitted(curve_of(with_two_gaps)).offset_s, 24 * kMs);  // three are left
 }
 
+// The paper's own search: by 1 ms, and by 0.1 ms round the valley. The least candidate lies off its middle,
+// so that 21 ms is within reach and 27 ms is not.
+TEST(FittedExtremum, WhatOneSideHasMoreOfDoesNotPull) {
+  std::vector<CurvePoint> curve;
+  for (int tenth = 190; tenth <= 290; tenth += tenth < 220 || tenth >= 260 ? 10 : 1) {
+    curve.emplace_back().offset_s = tenth * 1e-4;
+    curve.back().e_m = 0.0121 + 1e-3 * std::abs(tenth - 240) - (tenth == 239 ? 0.0011 : 0);
+  }
+  EXPECT_NEAR(fitted(curve).offset_s, 24 * kMs, 0.02 * kMs);
+}
+
 TEST(FittedExtremum, AParabolaThatBendsTheWrongWayIsNotBelieved) {
   const auto spike = [](double offset_ms) {
     return offset_ms == 24 ? 0.9 : 1 - 0.001 * std::pow(offset_ms - 24, 2);
