@@ -17,6 +17,7 @@
 #include "ui/model/picking.hpp"
 #include "ui/model/spatial_order.hpp"
 #include "ui/model/view_camera.hpp"
+#include "ui/model/wall_profile.hpp"
 
 namespace sweepscope::ui {
 namespace {
@@ -310,6 +311,26 @@ TEST_F(InARoom, AnotherRecordingForgetsWhatWasAskedOfTheOneBefore) {
   EXPECT_EQ(explorer_.settings().asked_scan, -1);
   EXPECT_EQ(explorer_.settings().measure_from_m, explorer_.settings().measure_to_m);
   EXPECT_EQ(explorer_.settings().profile_from_m, explorer_.settings().profile_to_m);
+}
+
+TEST(WallProfile, ALineAcrossATownIsDrawnAsFarAsAWallReachesAndWithAChartsWorthOfPoints) {
+  Settings settings;
+  settings.profile_from_m = {-4000, 10};
+  settings.profile_to_m = {4000, 10};
+  const auto section = section_of(settings);
+  ASSERT_TRUE(section);
+  EXPECT_EQ(section->reach_m, 25);
+  Profile profile;
+  for (int mm = -25000; mm <= 25000; ++mm) {
+    profile.distances_mm.push_back(mm);
+    profile.density_per_mm.push_back(mm == 7777 ? 0.5 : 1e-5);
+  }
+  const Chart chart = profile_chart(profile, profile, style_of(sweepscope::Background::kDark));
+  EXPECT_LE(chart.series[0].x.size(), 2001U);
+  const auto& y = chart.series[0].y;
+  const auto peak = std::max_element(y.begin(), y.end());
+  EXPECT_EQ(*peak, 0.5);
+  EXPECT_EQ(chart.series[0].x[static_cast<std::size_t>(peak - y.begin())], 7777);
 }
 
 TEST(OnAWalk, WhatWasCancelledIsTakenUpWhenItIsAskedForOrTheOffsetMoves) {

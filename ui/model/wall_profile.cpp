@@ -8,15 +8,24 @@
 namespace sweepscope::ui {
 namespace {
 
+constexpr double kMostReach_m = 25;       // a wall is asked for, not a town
+constexpr std::size_t kMostDrawn = 2000;  // more than a chart is pixels wide
+
 void add(Chart& chart, const Profile& profile, const char* name, Colour colour) {
   ChartSeries series;
   series.name = name;
   series.colour = colour;
   series.marker = MarkerShape::kNone;
   series.filled = true;
-  for (std::size_t i = 0; i < profile.distances_mm.size(); ++i) {
-    series.x.push_back(profile.distances_mm[i] + profile.median_mm);
-    series.y.emplace_back(profile.density_per_mm[i]);
+  const auto& densities = profile.density_per_mm;
+  const std::size_t stride = densities.size() / kMostDrawn + 1;
+  for (std::size_t i = 0; i < densities.size(); i += stride) {
+    const auto first = densities.begin() + static_cast<std::ptrdiff_t>(i);
+    const auto last = densities.begin() + static_cast<std::ptrdiff_t>(std::min(i + stride, densities.size()));
+    const auto densest = std::max_element(first, last);  // peaks stay as high as they are
+    series.x.push_back(profile.distances_mm[static_cast<std::size_t>(densest - densities.begin())] +
+                       profile.median_mm);
+    series.y.emplace_back(*densest);
   }
   chart.series.push_back(std::move(series));
   if (!profile.width_at_half_height_mm) return;
@@ -36,7 +45,7 @@ std::optional<CrossSection> section_of(const Settings& settings) {
   section.length_m = 0.5;
   section.from_m = -100;
   section.to_m = 100;
-  section.reach_m = along_m.norm() / 2;
+  section.reach_m = std::min(along_m.norm() / 2, kMostReach_m);
   return section;
 }
 

@@ -101,19 +101,20 @@ Command camera(Words words, ViewPoint Settings::*field) {
 
 Command profile() {
   const auto place = [](const char* name) { return number_of(name, "m", -1e5, 1e5, 0); };
-  return {"profile",
-          "Profile line",
-          "The line across a wall, in the map frame, along which the densities of both maps are compared. "
-          "From and to the same place: none.",
-          {place("X1"), place("Y1"), place("X2"), place("Y2")},
-          [](const Settings& s) {
-            return Values{s.profile_from_m.x(), s.profile_from_m.y(), s.profile_to_m.x(), s.profile_to_m.y()};
-          },
-          [](Settings& s, const Values& v) {
-            const auto at = [&](std::size_t i) { return std::get<double>(v[i]); };
-            s.profile_from_m = {at(0), at(1)};
-            s.profile_to_m = {at(2), at(3)};
-          }};
+  return {
+      "profile",
+      "Profile line",
+      "The line across a wall, in the map frame, along which the densities of both maps are compared, 50 m "
+      "of it at the most. From and to the same place: none.",
+      {place("X1"), place("Y1"), place("X2"), place("Y2")},
+      [](const Settings& s) {
+        return Values{s.profile_from_m.x(), s.profile_from_m.y(), s.profile_to_m.x(), s.profile_to_m.y()};
+      },
+      [](Settings& s, const Values& v) {
+        const auto at = [&](std::size_t i) { return std::get<double>(v[i]); };
+        s.profile_from_m = {at(0), at(1)};
+        s.profile_to_m = {at(2), at(3)};
+      }};
 }
 
 Command measure() {
