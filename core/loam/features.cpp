@@ -1,10 +1,11 @@
 #include "core/loam/features.hpp"
-#include "core/parallel.hpp"
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <span>
+
+#include "core/parallel.hpp"
 
 namespace sweepscope {
 namespace {

@@ -27,7 +27,7 @@ struct MappingOptions {
   double twist_change_sigma = 0.08;     // rad and m per sweep: how freely the motion changes
   int most_iterations = 6;
   int rough_iterations = 2;      // of these, while the points still move by more than their matches hold: ...
-  int rough_stride = 4;          // ... with every so manieth feature alone
+  int rough_stride = 4;          // ... with one feature in so many
   double step_tolerance = 5e-4;  // m and rad
   double reuse_within_m = 0.03;  // a match is searched anew once its point moved by more
   int settling_sweeps = 8;       // not counted: the map is still being begun

@@ -1,8 +1,9 @@
 #include "core/map/feature_points.hpp"
-#include "core/parallel.hpp"
 
 #include <algorithm>
 #include <cmath>
+
+#include "core/parallel.hpp"
 
 namespace sweepscope {
 namespace {

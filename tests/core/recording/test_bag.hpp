@@ -13,6 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "core/recording/ros_allocator.hpp"
+
 namespace sweepscope::test {
 
 /// A folder of this test's own, gone when the test ends.
@@ -53,19 +55,8 @@ inline std::filesystem::path real_data() {
   return std::filesystem::is_directory(folder) ? folder : std::filesystem::path();
 }
 
-/// The standard allocator with the member that ROS's headers ask for and C++20 took away.
-template <typename T>
-struct RosAllocator : std::allocator<T> {
-  RosAllocator() = default;
-  template <typename U>
-  RosAllocator(const RosAllocator<U>&) {}
-  template <typename U>
-  struct rebind {
-    using other = RosAllocator<U>;
-  };
-};
-using LaserScanMessage = sensor_msgs::LaserScan_<RosAllocator<void>>;
-using JointStateMessage = sensor_msgs::JointState_<RosAllocator<void>>;
+using LaserScanMessage = sensor_msgs::LaserScan_<MessageAllocator<void>>;
+using JointStateMessage = sensor_msgs::JointState_<MessageAllocator<void>>;
 
 inline constexpr double kStart_s = 1000;  // header stamps of the sample recording begin here
 inline constexpr double kReceiveDelay_s = 0.005;
