@@ -5,6 +5,7 @@
 
 #include "app/commands.hpp"
 #include "app/estimate_options.hpp"
+#include "app/interrupt.hpp"
 #include "app/offset_texts.hpp"
 #include "app/progress.hpp"
 #include "app/say.hpp"
@@ -98,6 +99,7 @@ Result<Estimate> run_calibration(Options& options) {
   const Progress progress;
   auto source = open_source(options);
   if (!source) return tl::unexpected(source.error());
+  finish_after_first_interrupt();
   const auto end = listen(**source, options.calibration, progress.job(),
                           [&](const HeardSoFar& heard, const Result<Estimate>& answer) {
                             tell_running(progress, heard, answer);

@@ -15,7 +15,7 @@
 namespace sweepscope::app {
 namespace {
 
-std::atomic<bool> interrupted{false}, at_once{false};
+std::atomic<bool> interrupted{false}, at_once{false}, unhurried{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may set it");
 sem_t signals;  // one post for each signal
 
@@ -51,7 +51,10 @@ void wait_for_second_signal(int most_s) {
 void watch() {
   constexpr int kGrace_s = 5;
   wait_for_signal();
-  if (!at_once) wait_for_second_signal(kGrace_s);
+  if (unhurried)
+    wait_for_signal();
+  else if (!at_once)
+    wait_for_second_signal(kGrace_s);
   end();
 }
 
@@ -79,6 +82,11 @@ const std::atomic<bool>& interrupt_flag() {
 
 void end_at_first_interrupt() {
   at_once = true;
+  interrupt_flag();
+}
+
+void finish_after_first_interrupt() {
+  unhurried = true;
   interrupt_flag();
 }
 

@@ -12,4 +12,8 @@ const std::atomic<bool>& interrupt_flag();
 /// For work that does not look at the flag: from now on the first signal ends the program like that.
 void end_at_first_interrupt();
 
+/// For work whose first interruption ends a part of it, and whose result is then made of what there is: from
+/// now on it takes a second signal to end the program like that, however long the rest takes.
+void finish_after_first_interrupt();
+
 }  // namespace sweepscope::app

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/recording/assemble.hpp"
 #include "core/recording/choose_streams.hpp"
@@ -15,7 +14,6 @@
 namespace sweepscope {
 namespace {
 
-constexpr double kDegPerRad = 180 / std::numbers::pi;
 constexpr const char* kAxes = "x rolls, y tilts, z yaws";
 
 /// Where the scanner is known to be turned by what the transforms say, the motor's angle is a joint's still;

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 
+#include "core/recording/decompress.hpp"
+#include "core/recording/unpacked_file.hpp"
+
 namespace sweepscope {
 namespace {
 
@@ -69,6 +72,12 @@ std::size_t MessageCollector::number_of(const Topic& topic) {
   return found->second;
 }
 
+/// Empty, which no message is, where it is damaged.
+std::span<const std::byte> MessageCollector::unpacked(std::span<const std::byte> message) {
+  const Decompressed plain = decompress(Compression::kZstd, message, kMostPackedMessage_bytes, unpacked_);
+  return plain.problem.empty() ? plain.bytes : std::span<const std::byte>();
+}
+
 std::optional<Error> MessageCollector::add(std::size_t topic, std::int64_t receive_ns,
                                            std::span<const std::byte> message,
                                            const std::function<std::string()>& place) {
@@ -76,6 +85,8 @@ std::optional<Error> MessageCollector::add(std::size_t topic, std::int64_t recei
   RecordedTopic& counts = raw_.topics[topic];
   ++counts.messages;
   if (entry.type == nullptr) return std::nullopt;
+  // CDR begins with 00, a frame of zstd never does.
+  if (entry.topic.encoding == Encoding::kCdr && begins_zstd(message)) message = unpacked(message);
   const bool whole = entry.type->kind == MessageKind::kLaserScan ? add_scan(entry, receive_ns, message)
                      : entry.type->kind == MessageKind::kCloud   ? add_cloud(entry, receive_ns, message)
                                                                  : add_joints(entry, receive_ns, message);

@@ -20,6 +20,8 @@ namespace sweepscope {
 /// messages cannot fill the memory.
 inline constexpr std::size_t kMostBeams = std::size_t{1} << 29;
 inline constexpr std::size_t kMostJointSamples = std::size_t{1} << 27;
+/// A message that is packed holds no more than this.
+inline constexpr std::size_t kMostPackedMessage_bytes = std::size_t{1} << 28;
 /// Where clouds are kept whole, of their bytes.
 inline constexpr std::size_t kMostCloudBytes = std::size_t{1} << 33;
 
@@ -43,7 +45,8 @@ class MessageCollector {
 
   /// The number of a topic, for add(): the same for the same name, type and encoding.
   std::size_t number_of(const Topic& topic);
-  /// Takes a message. `place` says where it is, and is asked only where the message is malformed.
+  /// Takes a message, one of CDR also packed by zstd (rosbag2's compression mode MESSAGE). `place` says where
+  /// it is, and is asked only where the message is malformed.
   std::optional<Error> add(std::size_t topic, std::int64_t receive_ns, std::span<const std::byte> message,
                            const std::function<std::string()>& place);
   /// Call once, last: warns of what was malformed.
@@ -62,6 +65,7 @@ class MessageCollector {
   };
 
   const MessageType* type_of(const Topic& topic);
+  std::span<const std::byte> unpacked(std::span<const std::byte> message);
   bool add_scan(const Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message);
   bool add_cloud(Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message);
   void keep_cloud(const Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message,
@@ -75,6 +79,7 @@ class MessageCollector {
   CloudDetail clouds_;
   std::vector<Entry> entries_;  // like RawRecording::topics
   std::map<std::tuple<std::string, std::string, Encoding>, std::size_t> numbers_;
+  std::vector<std::byte> unpacked_;
   std::vector<DecodedJoint> joints_;
   std::vector<DecodedTransform> transforms_;
   std::map<std::string, std::size_t, std::less<>> frames_;  // by the child, in RawRecording::frames

@@ -10,6 +10,7 @@
 #include "core/recording/read_raw_recording.hpp"
 #include "core/recording/ros1_recording.hpp"
 #include "core/recording/ros2_recording.hpp"
+#include "core/recording/unpacked_file.hpp"
 
 namespace sweepscope {
 namespace {
@@ -17,8 +18,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kReadable =
-    "sweepscope reads ROS 1 bags of format 2.0, ROS 2 bags (.db3 and MCAP) and folders with scans.csv and "
-    "motor.csv";
+    "sweepscope reads ROS 1 bags of format 2.0, ROS 2 bags (.db3 and MCAP, packed by zstd too) and folders "
+    "with "
+    "scans.csv and motor.csv";
 
 /// A file's first bytes, as far as it has them.
 Result<std::string> beginning(const fs::path& path) {
@@ -58,7 +60,8 @@ Result<RawRecording> read_raw_recording(const fs::path& path, const Rig& rig, co
   const auto start = beginning(path);
   if (!start) return tl::unexpected(start.error());
   if (start->starts_with("#ROSBAG V2.0\n")) return read_ros1_recording(path, rig, job, clouds);
-  if (bag_storage(*start)) return read_ros2_file(path, rig, job, clouds);
+  if (bag_storage(*start) || begins_zstd(std::as_bytes(std::span(*start))))
+    return read_ros2_file(path, rig, job, clouds);
   return unreadable(fmt::format("{}: {}; {}", path.string(), not_readable(*start), kReadable));
 }
 

@@ -5,10 +5,12 @@
 #include <algorithm>
 
 #include "core/io/yaml_members.hpp"
+#include "core/recording/decompress.hpp"
 #include "core/recording/input_file.hpp"
 #include "core/recording/mcap_file.hpp"
 #include "core/recording/message_collector.hpp"
 #include "core/recording/sqlite_bag.hpp"
+#include "core/recording/unpacked_file.hpp"
 
 namespace sweepscope {
 namespace {
@@ -47,25 +49,77 @@ Result<std::vector<std::string>> collect_sqlite(const fs::path& path, MessageCol
   return read_sqlite_bag(path, visit, job);
 }
 
-std::optional<BagStorage> storage_of(const fs::path& path) {
+constexpr std::size_t kBeginning_bytes = 16;
+
+/// How a bag's file lies there.
+struct StoredFile {
+  BagStorage storage;
+  bool packed;  // as a whole, by Zstandard
+};
+
+/// The first bytes of what a packed file holds, of which `packed` is the beginning.
+std::string unpacked_beginning(std::span<const std::byte> packed) {
+  std::vector<std::byte> plain;
+  const auto bytes = decompress(Compression::kZstd, packed, kBeginning_bytes, plain).bytes;
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+std::optional<StoredFile> stored_as(const fs::path& path) {
+  constexpr std::size_t kMostZstdBlock_bytes = std::size_t{1} << 18;
   std::error_code ignored;
   if (!fs::is_regular_file(path, ignored)) return std::nullopt;
   auto file = InputFile::open(path);
   if (!file) return std::nullopt;
-  std::string bytes(16, '\0');
-  bytes.resize(file->read(std::as_writable_bytes(std::span(bytes))));
-  return bag_storage(bytes);
+  std::vector<std::byte> bytes(kBeginning_bytes);
+  bytes.resize(file->read(bytes));
+  const bool packed = begins_zstd(bytes);
+  if (packed) {
+    file->seek(0);
+    bytes.resize(kMostZstdBlock_bytes);
+    bytes.resize(file->read(bytes));
+  }
+  const auto storage =
+      bag_storage(packed ? unpacked_beginning(bytes)
+                         : std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+  if (!storage) return std::nullopt;
+  return StoredFile{*storage, packed};
+}
+
+Result<std::vector<std::string>> collect_as(BagStorage storage, const fs::path& path,
+                                            MessageCollector& collector, const Job& job) {
+  return storage == BagStorage::kMcap ? collect_mcap(path, collector, job)
+                                      : collect_sqlite(path, collector, job);
+}
+
+/// What a sentence says of `file`, said of `other`.
+std::string renamed(std::string sentence, const fs::path& file, const fs::path& other) {
+  const std::string name = file.string();
+  for (std::size_t at = 0; (at = sentence.find(name, at)) != std::string::npos; at += other.string().size())
+    sentence.replace(at, name.size(), other.string());
+  return sentence;
+}
+
+Result<std::vector<std::string>> collect_packed(BagStorage storage, const fs::path& path,
+                                                MessageCollector& collector, const Job& job) {
+  const auto unpacked = UnpackedFile::unpack(path, job);
+  if (!unpacked) return tl::unexpected(unpacked.error());
+  auto damage = collect_as(storage, unpacked->path(), collector, job);
+  if (!damage) return failure(damage.error().code, renamed(damage.error().message, unpacked->path(), path));
+  for (std::string& what : *damage) what = renamed(what, unpacked->path(), path);
+  if (!unpacked->problem().empty()) damage->push_back(unpacked->problem());
+  return damage;
 }
 
 /// Gives the warnings.
 Result<std::vector<std::string>> collect(const fs::path& path, MessageCollector& collector, const Job& job) {
-  const auto storage = storage_of(path);
-  if (storage == BagStorage::kMcap) return collect_mcap(path, collector, job);
-  if (storage == BagStorage::kSqlite) return collect_sqlite(path, collector, job);
+  if (const auto stored = stored_as(path)) {
+    return stored->packed ? collect_packed(stored->storage, path, collector, job)
+                          : collect_as(stored->storage, path, collector, job);
+  }
   if (const auto file = InputFile::open(path); !file) return tl::unexpected(file.error());
   return unreadable(
       fmt::format("{}: byte 0 begins neither an SQLite database nor an MCAP file, as the files "
-                  "of ROS 2 bags do",
+                  "of ROS 2 bags do, nor one that is packed by zstd",
                   path.string()));
 }
 
@@ -75,11 +129,11 @@ Result<std::vector<fs::path>> named_files(const fs::path& folder) {
   const auto read = [&](const YAML::Node& document) {
     const YAML::Node bag = document.IsMap() ? document["rosbag2_bagfile_information"] : YAML::Node();
     if (!bag || !bag.IsMap()) yaml::refuse(document, "there is no rosbag2_bagfile_information");
-    if (const YAML::Node mode = bag["compression_mode"]; mode && mode.IsScalar() && !mode.Scalar().empty() &&
-                                                         mode.Scalar() != "none" && mode.Scalar() != "NONE") {
-      yaml::refuse(mode, fmt::format("the bag is compressed by {}, which is not read; decompress it with "
-                                     "`ros2 bag convert`",
-                                     mode.Scalar()));
+    if (const YAML::Node packed = bag["compression_format"];
+        packed && packed.IsScalar() && !packed.Scalar().empty() && packed.Scalar() != "zstd") {
+      yaml::refuse(packed, fmt::format("the bag is compressed as {}, and zstd alone is read; decompress it "
+                                       "with `ros2 bag convert`",
+                                       packed.Scalar()));
     }
     const YAML::Node paths = bag["relative_file_paths"];
     if (!paths || !paths.IsSequence() || paths.size() == 0) yaml::refuse(bag, "it names no files");
@@ -98,7 +152,7 @@ std::vector<fs::path> found_files(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code error;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
-    if (storage_of(entry->path())) files.push_back(entry->path());
+    if (stored_as(entry->path())) files.push_back(entry->path());
   std::ranges::sort(files);
   return files;
 }

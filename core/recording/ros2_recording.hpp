@@ -16,7 +16,8 @@ enum class BagStorage { kMcap, kSqlite };
 std::optional<BagStorage> bag_storage(std::string_view beginning);
 
 /// The scans and joints of one file: an SQLite database as rosbag2 writes it, or an MCAP file, of ROS 2's
-/// profile (cdr) or of ROS 1's (ros1). Those that the rig rules out by name are counted and not kept.
+/// profile (cdr) or of ROS 1's (ros1); either also packed by zstd as a whole (rosbag2's compression mode
+/// FILE) or message by message (MESSAGE). Those that the rig rules out by name are counted and not kept.
 Result<RawRecording> read_ros2_file(const std::filesystem::path& path, const Rig& rig, const Job& job,
                                     CloudDetail clouds = CloudDetail::kLines);
 
@@ -24,7 +25,7 @@ Result<RawRecording> read_ros2_file(const std::filesystem::path& path, const Rig
 bool is_ros2_folder(const std::filesystem::path& folder);
 
 /// A bag's folder: the files that its metadata.yaml names, in that order; without one, all that are bags, by
-/// name. What is compressed as a whole, or message by message, is refused.
+/// name. What is compressed by another format than zstd is refused.
 Result<RawRecording> read_ros2_folder(const std::filesystem::path& folder, const Rig& rig, const Job& job,
                                       CloudDetail clouds = CloudDetail::kLines);
 

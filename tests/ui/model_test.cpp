@@ -442,8 +442,8 @@ TEST(Background, ACancelledTaskIsForgottenAndTheNextOneRuns) {
 }
 
 TEST(Background, ProgressIsSeenFromOutside) {
+  std::atomic<bool> go_on = false;  // outlives the work that waits for it
   Background background;
-  std::atomic<bool> go_on = false;
   background.start("lane", "key", "Title", [&](const Job& job) -> Background::Finish {
     job.report("phase", 0.5);
     while (!go_on) std::this_thread::sleep_for(std::chrono::milliseconds(1));

@@ -24,6 +24,7 @@ struct EIGEN_ALIGN16 FilePoint {
 }  // namespace
 }  // namespace sweepscope
 
+#pragma GCC diagnostic ignored "-Wunused-function"  // operators that the macro makes
 POINT_CLOUD_REGISTER_POINT_STRUCT(sweepscope::FilePoint,
                                   (float, x, x)(float, y, y)(float, z, z)(float, intensity, intensity)(
                                       std::uint32_t, sweep, sweep)(double, time, time))

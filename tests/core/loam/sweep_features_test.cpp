@@ -35,7 +35,8 @@ class PlaceSweeps : public testing::Test {
 // clock.
 TEST_F(PlaceSweeps, ABeamStampedTIsPlacedWithTheMotorsAngleAtTPlusOffset) {
   for (const double offset_s : {-0.02, 0.0, 0.1}) {
-    const auto& placed = place_sweeps(problem_, offset_s).front().planes;
+    const std::vector<PlacedSweep> sweeps = place_sweeps(problem_, offset_s);
+    const auto& placed = sweeps.front().planes;
     const auto beam = std::find_if(placed.begin(), placed.end(), [](const auto& f) { return f.line == 10; });
     ASSERT_NE(beam, placed.end());
     const double angle_rad = -1 + 2 * (0.5 + offset_s);

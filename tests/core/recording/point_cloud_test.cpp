@@ -11,7 +11,7 @@ namespace {
 
 using test::as_span, test::CloudBytes, test::CloudType, test::MessageBytes;
 
-constexpr double kStep_s = 1e-4, kStep_rad = 0.01, kTurn_s = 0.1;
+constexpr double kStep_s = 1e-4, kStep_rad = 0.01;
 
 /// A ring's point that was fired `beam` steps after the cloud's first.
 void add(CloudBytes& cloud, int beam, double time, double elevation_rad = 0, std::uint16_t ring = 0,

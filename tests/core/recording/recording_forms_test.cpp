@@ -1,3 +1,5 @@
+#include <functional>
+
 #include "core/offset/estimator.hpp"
 #include "core/recording/cdr_writer.hpp"
 #include "core/recording/read_raw_recording.hpp"
@@ -7,6 +9,7 @@
 #include "tests/core/engine_fixtures.hpp"
 #include "tests/core/recording/test_bag.hpp"
 #include "tests/core/recording/test_database.hpp"
+#include "tests/core/recording/zstd_bytes.hpp"
 
 namespace sweepscope {
 namespace {
@@ -33,16 +36,22 @@ class RecordingForms : public testing::Test {
         write_recording(raw_.lasers.at(0), raw_.joints.at(0), format, compression, folder_ / name, Job());
     ASSERT_TRUE(written) << written.error().message;
   }
-  void write_database(const std::string& name) const {
+  using Packing = std::function<std::string(const std::string&)>;
+
+  void write_database(const std::string& name, const Packing& packed = std::identity()) const {
     test::TestDatabase database(folder_ / name);
     const RawLaser& laser = raw_.lasers.at(0);
     const RawJoint& joint = raw_.joints.at(0);
     database.topic(1, laser.topic, "sensor_msgs/msg/LaserScan");
     database.topic(2, joint.topic, "sensor_msgs/msg/JointState");
     for (std::size_t i = 0; i < laser.scans.size(); ++i)
-      database.message(1, laser.scans[i].stamps.receive_ns, cdr_laser_scan(laser, i));
+      database.message(1, laser.scans[i].stamps.receive_ns, packed(cdr_laser_scan(laser, i)));
     for (std::size_t i = 0; i < joint.stamps.size(); ++i)
-      database.message(2, joint.stamps[i].receive_ns, cdr_joint_state(joint, i));
+      database.message(2, joint.stamps[i].receive_ns, packed(cdr_joint_state(joint, i)));
+  }
+  /// As rosbag2 leaves a file of its compression mode FILE.
+  void pack(const std::string& name) const {
+    test::write_file(folder_ / (name + ".zstd"), test::packed_by_zstd(test::read_file(folder_ / name)));
   }
   void expect_the_same(const std::string& name) const;
 
@@ -94,6 +103,64 @@ TEST_F(RecordingForms, HoldTheSameRecordingToTheLastBit) {
        {"csv", "none.bag", "bz2.bag", "lz4.bag", "none.mcap", "lz4.mcap", "zstd.mcap", "room.db3"}) {
     expect_the_same(name);
   }
+}
+
+TEST_F(RecordingForms, PackedByRosbag2TheyHoldTheSame) {
+  write(RecordingFormat::kMcap, "none", "room.mcap");
+  write_database("room.db3");
+  pack("room.mcap");
+  pack("room.db3");
+  write_database("messages.db3", test::packed_by_zstd);
+  for (const char* name : {"room.mcap.zstd", "room.db3.zstd", "messages.db3"}) expect_the_same(name);
+
+  std::filesystem::create_directory(folder_ / "bag");
+  std::filesystem::rename(folder_ / "room.db3.zstd", folder_ / "bag/bag_0.db3.zstd");
+  const auto describe = [&](const std::string& text) {
+    test::write_file(folder_ / "bag/metadata.yaml", "rosbag2_bagfile_information:\n" + text);
+  };
+  describe("  relative_file_paths: [bag_0.db3.zstd]\n  compression_format: zstd\n  compression_mode: FILE\n");
+  expect_the_same("bag");
+  describe("  relative_file_paths: [bag_0.db3.zstd]\n  compression_format: snappy\n");
+  const auto refused = read_recording(folder_ / "bag", {}, Job());
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("metadata.yaml:3:23: the bag is compressed as snappy"),
+            std::string::npos)
+      << refused.error().message;
+  std::filesystem::remove(folder_ / "bag/metadata.yaml");
+  EXPECT_EQ(read("bag").scans.size(), original_.scans.size());
+}
+
+TEST_F(RecordingForms, OfAPackedFileWhatIsWholeIsReadAndOtherThingsAreRefused) {
+  write(RecordingFormat::kMcap, "none", "room.mcap");
+  const std::string packed = test::packed_by_zstd(test::read_file(folder_ / "room.mcap"));
+  test::write_file(folder_ / "cut", packed.substr(0, packed.size() * 3 / 4));
+  const Recording cut = read("cut");
+  EXPECT_GT(cut.scans.size(), original_.scans.size() / 2);
+  EXPECT_LT(cut.scans.size(), original_.scans.size());
+  ASSERT_FALSE(cut.report.warnings.empty());
+  for (const std::string& warning : cut.report.warnings)
+    EXPECT_EQ(warning.find("sweepscope-"), std::string::npos) << "names a temporary file: " << warning;
+
+  test::write_file(folder_ / "text", test::packed_by_zstd("a text, and no bag"));
+  const auto refused = read_recording(folder_ / "text", {}, Job());
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ExitCode::kUnreadableInput);
+  EXPECT_NE(refused.error().message.find("text: byte 0 begins neither"), std::string::npos)
+      << refused.error().message;
+}
+
+TEST_F(RecordingForms, ADamagedPackedMessageIsCountedAndLeftOut) {
+  int number = 0;
+  write_database("messages.db3", [&](const std::string& message) {
+    std::string packed = test::packed_by_zstd(message);
+    if (number++ == 7) packed.resize(packed.size() / 2);
+    return packed;
+  });
+  const Recording recording = read("messages.db3");
+  EXPECT_EQ(recording.scans.size(), original_.scans.size() - 1);
+  ASSERT_FALSE(recording.report.warnings.empty());
+  EXPECT_NE(recording.report.warnings.front().find("message 8"), std::string::npos)
+      << recording.report.warnings.front();
 }
 
 TEST_F(RecordingForms, GiveTheSameEstimateToTheLastDigit) {

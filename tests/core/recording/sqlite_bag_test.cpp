@@ -88,9 +88,6 @@ TEST_F(SqliteBag, AFoldersFilesAreReadInTheOrderOfItsMetadata) {
   EXPECT_EQ(read("bag")->scans.size(), std::size_t{kScans});
   describe("  relative_file_paths: [../../bag_2.db3]\n");
   EXPECT_NE(refusal("bag").find("bag/bag_2.db3: no such file"), std::string::npos) << refusal("bag");
-  describe("  relative_file_paths: [bag_0.db3.zstd]\n  compression_mode: FILE\n");
-  EXPECT_NE(refusal("bag").find("metadata.yaml:5:21: the bag is compressed by FILE"), std::string::npos)
-      << refusal("bag");
   describe("  relative_file_paths: []\n");
   EXPECT_NE(refusal("bag").find("it names no files"), std::string::npos);
   test::write_file(folder_ / "bag/metadata.yaml", "[1, 2]");

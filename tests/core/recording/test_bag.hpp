@@ -142,7 +142,7 @@ inline void write_sample_bag(const std::filesystem::path& path, const std::strin
 struct RawBag {
   static std::string number(std::uint64_t value, int bytes) {
     std::string text;
-    for (int i = 0; i < bytes; ++i) text += static_cast<char>(value >> (8 * i) & 0xFF);
+    for (int i = 0; i < bytes; ++i) text += i < 8 ? static_cast<char>(value >> (8 * i) & 0xFF) : '\0';
     return text;
   }
   static std::string counted(const std::string& bytes) { return number(bytes.size(), 4) + bytes; }

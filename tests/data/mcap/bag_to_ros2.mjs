@@ -14,8 +14,8 @@ const {FileReader} = require("@foxglove/rosbag/node");
 const Bzip2 = require("@foxglove/wasm-bz2");
 
 const [source, out] = process.argv.slice(2);
-mkdirSync(`${out}/mcap`, {recursive: true});
-mkdirSync(`${out}/ros2`, {recursive: true});
+for (const folder of ["mcap", "ros2", "packed_file", "packed_messages"])
+  mkdirSync(`${out}/${folder}`, {recursive: true});
 await zstd.isLoaded;
 const bz2 = await Bzip2.init();
 const bag = new Bag(new FileReader(source), {
@@ -77,21 +77,22 @@ async function writeMcap(name, ros2, options) {
   writeFileSync(name, Buffer.concat(parts));
 }
 
-async function writeDatabase(name) {
-  const database = new (await initSql()).Database();
-  database.run(`CREATE TABLE schema(schema_version INTEGER PRIMARY KEY, ros_distro TEXT NOT NULL);
+/** The bytes of an SQLite database; `packed` is done to each message. */
+async function database(packed) {
+  const tables = new (await initSql()).Database();
+  tables.run(`CREATE TABLE schema(schema_version INTEGER PRIMARY KEY, ros_distro TEXT NOT NULL);
     CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT NOT NULL, type TEXT NOT NULL,
       serialization_format TEXT NOT NULL, offered_qos_profiles TEXT NOT NULL);
     CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER NOT NULL, timestamp INTEGER NOT NULL,
       data BLOB NOT NULL);
     CREATE INDEX timestamp_idx ON messages (timestamp ASC);`);
   for (const c of connections)
-    database.run("INSERT INTO topics VALUES(?, ?, ?, 'cdr', '')", [c.conn + 1, c.topic, types.get(c.type)]);
-  const insert = database.prepare("INSERT INTO messages(topic_id, timestamp, data) VALUES(?, ?, ?)");
+    tables.run("INSERT INTO topics VALUES(?, ?, ?, 'cdr', '')", [c.conn + 1, c.topic, types.get(c.type)]);
+  const insert = tables.prepare("INSERT INTO messages(topic_id, timestamp, data) VALUES(?, ?, ?)");
   for (const message of messages)
     if (writers.has(message.connectionId))
-      insert.run([message.connectionId + 1, nanoseconds(message.timestamp).toString(), cdr(message)]);
-  writeFileSync(name, Buffer.from(database.export()));
+      insert.run([message.connectionId + 1, nanoseconds(message.timestamp).toString(), packed(cdr(message))]);
+  return Buffer.from(tables.export());
 }
 
 await writeMcap(`${out}/ros2.mcap`, true, {});
@@ -99,12 +100,20 @@ await writeMcap(`${out}/ros1.mcap`, false,
   {compressChunk: (chunk) => ({compression: "lz4", compressedData: lz4.compressFrameSync(Buffer.from(chunk))})});
 await writeMcap(`${out}/mcap/ros2_0.mcap`, true,
   {compressChunk: (chunk) => ({compression: "zstd", compressedData: zstd.compress(chunk, 3)})});
-await writeDatabase(`${out}/ros2/ros2_0.db3`);
-writeFileSync(`${out}/ros2/metadata.yaml`, `rosbag2_bagfile_information:
+/** A ROS 2 bag's folder, as rosbag2 leaves it. */
+function writeFolder(folder, file, bytes, mode) {
+  writeFileSync(`${out}/${folder}/${file}`, bytes);
+  writeFileSync(`${out}/${folder}/metadata.yaml`, `rosbag2_bagfile_information:
   version: 5
   storage_identifier: sqlite3
   relative_file_paths:
-    - ros2_0.db3
-  compression_format: ""
-  compression_mode: ""
+    - ${file}
+  compression_format: "${mode ? "zstd" : ""}"
+  compression_mode: "${mode}"
 `);
+}
+
+const plain = await database((message) => message);
+writeFolder("ros2", "ros2_0.db3", plain, "");
+writeFolder("packed_file", "ros2_0.db3.zstd", zstd.compress(plain, 1), "FILE");
+writeFolder("packed_messages", "ros2_0.db3", await database((message) => zstd.compress(message, 1)), "MESSAGE");

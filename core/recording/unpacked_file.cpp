@@ -1,0 +1,109 @@
+#include "core/recording/unpacked_file.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+#include <zstd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/io/unfinished_files.hpp"
+#include "core/recording/input_file.hpp"
+
+namespace sweepscope {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array kZstdMagic{std::byte{0x28}, std::byte{0xb5}, std::byte{0x2f}, std::byte{0xfd}};
+
+using Output = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
+using Context = std::unique_ptr<ZSTD_DCtx, std::size_t (*)(ZSTD_DCtx*)>;
+
+tl::unexpected<Error> no_room(const fs::path& packed, const fs::path& folder, const std::string& why) {
+  return failure(ExitCode::kWrongUsage,
+                 fmt::format("{}: cannot be unpacked into {}: {}; set TMPDIR to a folder with room",
+                             packed.string(), folder.string(), why));
+}
+
+/// An empty file of our own in `folder`. Empty where there can be none (errno tells why).
+std::optional<fs::path> temporary_file(const fs::path& folder) {
+  std::string pattern = (folder / "sweepscope-XXXXXX").string();
+  const int descriptor = mkstemp(pattern.data());
+  if (descriptor < 0) return std::nullopt;
+  close(descriptor);
+  return pattern;
+}
+
+enum class Unpacking { kWhole, kDamaged, kTooShort, kTooLong, kNoRoom, kInterrupted };
+
+Unpacking unpack_into(std::FILE* output, InputFile& input, std::uint64_t most_bytes, const Job& job) {
+  const Context context(ZSTD_createDCtx(), ZSTD_freeDCtx);
+  std::vector<std::byte> packed(ZSTD_DStreamInSize()), plain(ZSTD_DStreamOutSize());
+  std::uint64_t unpacked_bytes = 0;
+  std::size_t hint = 0;
+  while (const std::size_t got = input.read(packed)) {
+    ZSTD_inBuffer in{packed.data(), got, 0};
+    // A full buffer may leave more behind in the context.
+    for (bool more = true; more;) {
+      ZSTD_outBuffer out{plain.data(), plain.size(), 0};
+      hint = ZSTD_decompressStream(context.get(), &out, &in);
+      if (ZSTD_isError(hint)) return Unpacking::kDamaged;
+      unpacked_bytes += out.pos;
+      if (unpacked_bytes > most_bytes) return Unpacking::kTooLong;
+      if (std::fwrite(plain.data(), 1, out.pos, output) != out.pos) return Unpacking::kNoRoom;
+      more = in.pos < in.size || out.pos == out.size;
+      if (job.cancelled()) return Unpacking::kInterrupted;
+    }
+    job.report("unpacking", static_cast<double>(input.position()) / static_cast<double>(input.size()));
+  }
+  return hint == 0 ? Unpacking::kWhole : Unpacking::kTooShort;
+}
+
+}  // namespace
+
+bool begins_zstd(std::span<const std::byte> bytes) {
+  return bytes.size() > kZstdMagic.size() &&
+         std::memcmp(bytes.data(), kZstdMagic.data(), kZstdMagic.size()) == 0;
+}
+
+Result<UnpackedFile> UnpackedFile::unpack(const fs::path& packed, const Job& job, std::uint64_t most_bytes) {
+  auto input = InputFile::open(packed);
+  if (!input) return tl::unexpected(input.error());
+  std::error_code error;
+  const fs::path folder = fs::temp_directory_path(error);
+  if (error) return no_room(packed, "a temporary file", error.message());
+  const auto path = temporary_file(folder);
+  if (!path) return no_room(packed, folder, std::strerror(errno));
+  remember_unfinished(*path);
+  UnpackedFile file(*path);
+  Output output(std::fopen(path->c_str(), "wb"), std::fclose);
+  if (!output) return no_room(packed, folder, std::strerror(errno));
+  const Unpacking end = unpack_into(output.get(), *input, most_bytes, job);
+  if (end == Unpacking::kInterrupted)
+    return failure(ExitCode::kInterrupted, fmt::format("{}: reading was interrupted", packed.string()));
+  if (end == Unpacking::kTooLong)
+    return unreadable(
+        fmt::format("{}: unpacks to more than {} bytes, more than is unpacked; cut it into parts",
+                    packed.string(), most_bytes));
+  if (end == Unpacking::kNoRoom || std::fclose(output.release()) != 0)
+    return no_room(packed, folder, std::strerror(errno));
+  if (end == Unpacking::kDamaged) file.problem_ = "its zstd data is damaged; what comes before was read";
+  if (end == Unpacking::kTooShort) file.problem_ = "its zstd data ends too early; what is there was read";
+  return file;
+}
+
+UnpackedFile::~UnpackedFile() {
+  if (path_.empty()) return;
+  std::remove(path_.c_str());
+  forget_unfinished(path_);
+}
+
+}  // namespace sweepscope

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include "core/error.hpp"
+#include "core/job.hpp"
+
+namespace sweepscope {
+
+/// Whether the bytes begin a frame of Zstandard.
+bool begins_zstd(std::span<const std::byte> bytes);
+
+/// A packed file may hold no more than this, however small it is itself.
+inline constexpr std::uint64_t kMostUnpackedFile_bytes = std::uint64_t{64} << 30;
+
+/// What a file packed by Zstandard holds: a file in the folder for temporary files (TMPDIR), which goes with
+/// this object.
+class UnpackedFile {
+ public:
+  /// Streamed, with a few MiB of memory. Refuses what cannot be read (ExitCode::kUnreadableInput) or
+  /// written (kWrongUsage: a full disk), and what holds more than `most_bytes`.
+  static Result<UnpackedFile> unpack(const std::filesystem::path& packed, const Job& job,
+                                     std::uint64_t most_bytes = kMostUnpackedFile_bytes);
+
+  UnpackedFile(UnpackedFile&& other) noexcept : path_(std::move(other.path_)), problem_(other.problem_) {
+    other.path_.clear();
+  }
+  UnpackedFile& operator=(UnpackedFile&&) = delete;
+  ~UnpackedFile();
+
+  const std::filesystem::path& path() const { return path_; }
+  /// What was wrong with the packed file; empty where it was whole. What came before the damage is there.
+  const std::string& problem() const { return problem_; }
+
+ private:
+  explicit UnpackedFile(std::filesystem::path path) : path_(std::move(path)) {}
+
+  std::filesystem::path path_;
+  std::string problem_;
+};
+
+}  // namespace sweepscope
