@@ -8,6 +8,7 @@
 #include "app/offset_texts.hpp"
 #include "app/say.hpp"
 #include "core/io/estimate_json.hpp"
+#include "core/io/program_hash.hpp"
 #include "core/io/recording_hash.hpp"
 
 namespace sweepscope::app {
@@ -159,7 +160,8 @@ Result<CandidateSearch> candidate_search(const RecordingOptions& recording,
     return recording_content_hash(path).map([&](std::string&& digits) { into = std::move(digits); });
   };
   const auto done =
-      hash(search.program, "/proc/self/exe")
+      program_content_hash()
+          .map([&](std::string&& digits) { search.program = std::move(digits); })
           .and_then([&] { return hash(search.recording_hash, recording.recording); })
           .and_then([&] { return recording.rig ? hash(search.rig_hash, *recording.rig) : Result<void>(); });
   if (!done) return tl::unexpected(done.error());

@@ -3,7 +3,13 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <list>
 #include <stdexcept>
+
+#include "core/io/unfinished_files.hpp"
 
 // The build gives the fonts' paths; the assembler copies the files in.
 #define SWEEPSCOPE_EMBED(symbol, path)                                                     \
@@ -20,16 +26,45 @@ extern const char sweepscope_font_bold_begin[], sweepscope_font_bold_end[];
 namespace sweepscope {
 namespace {
 
-/// VTK reads fonts from paths alone: a file in memory has one.
-std::string memory_file(const char* name, std::string_view bytes) {
-  const int file = memfd_create(name, MFD_CLOEXEC);
-  if (file < 0) throw std::runtime_error("no memory file for a font");
+void write_all(int file, std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t written = write(file, bytes.data(), bytes.size());
     if (written <= 0) throw std::runtime_error("no memory for a font");
     bytes.remove_prefix(static_cast<std::size_t>(written));
   }
-  return "/proc/self/fd/" + std::to_string(file);
+}
+
+/// A file that is removed when the program ends.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(std::string_view bytes)
+      : path_((std::filesystem::temp_directory_path() / "sweepscope-XXXXXX").string()) {
+    const int file = mkstemp(path_.data());
+    if (file < 0) throw std::runtime_error("no temporary file for a font");
+    remember_unfinished(path_);
+    write_all(file, bytes);
+    close(file);
+  }
+  ~TemporaryFile() { std::remove(path_.c_str()); }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+/// VTK reads fonts from paths alone: a file in memory has one, but for a bare chroot without /proc.
+std::string font_file(const char* name, std::string_view bytes) {
+  const int file = memfd_create(name, MFD_CLOEXEC);
+  if (file < 0) throw std::runtime_error("no memory file for a font");
+  write_all(file, bytes);
+  std::string path = "/proc/self/fd/" + std::to_string(file);
+  if (access(path.c_str(), R_OK) == 0) return path;
+  close(file);
+  static std::list<TemporaryFile> files;
+  return files.emplace_back(bytes).path();
 }
 
 }  // namespace
@@ -40,8 +75,8 @@ std::string_view font_bytes(bool bold) {
 }
 
 const std::string& font_path(bool bold) {
-  static const std::string regular_path = memory_file("DejaVuSans", font_bytes(false));
-  static const std::string bold_path = memory_file("DejaVuSans-Bold", font_bytes(true));
+  static const std::string regular_path = font_file("DejaVuSans", font_bytes(false));
+  static const std::string bold_path = font_file("DejaVuSans-Bold", font_bytes(true));
   return bold ? bold_path : regular_path;
 }
 

@@ -10,6 +10,7 @@
 #include "core/io/candidate_file.hpp"
 #include "core/io/content_hash.hpp"
 #include "core/io/estimate_json.hpp"
+#include "core/io/program_hash.hpp"
 #include "core/map/feature_points.hpp"
 #include "core/map/offset_map.hpp"
 #include "core/recording/rig.hpp"
@@ -110,8 +111,7 @@ Result<std::string> FigureData::fingerprint(const std::string& name) const {
 }
 
 Result<std::string> FigureData::estimate_key(const EstimateSpec& spec) const {
-  // The program's own bytes stand for its version: another build may answer otherwise.
-  static const Result<std::string> program = file_content_hash("/proc/self/exe");
+  const Result<std::string> program = program_content_hash();
   if (!program) return program;
   return fingerprint(spec.recording).map([&](const std::string& recording) {
     return content_hash(recording + "\n" + canonical(spec.options) + "\n" + *program);
