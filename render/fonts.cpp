@@ -1,15 +1,13 @@
 #include "render/fonts.hpp"
 
+#include <fcntl.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include <cstdio>
-#include <cstdlib>
-#include <filesystem>
 #include <list>
 #include <stdexcept>
 
-#include "core/io/unfinished_files.hpp"
+#include "core/io/temporary_file.hpp"
 
 // The build gives the fonts' paths; the assembler copies the files in.
 #define SWEEPSCOPE_EMBED(symbol, path)                                                     \
@@ -34,27 +32,6 @@ void write_all(int file, std::string_view bytes) {
   }
 }
 
-/// A file that is removed when the program ends.
-class TemporaryFile {
- public:
-  explicit TemporaryFile(std::string_view bytes)
-      : path_((std::filesystem::temp_directory_path() / "sweepscope-XXXXXX").string()) {
-    const int file = mkstemp(path_.data());
-    if (file < 0) throw std::runtime_error("no temporary file for a font");
-    remember_unfinished(path_);
-    write_all(file, bytes);
-    close(file);
-  }
-  ~TemporaryFile() { std::remove(path_.c_str()); }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-
-  const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-};
-
 /// VTK reads fonts from paths alone: a file in memory has one, but for a bare chroot without /proc.
 std::string font_file(const char* name, std::string_view bytes) {
   const int file = memfd_create(name, MFD_CLOEXEC);
@@ -64,7 +41,13 @@ std::string font_file(const char* name, std::string_view bytes) {
   if (access(path.c_str(), R_OK) == 0) return path;
   close(file);
   static std::list<TemporaryFile> files;
-  return files.emplace_back(bytes).path();
+  auto named = TemporaryFile::create();
+  if (!named) throw std::runtime_error(named.error().message);
+  const int temporary = open(named->path().c_str(), O_WRONLY | O_CLOEXEC);
+  if (temporary < 0) throw std::runtime_error("no temporary file for a font");
+  write_all(temporary, bytes);
+  close(temporary);
+  return files.emplace_back(std::move(*named)).path().string();
 }
 
 }  // namespace

@@ -1,20 +1,15 @@
 #include "core/recording/unpacked_file.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 #include <zstd.h>
 
 #include <array>
 #include <cerrno>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <memory>
-#include <optional>
 #include <vector>
 
-#include "core/io/unfinished_files.hpp"
 #include "core/recording/input_file.hpp"
 
 namespace sweepscope {
@@ -27,19 +22,10 @@ constexpr std::array kZstdMagic{std::byte{0x28}, std::byte{0xb5}, std::byte{0x2f
 using Output = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 using Context = std::unique_ptr<ZSTD_DCtx, std::size_t (*)(ZSTD_DCtx*)>;
 
-tl::unexpected<Error> no_room(const fs::path& packed, const fs::path& folder, const std::string& why) {
+tl::unexpected<Error> no_room(const fs::path& packed, const fs::path& unpacked) {
   return failure(ExitCode::kWrongUsage,
                  fmt::format("{}: cannot be unpacked into {}: {}; set TMPDIR to a folder with room",
-                             packed.string(), folder.string(), why));
-}
-
-/// An empty file of our own in `folder`. Empty where there can be none (errno tells why).
-std::optional<fs::path> temporary_file(const fs::path& folder) {
-  std::string pattern = (folder / "sweepscope-XXXXXX").string();
-  const int descriptor = mkstemp(pattern.data());
-  if (descriptor < 0) return std::nullopt;
-  close(descriptor);
-  return pattern;
+                             packed.string(), unpacked.parent_path().string(), std::strerror(errno)));
 }
 
 enum class Unpacking { kWhole, kDamaged, kTooShort, kTooLong, kNoRoom, kInterrupted };
@@ -77,15 +63,11 @@ bool begins_zstd(std::span<const std::byte> bytes) {
 Result<UnpackedFile> UnpackedFile::unpack(const fs::path& packed, const Job& job, std::uint64_t most_bytes) {
   auto input = InputFile::open(packed);
   if (!input) return tl::unexpected(input.error());
-  std::error_code error;
-  const fs::path folder = fs::temp_directory_path(error);
-  if (error) return no_room(packed, "a temporary file", error.message());
-  const auto path = temporary_file(folder);
-  if (!path) return no_room(packed, folder, std::strerror(errno));
-  remember_unfinished(*path);
-  UnpackedFile file(*path);
-  Output output(std::fopen(path->c_str(), "wb"), std::fclose);
-  if (!output) return no_room(packed, folder, std::strerror(errno));
+  auto temporary = TemporaryFile::create();
+  if (!temporary) return tl::unexpected(temporary.error());
+  UnpackedFile file(std::move(*temporary));
+  Output output(std::fopen(file.path().c_str(), "wb"), std::fclose);
+  if (!output) return no_room(packed, file.path());
   const Unpacking end = unpack_into(output.get(), *input, most_bytes, job);
   if (end == Unpacking::kInterrupted)
     return failure(ExitCode::kInterrupted, fmt::format("{}: reading was interrupted", packed.string()));
@@ -93,17 +75,10 @@ Result<UnpackedFile> UnpackedFile::unpack(const fs::path& packed, const Job& job
     return unreadable(
         fmt::format("{}: unpacks to more than {} bytes, more than is unpacked; cut it into parts",
                     packed.string(), most_bytes));
-  if (end == Unpacking::kNoRoom || std::fclose(output.release()) != 0)
-    return no_room(packed, folder, std::strerror(errno));
+  if (end == Unpacking::kNoRoom || std::fclose(output.release()) != 0) return no_room(packed, file.path());
   if (end == Unpacking::kDamaged) file.problem_ = "its zstd data is damaged; what comes before was read";
   if (end == Unpacking::kTooShort) file.problem_ = "its zstd data ends too early; what is there was read";
   return file;
-}
-
-UnpackedFile::~UnpackedFile() {
-  if (path_.empty()) return;
-  std::remove(path_.c_str());
-  forget_unfinished(path_);
 }
 
 }  // namespace sweepscope

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "core/io/temporary_file.hpp"
 #include "core/job.hpp"
 
 namespace sweepscope {
@@ -26,20 +27,14 @@ class UnpackedFile {
   static Result<UnpackedFile> unpack(const std::filesystem::path& packed, const Job& job,
                                      std::uint64_t most_bytes = kMostUnpackedFile_bytes);
 
-  UnpackedFile(UnpackedFile&& other) noexcept : path_(std::move(other.path_)), problem_(other.problem_) {
-    other.path_.clear();
-  }
-  UnpackedFile& operator=(UnpackedFile&&) = delete;
-  ~UnpackedFile();
-
-  const std::filesystem::path& path() const { return path_; }
+  const std::filesystem::path& path() const { return file_.path(); }
   /// What was wrong with the packed file; empty where it was whole. What came before the damage is there.
   const std::string& problem() const { return problem_; }
 
  private:
-  explicit UnpackedFile(std::filesystem::path path) : path_(std::move(path)) {}
+  explicit UnpackedFile(TemporaryFile file) : file_(std::move(file)) {}
 
-  std::filesystem::path path_;
+  TemporaryFile file_;
   std::string problem_;
 };
 
