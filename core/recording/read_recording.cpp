@@ -19,8 +19,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kReadable =
     "sweepscope reads ROS 1 bags of format 2.0, ROS 2 bags (.db3 and MCAP, packed by zstd too) and folders "
-    "with "
-    "scans.csv and motor.csv";
+    "with scans.csv and motor.csv";
 
 /// A file's first bytes, as far as it has them.
 Result<std::string> beginning(const fs::path& path) {

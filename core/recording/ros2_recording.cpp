@@ -130,7 +130,8 @@ Result<std::vector<fs::path>> named_files(const fs::path& folder) {
     const YAML::Node bag = document.IsMap() ? document["rosbag2_bagfile_information"] : YAML::Node();
     if (!bag || !bag.IsMap()) yaml::refuse(document, "there is no rosbag2_bagfile_information");
     if (const YAML::Node packed = bag["compression_format"];
-        packed && packed.IsScalar() && !packed.Scalar().empty() && packed.Scalar() != "zstd") {
+        packed && packed.IsScalar() && !packed.Scalar().empty() && packed.Scalar() != "none" &&
+        packed.Scalar() != "zstd") {
       yaml::refuse(packed, fmt::format("the bag is compressed as {}, and zstd alone is read; decompress it "
                                        "with `ros2 bag convert`",
                                        packed.Scalar()));
