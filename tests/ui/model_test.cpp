@@ -3,7 +3,6 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
-#include <random>
 #include <set>
 #include <thread>
 
@@ -15,14 +14,11 @@
 #include "core/simulation/write_truth.hpp"
 #include "ui/model/explorer.hpp"
 #include "ui/model/picking.hpp"
-#include "ui/model/spatial_order.hpp"
 #include "ui/model/view_camera.hpp"
 #include "ui/model/wall_profile.hpp"
 
 namespace sweepscope::ui {
 namespace {
-
-using Places = std::vector<std::array<float, 3>>;
 
 /// Frames until nothing is left to do.
 void rest(Explorer& explorer) {
@@ -414,96 +410,6 @@ TEST(Failures, WhatCannotBeDoneNowIsRefused) {
     ASSERT_FALSE(done) << line;
     EXPECT_EQ(done.error().code, ExitCode::kWrongUsage);
   }
-}
-
-TEST(Background, ACancelledTaskIsForgottenAndTheNextOneRuns) {
-  Background background;
-  std::atomic<bool> saw_cancel = false;
-  bool first_finished = false, second_finished = false;
-  std::atomic<bool> started = false;
-  background.start("lane", "first", "First", [&](const Job& job) {
-    started = true;
-    while (!job.cancelled()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    saw_cancel = true;
-    return [&] { first_finished = true; };
-  });
-  background.start("lane", "second", "Second", [&](const Job&) { return [&] { second_finished = true; }; });
-  EXPECT_TRUE(background.has("first"));
-  while (!started) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  background.cancel("first");
-  EXPECT_FALSE(background.has("first"));
-  while (background.busy()) {
-    background.take_finished();
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  EXPECT_TRUE(saw_cancel);
-  EXPECT_FALSE(first_finished);
-  EXPECT_TRUE(second_finished);
-}
-
-TEST(Background, ProgressIsSeenFromOutside) {
-  std::atomic<bool> go_on = false;  // outlives the work that waits for it
-  Background background;
-  background.start("lane", "key", "Title", [&](const Job& job) -> Background::Finish {
-    job.report("phase", 0.5);
-    while (!go_on) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    return {};
-  });
-  while (background.status().empty() || background.status()[0].fraction == 0)
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  EXPECT_EQ(background.status()[0].title, "Title");
-  EXPECT_EQ(background.status()[0].phase, "phase");
-  go_on = true;
-}
-
-TEST(DrawOrder, HoldsEveryPointOnceAndChoosesEvenlyOverSpace) {
-  std::mt19937 random(1);
-  Places points;
-  for (int i = 0; i < 40000; ++i) {  // a wall of 10 x 2 m, most of its points in one corner
-    const float u = static_cast<float>(random()) / 4294967296.0f,
-                v = static_cast<float>(random()) / 4294967296.0f;
-    points.push_back({10 * u * u * u, 2 * v, 0});
-  }
-  points[7][0] = std::nanf("");
-  const DrawOrder order = order_for_drawing(points, 5000);
-  EXPECT_EQ(order.all.size(), points.size() - 1);
-  EXPECT_EQ(std::set(order.all.begin(), order.all.end()).size(), points.size() - 1);
-  EXPECT_LE(order.chosen.size(), 5000u);
-  EXPECT_GT(order.chosen.size(), 2000u);
-  EXPECT_TRUE(std::is_sorted(order.chosen.begin(), order.chosen.end()));
-  EXPECT_EQ(order.chosen_order.size(), order.chosen.size());
-  std::size_t dense = 0;  // of all points, 58 % lie in the first fifth; of the chosen ones near a fifth
-  for (const std::uint32_t i : order.chosen) dense += points[i][0] < 2 ? 1 : 0;
-  EXPECT_LT(static_cast<double>(dense), 0.45 * static_cast<double>(order.chosen.size()));
-}
-
-TEST(ViewCamera, TheViewsAreWhereTheirNamesSay) {
-  const PixelRect pane{0, 0, 400, 400};
-  const auto px = [&](double turn, double elevation, const Eigen::Vector3d& p) {
-    return *projection_of({{0, 0, 0}, 4, turn, elevation}, false, pane)(p);
-  };
-  EXPECT_NEAR(px(0, 90, {1, 0, 0}).x, 300, 1e-9) << "from above: x to the right";
-  EXPECT_NEAR(px(0, 90, {0, 1, 0}).y, 100, 1e-9) << "and y up";
-  EXPECT_NEAR(px(0, 0, {1, 0, 0}).x, 300, 1e-9) << "from the front: x to the right";
-  EXPECT_NEAR(px(0, 0, {0, 0, 1}).y, 100, 1e-9) << "and z up";
-  EXPECT_NEAR(px(90, 0, {0, 1, 0}).x, 300, 1e-9) << "from the right: y to the right";
-}
-
-TEST(ViewCamera, ZoomingKeepsThePlaceUnderTheMouse) {
-  const PixelRect pane{50, 20, 640, 480};
-  const ViewPoint view{{1, 2, 3}, 10, 30, 50};
-  const PixelPoint mouse{200, 300};
-  const Eigen::Vector3d before = place_under(mouse, view, pane);
-  const Eigen::Vector3d after = place_under(mouse, zoomed(view, 1.7, mouse, pane), pane);
-  EXPECT_LT((before - after).norm(), 1e-9);
-}
-
-TEST(ViewCamera, MovingTakesThePlaceAlongWithTheMouse) {
-  const PixelRect pane{0, 0, 640, 480};
-  const ViewPoint view{{1, 2, 3}, 10, 30, 50};
-  const Eigen::Vector3d before = place_under({100, 100}, view, pane);
-  const Eigen::Vector3d after = place_under({125, 90}, moved(view, 25, -10, 480), pane);
-  EXPECT_LT((before - after).norm(), 1e-9);
 }
 
 }  // namespace
