@@ -37,7 +37,8 @@ Unpacking unpack_into(std::FILE* output, InputFile& input, std::uint64_t most_by
   std::size_t hint = 0;
   while (const std::size_t got = input.read(packed)) {
     ZSTD_inBuffer in{packed.data(), got, 0};
-    // A full buffer may leave more behind in the context.
+    // A full buffer may leave more of a frame behind in the context; asked once more after a frame's end, it
+    // would want the next one.
     for (bool more = true; more;) {
       ZSTD_outBuffer out{plain.data(), plain.size(), 0};
       hint = ZSTD_decompressStream(context.get(), &out, &in);
@@ -45,7 +46,7 @@ Unpacking unpack_into(std::FILE* output, InputFile& input, std::uint64_t most_by
       unpacked_bytes += out.pos;
       if (unpacked_bytes > most_bytes) return Unpacking::kTooLong;
       if (std::fwrite(plain.data(), 1, out.pos, output) != out.pos) return Unpacking::kNoRoom;
-      more = in.pos < in.size || out.pos == out.size;
+      more = in.pos < in.size || (out.pos == out.size && hint != 0);
       if (job.cancelled()) return Unpacking::kInterrupted;
     }
     job.report("unpacking", static_cast<double>(input.position()) / static_cast<double>(input.size()));

@@ -49,6 +49,16 @@ TEST_F(UnpackedFiles, HoldWhatWasPackedAndGoWithTheirObject) {
   EXPECT_TRUE(nothing_left());
 }
 
+TEST_F(UnpackedFiles, AreWholeWhereTheyFillTheBufferToItsEnd) {
+  for (const std::size_t buffers : {1, 2, 24}) {
+    const std::string plain = sample(buffers * ZSTD_DStreamOutSize());
+    const auto file = unpack(test::packed_by_zstd(plain));
+    ASSERT_TRUE(file);
+    EXPECT_EQ(file->problem(), "") << buffers;
+    EXPECT_EQ(test::read_file(file->path()), plain);
+  }
+}
+
 TEST_F(UnpackedFiles, FramesFollowEachOther) {
   const auto file = unpack(test::packed_by_zstd("one ") + test::packed_by_zstd("after the other"));
   ASSERT_TRUE(file);
