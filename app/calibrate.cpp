@@ -87,7 +87,8 @@ std::string words_of(ListeningEnd end, const HeardSoFar& heard, const Calibratio
   return "";
 }
 
-Result<Estimate> run_calibration(Options& options) {
+/// `kept`: whether what was heard could be recorded.
+Result<Estimate> run_calibration(Options& options, Result<void>& kept) {
   if (options.recording.rig) {
     const auto rig = read_rig(*options.recording.rig);
     if (!rig) return tl::unexpected(rig.error());
@@ -96,6 +97,9 @@ Result<Estimate> run_calibration(Options& options) {
   options.calibration.stamps = options.recording.stamps;
   auto format = options.record.empty() ? RecordingFormat::kCsv : record_format(options.record);
   if (!format) return tl::unexpected(format.error());
+  const std::string file = *format == RecordingFormat::kCsv ? "" : options.record;
+  const auto checked = check_outputs({options.output.json, options.output.csv, file});
+  if (!checked) return tl::unexpected(checked.error());
   const Progress progress;
   auto source = open_source(options);
   if (!source) return tl::unexpected(source.error());
@@ -108,22 +112,21 @@ Result<Estimate> run_calibration(Options& options) {
   RawRecording heard = (*source)->heard();
   const std::string ended = words_of(*end, heard_so_far(heard), options.calibration);
   if (!ended.empty()) heard.warnings.push_back(ended);
-  Result<void> kept;
   if (!options.record.empty()) kept = keep(heard, options, *format);
   // What was heard is used after an interruption as well.
   auto found = calibrate(std::move(heard), options.calibration, Job());
-  if (!kept && (!found || found->identifiable)) return tl::unexpected(kept.error());
+  if (!kept && !found) return tl::unexpected(kept.error());
   if (!kept) found->warnings.push_back(fmt::format("Nothing was recorded: {}", kept.error().message));
   return found;
 }
 
 ExitCode run(Options& options) {
   const auto threads = options.recording.limit_threads();
-  const auto found = run_calibration(options);
+  Result<void> kept;
+  const auto found = run_calibration(options, kept);
   if (!found) return fail(found.error());
-  const auto written = options.output.write(*found);
-  if (!written) return fail(written.error());
-  return say_answer(*found, options.output);
+  const ExitCode code = conclude(*found, options.output);
+  return kept || code != ExitCode::kDone ? code : fail(kept.error());
 }
 
 }  // namespace
@@ -142,12 +145,14 @@ void add_calibrate(CLI::App& app, ExitCode& exit_code) {
   command
       ->add_option("--seconds", options->calibration.seconds,
                    "Listen to so many seconds of scans, by their stamps")
+      ->check(finite_number())
       ->check(CLI::Range(0.5, 600.0))
       ->capture_default_str()
       ->type_name("S");
   command
       ->add_option("--silence-s", options->calibration.silence_s,
                    "End listening after so many seconds without anything new")
+      ->check(finite_number())
       ->check(CLI::Range(0.1, 3600.0))
       ->capture_default_str()
       ->type_name("S");

@@ -152,6 +152,9 @@ Result<void> compare(const CompareOptions& options) {
   // Wrong words cost nothing; they are found before files of hundreds of megabytes are read.
   const auto picture = options.look.parse();
   if (!picture) return tl::unexpected(picture.error());
+  const auto writable =
+      check_picture_path(options.output).and_then([&] { return check_outputs({options.output}); });
+  if (!writable) return tl::unexpected(writable.error());
   std::optional<Estimate> given;
   if (!options.curve.empty()) {
     auto read = read_estimate_json(options.curve);
@@ -185,7 +188,8 @@ void declare(CLI::App& command, CompareOptions& options) {
                   "The offsets to map a recording at in milliseconds, such as 19,24; with maps: those that "
                   "they were made at")
       ->delimiter(',')
-      ->allow_extra_args(false);
+      ->allow_extra_args(false)
+      ->check(finite_number());
   command.add_option("--curve", options.curve,
                      "An estimate (JSON) whose criteria are drawn below the maps; default with a recording: "
                      "computed by 1 ms from 5 ms below the offsets to 5 ms above");
@@ -197,6 +201,7 @@ void declare(CLI::App& command, CompareOptions& options) {
   command
       .add_option("--path-height-m", options.path_height_m,
                   "With maps: the sensor's height in the map frame, which slabs refer to")
+      ->check(finite_number())
       ->capture_default_str();
   command
       .add_option("--draw-in", options.draw_in,

@@ -56,18 +56,22 @@ ExitCode say_shard(const Options& options, const Estimate& estimate, const Candi
   return ExitCode::kDone;
 }
 
-ExitCode conclude(const Options& options, const Estimate& found, CandidateFile* candidates,
-                  const std::string& path) {
-  if (candidates != nullptr && !found.interrupted) {
-    if (const auto ordered = candidates->put_in_order(); !ordered) return fail(ordered.error());
-  }
+ExitCode conclude_interrupted(const Options& options, const Estimate& found,
+                              const CandidateFile* candidates) {
   if (!options.shard) {
     if (const auto written = options.output.write(found); !written) return fail(written.error());
   }
-  if (found.interrupted)
-    return fail(
-        {ExitCode::kInterrupted, candidates == nullptr ? "interrupted" : candidates->interrupted_in_words()});
-  return options.shard ? say_shard(options, found, *candidates, path) : say_answer(found, options.output);
+  return fail(
+      {ExitCode::kInterrupted, candidates == nullptr ? "interrupted" : candidates->interrupted_in_words()});
+}
+
+ExitCode conclude_search(const Options& options, const Estimate& found, CandidateFile* candidates,
+                         const std::string& path) {
+  if (found.interrupted) return conclude_interrupted(options, found, candidates);
+  const auto ordered = candidates == nullptr ? Result<void>() : candidates->put_in_order();
+  if (options.shard) return ordered ? say_shard(options, found, *candidates, path) : fail(ordered.error());
+  const ExitCode code = conclude(found, options.output);
+  return ordered ? code : fail(ordered.error());
 }
 
 /// What has no candidates to keep is refused before a file for them is begun.
@@ -85,7 +89,8 @@ Result<void> check_candidates(const Options& options) {
 
 ExitCode run(const Options& options, std::vector<std::string> deciding) {
   const auto threads = options.input.recording.limit_threads();
-  if (const auto checked = check_candidates(options); !checked) return fail(checked.error());
+  const auto checked = check_candidates(options).and_then([&] { return options.output.check(); });
+  if (!checked) return fail(checked.error());
   const std::string path = options.resume.empty() && options.shard ? shard_file(options) : options.resume;
   std::unique_ptr<CandidateFile> candidates;
   Result<Estimate> found;
@@ -105,7 +110,7 @@ ExitCode run(const Options& options, std::vector<std::string> deciding) {
     }
   }
   if (!found) return fail(found.error());
-  return conclude(options, *found, candidates.get(), path);
+  return conclude_search(options, *found, candidates.get(), path);
 }
 
 void declare_candidates(CLI::App& command, Options& options) {

@@ -73,15 +73,18 @@ void declare_method(CLI::App& command, EstimateOptions& estimate) {
       ->type_name("S")
       ->check(CLI::IsMember({"two-stage", "loam"}));
   command.add_option("--weight-c", estimate.weight_c, "c of d = sqrt(t^2 + c theta^2)")
+      ->check(finite_number())
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   command
       .add_option("--edge-gate-m", estimate.mapping.edge_gate_m, "delta_E: an edge match is nearer than this")
+      ->check(finite_number())
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command
       .add_option("--plane-gate-m", estimate.mapping.plane_gate_m,
                   "delta_H: a plane match is nearer than this")
+      ->check(finite_number())
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
 }
@@ -129,12 +132,10 @@ void EstimateOutput::declare(CLI::App& app) {
 
 Result<void> EstimateOutput::write(const Estimate& estimate) const {
   const Timing timing = no_timing ? Timing::kNull : Timing::kWritten;
-  if (!json.empty()) {
-    auto written = write_text(json, estimate_to_json(estimate, timing));
-    if (!written) return written;
-  }
-  if (!csv.empty()) return write_text(csv, curve_to_csv(estimate));
-  return {};
+  Result<void> first, second;
+  if (!json.empty()) first = write_text(json, estimate_to_json(estimate, timing));
+  if (!csv.empty()) second = write_text(csv, curve_to_csv(estimate));
+  return first ? second : first;
 }
 
 std::vector<std::string> deciding_options(const CLI::App& command) {
@@ -184,8 +185,10 @@ Error ended(Error error, CandidateFile& kept) {
   return error;
 }
 
-ExitCode say_answer(const Estimate& estimate, const EstimateOutput& output) {
+ExitCode conclude(const Estimate& estimate, const EstimateOutput& output) {
+  const auto written = output.write(estimate);
   if (!output.on_stdout()) print_answer(estimate);
+  if (!written) return fail(written.error());
   return estimate.identifiable ? ExitCode::kDone : ExitCode::kNotIdentifiable;
 }
 

@@ -28,6 +28,7 @@ struct EstimateOutput {
 
   void declare(CLI::App& app);
   bool on_stdout() const { return json == "-" || csv == "-"; }
+  Result<void> check() const { return check_outputs({json, csv}); }
   Result<void> write(const Estimate& estimate) const;
 };
 
@@ -47,7 +48,8 @@ Result<std::unique_ptr<CandidateFile>> keep_while_working(const std::filesystem:
 /// taken away.
 Error ended(Error error, CandidateFile& kept);
 
-/// The answer on stdout, unless a file goes there, and the exit code.
-ExitCode say_answer(const Estimate& estimate, const EstimateOutput& output);
+/// Writes the result, and says the answer on stdout, unless a file goes there: also where a file cannot be
+/// written, so that nothing that was found is lost. Gives the exit code.
+ExitCode conclude(const Estimate& estimate, const EstimateOutput& output);
 
 }  // namespace sweepscope::app

@@ -47,6 +47,8 @@ Result<Built> build(const Options& options) {
 
 ExitCode run(const Options& options) {
   const auto threads = options.recording.limit_threads();
+  const auto checked = check_outputs({options.output, options.trajectory});
+  if (!checked) return fail(checked.error());
   auto built = build(options);
   if (!built) return fail(built.error());
   OffsetMap* map = &built->map;
@@ -70,7 +72,9 @@ void add_map(CLI::App& app, ExitCode& exit_code) {
   auto options = std::make_shared<Options>();
   options->recording.declare(*command);
   options->recording.declare_computing(*command);
-  command->add_option("--offset-ms", options->offset_ms, "t_motor = t_laser + offset")->required();
+  command->add_option("--offset-ms", options->offset_ms, "t_motor = t_laser + offset")
+      ->required()
+      ->check(finite_number());
   command
       ->add_option("-o,--output", options->output,
                    "OUT.pcd or OUT.ply: x y z (m), intensity, time (s), sweep")
@@ -86,6 +90,7 @@ void add_map(CLI::App& app, ExitCode& exit_code) {
                    "Where the rig went (TUM), instead of solving for it; the map is in that frame")
       ->type_name("F");
   command->add_option("--voxel-m", options->voxel_m, "Keep one point per cube of this size (default: all)")
+      ->check(finite_number())
       ->check(CLI::PositiveNumber);
   command->add_flag("--remove-outliers", options->remove_outliers, "Leave out stray points");
   command->callback([options, &exit_code] { exit_code = run(*options); });

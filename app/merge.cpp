@@ -67,12 +67,12 @@ Result<Estimate> merge(const Options& options, MergedCandidates& candidates) {
 }
 
 ExitCode run(const Options& options) {
+  if (const auto checked = options.output.check(); !checked) return fail(checked.error());
   auto candidates = MergedCandidates::read(options.parts);
   if (!candidates) return fail(candidates.error());
   const auto found = merge(options, *candidates);
   if (!found) return fail(found.error());
-  if (const auto written = options.output.write(*found); !written) return fail(written.error());
-  return say_answer(*found, options.output);
+  return conclude(*found, options.output);
 }
 
 }  // namespace

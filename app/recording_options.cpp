@@ -91,6 +91,15 @@ Result<Recording> RecordingOptions::read(const Job& job) const {
   return part;
 }
 
+CLI::Validator finite_number() {
+  return {[](const std::string& text) {
+            double number = 0;
+            const bool read = CLI::detail::lexical_cast(text, number);
+            return !read || std::isfinite(number) ? std::string() : text + " is no finite number";
+          },
+          ""};
+}
+
 std::string printable(std::string text) {
   for (char& c : text) {
     if (static_cast<unsigned char>(c) < ' ' && c != '\n') c = '?';
@@ -107,6 +116,14 @@ void print_warnings(const Recording& recording) {
   for (const std::string& warning : recording.report.warnings) {
     say("warning: {}\n", printable(fmt::format("{}: {}", recording.name, warning)));
   }
+}
+
+Result<void> check_outputs(const std::vector<std::string>& paths) {
+  for (const std::string& path : paths) {
+    if (path.empty() || path == "-") continue;
+    if (auto checked = check_writable(path); !checked) return checked;
+  }
+  return {};
 }
 
 Result<void> write_text(const std::string& path, const std::string& text) {

@@ -42,12 +42,17 @@ struct RecordingOptions {
   Result<Recording> read(const Job& job) const;
 };
 
+/// A check of an option's number: not NaN, which CLI11's own checks let through, nor infinite.
+CLI::Validator finite_number();
+
 /// Names from a file, with what would steer a terminal replaced by '?'.
 std::string printable(std::string text);
 /// Prints why a subcommand failed, as every subcommand prints it, and gives the exit code.
 ExitCode fail(const Error& error);
 /// Prints what reading warned of, on stderr.
 void print_warnings(const Recording& recording);
+/// Whether files can be created there, before the work that makes them; "-" and empty ones are none.
+Result<void> check_outputs(const std::vector<std::string>& paths);
 /// Writes to stdout where `path` is "-", else to the file, whole or not at all.
 Result<void> write_text(const std::string& path, const std::string& text);
 

@@ -123,6 +123,7 @@ void declare(CLI::App& command, ViewOptions& options) {
                    "Without a display: runs a script on the very same interface");
   command.add_option("--size", options.size, "Of the window, in pixels")->capture_default_str();
   command.add_option("--scale", options.scale, "1 is 100 %, 2 is 200 %; default: as the display asks")
+      ->check(finite_number())
       ->check(CLI::Range(0.5, 4.0));
   command.add_option("--script", options.script, "Lines to carry out: see below")->type_name("F");
   command

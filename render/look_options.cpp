@@ -39,8 +39,12 @@ Result<bool> switch_of(const std::string& text) {
 
 Result<void> set_size(ComparisonOptions& options, const std::string& text) {
   const auto size = numbers_of(text, 'x', 2);
-  if (!size || (*size)[0] < 1 || (*size)[1] < 1 || (*size)[0] > 1e6 || (*size)[1] > 1e6) {
-    return wrong("not like 1920x1200");
+  const auto fits = [](double side_px) {
+    return side_px >= kLeastPictureSidePx && side_px <= kGreatestPictureSidePx;
+  };
+  if (!size || !fits((*size)[0]) || !fits((*size)[1])) {
+    return wrong(fmt::format("not like 1920x1200, each side {} to {} pixels", kLeastPictureSidePx,
+                             kGreatestPictureSidePx));
   }
   options.width_px = static_cast<int>((*size)[0]);
   options.height_px = static_cast<int>((*size)[1]);

@@ -25,6 +25,9 @@ Result<void> write_svg(const std::filesystem::path& path, const Picture& picture
 Result<void> write_pdf(const std::filesystem::path& path, const Picture& picture,
                        std::span<const PngText> texts = {});
 
+/// Whether the path's extension is one that write_picture writes.
+Result<void> check_picture_path(const std::filesystem::path& path);
+
 /// As PNG, SVG or PDF, by the path's extension; another one is ExitCode::kWrongUsage. A PNG is drawn on the
 /// canvas; without one, and what is inside the others, off screen.
 Result<void> write_picture(const std::filesystem::path& path, const Picture& picture,

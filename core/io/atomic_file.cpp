@@ -38,6 +38,21 @@ void discard(const std::filesystem::path& part) {
   forget_unfinished(part);
 }
 
+bool is_folder(const std::filesystem::path& path) {
+  std::error_code ignored;
+  return path.filename().empty() || std::filesystem::is_directory(path, ignored);
+}
+
+tl::unexpected<Error> refused_folder(const std::filesystem::path& path) {
+  return failure(ExitCode::kWrongUsage, fmt::format("{}: cannot be written: it is a folder", path.string()));
+}
+
+tl::unexpected<Error> failed_to(std::string_view done, const std::filesystem::path& path) {
+  const int reason = errno;
+  return failure(ExitCode::kWrongUsage,
+                 fmt::format("{}: cannot be {}: {}", path.string(), done, std::strerror(reason)));
+}
+
 }  // namespace
 
 AtomicFile::AtomicFile(const std::filesystem::path& path) : path_(path), part_path_(first_path(path)) {
@@ -52,40 +67,40 @@ AtomicFile::~AtomicFile() {
   discard(part_path_);
 }
 
-tl::unexpected<Error> AtomicFile::failed(std::string_view doing) const {
-  const int reason = errno;
-  return failure(ExitCode::kWrongUsage,
-                 fmt::format("{}: cannot be {}: {}", path_.string(), doing, std::strerror(reason)));
-}
-
 Result<AtomicFile> AtomicFile::create(const std::filesystem::path& path) {
-  std::error_code ignored;
-  if (path.filename().empty() || std::filesystem::is_directory(path, ignored)) {
-    return failure(ExitCode::kWrongUsage,
-                   fmt::format("{}: cannot be written: it is a folder", path.string()));
-  }
+  if (is_folder(path)) return refused_folder(path);
   AtomicFile file(path);
-  if (!file.file_) return file.failed("created");
+  if (!file.file_) return failed_to("created", path);
   return file;
 }
 
 Result<void> AtomicFile::write(std::string_view bytes) {
-  if (std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size()) return failed("written");
+  if (std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size())
+    return failed_to("written", path_);
   return {};
 }
 
 Result<void> AtomicFile::commit() {
   const std::filesystem::path target = target_of(part_path_);
-  if (std::fflush(file_.get()) != 0) return failed("written");
+  if (std::fflush(file_.get()) != 0) return failed_to("written", path_);
   // Some file systems say only now that they are full.
-  if (!target.empty() && fsync(fileno(file_.get())) != 0) return failed("written");
+  if (!target.empty() && fsync(fileno(file_.get())) != 0) return failed_to("written", path_);
   if (std::fclose(file_.release()) != 0 ||
       (!target.empty() && std::rename(part_path_.c_str(), target.c_str()) != 0)) {
-    auto error = failed("written");
+    auto error = failed_to("written", path_);
     discard(part_path_);
     return error;
   }
   forget_unfinished(part_path_);
+  return {};
+}
+
+Result<void> check_writable(const std::filesystem::path& path) {
+  if (is_folder(path)) return refused_folder(path);
+  const std::filesystem::path part = first_path(path);
+  if (target_of(part).empty()) return {};
+  const std::filesystem::path folder = part.has_parent_path() ? part.parent_path() : ".";
+  if (access(folder.c_str(), W_OK | X_OK) != 0) return failed_to("created", path);
   return {};
 }
 

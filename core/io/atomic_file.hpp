@@ -33,11 +33,14 @@ class AtomicFile {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
   explicit AtomicFile(const std::filesystem::path& path);
-  tl::unexpected<Error> failed(std::string_view doing) const;
 
   std::filesystem::path path_, part_path_;
   std::unique_ptr<std::FILE, Close> file_;
 };
+
+/// Whether `path` can be created as things stand, by AtomicFile's errors: for work that takes its time, and
+/// would end with nothing. Creates nothing.
+Result<void> check_writable(const std::filesystem::path& path);
 
 /// The whole of a small file at once.
 Result<void> write_file(const std::filesystem::path& path, std::string_view bytes);

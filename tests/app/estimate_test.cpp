@@ -133,6 +133,16 @@ TEST_F(EstimateCommand, RefusesWrongUsage) {
   EXPECT_EQ(run("estimate room.bag --around 24:0:4").exit_code, 2);
   EXPECT_EQ(run("estimate room.bag --method guess").exit_code, 2);
   EXPECT_EQ(run("estimate").exit_code, 2);
+  // Before the recording is read: it is not there.
+  for (const char* number : {"nan", "inf", "-inf"}) {
+    for (const std::string& command :
+         {"map no.bag -o map.pcd --offset-ms " + std::string(number),
+          "map no.bag -o map.pcd --offset-ms 24 --voxel-m " + std::string(number),
+          "compare no.bag -o out.png --offsets-ms 24," + std::string(number),
+          "estimate no.bag --weight-c " + std::string(number),
+          "estimate no.bag --edge-gate-m " + std::string(number)})
+      EXPECT_EQ(run(command).exit_code, 2) << command;
+  }
   const Outcome wide = run("estimate room.bag --range -300:300:1");
   EXPECT_EQ(wide.exit_code, 2);
   EXPECT_NE(wide.err.find("mirror image"), std::string::npos) << wide.err;

@@ -316,6 +316,24 @@ TEST_P(Outputs, InAFolderThatIsReadOnlyAreRefused) {
   expect_refused(run(written_to(GetParam(), "to")), "Permission denied");
 }
 
+TEST_P(Outputs, InNoFolderAreRefusedBeforeTheWork) {
+  const std::string name = GetParam().name;
+  if (!name.starts_with("estimate_") && name != "map" && name != "trajectory" && !name.starts_with("compare"))
+    GTEST_SKIP() << "it reads its input first, which is quick, or makes its folder";
+  if (name == "estimate_candidates") GTEST_SKIP() << "candidates are kept from the first one on";
+  // There is no recording: what is refused without it is refused before all work.
+  std::filesystem::remove(folder_ / "room.bag");
+  expect_refused(run(written_to(GetParam(), "nowhere")), "No such file or directory");
+}
+
+TEST_F(Interruption, AnAnswerWhoseFilesCannotBeWrittenIsSaidAllTheSame) {
+  const std::string limited = "( ulimit -f 0; exec '" SWEEPSCOPE_EXECUTABLE
+                              "' estimate room.bag --json out.json 2>/dev/null; ) | cat >said.out";
+  ASSERT_EQ(std::system(("cd '" + folder_.string() + "' && " + limited).c_str()), 0);
+  EXPECT_EQ(said("out").rfind("offset   2", 0), 0U) << said("out");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "out.json"));
+}
+
 INSTANTIATE_TEST_SUITE_P(OfEveryCommand, Outputs, ::testing::ValuesIn(kWriters),
                          [](const auto& one) { return one.param.name; });
 
