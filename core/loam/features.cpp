@@ -16,6 +16,8 @@ struct ScanFeatures {
 
 // What is known of every beam of one scan line before features are picked.
 struct Line {
+  std::vector<char> measured;   // the beam returned something
+  std::vector<float> range_m;   // also of beams lost between others on one surface; NaN where there is none
   std::vector<float> x_m, y_m;  // in the scanner's plane
   std::vector<float>
       curvature_m;             // distance from the neighbours' mean, along the beam; NaN where there is none
@@ -23,64 +25,124 @@ struct Line {
   std::vector<char> silhouette;  // the last point of a surface before something far behind it, or nothing
 };
 
+template <typename Visit>
+void for_some_scans(const Recording& recording, const Visit& visit) {
+  constexpr std::size_t kScans = 200;
+  const std::size_t stride = std::max<std::size_t>(1, recording.scans.size() / kScans);
+  for (std::size_t s = 0; s < recording.scans.size(); s += stride)
+    visit(recording.ranges(recording.scans[s]));
+}
+
+// Of the beams beside one that returned something, the part that did not: lost by chance, to a dark or wet
+// surface. Where there is nothing to see many beams in a row return nothing, and few of them are counted.
+double lost_part(const Recording& recording) {
+  std::size_t measured = 0, lost = 0;
+  for_some_scans(recording, [&](std::span<const float> ranges) {
+    for (std::size_t i = 1; i < ranges.size(); ++i) {
+      if (!std::isfinite(ranges[i - 1])) continue;
+      ++measured;
+      if (!std::isfinite(ranges[i])) ++lost;
+    }
+  });
+  return measured == 0 ? 0 : static_cast<double>(lost) / static_cast<double>(measured);
+}
+
+// So many beams in a row are lost by chance with this probability, where one is with `lost`.
+double lost_in_a_row(double lost, double probability) {
+  constexpr double kMost = 0.9;
+  return std::log(probability) / std::log(std::min(lost, kMost));
+}
+
 class LineFeatures {
  public:
   LineFeatures(const Recording& recording, const Kinematics& kinematics, const FeatureOptions& options,
-               double noise_m)
-      : recording_(recording), kinematics_(kinematics), options_(options), noise_m_(noise_m) {}
+               double noise_m, double lost)
+      : recording_(recording),
+        kinematics_(kinematics),
+        options_(options),
+        noise_m_(noise_m),
+        longest_bridge_(std::min(options.half_window, static_cast<int>(lost_in_a_row(lost, kWindowsLost)))),
+        behind_(std::max(kBehind, static_cast<int>(std::ceil(lost_in_a_row(lost, kFalseEnds))))) {}
 
   ScanFeatures extract(std::uint32_t scan_index) {
     const LaserScan& scan = recording_.scans[scan_index];
-    const auto ranges = recording_.ranges(scan);
-    measure(scan, ranges);
+    measure(scan);
     ScanFeatures found;
-    pick_edges(scan, scan_index, ranges, found.edges);
-    pick_planes(scan, scan_index, ranges, found.planes);
+    pick_edges(scan, scan_index, found.edges);
+    pick_planes(scan, scan_index, found.planes);
     return found;
   }
 
   const std::vector<float>& curvatures_m(std::size_t scan_index) {
     const LaserScan& scan = recording_.scans[scan_index];
-    measure(scan, recording_.ranges(scan));
+    measure(scan);
     return line_.curvature_m;
   }
 
  private:
-  void measure(const LaserScan& scan, std::span<const float> ranges) {
+  void measure(const LaserScan& scan) {
     const int beams = static_cast<int>(scan.beams), half = options_.half_window;
-    line_.x_m.resize(beams);
-    line_.y_m.resize(beams);
     line_.curvature_m.assign(beams, std::nanf(""));
     line_.occluded.assign(beams, 0);
     line_.silhouette.assign(beams, 0);
-    for (int i = 0; i < beams; ++i) {
-      const double angle_rad = scan.beam_angle_rad(i);
-      line_.x_m[i] = static_cast<float>(ranges[i] * std::cos(angle_rad));
-      line_.y_m[i] = static_cast<float>(ranges[i] * std::sin(angle_rad));
-    }
-    mark_occlusions(scan, ranges);
-    for (int i = half; i + half < beams; ++i) line_.curvature_m[i] = curvature(ranges, i);
-    for (int i = half; i + half < beams; ++i)
-      line_.silhouette[i] = ends_surface(ranges, i, 1) || ends_surface(ranges, i, -1);
+    place(scan);
+    mark_occlusions();
+    for (int i = half; i + half < beams; ++i) line_.curvature_m[i] = curvature(i);
+    for (int i = half; i + half < beams; ++i) line_.silhouette[i] = ends_surface(i, 1) || ends_surface(i, -1);
   }
 
-  // True where beam i and two before it are on one surface, and the three after it see nothing or far behind
-  // it. Three, since a single beam may return nothing by chance.
-  static constexpr int kBehind = 3;
-  bool ends_surface(std::span<const float> ranges, int i, int step) const {
-    if (!std::isfinite(ranges[i])) return false;
+  void place(const LaserScan& scan) {
+    const int beams = static_cast<int>(scan.beams);
+    const auto ranges = recording_.ranges(scan);
+    line_.range_m.assign(ranges.begin(), ranges.end());
+    line_.measured.resize(beams);
+    line_.x_m.resize(beams);
+    line_.y_m.resize(beams);
+    int before = -1;  // the last beam that returned something
+    for (int i = 0; i < beams; ++i) {
+      const double angle_rad = scan.beam_angle_rad(i);
+      line_.measured[i] = std::isfinite(ranges[i]);
+      line_.x_m[i] = static_cast<float>(ranges[i] * std::cos(angle_rad));
+      line_.y_m[i] = static_cast<float>(ranges[i] * std::sin(angle_rad));
+      if (!line_.measured[i]) continue;
+      if (before >= 0 && before + 1 < i && i - before - 1 <= longest_bridge_) bridge(before, i);
+      before = i;
+    }
+  }
+
+  // Beams that were lost between two on one surface lie on the straight line between them, so that the
+  // windows over them have no holes.
+  void bridge(int from, int to) {
+    const float near = std::min(line_.range_m[from], line_.range_m[to]);
+    if (std::abs(line_.range_m[to] - line_.range_m[from]) > jump_m(near)) return;
+    for (int k = from + 1; k < to; ++k) {
+      const float part = static_cast<float>(k - from) / static_cast<float>(to - from);
+      line_.x_m[k] = std::lerp(line_.x_m[from], line_.x_m[to], part);
+      line_.y_m[k] = std::lerp(line_.y_m[from], line_.y_m[to], part);
+      line_.range_m[k] = std::hypot(line_.x_m[k], line_.y_m[k]);
+    }
+  }
+
+  // True where beam i and two before it are on one surface, and those after it see nothing or far behind it:
+  // as many as chance alone hardly ever loses in a row.
+  bool ends_surface(int i, int step) const {
+    const auto& range_m = line_.range_m;
+    if (!line_.measured[i]) return false;
     for (int k = 1; k <= 2; ++k)
-      if (!(std::abs(ranges[i - step * k] - ranges[i]) < k * surface_step_m(ranges[i]))) return false;
-    for (int k = 1; k <= kBehind; ++k)
-      if (ranges[i + step * k] - ranges[i] < jump_m(ranges[i])) return false;
+      if (!(std::abs(range_m[i - step * k] - range_m[i]) < k * surface_step_m(range_m[i]))) return false;
+    const int last = i + step * behind_;
+    if (last < 0 || last >= std::ssize(range_m)) return false;
+    for (int k = 1; k <= behind_; ++k)
+      if (range_m[i + step * k] - range_m[i] < jump_m(range_m[i])) return false;
     return true;
   }
 
   double surface_step_m(double range_m) const { return 0.02 * range_m + 4 * noise_m_; }
 
   // On a jump between neighbours the farther side's last points are cut by the nearer surface's shadow.
-  void mark_occlusions(const LaserScan& scan, std::span<const float> ranges) {
-    const int beams = static_cast<int>(scan.beams), half = options_.half_window;
+  void mark_occlusions() {
+    const auto& ranges = line_.range_m;
+    const int beams = static_cast<int>(ranges.size()), half = options_.half_window;
     for (int i = 0; i + 1 < beams; ++i) {
       const float near = std::min(ranges[i], ranges[i + 1]), far = std::max(ranges[i], ranges[i + 1]);
       if (!(far - near > jump_m(near))) continue;
@@ -92,7 +154,7 @@ class LineFeatures {
 
   double jump_m(double range_m) const { return std::max(0.1 * range_m, 8 * noise_m_); }
 
-  float curvature(std::span<const float> ranges, int i) const {
+  float curvature(int i) const {
     const int half = options_.half_window;
     float x = 0, y = 0;
     for (int k = i - half; k <= i + half; ++k) {
@@ -108,17 +170,16 @@ class LineFeatures {
     const float chord = std::hypot(cx, cy);
     if (!(chord > 1e-6f)) return std::nanf("");
     const float value = std::abs(dx * cy - dy * cx) / chord;
-    return std::isfinite(ranges[i]) ? value : std::nanf("");
+    return line_.measured[i] ? value : std::nanf("");
   }
 
-  void pick_edges(const LaserScan& scan, std::uint32_t scan_index, std::span<const float> ranges,
-                  std::vector<Feature>& edges) {
+  void pick_edges(const LaserScan& scan, std::uint32_t scan_index, std::vector<Feature>& edges) {
     const int beams = static_cast<int>(scan.beams);
     for (int region = 0; region < options_.regions; ++region) {
       order_.clear();
       const int from = beams * region / options_.regions, to = beams * (region + 1) / options_.regions;
       for (int i = from; i < to; ++i)
-        if (is_edge(ranges, i)) order_.push_back(i);
+        if (is_edge(i)) order_.push_back(i);
       std::sort(order_.begin(), order_.end(), [&](int a, int b) {
         return sharpness_m(a) != sharpness_m(b) ? sharpness_m(a) > sharpness_m(b) : a < b;
       });
@@ -127,7 +188,7 @@ class LineFeatures {
       for (const int i : order_) {
         if (count >= options_.map_edges_per_region) break;
         if (taken_[i]) continue;
-        if (push(scan, scan_index, i, ranges[i], count < options_.edges_per_region, edges)) ++count;
+        if (push(scan, scan_index, i, line_.range_m[i], count < options_.edges_per_region, edges)) ++count;
         for (int k = std::max(0, i - options_.half_window);
              k <= std::min(beams - 1, i + options_.half_window); ++k)
           taken_[k] = 1;
@@ -142,32 +203,32 @@ class LineFeatures {
     return line_.silhouette[i] ? std::max(curvature_m, 0.1f) : curvature_m;
   }
 
-  bool is_edge(std::span<const float> ranges, int i) const {
+  bool is_edge(int i) const {
     if (line_.silhouette[i]) return true;
     const double threshold_m =
-        std::max(options_.edge_curvature * noise_m_, options_.edge_curvature_slope * ranges[i]);
+        std::max(options_.edge_curvature * noise_m_, options_.edge_curvature_slope * line_.range_m[i]);
     if (!(line_.curvature_m[i] > threshold_m) || line_.occluded[i]) return false;
     for (int k = i - 1; k <= i + 1; ++k)
-      if (!std::isfinite(ranges[k])) return false;
+      if (!std::isfinite(line_.range_m[k])) return false;
     return true;
   }
 
-  void pick_planes(const LaserScan& scan, std::uint32_t scan_index, std::span<const float> ranges,
-                   std::vector<Feature>& planes) {
+  void pick_planes(const LaserScan& scan, std::uint32_t scan_index, std::vector<Feature>& planes) {
     const int beams = static_cast<int>(scan.beams), half = options_.half_window;
     const int per_match = std::max(1, options_.plane_spacing / options_.map_spacing);
     int bin = 0;
     for (int from = half; from + half < beams; from += options_.map_spacing, ++bin) {
       int best = -1;
       for (int i = from; i < std::min(from + options_.map_spacing, beams - half); ++i)
-        if (is_plane(ranges, i) && (best < 0 || line_.curvature_m[i] < line_.curvature_m[best])) best = i;
+        if (is_plane(i) && (best < 0 || line_.curvature_m[i] < line_.curvature_m[best])) best = i;
       if (best < 0) continue;
-      const double range_m = smoothed_range_m(scan, ranges, best);
+      const double range_m = smoothed_range_m(scan, best);
       if (range_m > 0) push(scan, scan_index, best, range_m, bin % per_match == 0, planes);
     }
   }
 
-  bool is_plane(std::span<const float> ranges, int i) const {
+  bool is_plane(int i) const {
+    const auto& ranges = line_.range_m;
     const int half = options_.half_window;
     if (!(line_.curvature_m[i] < options_.plane_curvature * noise_m_)) return false;
     // Nearly parallel to the beam: the range changes from beam to beam by more than the beams' spacing
@@ -181,7 +242,7 @@ class LineFeatures {
 
   // The range at beam i of the line fitted to its neighbours: less noise, and no offset in it, since the
   // neighbours are within a degree of motor angle. Negative where the neighbours are not on a line.
-  double smoothed_range_m(const LaserScan& scan, std::span<const float> ranges, int i) const {
+  double smoothed_range_m(const LaserScan& scan, int i) const {
     const int half = options_.half_window;
     double sx = 0, sy = 0, sxx = 0, sxy = 0, syy = 0;
     const double n = 2 * half + 1;
@@ -201,7 +262,7 @@ class LineFeatures {
     const double across = nx * std::cos(angle_rad) + ny * std::sin(angle_rad);
     if (std::abs(across) < 0.1) return -1;
     const double range_m = (nx * mx + ny * my) / across;
-    return std::abs(range_m - ranges[i]) < 4 * noise_m_ ? range_m : -1;
+    return std::abs(range_m - line_.range_m[i]) < 4 * noise_m_ ? range_m : -1;
   }
 
   bool push(const LaserScan& scan, std::uint32_t scan_index, int beam, double range_m, bool sharp,
@@ -217,7 +278,11 @@ class LineFeatures {
   const Recording& recording_;
   const Kinematics& kinematics_;
   const FeatureOptions& options_;
+  static constexpr int kBehind = 3;
+  static constexpr double kFalseEnds = 0.001;   // of all beams, those that seem to end a surface by chance
+  static constexpr double kWindowsLost = 0.05;  // of all beams, those beside a hole that is not bridged
   double noise_m_;
+  int longest_bridge_, behind_;  // beams
   Line line_;
   std::vector<int> order_;
   std::vector<char> taken_;
@@ -231,16 +296,13 @@ void append(FeatureList& list, const std::vector<Feature>& scan_features) {
 }  // namespace
 
 double estimate_range_noise_m(const Recording& recording) {
-  constexpr std::size_t kScans = 200;
   std::vector<float> differences;
-  const std::size_t stride = std::max<std::size_t>(1, recording.scans.size() / kScans);
-  for (std::size_t s = 0; s < recording.scans.size(); s += stride) {
-    const auto ranges = recording.ranges(recording.scans[s]);
+  for_some_scans(recording, [&](std::span<const float> ranges) {
     for (std::size_t i = 1; i + 1 < ranges.size(); ++i) {
       const float difference = std::abs(ranges[i - 1] - 2 * ranges[i] + ranges[i + 1]);
       if (std::isfinite(difference)) differences.push_back(difference);
     }
-  }
+  });
   if (differences.empty()) return 0.002;
   const auto middle = differences.begin() + std::ptrdiff_t(differences.size() / 2);
   std::nth_element(differences.begin(), middle, differences.end());
@@ -252,11 +314,12 @@ Result<FeatureSet> extract_features(const Recording& recording, const FeatureOpt
   FeatureSet set;
   set.range_noise_m = estimate_range_noise_m(recording);
   const Kinematics kinematics(recording.rig.mount);
+  const double lost = lost_part(recording);
   const std::size_t scans = recording.scans.size();
   std::vector<ScanFeatures> per_scan(scans);
   std::atomic<std::size_t> done{0};
   for_each_block(scans, 64, [&](const auto& block) {
-    LineFeatures line(recording, kinematics, options, set.range_noise_m);
+    LineFeatures line(recording, kinematics, options, set.range_noise_m, lost);
     if (job.cancelled()) return;
     for (std::size_t i = block.begin(); i < block.end(); ++i)
       per_scan[i] = line.extract(static_cast<std::uint32_t>(i));
@@ -276,7 +339,7 @@ Result<FeatureSet> extract_features(const Recording& recording, const FeatureOpt
 std::vector<float> line_curvatures_m(const Recording& recording, std::size_t scan,
                                      const FeatureOptions& options) {
   const Kinematics kinematics(recording.rig.mount);
-  return LineFeatures(recording, kinematics, options, 0).curvatures_m(scan);
+  return LineFeatures(recording, kinematics, options, 0, lost_part(recording)).curvatures_m(scan);
 }
 
 }  // namespace sweepscope

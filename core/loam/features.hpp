@@ -55,8 +55,9 @@ double estimate_range_noise_m(const Recording& recording);
 
 /// Extracts the features of every scan line, once for all offsets. Curvature is the distance of a point from
 /// the mean of its neighbours on the line, judged by the noise rather than LOAM's fixed thresholds: those
-/// drown in noise of 30 mm. Left out are points beside an occlusion, on surfaces nearly parallel to the beam,
-/// and on the motor's axis.
+/// drown in noise of 30 mm. Beams that were lost by chance between others on one surface are bridged where
+/// many are, and are no features themselves. Left out are points beside an occlusion, on surfaces nearly
+/// parallel to the beam, and on the motor's axis.
 Result<FeatureSet> extract_features(const Recording& recording, const FeatureOptions& options,
                                     const Job& job);
 

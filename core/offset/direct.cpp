@@ -77,6 +77,12 @@ void judge_drift(const std::optional<Trend>& trend, double recorded_s, std::opti
   add(result.reasons, drift_reason(*trend, recorded_s, sigma_s.value_or(0)));
 }
 
+double widened_by_encoder(double sigma_s, const OffsetProblem& problem) {
+  const MotorTrack& track = problem.recording->motor;
+  return std::hypot(sigma_s, encoder_step_sigma_s(track, problem.motor),
+                    encoder_sampling_sigma_s(track, problem.motor));
+}
+
 void estimate_standing(const OffsetProblem& problem, double coarse_s, const std::vector<double>& window_s,
                        const SearchScale& scale, const Job& job, Estimate& result) {
   const StillGrid grid = still_grid(problem);
@@ -90,9 +96,7 @@ void estimate_standing(const OffsetProblem& problem, double coarse_s, const std:
   add(result.reasons, lever_reason(found.lever_m, found.reach_m));
   add(result.warnings, few_matches_warning(found.matches, found.features));
   std::optional<double> sigma_s = jackknife_sigma(found.offset_s, found.without_part);
-  if (sigma_s)
-    sigma_s =
-        std::hypot(*sigma_s, encoder_sigma_s(problem.recording->motor, problem.motor.median_speed_rad_s));
+  if (sigma_s) sigma_s = widened_by_encoder(*sigma_s, problem);
   judge_drift(trend_of(found.block_s, found.block_offset_s), duration_s(problem), sigma_s, result);
   // Clocks that drift apart turn the last sweep against the first, too.
   if (result.reasons.empty())
@@ -155,7 +159,7 @@ void estimate_walking(const OffsetProblem& problem, double coarse_s, const std::
   }
   const double speed_rad_s = problem.motor.median_speed_rad_s;
   std::optional<double> sigma_s = widened_by_sway(walk.sigma_s, found.sway_rad, speed_rad_s, result);
-  sigma_s = std::hypot(*sigma_s, encoder_sigma_s(problem.recording->motor, speed_rad_s));
+  sigma_s = widened_by_encoder(*sigma_s, problem);
   judge_drift(trend_of(parts_s, parts_offset_s, parts_sigma_s), duration_s(problem), walk.sigma_s, result);
   sigma_s = widened_by_halves(sigma_s, parts_offset_s, result);
   add(result.warnings, few_matches_warning(walk.matches, walk.features));

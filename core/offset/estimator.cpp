@@ -59,10 +59,8 @@ class Search {
     result_.reasons = motor_reasons(problem_.recording->motor, problem_.motor);
     if (!result_.reasons.empty()) return std::move(result_);
     scale_ = search_scale(problem_.motor);
-    if (const auto stamps = stamps_reason(*problem_.recording, scale_)) {
-      result_.reasons.push_back(*stamps);
-      return std::move(result_);
-    }
+    judge_streams();
+    if (!result_.reasons.empty()) return std::move(result_);
     std::vector<OffsetRange> ranges = options_.ranges;
     if (options_.around) ranges.push_back(range_around(*options_.around));
     const bool by_default = ranges.empty();
@@ -100,6 +98,16 @@ class Search {
     result_.identifiable = false;
     result_.reasons = {"Interrupted; the curve holds the candidates that were finished."};
     return std::move(result_);
+  }
+
+  // What the stamps and the motor's samples are good for, whatever the scans show.
+  void judge_streams() {
+    const MotorTrack& track = problem_.recording->motor;
+    if (const auto stamps = stamps_reason(*problem_.recording, scale_)) result_.reasons.push_back(*stamps);
+    if (const auto sparse = sampling_reason(track, problem_.motor, scale_))
+      result_.reasons.push_back(*sparse);
+    if (!result_.reasons.empty()) return;
+    if (const auto few = sampling_warning(track, problem_.motor)) result_.warnings.push_back(*few);
   }
 
   // Features, the scans to use, and the kind of recording. False where interrupted.
@@ -256,6 +264,9 @@ class Search {
     if (!result_.identifiable) return;
     result_.offset_s = least.offset_s;
     result_.sigma_s = moving() ? sigma_of_walk(least.offset_s) : sigma_of_pairs(least.offset_s, fits);
+    if (result_.sigma_s)
+      result_.sigma_s =
+          std::hypot(*result_.sigma_s, encoder_sampling_sigma_s(problem_.recording->motor, problem_.motor));
     if (moving() &&
         (problem_.recording->scans.back().first_beam_s - problem_.recording->scans.front().first_beam_s) < 20)
       result_.warnings.push_back(

@@ -121,10 +121,15 @@ Remark standing_reason(const std::optional<SweepShift>& shift, double range_nois
                      shift->translation_m * 1e3, shift->tilt_rad / kDegree);
 }
 
-double encoder_sigma_s(const MotorTrack& track, double speed_rad_s) {
-  // Steps and samples beat: neighbouring samples err alike, and the next sweeps repeat them. Found by
-  // simulation.
-  constexpr double kIndependentSamples = 32;
+double samples_per_sweep(const MotorTrack& track, const MotorMotion& motor) {
+  const double spacing_s = spacing(track.time_s, 1).median_s;
+  return spacing_s > 0 ? motor.median_sweep_s / spacing_s : 0;
+}
+
+double encoder_step_sigma_s(const MotorTrack& track, const MotorMotion& motor) {
+  // Steps and samples beat: neighbouring samples err alike, and the next sweeps repeat them, those of both
+  // directions. Found by simulation.
+  constexpr double kMostIndependent = 32;
   constexpr double kSame_rad = 1e-7;
   std::vector<double> angles_rad = track.angle_rad;
   std::sort(angles_rad.begin(), angles_rad.end());
@@ -133,7 +138,23 @@ double encoder_sigma_s(const MotorTrack& track, double speed_rad_s) {
     if (const double gap_rad = angles_rad[i] - angles_rad[i - 1]; gap_rad > kSame_rad)
       step_rad = std::min(step_rad, gap_rad);
   if (!std::isfinite(step_rad)) return 0;
-  return step_rad / speed_rad_s / std::sqrt(12 * kIndependentSamples);
+  const double independent = std::clamp(2 * samples_per_sweep(track, motor), 1.0, kMostIndependent);
+  return step_rad / motor.median_speed_rad_s / std::sqrt(12 * independent);
+}
+
+double encoder_sampling_sigma_s(const MotorTrack& track, const MotorMotion& motor) {
+  // Found by simulation of motors that turn evenly, with ramps and as a sine, 3 to 20 samples a sweep.
+  constexpr double kOfASweep = 2;
+  const double samples = samples_per_sweep(track, motor);
+  return samples > 0 ? kOfASweep * motor.median_sweep_s / std::pow(samples, 5) : 0;
+}
+
+Remark sampling_reason(const MotorTrack& track, const MotorMotion& motor, const SearchScale& scale) {
+  constexpr double kLeast = 3;
+  const double samples = samples_per_sweep(track, motor);
+  if (samples > kLeast && encoder_sampling_sigma_s(track, motor) < scale.unit_s) return std::nullopt;
+  return fmt::format("The motor is sampled {:.1f} times a sweep only: what it does in between is not known.",
+                     samples);
 }
 
 Remark sigma_reason(std::optional<double> sigma_s, const SearchScale& scale) {
@@ -172,6 +193,15 @@ Remark encoder_warning(const MotorTrack& track) {
   if (jitter_s < 0.2 * median_s) return std::nullopt;
   return fmt::format("The encoder's samples come unevenly: every {:.1f} ms +- {:.1f} ms.", median_s * 1e3,
                      jitter_s * 1e3);
+}
+
+Remark sampling_warning(const MotorTrack& track, const MotorMotion& motor) {
+  constexpr double kFew = 8;
+  const double samples = samples_per_sweep(track, motor);
+  if (samples > kFew) return std::nullopt;
+  return fmt::format(
+      "The motor is sampled {:.1f} times a sweep only: between the samples it is taken to turn evenly.",
+      samples);
 }
 
 Remark slow_motor_warning(const MotorMotion& motor) {

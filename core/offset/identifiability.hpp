@@ -28,15 +28,21 @@ Remark stamps_reason(const Recording& recording, const SearchScale& scale);
 Remark gaps_reason(const Recording& recording, const std::vector<char>& covered, double least_s,
                    double greatest_s);
 
+/// A sweep has so few samples of the motor that what it did between them decides the answer.
+Remark sampling_reason(const MotorTrack& track, const MotorMotion& motor, const SearchScale& scale);
+
 /// The clocks drift apart by more than max(1 ms, 3 sigma) over the recording, and by more than chance.
 Remark drift_reason(const Trend& trend, double duration_s, double sigma_s);
 /// The scene's surfaces hardly move when the motor's angle is turned: n . (a x p) is small against |a x p|.
 Remark lever_reason(double lever_m, double reach_m);
 /// A rig taken to stand still whose last sweep does not lie where its first one did.
 Remark standing_reason(const std::optional<SweepShift>& shift, double range_noise_m);
-/// What the encoder's steps leave uncertain, whatever the scatter of the sweeps says: each repeats the same
-/// steps.
-double encoder_sigma_s(const MotorTrack& track, double speed_rad_s);
+/// How often the encoder samples a sweep; 0 of fewer than two samples.
+double samples_per_sweep(const MotorTrack& track, const MotorMotion& motor);
+/// What the encoder leaves uncertain, whatever the scatter of the sweeps says, since each repeats it: the
+/// steps of its angle, and the straight lines between its samples, which cut the reversals' corners.
+double encoder_step_sigma_s(const MotorTrack& track, const MotorMotion& motor);
+double encoder_sampling_sigma_s(const MotorTrack& track, const MotorMotion& motor);
 /// Sigma is larger than what the motor's speed should allow.
 Remark sigma_reason(std::optional<double> sigma_s, const SearchScale& scale);
 
@@ -44,6 +50,8 @@ Remark sigma_reason(std::optional<double> sigma_s, const SearchScale& scale);
 Remark aliased_warning(const Recording& recording, const MotorMotion& motor);
 /// The encoder's samples come unevenly.
 Remark encoder_warning(const MotorTrack& track);
+/// A sweep has few samples of the motor.
+Remark sampling_warning(const MotorTrack& track, const MotorMotion& motor);
 Remark slow_motor_warning(const MotorMotion& motor);
 Remark few_matches_warning(std::size_t matches, std::size_t features);
 

@@ -118,10 +118,34 @@ TEST(Features, BeamsThatReturnNothingGiveNothing) {
   const FeatureSet none = features_of(scan_line([](double) { return kNothing; }));
   EXPECT_TRUE(none.edges.features.empty());
   EXPECT_TRUE(none.planes.features.empty());
-  const FeatureSet every_third = features_of(scan_line([](double angle_rad) {
-    return std::lround(angle_rad / kStep_rad) % 3 == 0 ? kNothing : flat_wall_m(angle_rad);
-  }));
-  EXPECT_TRUE(every_third.planes.features.empty());
+}
+
+TEST(Features, BeamsLostByChanceCostFewPlanePointsAndMakeNoEdges) {
+  const std::size_t of_all = features_of(scan_line(flat_wall_m, 0.01)).planes.features.size();
+  for (const double lost : {0.05, 0.1, 0.3, 0.5}) {
+    simulation::Random random(5, 11, 0);
+    Recording recording = scan_line(flat_wall_m, 0.01);
+    for (float& range_m : recording.ranges_m)
+      if (random.uniform() < lost) range_m = kNothing;
+    const FeatureSet set = features_of(recording);
+    EXPECT_GT(set.planes.features.size(), of_all * 2 / 3) << lost;
+    for (const Feature& feature : set.planes.features) {
+      EXPECT_TRUE(std::isfinite(recording.ranges_m[feature.beam])) << lost << ": it was measured";
+      EXPECT_NEAR(feature.p_in_motor_m.x(), 3, 0.04) << lost;
+    }
+    for (const Feature& feature : set.edges.features) EXPECT_GT(std::abs(angle_rad(feature)), 1.3) << lost;
+  }
+}
+
+TEST(Features, HolesWhereNothingCanBeSeenAreNotBridged) {
+  // Every second window looks through: no beam is lost by chance, and the frames between end in edges.
+  const FeatureSet set = features_of(scan_line(
+      [](double angle_rad) {
+        return std::fmod(angle_rad + 9, 0.3) < 0.15 ? kNothing : flat_wall_m(angle_rad);
+      },
+      0.005));
+  EXPECT_GT(set.edges.features.size(), 10u);
+  EXPECT_GT(set.planes.features.size(), 20u);
 }
 
 TEST(Features, BeamsAlongTheMotorsAxisAreLeftOut) {

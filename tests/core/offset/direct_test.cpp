@@ -61,6 +61,38 @@ INSTANTIATE_TEST_SUITE_P(
                     Standing{24 * kMs, 0.3, 0.01, 0.05 * kMs}, Standing{24 * kMs, 0.8, 0.03, 0.15 * kMs},
                     Standing{-8 * kMs, 0.5, 0.03, 0.15 * kMs}));
 
+TEST(Direct, FindsTheOffsetWhereManyBeamsReturnNothing) {
+  for (const double dropout : {0.1, 0.3, 0.5}) {
+    SimulationOptions options;
+    options.scene = "room-2";
+    options.offset_s = 17.3 * kMs;
+    options.dropout = dropout;
+    const Estimate found = directly(made(options));
+    ASSERT_TRUE(found.identifiable) << dropout << testing::PrintToString(found.reasons);
+    EXPECT_NEAR(*found.offset_s, options.offset_s, 0.06 * kMs) << dropout;
+    EXPECT_LT(*found.sigma_s, 0.03 * kMs) << dropout;
+  }
+}
+
+TEST(Direct, KnowsThatAMotorSampledSparselyTellsLess) {
+  SimulationOptions options;
+  options.scene = "room-4";
+  options.motor = simulation::MotorKind::kTriangle;
+  options.duration_s = 6;
+  options.offset_s = 17.3 * kMs;
+  for (const auto& [sweep_s, encoder_hz] : {std::pair{0.5, 10.0}, std::pair{0.2, 20.0}}) {
+    options.sweep_s = sweep_s;
+    options.encoder_hz = encoder_hz;
+    const Estimate found = directly(made(options));
+    if (!found.identifiable) continue;
+    EXPECT_LT(std::abs(*found.offset_s - options.offset_s), 3 * *found.sigma_s) << sweep_s;
+    EXPECT_GT(*found.sigma_s, 0.1 * kMs) << sweep_s;
+  }
+  options.sweep_s = 0.2;
+  options.encoder_hz = 10;
+  expect_refused(directly(made(options)), "sampled 2.0 times a sweep");
+}
+
 // As if nothing had moved, and yet the valley is where it belongs.
 class CoarseSearchTest : public testing::TestWithParam<const char*> {};
 

@@ -96,6 +96,48 @@ TEST(GapsReason, CountsTheScansMadeWhileTheMotorWasRecorded) {
   EXPECT_FALSE(gaps_reason(recording, covered, 0, 0));
 }
 
+/// So many sweeps of 0.5 s, sampled so often each.
+struct Sampled {
+  MotorTrack track;
+  MotorMotion motor;
+  Sampled(double samples_a_sweep, std::size_t sweeps) {
+    const double sweep_s = 0.5, end_s = sweep_s * static_cast<double>(sweeps);
+    for (double t_s = 0; t_s < end_s; t_s += sweep_s / samples_a_sweep) {
+      track.time_s.push_back(t_s);
+      track.angle_rad.push_back(std::abs(std::remainder(t_s, 2 * sweep_s)) * 6.28);
+    }
+    motor.sweeps.resize(sweeps);
+    motor.median_sweep_s = sweep_s;
+    motor.median_speed_rad_s = 6.28;
+  }
+};
+
+TEST(EncoderSampling, LeavesLittleUncertainWhereItIsDense) {
+  const auto sigma_s = [](double samples) {
+    const Sampled s(samples, 12);
+    EXPECT_NEAR(samples_per_sweep(s.track, s.motor), samples, 1e-6);
+    return encoder_sampling_sigma_s(s.track, s.motor);
+  };
+  EXPECT_LT(sigma_s(50), 0.001 * kMs);
+  EXPECT_LT(sigma_s(10), 0.02 * kMs);
+  EXPECT_GT(sigma_s(5), 0.1 * kMs);
+}
+
+TEST(SamplingReason, IsGivenForAFewSamplesASweepAndAWarningForSomeMore) {
+  const auto reason = [](double samples) {
+    const Sampled s(samples, 12);
+    return sampling_reason(s.track, s.motor, kScale);
+  };
+  ASSERT_TRUE(reason(2));
+  EXPECT_NE(reason(2)->find("sampled 2.0 times a sweep"), std::string::npos) << *reason(2);
+  EXPECT_TRUE(reason(1.37));
+  EXPECT_TRUE(reason(2.9));
+  EXPECT_FALSE(reason(5));
+  const Sampled sparse(5, 12), dense(50, 12);
+  EXPECT_TRUE(sampling_warning(sparse.track, sparse.motor));
+  EXPECT_FALSE(sampling_warning(dense.track, dense.motor));
+}
+
 TEST(DriftReason, NeedsAMillisecondAndThreeSigma) {
   const Trend trend{200e-6, 1e-6};
   EXPECT_TRUE(drift_reason(trend, 10, 0.1 * kMs));
