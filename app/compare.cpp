@@ -153,7 +153,9 @@ Result<void> compare(const CompareOptions& options) {
   const auto picture = options.look.parse();
   if (!picture) return tl::unexpected(picture.error());
   const auto writable =
-      check_picture_path(options.output).and_then([&] { return check_outputs({options.output}); });
+      check_size(*picture).and_then([&] { return check_picture_path(options.output); }).and_then([&] {
+        return check_outputs({options.output});
+      });
   if (!writable) return tl::unexpected(writable.error());
   std::optional<Estimate> given;
   if (!options.curve.empty()) {

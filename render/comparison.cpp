@@ -223,12 +223,7 @@ Result<void> check(std::span<const ComparedMap> maps, const ComparisonOptions& o
     return failure(ExitCode::kWrongUsage, fmt::format("A comparison shows 1 to {} maps, not {}",
                                                       kDarkStyle.maps.size(), maps.size()));
   }
-  if (options.width_px < 640 || options.height_px < 400) {
-    return failure(ExitCode::kWrongUsage,
-                   fmt::format("A comparison of {} x {} pixels is too small: 640 x 400 at least",
-                               options.width_px, options.height_px));
-  }
-  return {};
+  return check_size(options);
 }
 
 void add_charts(Picture& picture, std::span<const Chart> charts, const Estimate& estimate,
@@ -257,6 +252,15 @@ std::string how_it_is_seen(const Prepared& prepared, const ComparisonOptions& op
 }
 
 }  // namespace
+
+Result<void> check_size(const ComparisonOptions& options) {
+  if (options.width_px < 640 || options.height_px < 400) {
+    return failure(ExitCode::kWrongUsage,
+                   fmt::format("A comparison of {} x {} pixels is too small: 640 x 400 at least",
+                               options.width_px, options.height_px));
+  }
+  return {};
+}
 
 Result<Picture> comparison_picture(std::span<const ComparedMap> maps, const Estimate* estimate,
                                    const ComparisonOptions& options) {

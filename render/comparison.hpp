@@ -51,6 +51,9 @@ struct ComparisonOptions {
   bool each_own_view = false;  // for maps of different places: each fills its panel
 };
 
+/// Whether a comparison of that size has room for what it shows; else ExitCode::kWrongUsage.
+Result<void> check_size(const ComparisonOptions& options);
+
 /// One to four maps side by side, seen alike (one camera and one colour scale for all), a close-up of one
 /// region of each below, and below those the criteria over the offset with the compared offsets marked. Maps
 /// without points and a curve without values are said in words. `estimate` may be null: then no charts.

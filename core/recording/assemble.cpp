@@ -37,6 +37,7 @@ class ScanAssembler {
   std::string reason() const;
 
  private:
+  void turn_round(RawScan& scan);
   bool place(const RawScan& raw, LaserScan& scan);
   void set_epoch();
   bool check_cloud_times(const std::vector<LaserScan>& lines);
@@ -62,6 +63,23 @@ void ScanAssembler::set_epoch() {
     if (ns != 0) first_ns = std::min(first_ns, ns);
   }
   recording_.epoch_ns = first_ns - first_ns % kNanosecondsPerSecond;
+}
+
+/// A scan whose beams were fired from the last to the first (a negative time_increment), in the order of
+/// time.
+void ScanAssembler::turn_round(RawScan& scan) {
+  const auto reverse = [&](std::vector<float>& of_beams) {
+    const auto first = of_beams.begin() + static_cast<std::ptrdiff_t>(scan.first_range);
+    std::reverse(first, first + scan.beams);
+  };
+  reverse(raw_.ranges_m);
+  if (raw_.has_intensities) reverse(raw_.intensities);
+  scan.angle_min_rad = last_beam_angle_rad(scan);
+  scan.angle_increment_rad = -scan.angle_increment_rad;
+  scan.time_increment_s = -scan.time_increment_s;
+  // The stamp of the first beam in the message is that of the last one fired.
+  if (recording_.rig.laser.stamp_at == StampAt::kFirstBeam)
+    scan.first_beam_after_stamp_s = -(scan.beams - 1.0) * double{scan.time_increment_s};
 }
 
 /// When and where a scan's beams went; false, and counted, where that cannot be said.
@@ -97,8 +115,9 @@ bool ScanAssembler::assemble() {
   set_epoch();
   std::vector<LaserScan> placed;
   std::vector<double> times_s;
-  for (const RawScan& raw : raw_.scans) {
+  for (RawScan& raw : raw_.scans) {
     LaserScan scan;
+    if (!raw_.of_clouds && usable_increment(-double{raw.time_increment_s})) turn_round(raw);
     if (!place(raw, scan)) {
       ++report_.scans_dropped;
       continue;

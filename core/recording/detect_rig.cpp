@@ -50,7 +50,7 @@ void judge_stamp(const Recording& recording, const LaserSummary& laser, bool giv
 
 void note_increment(const RawScan& first, const Recording& recording, DetectedRig& detected) {
   const double recorded_s = double{first.time_increment_s};
-  if (recorded_s > 0) {
+  if (recorded_s != 0) {
     detected.increment_note = fmt::format("recorded: {:.6g}; used where a scan says 0", recorded_s);
     return;
   }

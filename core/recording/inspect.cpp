@@ -122,6 +122,18 @@ std::vector<std::string> obstacles(const LaserSummary& laser, const MotorSummary
   return {};
 }
 
+/// What few samples of the motor mean for an estimate; empty where there are enough.
+std::string expect_of_samples(const MotorSummary& motor) {
+  constexpr double kFewest = 4, kFew = 8;
+  const double samples = motor.median_sweep_s / motor.median_period_s;
+  if (!(motor.median_sweep_s > 0) || !(motor.median_period_s > 0) || samples > kFew) return "";
+  if (samples < kFewest)
+    return fmt::format("Expect a refusal: the motor is sampled {:.1f} times a sweep only.", samples);
+  return fmt::format(
+      "The motor is sampled {:.1f} times a sweep only, which costs accuracy: sample it every {:.2g} s.",
+      samples, motor.median_sweep_s / (2 * kFew));
+}
+
 std::vector<std::string> expect(const LaserSummary& laser, const MotorSummary& motor) {
   std::vector<std::string> lines = obstacles(laser, motor);
   if (!lines.empty()) return lines;
@@ -145,6 +157,7 @@ std::vector<std::string> expect(const LaserSummary& laser, const MotorSummary& m
         "Offsets up to {:.4g} ms to either side can be told apart (a quarter of the motor's period).",
         1000 * motor.median_sweep_s / 2));
   }
+  if (std::string few = expect_of_samples(motor); !few.empty()) lines.push_back(std::move(few));
   constexpr std::size_t kStanding = 8, kMoving = 40;
   if (motor.whole_sweeps() < kStanding) {
     lines.push_back(

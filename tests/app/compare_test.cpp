@@ -95,7 +95,9 @@ TEST_F(CompareTest, WrongUsageIsExit2AndSaysWhatIsWrong) {
   EXPECT_EQ(says("wrong.pcd -o out.png"), "sweepscope: Two to four maps are compared, not 1\n");
   EXPECT_NE(says("wrong.pcd right.ply -o out.png --size 12").find("--size 12: not like 1920x1200"),
             std::string::npos);
-  EXPECT_NE(says("wrong.pcd right.ply -o out.png --size 99999x9").find("too small"), std::string::npos);
+  EXPECT_NE(says("wrong.pcd right.ply -o out.png --size 9999x900").find("each side 64 to 8000 pixels"),
+            std::string::npos);
+  EXPECT_NE(says("wrong.pcd right.ply -o out.png --size 100x100").find("too small"), std::string::npos);
   EXPECT_NE(says("wrong.pcd right.ply -o out.png --slab 3:1").find("--slab 3:1"), std::string::npos);
   EXPECT_NE(says("wrong.pcd right.ply -o out.png --colour-table jet").find("viridis, cividis, turbo, grey"),
             std::string::npos);

@@ -289,6 +289,27 @@ TEST(Assemble, BeamsMayRunTheOtherWay) {
   EXPECT_NEAR(assembled(raw).scans[0].beam_angle_rad(4), -0.5, 1e-9);
 }
 
+TEST(Assemble, BeamsFiredFromTheLastToTheFirstArePutInTheOrderOfTime) {
+  for (const StampAt stamp_at : {StampAt::kFirstBeam, StampAt::kLastBeam}) {
+    RawRecording raw = sample();
+    for (RawScan& scan : raw.lasers[0].scans) scan.time_increment_s = -0.001F;
+    raw.lasers[0].intensities[0] = 9;
+    Rig rig;
+    rig.laser.stamp_at = stamp_at;
+    const Recording recording = assembled(raw, rig);
+    const LaserScan& scan = recording.scans[0];
+    // The stamp is that of the message's first beam, which was fired last.
+    EXPECT_NEAR(scan.first_beam_s, 0.246, 1e-7);
+    EXPECT_NEAR(scan.last_beam_s(), 0.25, 1e-7);
+    EXPECT_NEAR(scan.beam_angle_rad(0), 0.5, 1e-6);
+    EXPECT_NEAR(scan.beam_angle_rad(4), -0.5, 1e-6);
+    EXPECT_EQ(recording.ranges(scan)[0], 5);
+    EXPECT_EQ(recording.ranges(scan)[4], 1);
+    EXPECT_EQ(recording.intensities[4], 9);
+    EXPECT_FALSE(warns(recording, "time_increment"));
+  }
+}
+
 TEST(Assemble, ScansWithoutBeamsOrDirectionsAreDropped) {
   RawRecording raw = sample();
   raw.lasers[0].scans[1].angle_min_rad = NAN;

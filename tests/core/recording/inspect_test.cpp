@@ -84,6 +84,20 @@ TEST(Inspect, SaysWhatAnEstimateCanHopeFor) {
   EXPECT_NE(text.find("9 whole sweeps are enough of a standing rig"), std::string::npos) << text;
 }
 
+TEST(Inspect, SaysWhatFewSamplesOfTheMotorCost) {
+  const auto sampled_every = [](double period_s) {
+    Recording recording = recording_of(track(5.2, 0.01, triangle_rad));
+    recording.report.motor_stamps.median_period_s = period_s;
+    return expectations(recording);
+  };
+  EXPECT_EQ(sampled_every(0.01).find("is sampled"), std::string::npos);
+  EXPECT_NE(sampled_every(0.1).find("sampled 5.0 times a sweep only, which costs accuracy: sample it every "
+                                    "0.031 s."),
+            std::string::npos)
+      << sampled_every(0.1);
+  EXPECT_NE(sampled_every(0.2).find("Expect a refusal: the motor is sampled 2.5 times"), std::string::npos);
+}
+
 TEST(Inspect, SaysWhatMakesAnEstimateImpossible) {
   EXPECT_EQ(expectations(recording_of(track(5, 0.01, [](double) { return 1.0; }))),
             "The motor does not turn: there is no offset to see.\n");
