@@ -65,7 +65,7 @@ TEST_F(CalibrateCommand, AnInterruptionEndsTheListeningAndUsesWhatWasHeard) {
                                              "--record kept.mcap --json out.json < lines &\n"
                                              "calibrate=$!\n"
                                              "while [ ! -e sent ]; do sleep 0.05; done\n"
-                                             "kill -TERM $calibrate; kill -STOP $calibrate\n"
+                                             "kill -TERM $calibrate; sleep 0.03; kill -STOP $calibrate\n"
                                              "sleep 6; kill -CONT $calibrate\n"
                                              "wait $calibrate; code=$?\n"
                                              "kill $feeder\n"
