@@ -10,6 +10,7 @@
 
 #include "core/offset/direct.hpp"
 #include "core/offset/direct_moving.hpp"
+#include "core/offset/direct_stationary.hpp"
 #include "core/offset/identifiability.hpp"
 #include "core/offset/kept_candidates.hpp"
 #include "core/offset/motion_test.hpp"
@@ -263,10 +264,11 @@ class Search {
     result_.identifiable = result_.reasons.empty();
     if (!result_.identifiable) return;
     result_.offset_s = least.offset_s;
-    result_.sigma_s = moving() ? sigma_of_walk(least.offset_s) : sigma_of_pairs(least.offset_s, fits);
+    const MotorTrack& track = problem_.recording->motor;
+    result_.sigma_s = moving() ? sigma_of_walk(least.offset_s) : sigma_of_standing(least.offset_s, fits);
     if (result_.sigma_s)
-      result_.sigma_s =
-          std::hypot(*result_.sigma_s, encoder_sampling_sigma_s(problem_.recording->motor, problem_.motor));
+      result_.sigma_s = std::hypot(*result_.sigma_s, encoder_step_sigma_s(track, problem_.motor),
+                                   encoder_sampling_sigma_s(track, problem_.motor));
     if (moving() &&
         (problem_.recording->scans.back().first_beam_s - problem_.recording->scans.front().first_beam_s) < 20)
       result_.warnings.push_back(
@@ -317,6 +319,18 @@ class Search {
       result_.reasons.push_back(
           fmt::format("The rig moved: at the best offset the sweeps still lie {:.2f} m apart.",
                       *result_.curve[best].translation_m));
+  }
+
+  // How far the answer lies from that of the direct least squares, and how far that one may be off. The
+  // scatter of the pairs alone knows nothing of what pulls them all alike, such as lines of both directions
+  // that see the same angles.
+  std::optional<double> sigma_of_standing(double offset_s, bool fits) const {
+    const std::optional<double> of_pairs_s = sigma_of_pairs(offset_s, fits);
+    const StationaryDirect direct = solve_stationary(still_grid(problem_), offset_s, {}, job_);
+    const auto of_direct_s = jackknife_sigma(direct.offset_s, direct.without_part);
+    if (!of_pairs_s || !of_direct_s || direct.matches < StationaryDirectOptions().least_matches)
+      return of_pairs_s;
+    return std::max(*of_pairs_s, std::hypot(direct.offset_s - offset_s, *of_direct_s));
   }
 
   // What each pair of sweeps says by itself scatters. Neighbouring pairs share a sweep, so the mean's
