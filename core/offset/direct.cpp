@@ -151,16 +151,12 @@ void estimate_walking(const OffsetProblem& problem, double coarse_s, const std::
   const JointWalk& walk = *found.joint;
   sort_into(result.curve, found.curve);
   judge_walk(found, result);
-  std::vector<double> parts_s, parts_offset_s, parts_sigma_s;
-  for (const JointWalkPart& part : walk.parts) {
-    parts_s.push_back(part.middle_s);
-    parts_offset_s.push_back(part.offset_s);
-    parts_sigma_s.push_back(part.sigma_s);
-  }
+  std::vector<double> parts_offset_s;
+  for (const JointWalkPart& part : walk.parts) parts_offset_s.push_back(part.offset_s);
   const double speed_rad_s = problem.motor.median_speed_rad_s;
   std::optional<double> sigma_s = widened_by_sway(walk.sigma_s, found.sway_rad, speed_rad_s, result);
   sigma_s = widened_by_encoder(*sigma_s, problem);
-  judge_drift(trend_of(parts_s, parts_offset_s, parts_sigma_s), duration_s(problem), walk.sigma_s, result);
+  judge_drift(drift_of(walk), duration_s(problem), walk.sigma_s, result);
   sigma_s = widened_by_halves(sigma_s, parts_offset_s, result);
   add(result.warnings, few_matches_warning(walk.matches, walk.features));
   answer(walk.offset_s, sigma_s, found.curve[1].e_m.value_or(0), scale, window_s, result);

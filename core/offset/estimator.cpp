@@ -261,16 +261,17 @@ class Search {
     // Continuous poses hold the roll back: with them the slope says nothing of the scene.
     if (!moving() || options_.scoring == Scoring::kTwoStage) judge_lever();
     if (!moving()) judge_standing(best);
+    if (!result_.reasons.empty()) return;
+    const Certainty certainty = moving() ? of_walk(least.offset_s) : of_standing(least.offset_s, fits);
+    judge_drift(certainty);
     result_.identifiable = result_.reasons.empty();
     if (!result_.identifiable) return;
     result_.offset_s = least.offset_s;
     const MotorTrack& track = problem_.recording->motor;
-    result_.sigma_s = moving() ? sigma_of_walk(least.offset_s) : sigma_of_standing(least.offset_s, fits);
-    if (result_.sigma_s)
-      result_.sigma_s = std::hypot(*result_.sigma_s, encoder_step_sigma_s(track, problem_.motor),
+    if (certainty.sigma_s)
+      result_.sigma_s = std::hypot(*certainty.sigma_s, encoder_step_sigma_s(track, problem_.motor),
                                    encoder_sampling_sigma_s(track, problem_.motor));
-    if (moving() &&
-        (problem_.recording->scans.back().first_beam_s - problem_.recording->scans.front().first_beam_s) < 20)
+    if (moving() && recorded_s() < 20)
       result_.warnings.push_back(
           "Less than 20 s of walking: the answer may be off by several tenths of a millisecond.");
   }
@@ -321,16 +322,36 @@ class Search {
                       *result_.curve[best].translation_m));
   }
 
+  double recorded_s() const {
+    const auto& scans = problem_.recording->scans;
+    return scans.back().first_beam_s - scans.front().first_beam_s;
+  }
+
+  // What the direct least squares, at the answer, says of it.
+  struct Certainty {
+    std::optional<double> sigma_s;
+    std::optional<Trend> drift;  // of the offset over the recording
+    double drift_sigma_s = 0;    // of the offset that it is a drift of
+  };
+
+  void judge_drift(const Certainty& certainty) {
+    if (!certainty.drift) return;
+    result_.drift_ppm = certainty.drift->slope * 1e6;
+    if (const auto drifts = drift_reason(*certainty.drift, recorded_s(), certainty.drift_sigma_s))
+      result_.reasons.push_back(*drifts);
+  }
+
   // How far the answer lies from that of the direct least squares, and how far that one may be off. The
   // scatter of the pairs alone knows nothing of what pulls them all alike, such as lines of both directions
   // that see the same angles.
-  std::optional<double> sigma_of_standing(double offset_s, bool fits) const {
+  Certainty of_standing(double offset_s, bool fits) const {
     const std::optional<double> of_pairs_s = sigma_of_pairs(offset_s, fits);
     const StationaryDirect direct = solve_stationary(still_grid(problem_), offset_s, {}, job_);
     const auto of_direct_s = jackknife_sigma(direct.offset_s, direct.without_part);
     if (!of_pairs_s || !of_direct_s || direct.matches < StationaryDirectOptions().least_matches)
-      return of_pairs_s;
-    return std::max(*of_pairs_s, std::hypot(direct.offset_s - offset_s, *of_direct_s));
+      return {of_pairs_s, {}, 0};
+    return {std::max(*of_pairs_s, std::hypot(direct.offset_s - offset_s, *of_direct_s)),
+            trend_of(direct.block_s, direct.block_offset_s), *of_direct_s};
   }
 
   // What each pair of sweeps says by itself scatters. Neighbouring pairs share a sweep, so the mean's
@@ -358,19 +379,20 @@ class Search {
     return least_s;
   }
 
-  // The roll that n and e are counted without is as uncertain as its share in each sweep scatters.
-  // How far the answer lies from that of the joint least squares, and how far that one may be off. The
-  // scatter of the sweeps' rolls alone knows nothing of a wearer's sway, which errs all sweeps alike.
-  std::optional<double> sigma_of_walk(double offset_s) const {
+  // The roll that n and e are counted without is as uncertain as its share in each sweep scatters. And how
+  // far the answer lies from that of the joint least squares, and how far that one may be off: the scatter of
+  // the sweeps' rolls alone knows nothing of a wearer's sway, which errs all sweeps alike.
+  Certainty of_walk(double offset_s) const {
     const MovingPass pass = moving_pass(problem_, offset_s, options_.mapping, job_);
     const auto sigma_rad = sigma_of_roll(pass.sweep_roll_rad);
-    if (!pass.tracked || !sigma_rad) return std::nullopt;
+    if (!pass.tracked || !sigma_rad) return {};
     const double of_roll_s = *sigma_rad / (2 * problem_.motor.median_speed_rad_s);
     JointWalkOptions options;
     options.mapping = options_.mapping;
     const auto joint = solve_joint_walk(problem_, pass.sweeps, offset_s, options, job_);
-    if (!joint) return of_roll_s;
-    return std::max(of_roll_s, std::hypot(joint->offset_s - offset_s, joint->sigma_s));
+    if (!joint) return {of_roll_s, {}, 0};
+    return {std::max(of_roll_s, std::hypot(joint->offset_s - offset_s, joint->sigma_s)), drift_of(*joint),
+            joint->sigma_s};
   }
 
   const EstimateOptions& options_;

@@ -349,4 +349,14 @@ std::optional<JointWalk> solve_joint_walk(const OffsetProblem& problem, const st
   return walk;
 }
 
+std::optional<Trend> drift_of(const JointWalk& walk) {
+  std::vector<double> middles_s, offsets_s, sigmas_s;
+  for (const JointWalkPart& part : walk.parts) {
+    middles_s.push_back(part.middle_s);
+    offsets_s.push_back(part.offset_s);
+    sigmas_s.push_back(part.sigma_s);
+  }
+  return trend_of(middles_s, offsets_s, sigmas_s);
+}
+
 }  // namespace sweepscope

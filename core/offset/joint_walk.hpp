@@ -5,6 +5,7 @@
 
 #include "core/job.hpp"
 #include "core/loam/mapping.hpp"
+#include "core/offset/uncertainty.hpp"
 
 namespace sweepscope {
 
@@ -51,5 +52,8 @@ struct JointWalk {
 /// number of threads.
 std::optional<JointWalk> solve_joint_walk(const OffsetProblem& problem, const std::vector<SweepPose>& tracked,
                                           double offset_s, const JointWalkOptions& options, const Job& job);
+
+/// How the offset changes over the walk, from its parts.
+std::optional<Trend> drift_of(const JointWalk& walk);
 
 }  // namespace sweepscope

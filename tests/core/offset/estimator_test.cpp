@@ -118,6 +118,36 @@ TEST(Estimate, TheCurveHoldsTheCandidatesAskedForAndTheirEvidence) {
   EXPECT_LT(found.sigma_s.value_or(1), 0.3 * kMs);
 }
 
+TEST(Estimate, SigmaKnowsOfWhatPullsAllPairsOfSweepsAlike) {
+  // Every sweep takes 20 scans: lines of both directions see the same angles. With this seed d is 1 ms off.
+  SimulationOptions options;
+  options.scene = "room-3";
+  options.seed = 16;
+  options.motor = simulation::MotorKind::kSine;
+  options.noise_m = 0.03;
+  options.encoder_hz = 200;
+  options.encoder_step_deg = 0.01;
+  options.encoder_jitter_s = 0.001;
+  options.offset_s = -43.34 * kMs;
+  const Recording recording = simulate(options, Job()).value().recording;
+  const Estimate found = estimated(recording, over(-47, -39, 0.1));
+  ASSERT_TRUE(found.identifiable) << testing::PrintToString(found.reasons);
+  const double error_s = std::abs(*found.offset_s - options.offset_s);
+  EXPECT_GT(error_s, 0.3 * kMs) << "d is off here";
+  EXPECT_LT(error_s, 2 * found.sigma_s.value_or(0));
+}
+
+TEST(Estimate, ClocksThatDriftApartAreRefusedByThePapersMethodToo) {
+  SimulationOptions options;
+  options.duration_s = 10;
+  options.clock_drift_ppm = 500;
+  const Estimate found = estimated(simulate(options, Job()).value().recording, over(20, 32, 1));
+  EXPECT_FALSE(found.identifiable);
+  EXPECT_NE(testing::PrintToString(found.reasons).find("drift apart"), std::string::npos)
+      << testing::PrintToString(found.reasons);
+  EXPECT_NEAR(found.drift_ppm.value_or(0), 500, 50);
+}
+
 TEST(Estimate, TheJsonIsTheSameForOneAndTwoThreadsAndRunAfterRun) {
   const auto json = [](std::size_t threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
