@@ -115,6 +115,18 @@ const std::vector<Family>& families() {
          stand(d, o, other_rooms);
          o.backlash_deg = d.uniform(0.02, 0.3);
        }},
+      {"room, lost beams", false, 20,
+       [](Draw& d, SimulationOptions& o) {
+         stand(d, o, rooms);
+         o.dropout = d.uniform(0.02, 0.5);
+       }},
+      {"room, sparse encoder", false, 24,
+       [](Draw& d, SimulationOptions& o) {
+         stand(d, o, rooms);
+         o.motor = d.one_of({simulation::MotorKind::kTriangle, simulation::MotorKind::kTrapezoid,
+                             simulation::MotorKind::kSine});
+         o.encoder_hz = d.one_of({8.0, 10.0, 15.0, 20.0});
+       }},
       {"walk", false, 20, [](Draw& d, SimulationOptions& o) { walk(d, o, walks); }},
       {"walk 60 s, 10 mm", false, 8,
        [](Draw& d, SimulationOptions& o) {
