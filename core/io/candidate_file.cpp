@@ -11,10 +11,12 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "core/io/atomic_file.hpp"
 #include "core/io/curve_columns.hpp"
+#include "core/io/whole_number.hpp"
 
 namespace sweepscope {
 namespace {
@@ -51,10 +53,11 @@ std::string point_line(const CurvePoint& point) {
 
 std::optional<Shard> shard_of(const Json& value) {
   if (value.is_null()) return std::nullopt;
-  const Shard shard{value.at(0).get<int>(), value.at(1).get<int>()};
-  if (value.size() != 2 || shard.number < 1 || shard.count < shard.number)
-    throw std::runtime_error("no shard");
-  return shard;
+  constexpr int kMostParts = std::numeric_limits<int>::max();
+  const auto count = whole_number(value.at(1), 1, kMostParts);
+  const auto number = whole_number(value.at(0), 1, count.value_or(0));
+  if (value.size() != 2 || !count || !number) throw std::runtime_error("no shard");
+  return Shard{static_cast<int>(*number), static_cast<int>(*count)};
 }
 
 CandidateSearch search_of(const Json& line) {
@@ -71,7 +74,10 @@ CandidateSearch search_of(const Json& line) {
 
 CurvePoint point_of(const Json& line) {
   CurvePoint point;
-  point.offset_s = double(line.at("offset_ns").get<std::int64_t>()) * 1e-9;
+  constexpr std::int64_t kMost_ns = 1'000'000'000'000;  // beyond a thousand seconds no clocks lie apart
+  const auto offset_ns = whole_number(line.at("offset_ns"), -kMost_ns, kMost_ns);
+  if (!offset_ns) throw std::runtime_error("no offset");
+  point.offset_s = double(*offset_ns) * 1e-9;
   for (const CurveColumn& column : kCurveColumns)
     if (const auto found = line.find(column.key); found != line.end())
       point.*column.value =

@@ -9,6 +9,7 @@
 
 #include "core/io/atomic_file.hpp"
 #include "core/io/curve_columns.hpp"
+#include "core/io/whole_number.hpp"
 
 namespace sweepscope {
 namespace {
@@ -65,6 +66,13 @@ T required(const Json& object, const char* key, const std::string& where = "") {
   } catch (const Json::exception&) {
     throw BadValue(where + key + " has the wrong type");
   }
+}
+
+std::size_t required_count(const Json& object, const char* key) {
+  constexpr std::int64_t kGreatest = 1'000'000'000'000;
+  const auto count = whole_number(member(object, key, ""), 0, kGreatest);
+  if (!count) throw BadValue(fmt::format("{} is no whole number from 0 to {}", key, kGreatest));
+  return static_cast<std::size_t>(*count);
 }
 
 std::optional<double> optional_number(const Json& object, const char* key, const std::string& where = "") {
@@ -137,8 +145,8 @@ Estimate estimate_from_json(const Json& document) {
   estimate.reasons = required<std::vector<std::string>>(document, "reasons");
   estimate.criteria = criteria_from_json(member(document, "criteria", ""));
   estimate.curve = curve_from_json(member(document, "curve", ""));
-  estimate.sweeps = required<std::size_t>(document, "sweeps");
-  estimate.scans = required<std::size_t>(document, "scans");
+  estimate.sweeps = required_count(document, "sweeps");
+  estimate.scans = required_count(document, "scans");
   estimate.cpu_s = optional_number(document, "cpu_s").value_or(0);
   estimate.wall_s = optional_number(document, "wall_s").value_or(0);
   return estimate;

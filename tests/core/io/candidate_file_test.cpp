@@ -80,10 +80,26 @@ TEST_F(CandidateFiles, ABrokenLineInTheMiddleIsRefusedWithItsNumber) {
   const auto refused = parse_candidates(text + "{\"offset_ns\":\n" + text.substr(text.find('\n') + 1), "f");
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().message, "f: line 3: not a candidate");
+  for (const char* offset_ns : {"1e300", "0.5", "-9223372036854775807", "18446744073709551615", "null"}) {
+    const auto wrong = parse_candidates(
+        text + "{\"offset_ns\": " + offset_ns + "}\n" + text.substr(text.find('\n') + 1), "f");
+    ASSERT_FALSE(wrong) << offset_ns;
+    EXPECT_EQ(wrong.error().message, "f: line 3: not a candidate") << offset_ns;
+  }
   const auto doubled = parse_candidates(
       text + candidates_text(search(), {point(0.001, 0.6)}).substr(text.find('\n') + 1), "f");
   ASSERT_FALSE(doubled);
   EXPECT_EQ(doubled.error().message, "f: line 3: the same offset again with other values");
+}
+
+TEST_F(CandidateFiles, AShardIsTwoWholeNumbers) {
+  const std::string text = candidates_text(search(), {});
+  const std::size_t at = text.find("[1,2]");
+  ASSERT_NE(at, std::string::npos) << text;
+  for (const char* shard : {"[4294967297,4294967298]", "[1e300,2]", "[1.5,2]", "[0,2]", "[3,2]", "[1,2,3]"}) {
+    std::string wrong = text;
+    EXPECT_FALSE(parse_candidates(wrong.replace(at, 5, shard), "f")) << shard;
+  }
 }
 
 TEST_F(CandidateFiles, AFullDiskIsSaidAndWhatWasKeptStays) {

@@ -134,6 +134,12 @@ TEST(EstimateJson, ErrorsNameTheFileAndThePlace) {
   text = estimate_to_json(stationary_estimate());
   text.replace(text.find("19.1"), 4, "1e12");
   EXPECT_EQ(message(text), "a.json: not an estimate: curve[0].offset_ms lies beyond 1000 s");
+  for (const char* count : {"5e110", "-8", "1.5", "18446744073709551615", "null"}) {
+    text = estimate_to_json(stationary_estimate());
+    text.replace(text.find("\"sweeps\": 8"), 11, std::string("\"sweeps\": ") + count);
+    EXPECT_EQ(message(text), "a.json: not an estimate: sweeps is no whole number from 0 to 1000000000000")
+        << count;
+  }
 }
 
 TEST(EstimateJson, ANameThatIsNotUtf8StillMakesADocument) {
