@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace sweepscope {
@@ -124,6 +125,34 @@ std::vector<std::size_t> assign_sweeps(const std::vector<LaserScan>& scans, cons
     if (sweep < sweeps.size() && sweeps[sweep].begin_s <= middle_s) assigned[i] = sweep;
   }
   return assigned;
+}
+
+double distinct_lines(const Recording& recording, const MotorMotion& motor, double offset_s) {
+  constexpr double kUncounted = std::numeric_limits<double>::infinity();
+  if (!recording.directions.empty()) return kUncounted;
+  const std::vector<std::size_t> sweep_of = assign_sweeps(recording.scans, motor.sweeps, offset_s);
+  std::vector<double> places[2];
+  for (std::size_t i = 0; i < recording.scans.size(); ++i) {
+    // The first and the last sweep may be cut off: their places are not known.
+    if (sweep_of[i] == kNoSweep || sweep_of[i] == 0 || sweep_of[i] + 1 == motor.sweeps.size()) continue;
+    const Sweep& sweep = motor.sweeps[sweep_of[i]];
+    const LaserScan& scan = recording.scans[i];
+    const double middle_s = (scan.first_beam_s + scan.last_beam_s()) / 2 + offset_s;
+    places[sweep.direction > 0].push_back((middle_s - sweep.begin_s) / (sweep.end_s - sweep.begin_s));
+  }
+  double least = kUncounted;
+  for (std::vector<double>& of_direction : places) {
+    if (of_direction.empty()) continue;
+    std::sort(of_direction.begin(), of_direction.end());
+    std::vector<double> gaps{of_direction.front() + 1 - of_direction.back()};
+    for (std::size_t i = 1; i < of_direction.size(); ++i)
+      gaps.push_back(of_direction[i] - of_direction[i - 1]);
+    std::sort(gaps.begin(), gaps.end());
+    std::size_t i = 0;
+    for (double within = gaps[0]; i + 1 < gaps.size() && within < 0.5; within += gaps[i]) ++i;
+    least = std::min(least, 1 / gaps[i]);
+  }
+  return least;
 }
 
 }  // namespace sweepscope

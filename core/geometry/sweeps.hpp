@@ -36,4 +36,11 @@ inline constexpr std::size_t kNoSweep = static_cast<std::size_t>(-1);
 std::vector<std::size_t> assign_sweeps(const std::vector<LaserScan>& scans, const std::vector<Sweep>& sweeps,
                                        double offset_s);
 
+/// On how many places of a sweep the scan lines of one direction fall, places that many sweeps share counted
+/// once: half of the sweep lies in gaps between neighbours that are longer than the sweep by this number. Of
+/// the direction that has fewer; infinite for 3D scanners, whose lines cross. Fewer than kLeastDistinctLines
+/// tell no offset: neighbours do not lie on the same surfaces.
+double distinct_lines(const Recording& recording, const MotorMotion& motor, double offset_s);
+inline constexpr double kLeastDistinctLines = 7.5;
+
 }  // namespace sweepscope

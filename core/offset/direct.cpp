@@ -77,12 +77,6 @@ void judge_drift(const std::optional<Trend>& trend, double recorded_s, std::opti
   add(result.reasons, drift_reason(*trend, recorded_s, sigma_s.value_or(0)));
 }
 
-double widened_by_encoder(double sigma_s, const OffsetProblem& problem) {
-  const MotorTrack& track = problem.recording->motor;
-  return std::hypot(sigma_s, encoder_step_sigma_s(track, problem.motor),
-                    encoder_sampling_sigma_s(track, problem.motor));
-}
-
 void estimate_standing(const OffsetProblem& problem, double coarse_s, const std::vector<double>& window_s,
                        const SearchScale& scale, const Job& job, Estimate& result) {
   const StillGrid grid = still_grid(problem);
@@ -96,7 +90,8 @@ void estimate_standing(const OffsetProblem& problem, double coarse_s, const std:
   add(result.reasons, lever_reason(found.lever_m, found.reach_m));
   add(result.warnings, few_matches_warning(found.matches, found.features));
   std::optional<double> sigma_s = jackknife_sigma(found.offset_s, found.without_part);
-  if (sigma_s) sigma_s = widened_by_encoder(*sigma_s, problem);
+  if (sigma_s)
+    sigma_s = std::hypot(*sigma_s, unseen_sigma_s(*problem.recording, problem.motor, found.offset_s));
   judge_drift(trend_of(found.block_s, found.block_offset_s), duration_s(problem), sigma_s, result);
   // Clocks that drift apart turn the last sweep against the first, too.
   if (result.reasons.empty())
@@ -155,7 +150,7 @@ void estimate_walking(const OffsetProblem& problem, double coarse_s, const std::
   for (const JointWalkPart& part : walk.parts) parts_offset_s.push_back(part.offset_s);
   const double speed_rad_s = problem.motor.median_speed_rad_s;
   std::optional<double> sigma_s = widened_by_sway(walk.sigma_s, found.sway_rad, speed_rad_s, result);
-  sigma_s = widened_by_encoder(*sigma_s, problem);
+  sigma_s = std::hypot(*sigma_s, unseen_sigma_s(*problem.recording, problem.motor, walk.offset_s));
   judge_drift(drift_of(walk), duration_s(problem), walk.sigma_s, result);
   sigma_s = widened_by_halves(sigma_s, parts_offset_s, result);
   add(result.warnings, few_matches_warning(walk.matches, walk.features));

@@ -129,6 +129,11 @@ class Search {
           "Fewer than two sweeps have both scans and motor samples at every offset searched.");
       return true;
     }
+    if (const auto few =
+            lines_reason(distinct_lines(*problem_.recording, problem_.motor, (least_s + greatest_s) / 2))) {
+      result_.reasons.push_back(*few);
+      return true;
+    }
     coarse_ = search_coarsely(problem_, {least_s, greatest_s}, scale_, job_);
     judge_kind(test_motion(still_grid(problem_), coarse_offset_s(least_s, greatest_s)));
     return !job_.cancelled();
@@ -267,10 +272,9 @@ class Search {
     result_.identifiable = result_.reasons.empty();
     if (!result_.identifiable) return;
     result_.offset_s = least.offset_s;
-    const MotorTrack& track = problem_.recording->motor;
     if (certainty.sigma_s)
-      result_.sigma_s = std::hypot(*certainty.sigma_s, encoder_step_sigma_s(track, problem_.motor),
-                                   encoder_sampling_sigma_s(track, problem_.motor));
+      result_.sigma_s =
+          std::hypot(*certainty.sigma_s, unseen_sigma_s(*problem_.recording, problem_.motor, least.offset_s));
     if (moving() && recorded_s() < 20)
       result_.warnings.push_back(
           "Less than 20 s of walking: the answer may be off by several tenths of a millisecond.");

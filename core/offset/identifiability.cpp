@@ -149,6 +149,26 @@ double encoder_sampling_sigma_s(const MotorTrack& track, const MotorMotion& moto
   return samples > 0 ? kOfASweep * motor.median_sweep_s / std::pow(samples, 5) : 0;
 }
 
+double lines_sigma_s(const MotorMotion& motor, double distinct_lines) {
+  // Found by simulation of sweeps that take 7 to 20 scans, in rooms.
+  constexpr double kOfASweep = 0.115;
+  return kOfASweep * motor.median_sweep_s / std::pow(distinct_lines, 3);
+}
+
+double unseen_sigma_s(const Recording& recording, const MotorMotion& motor, double offset_s) {
+  return std::hypot(encoder_step_sigma_s(recording.motor, motor),
+                    encoder_sampling_sigma_s(recording.motor, motor),
+                    lines_sigma_s(motor, distinct_lines(recording, motor, offset_s)));
+}
+
+Remark lines_reason(double distinct_lines) {
+  if (distinct_lines >= kLeastDistinctLines) return std::nullopt;
+  return fmt::format(
+      "All sweeps of a direction see the same {:.2g} scan lines, too few for surfaces that both directions "
+      "see: a slower motor, or sweeps that last a little longer or shorter, would show more.",
+      distinct_lines);
+}
+
 Remark sampling_reason(const MotorTrack& track, const MotorMotion& motor, const SearchScale& scale) {
   constexpr double kLeast = 3;
   const double samples = samples_per_sweep(track, motor);

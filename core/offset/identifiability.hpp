@@ -31,6 +31,10 @@ Remark gaps_reason(const Recording& recording, const std::vector<char>& covered,
 /// A sweep has so few samples of the motor that what it did between them decides the answer.
 Remark sampling_reason(const MotorTrack& track, const MotorMotion& motor, const SearchScale& scale);
 
+/// The scan lines fall on so few places of a sweep, again and again, that too few surfaces are seen by both
+/// directions.
+Remark lines_reason(double distinct_lines);
+
 /// The clocks drift apart by more than max(1 ms, 3 sigma) over the recording, and by more than chance.
 Remark drift_reason(const Trend& trend, double duration_s, double sigma_s);
 /// The scene's surfaces hardly move when the motor's angle is turned: n . (a x p) is small against |a x p|.
@@ -43,6 +47,10 @@ double samples_per_sweep(const MotorTrack& track, const MotorMotion& motor);
 /// steps of its angle, and the straight lines between its samples, which cut the reversals' corners.
 double encoder_step_sigma_s(const MotorTrack& track, const MotorMotion& motor);
 double encoder_sampling_sigma_s(const MotorTrack& track, const MotorMotion& motor);
+/// What surfaces seen by few lines leave uncertain: sweeps that see the same lines err alike.
+double lines_sigma_s(const MotorMotion& motor, double distinct_lines);
+/// All of that: what the scatter of the sweeps does not tell at an offset.
+double unseen_sigma_s(const Recording& recording, const MotorMotion& motor, double offset_s);
 /// Sigma is larger than what the motor's speed should allow.
 Remark sigma_reason(std::optional<double> sigma_s, const SearchScale& scale);
 

@@ -228,9 +228,20 @@ class Part {
     const double slice = line % slices_, beams = (scan.beams - 1.0) / slices_;
     const double middle_s = scan.beam_s((slice + 0.5) * beams);
     const Pose pose = path_.at(middle_s);
-    const double rate_rad_s = sweep.direction * problem_.motor.sweeps[sweep.sweep].speed_rad_s;
     scans_[line] = {path_.place(middle_s), pose.translation_m,
-                    rate_rad_s * (pose.rotation * problem_.recording->rig.mount.axis.normalized())};
+                    turning_rad_s(problem_.motor.sweeps[sweep.sweep], middle_s + result_.offset_s) *
+                        (pose.rotation * problem_.recording->rig.mount.axis.normalized())};
+  }
+
+  // How fast the motor turned: over a tenth of the sweep, so that the encoder's steps count little and what
+  // tells a sine from a walk that sways, the speed's change within a sweep, stays.
+  double turning_rad_s(const Sweep& sweep, double motor_s) const {
+    const double span_s = (sweep.end_s - sweep.begin_s) / 20;
+    const double from_s = std::max(motor_s - span_s, sweep.steady_begin_s);
+    const double to_s = std::min(motor_s + span_s, sweep.steady_end_s);
+    if (to_s - from_s < span_s / 2) return sweep.direction * sweep.speed_rad_s;
+    const MotorTrack& track = problem_.recording->motor;
+    return (track.angle_at(to_s) - track.angle_at(from_s)) / (to_s - from_s);
   }
 
   // The number of a feature's scan line, or of the slice of it.

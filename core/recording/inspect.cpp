@@ -186,6 +186,12 @@ RecordingSummary inspect(const Recording& recording) {
   summary.laser = inspect_laser(recording);
   summary.motor = inspect_motor(recording);
   summary.expectations = expect(summary.laser, summary.motor);
+  const double lines = distinct_lines(recording, find_sweeps(recording.motor), 0);
+  if (lines < kLeastDistinctLines)
+    summary.expectations.push_back(fmt::format(
+        "Expect a refusal: all sweeps of a direction see the same {:.2g} scan lines; a slower motor, or "
+        "sweeps that last a little longer or shorter, would show more.",
+        lines));
   return summary;
 }
 

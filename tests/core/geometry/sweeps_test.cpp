@@ -145,5 +145,29 @@ TEST_F(AssignSweeps, KeepsTheOrderOfScans) {
   EXPECT_EQ(std::count(assigned.begin(), assigned.end(), 1u), 25);
 }
 
+// Scans every 25 ms against sweeps that take so many of them.
+double lines_of(double scans_a_sweep) {
+  const double sweep_s = 0.025 * scans_a_sweep;
+  const Motor motor(MotorKind::kTriangle, sweep_s, 0);
+  Recording recording;
+  recording.motor = track_of([&](double t_s) { return motor.angle_rad(t_s); }, 0, 6, 1000);
+  for (int i = 0; i < 240; ++i) recording.scans.emplace_back().first_beam_s = 0.025 * i;
+  return distinct_lines(recording, find_sweeps(recording.motor), 0.003);
+}
+
+TEST(DistinctLines, CountPlacesThatSweepsShareOnce) {
+  EXPECT_NEAR(lines_of(4), 4, 0.1);
+  EXPECT_NEAR(lines_of(20), 20, 0.5);
+  EXPECT_NEAR(lines_of(4.5), 4.5, 0.1);  // those of the other direction lie between
+  EXPECT_GT(lines_of(4.3), 20);
+  EXPECT_GT(lines_of(20.3), 60);
+}
+
+TEST(DistinctLines, AreWithoutBoundFor3DScanners) {
+  Recording recording;
+  recording.directions.resize(1);
+  EXPECT_EQ(distinct_lines(recording, MotorMotion(), 0), std::numeric_limits<double>::infinity());
+}
+
 }  // namespace
 }  // namespace sweepscope

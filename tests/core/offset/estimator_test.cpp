@@ -173,6 +173,16 @@ TEST(Refused, AStationaryMethodForAWalk) {
   expect_refused(estimated(test::simulated("metro-station", 0.024, 12).recording, options), "The rig moved");
 }
 
+// Four and a half scans a sweep: errors of up to 34 ms that no scatter shows.
+TEST(Refused, SweepsThatSeeTheSameFewLines) {
+  for (const Method method : {Method::kDirect, Method::kStationary}) {
+    EstimateOptions options;
+    options.method = method;
+    expect_refused(estimated(test::simulated("room-4", 0.012, 5, 0.1125).recording, options),
+                   "scan lines, too few");
+  }
+}
+
 TEST(Refused, AWalkThatIsTooShort) {
   expect_refused(estimated(test::simulated("metro-station", 0.024, 8).recording, over(20, 28, 1)),
                  "too short");

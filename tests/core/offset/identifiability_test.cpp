@@ -147,6 +147,21 @@ TEST(DriftReason, NeedsAMillisecondAndThreeSigma) {
   EXPECT_FALSE(drift_reason({200e-6, 100e-6}, 10, 0.1 * kMs)) << "chance";
 }
 
+TEST(LinesReason, IsGivenForAHandfulOfLines) {
+  ASSERT_TRUE(lines_reason(4.5));
+  EXPECT_NE(lines_reason(4.5)->find("the same 4.5 scan lines"), std::string::npos) << *lines_reason(4.5);
+  EXPECT_TRUE(lines_reason(7));
+  EXPECT_FALSE(lines_reason(8));
+}
+
+TEST(LinesSigma, FallsWithTheNumberOfLines) {
+  MotorMotion motor;
+  motor.median_sweep_s = 0.2;
+  EXPECT_NEAR(lines_sigma_s(motor, 8), 0.045 * kMs, 0.005 * kMs);
+  EXPECT_LT(lines_sigma_s(motor, 100), 0.001 * kMs);
+  EXPECT_EQ(lines_sigma_s(motor, std::numeric_limits<double>::infinity()), 0);
+}
+
 TEST(SigmaReason, IsJudgedByTheMotorsSpeed) {
   EXPECT_TRUE(sigma_reason(2 * kMs, kScale));
   EXPECT_FALSE(sigma_reason(2 * kMs, SearchScale{20 * kMs, 260 * kMs, 2}));

@@ -94,5 +94,18 @@ TEST(JointWalk, ASwayInStepWithTheMotorIsSaidAndWidensSigma) {
   EXPECT_TRUE(std::any_of(found->warnings.begin(), found->warnings.end(), says));
 }
 
+// Such a motor's offset turns the map as a swaying body does; only the walk's little acceleration tells them
+// apart.
+TEST(JointWalk, ASineMotorsSpeedIsTheOneOfEveryInstant) {
+  for (const std::uint64_t seed : {1, 2}) {
+    SimulationOptions options{.scene = "metro-station", .offset_s = 0.0137, .seed = seed, .duration_s = 25};
+    options.motor = simulation::MotorKind::kSine;
+    const auto walk = solved(simulate(options, Job())->recording, 0.0137);
+    ASSERT_TRUE(walk);
+    EXPECT_NEAR(walk->offset_s, 0.0137, 2 * walk->sigma_s);
+    EXPECT_LT(walk->sigma_s, 0.2 * kMs);
+  }
+}
+
 }  // namespace
 }  // namespace sweepscope

@@ -84,6 +84,15 @@ TEST(Inspect, SaysWhatAnEstimateCanHopeFor) {
   EXPECT_NE(text.find("9 whole sweeps are enough of a standing rig"), std::string::npos) << text;
 }
 
+TEST(Inspect, ExpectsARefusalOfSweepsThatSeeTheSameFewLines) {
+  Recording recording = recording_of(track(5.2, 0.01, triangle_rad));
+  EXPECT_EQ(expectations(recording).find("scan lines"), std::string::npos);
+  for (LaserScan& scan : recording.scans) scan.first_beam_s *= 4;
+  EXPECT_NE(expectations(recording).find("Expect a refusal: all sweeps of a direction see the same 5 scan"),
+            std::string::npos)
+      << expectations(recording);
+}
+
 TEST(Inspect, SaysWhatFewSamplesOfTheMotorCost) {
   const auto sampled_every = [](double period_s) {
     Recording recording = recording_of(track(5.2, 0.01, triangle_rad));
