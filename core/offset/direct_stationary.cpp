@@ -194,6 +194,18 @@ Parts parts_of(const Blocks& blocks, std::size_t bins) {
   return parts;
 }
 
+// Every so many-th line, of each direction: what errs with the scan, as its stamp does.
+Parts combs(const StillPoints& points, std::size_t count) {
+  Parts parts{{}, count};
+  std::array<std::size_t, 2> lines{};
+  for (std::size_t line = 0; line < points.lines(); ++line) {
+    const std::size_t part =
+        points.sweep[line] == kNoSweep ? kNoSweep : lines[points.direction[line] > 0]++ % count;
+    parts.of_cell.insert(parts.of_cell.end(), points.bins, part);
+  }
+  return parts;
+}
+
 // Sectors of the motor's angle, both directions', times sections of the beams: what was seen of the scene.
 Parts views(const StillPoints& points, std::size_t sectors, std::size_t sections) {
   const std::size_t middle = points.bins / 2;
@@ -265,11 +277,13 @@ void fill_levers(const std::vector<LineResiduals>& lines, StationaryDirect& resu
 // Sweeps are the parts where there are enough of them.
 void resample(const StillGrid& grid, const Linearisation& at, const std::vector<LineResiduals>& lines,
               double loss_width_m, StationaryDirect& result) {
-  constexpr std::size_t kMostParts = 10, kLeastBlocks = 6, kSectors = 8, kSections = 3;
+  constexpr std::size_t kMostParts = 10, kLeastBlocks = 6, kSectors = 8, kSections = 3, kCombs = 12;
   const Blocks blocks = blocks_of_sweeps(at.points(), kMostParts);
   const Parts parts = blocks.count < kLeastBlocks ? views(at.points(), kSectors, kSections)
                                                   : parts_of(blocks, at.points().bins);
-  result.without_part = offsets_without(at, parts, loss_width_m, summed(lines, loss_width_m).jj);
+  const double whole_jj = summed(lines, loss_width_m).jj;
+  result.without_part = offsets_without(at, parts, loss_width_m, whole_jj);
+  result.without_comb = offsets_without(at, combs(at.points(), kCombs), loss_width_m, whole_jj);
   fill_blocks(at, grid, loss_width_m, result);
   fill_levers(lines, result);
 }

@@ -42,6 +42,7 @@ struct StationaryDirect {
   // Resampling: the recording is cut into parts, blocks of sweeps in the order of time, or sectors of the
   // motor's angle where sweeps are few.
   std::vector<WithoutPart> without_part;  // the offset without each part
+  std::vector<WithoutPart> without_comb;  // the same for combs of lines, every so many-th one
   std::vector<double> block_s,
       block_offset_s;  // blocks of sweeps: middle and the offset each asks for by itself
 };

@@ -49,7 +49,10 @@ double encoder_step_sigma_s(const MotorTrack& track, const MotorMotion& motor);
 double encoder_sampling_sigma_s(const MotorTrack& track, const MotorMotion& motor);
 /// What surfaces seen by few lines leave uncertain: sweeps that see the same lines err alike.
 double lines_sigma_s(const MotorMotion& motor, double distinct_lines);
-/// All of that: what the scatter of the sweeps does not tell at an offset.
+/// What scans whose stamps scatter leave uncertain at least, however few sweeps there are to tell it by:
+/// their spacings tell how much each errs.
+double stamps_sigma_s(const Recording& recording);
+/// What encoder and lines leave: what the scatter of the sweeps does not tell at an offset.
 double unseen_sigma_s(const Recording& recording, const MotorMotion& motor, double offset_s);
 /// Sigma is larger than what the motor's speed should allow.
 Remark sigma_reason(std::optional<double> sigma_s, const SearchScale& scale);

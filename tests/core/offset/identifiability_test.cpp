@@ -5,6 +5,8 @@
 #include <cmath>
 #include <functional>
 
+#include "core/simulation/portable_math.hpp"
+
 namespace sweepscope {
 namespace {
 
@@ -160,6 +162,18 @@ TEST(LinesSigma, FallsWithTheNumberOfLines) {
   EXPECT_NEAR(lines_sigma_s(motor, 8), 0.045 * kMs, 0.005 * kMs);
   EXPECT_LT(lines_sigma_s(motor, 100), 0.001 * kMs);
   EXPECT_EQ(lines_sigma_s(motor, std::numeric_limits<double>::infinity()), 0);
+}
+
+TEST(StampsSigma, IsThatOfTheMeanOfScatteredStamps) {
+  Recording even, scattered;
+  for (std::uint64_t i = 0; i < 400; ++i) {
+    even.scans.emplace_back().first_beam_s = 0.025 * double(i);
+    scattered.scans.emplace_back().first_beam_s =
+        0.025 * double(i) + kMs * simulation::Random(1, 2, i).normal();
+  }
+  EXPECT_LT(stamps_sigma_s(even), 1e-12);
+  EXPECT_NEAR(stamps_sigma_s(scattered), 1.75 * kMs / 20, 0.015 * kMs);
+  EXPECT_EQ(stamps_sigma_s(Recording()), 0);
 }
 
 TEST(SigmaReason, IsJudgedByTheMotorsSpeed) {
