@@ -89,10 +89,7 @@ void estimate_standing(const OffsetProblem& problem, double coarse_s, const std:
   if (!found.converged) result.warnings.push_back("The least squares did not settle.");
   add(result.reasons, lever_reason(found.lever_m, found.reach_m));
   add(result.warnings, few_matches_warning(found.matches, found.features));
-  std::optional<double> sigma_s = jackknife_sigma(found.offset_s, found.without_part);
-  if (sigma_s)
-    sigma_s = std::max({*sigma_s, jackknife_sigma(found.offset_s, found.without_comb).value_or(0),
-                        stamps_sigma_s(*problem.recording)});
+  std::optional<double> sigma_s = sigma_of(found, *problem.recording);
   if (sigma_s)
     sigma_s = std::hypot(*sigma_s, unseen_sigma_s(*problem.recording, problem.motor, found.offset_s));
   judge_drift(trend_of(found.block_s, found.block_offset_s), duration_s(problem), sigma_s, result);

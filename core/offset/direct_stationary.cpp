@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/loam/least_squares.hpp"
+#include "core/offset/identifiability.hpp"
 #include "core/parallel.hpp"
 
 namespace sweepscope {
@@ -329,6 +330,13 @@ StationaryDirect solve_stationary(const StillGrid& grid, double first_offset_s,
     loss_width_m = std::min(width_m, loss_width_m);
   }
   return result;
+}
+
+std::optional<double> sigma_of(const StationaryDirect& found, const Recording& recording) {
+  const auto of_parts_s = jackknife_sigma(found.offset_s, found.without_part);
+  if (!of_parts_s) return std::nullopt;
+  return std::max({*of_parts_s, jackknife_sigma(found.offset_s, found.without_comb).value_or(0),
+                   stamps_sigma_s(recording)});
 }
 
 }  // namespace sweepscope

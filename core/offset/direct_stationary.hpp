@@ -50,4 +50,8 @@ struct StationaryDirect {
 StationaryDirect solve_stationary(const StillGrid& grid, double first_offset_s,
                                   const StationaryDirectOptions& options, const Job& job);
 
+/// How far the answer may be off, as far as what was resampled and the recording's stamps tell: the greatest
+/// of what parts, combs and `stamps_sigma_s` say. Absent where the parts are too few.
+std::optional<double> sigma_of(const StationaryDirect& found, const Recording& recording);
+
 }  // namespace sweepscope

@@ -351,7 +351,7 @@ class Search {
   Certainty of_standing(double offset_s, bool fits) const {
     const std::optional<double> of_pairs_s = sigma_of_pairs(offset_s, fits);
     const StationaryDirect direct = solve_stationary(still_grid(problem_), offset_s, {}, job_);
-    const auto of_direct_s = jackknife_sigma(direct.offset_s, direct.without_part);
+    const auto of_direct_s = sigma_of(direct, *problem_.recording);
     if (!of_pairs_s || !of_direct_s || direct.matches < StationaryDirectOptions().least_matches)
       return {of_pairs_s, {}, 0};
     return {std::max(*of_pairs_s, std::hypot(direct.offset_s - offset_s, *of_direct_s)),

@@ -78,7 +78,7 @@ LaserSummary inspect_laser(const Recording& recording) {
   return laser;
 }
 
-MotorSummary inspect_motor(const Recording& recording) {
+MotorSummary inspect_motor(const Recording& recording, const MotorMotion& motion) {
   const ReadReport& report = recording.report;
   const MotorTrack& track = recording.motor;
   MotorSummary motor;
@@ -97,7 +97,6 @@ MotorSummary inspect_motor(const Recording& recording) {
   const auto [least_rad, most_rad] = std::ranges::minmax(track.angle_rad);
   motor.least_deg = least_rad * kDegPerRad;
   motor.most_deg = most_rad * kDegPerRad;
-  const MotorMotion motion = find_sweeps(track);
   motor.median_speed_deg_s = motion.median_speed_rad_s * kDegPerRad;
   motor.reversals = motion.sweeps.empty() ? 0 : motion.sweeps.size() - 1;
   if (motor.whole_sweeps() > 0) motor.median_sweep_s = motion.median_sweep_s;
@@ -122,19 +121,31 @@ std::vector<std::string> obstacles(const LaserSummary& laser, const MotorSummary
   return {};
 }
 
-/// What few samples of the motor mean for an estimate; empty where there are enough.
-std::string expect_of_samples(const MotorSummary& motor) {
-  constexpr double kFewest = 4, kFew = 8;
-  const double samples = motor.median_sweep_s / motor.median_period_s;
-  if (!(motor.median_sweep_s > 0) || !(motor.median_period_s > 0) || samples > kFew) return "";
-  if (samples < kFewest)
-    return fmt::format("Expect a refusal: the motor is sampled {:.1f} times a sweep only.", samples);
-  return fmt::format(
-      "The motor is sampled {:.1f} times a sweep only, which costs accuracy: sample it every {:.2g} s.",
-      samples, motor.median_sweep_s / (2 * kFew));
+constexpr double kFewestSamples = 4, kFewSamples = 8;  // of the motor, a sweep
+
+/// 0 where there is no whole sweep.
+double samples_a_sweep(const MotorSummary& motor) {
+  return motor.median_period_s > 0 ? motor.median_sweep_s / motor.median_period_s : 0;
 }
 
-std::vector<std::string> expect(const LaserSummary& laser, const MotorSummary& motor) {
+/// Why an estimate will be refused though nothing obvious stands in its way; empty where none is known.
+std::string refusal(const LaserSummary& laser, const MotorSummary& motor, double distinct_lines) {
+  if (laser.stamp == StampSource::kReceive && laser.uneven_s > laser.median_period_s / 4)
+    return fmt::format(
+        "Expect a refusal: the scans' receive times come unevenly, by up to {:.0f} ms nine times in ten, "
+        "where a scan takes {:.0f} ms.",
+        1000 * laser.uneven_s, 1000 * laser.median_period_s);
+  if (const double samples = samples_a_sweep(motor); samples > 0 && samples < kFewestSamples)
+    return fmt::format("Expect a refusal: the motor is sampled {:.1f} times a sweep only.", samples);
+  if (distinct_lines < kLeastDistinctLines)
+    return fmt::format(
+        "Expect a refusal: all sweeps of a direction see the same {:.2g} scan lines; a slower motor, or "
+        "sweeps that last a little longer or shorter, would show more.",
+        distinct_lines);
+  return "";
+}
+
+std::vector<std::string> expect(const LaserSummary& laser, const MotorSummary& motor, double distinct_lines) {
   std::vector<std::string> lines = obstacles(laser, motor);
   if (!lines.empty()) return lines;
   // The paper's rig repeats to 0.3 ms (standard deviation) at 360 deg/s.
@@ -143,21 +154,20 @@ std::vector<std::string> expect(const LaserSummary& laser, const MotorSummary& m
   lines.push_back(
       fmt::format("1 ms of offset turns a scan by {:.3g} deg: {:.2g} mm at the median range of {:.3g} m.",
                   motor.deg_per_ms(), millimetres, laser.median_range_m));
-  if (laser.stamp == StampSource::kReceive && laser.uneven_s > laser.median_period_s / 4) {
-    lines.push_back(
-        fmt::format("Expect a refusal: the scans' receive times come unevenly, by up to {:.0f} ms nine times "
-                    "in ten, where a scan takes {:.0f} ms.",
-                    1000 * laser.uneven_s, 1000 * laser.median_period_s));
-  } else {
-    lines.push_back(fmt::format("Expect an offset good to about {:.2g} ms ({} deg of the motor's angle).",
-                                kRepeatable_deg / motor.deg_per_ms(), kRepeatable_deg));
-  }
+  std::string refused = refusal(laser, motor, distinct_lines);
+  lines.push_back(!refused.empty()
+                      ? std::move(refused)
+                      : fmt::format("Expect an offset good to about {:.2g} ms ({} deg of the motor's angle).",
+                                    kRepeatable_deg / motor.deg_per_ms(), kRepeatable_deg));
   if (motor.median_sweep_s > 0) {
     lines.push_back(fmt::format(
         "Offsets up to {:.4g} ms to either side can be told apart (a quarter of the motor's period).",
         1000 * motor.median_sweep_s / 2));
   }
-  if (std::string few = expect_of_samples(motor); !few.empty()) lines.push_back(std::move(few));
+  if (const double samples = samples_a_sweep(motor); samples >= kFewestSamples && samples <= kFewSamples)
+    lines.push_back(fmt::format(
+        "The motor is sampled {:.1f} times a sweep only, which costs accuracy: sample it every {:.2g} s.",
+        samples, motor.median_sweep_s / (2 * kFewSamples)));
   constexpr std::size_t kStanding = 8, kMoving = 40;
   if (motor.whole_sweeps() < kStanding) {
     lines.push_back(
@@ -184,14 +194,9 @@ RecordingSummary inspect(const Recording& recording) {
   summary.topics = recording.report.topics;
   summary.warnings = recording.report.warnings;
   summary.laser = inspect_laser(recording);
-  summary.motor = inspect_motor(recording);
-  summary.expectations = expect(summary.laser, summary.motor);
-  const double lines = distinct_lines(recording, find_sweeps(recording.motor), 0);
-  if (lines < kLeastDistinctLines)
-    summary.expectations.push_back(fmt::format(
-        "Expect a refusal: all sweeps of a direction see the same {:.2g} scan lines; a slower motor, or "
-        "sweeps that last a little longer or shorter, would show more.",
-        lines));
+  const MotorMotion motion = find_sweeps(recording.motor);
+  summary.motor = inspect_motor(recording, motion);
+  summary.expectations = expect(summary.laser, summary.motor, distinct_lines(recording, motion, 0));
   return summary;
 }
 

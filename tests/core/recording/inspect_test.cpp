@@ -91,6 +91,7 @@ TEST(Inspect, ExpectsARefusalOfSweepsThatSeeTheSameFewLines) {
   EXPECT_NE(expectations(recording).find("Expect a refusal: all sweeps of a direction see the same 5 scan"),
             std::string::npos)
       << expectations(recording);
+  EXPECT_EQ(expectations(recording).find("Expect an offset"), std::string::npos);
 }
 
 TEST(Inspect, SaysWhatFewSamplesOfTheMotorCost) {
@@ -105,6 +106,7 @@ TEST(Inspect, SaysWhatFewSamplesOfTheMotorCost) {
             std::string::npos)
       << sampled_every(0.1);
   EXPECT_NE(sampled_every(0.2).find("Expect a refusal: the motor is sampled 2.5 times"), std::string::npos);
+  EXPECT_EQ(sampled_every(0.2).find("Expect an offset"), std::string::npos);
 }
 
 TEST(Inspect, SaysWhatMakesAnEstimateImpossible) {
