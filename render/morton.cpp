@@ -1,9 +1,9 @@
 #include "render/morton.hpp"
-#include "core/parallel.hpp"
-
-#include <tbb/parallel_sort.h>
 
 #include <algorithm>
+
+#include "core/parallel.hpp"
+#include "core/parallel_sort.hpp"
 
 namespace sweepscope {
 namespace {
@@ -40,7 +40,7 @@ std::vector<MortonKey> along_morton_curve(std::span<const std::array<float, 3>> 
     for (std::size_t k = range.begin(); k < range.end(); ++k)
       keys[k] = {code_of(points_m[chosen[k]], origin_m, edge_m), chosen[k]};
   });
-  tbb::parallel_sort(keys.begin(), keys.end());
+  sort_in_parallel(keys);
   return keys;
 }
 

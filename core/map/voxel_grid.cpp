@@ -1,12 +1,12 @@
 #include "core/map/voxel_grid.hpp"
-#include "core/parallel.hpp"
-
-#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <utility>
+
+#include "core/parallel.hpp"
+#include "core/parallel_sort.hpp"
 
 namespace sweepscope {
 namespace {
@@ -106,7 +106,7 @@ VoxelGrid::VoxelGrid(const MapCloud& cloud, double finest_m)
                   static_cast<std::uint32_t>(i)};
     }
   });
-  tbb::parallel_sort(order);
+  sort_in_parallel(order);
   for_each_block(cloud.size(), 16384, [&](const auto& block) {
     for (std::size_t i = block.begin(); i < block.end(); ++i) {
       const MapPoint& p = cloud.points[order[i].second];
