@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "render/chart_layout.hpp"
+#include "render/clip.hpp"
 
 namespace sweepscope {
 namespace {
@@ -184,19 +185,6 @@ void add_heading(const Canvas& c) {
   }
 }
 
-/// Whether a stretch of a line passes through a rectangle.
-bool crosses(PixelPoint a, PixelPoint b, const PixelRect& rect) {
-  double from = 0, to = 1;
-  const auto clip = [&](double start, double step, double least, double most) {
-    if (step == 0) return start >= least && start <= most;
-    const double t1 = (least - start) / step, t2 = (most - start) / step;
-    from = std::max(from, std::min(t1, t2));
-    to = std::min(to, std::max(t1, t2));
-    return from <= to;
-  };
-  return clip(a.x, b.x - a.x, rect.left, rect.right()) && clip(a.y, b.y - a.y, rect.top, rect.bottom());
-}
-
 bool overlap(const PixelRect& a, const PixelRect& b) {
   return a.left < b.right() && b.left < a.right() && a.top < b.bottom() && b.top < a.bottom();
 }
@@ -207,12 +195,13 @@ int clutter(const Canvas& c, const PixelRect& place, const std::vector<PixelRect
   int count = 0;
   for (const ChartSeries& series : c.chart.series) {
     for (const auto& stretch : stretches_of(c, series)) {
-      for (std::size_t i = 1; i < stretch.size(); ++i) count += crosses(stretch[i - 1], stretch[i], place);
+      for (std::size_t i = 1; i < stretch.size(); ++i)
+        count += clip(stretch[i - 1], stretch[i], place) ? 1 : 0;
     }
   }
   for (const ChartVertical& vertical : c.chart.verticals) {
     const double x = c.layout.x_px(vertical.x);
-    count += crosses({x, plot.top}, {x, plot.bottom()}, place);
+    count += clip({x, plot.top}, {x, plot.bottom()}, place) ? 1 : 0;
   }
   for (const PixelRect& other : taken) count += overlap(place, other) ? 100 : 0;
   if (!plot.contains({place.left, place.top}) || !plot.contains({place.right(), place.bottom()}))

@@ -1,11 +1,14 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "render/clip.hpp"
 #include "render/picture.hpp"
 
 namespace sweepscope {
 namespace {
 
+/// As far as it lies in the view: a path may leave it and come back.
 void add_path(Drawing& drawing, const Projection& projection, const ScenePath& path) {
   constexpr double kLeastStep_px = 2;
   LineMark line{{}, path.width_px, path.colour};
@@ -13,15 +16,17 @@ void add_path(Drawing& drawing, const Projection& projection, const ScenePath& p
     if (line.points.size() > 1) drawing.add(line);
     line.points.clear();
   };
+  std::optional<PixelPoint> last;  // none before the first point, and behind the camera
   for (const Eigen::Vector3d& point_m : path.points_m) {
     const auto at = projection(point_m);
-    if (!at || !projection.place().contains(*at)) {
-      finish();
-      continue;
+    if (last && at && std::hypot(at->x - last->x, at->y - last->y) < kLeastStep_px) continue;
+    const auto seen = last && at ? clip(*last, *at, projection.place()) : std::nullopt;
+    if (seen) {
+      if (line.points.empty()) line.points.push_back(seen->first);
+      line.points.push_back(seen->second);
     }
-    const bool far_enough = line.points.empty() || std::hypot(at->x - line.points.back().x,
-                                                              at->y - line.points.back().y) >= kLeastStep_px;
-    if (far_enough) line.points.push_back(*at);
+    last = at;
+    if (!at || !projection.place().contains(*at)) finish();
   }
   finish();
 }
