@@ -87,6 +87,18 @@ std::string words_of(ListeningEnd end, const HeardSoFar& heard, const Calibratio
   return "";
 }
 
+/// Lines may come from a file that is standard input.
+Result<void> check_files(const Options& options, RecordingFormat format) {
+  std::vector<std::filesystem::path> inputs;
+  if (options.source == "-") inputs.emplace_back("/dev/stdin");
+  if (options.recording.rig) inputs.push_back(*options.recording.rig);
+  std::vector<std::string> outputs{options.output.json, options.output.csv};
+  if (!options.record.empty())
+    for (const std::string& file : written_files(options.record, format)) outputs.push_back(file);
+  return check_outputs(outputs, std::move(inputs),
+                       format == RecordingFormat::kCsv ? options.record : std::filesystem::path());
+}
+
 /// `kept`: whether what was heard could be recorded.
 Result<Estimate> run_calibration(Options& options, Result<void>& kept) {
   if (options.recording.rig) {
@@ -97,8 +109,7 @@ Result<Estimate> run_calibration(Options& options, Result<void>& kept) {
   options.calibration.stamps = options.recording.stamps;
   auto format = options.record.empty() ? RecordingFormat::kCsv : record_format(options.record);
   if (!format) return tl::unexpected(format.error());
-  const std::string file = *format == RecordingFormat::kCsv ? "" : options.record;
-  const auto checked = check_outputs({options.output.json, options.output.csv, file});
+  const auto checked = check_files(options, *format);
   if (!checked) return tl::unexpected(checked.error());
   const Progress progress;
   auto source = open_source(options);

@@ -18,6 +18,7 @@
 #include "core/io/trajectory_file.hpp"
 #include "core/map/feature_points.hpp"
 #include "core/map/offset_map.hpp"
+#include "core/recording/recording_files.hpp"
 #include "render/comparison.hpp"
 #include "render/curve_charts.hpp"
 #include "render/vector_file.hpp"
@@ -37,6 +38,11 @@ struct CompareOptions {
   LookTexts look;
   std::vector<std::string> given;  // the options, as they were given
 };
+
+/// Beside the picture finished candidates are kept for a while.
+std::string kept_candidates(const CompareOptions& options) {
+  return options.output + ".candidates";
+}
 
 tl::unexpected<Error> wrong_usage(std::string message) {
   return failure(ExitCode::kWrongUsage, std::move(message));
@@ -126,7 +132,7 @@ Result<Compared> from_recording(const CompareOptions& options, bool by_features)
     if (features) next.feature_kinds = feature_kinds(*features, *map.cloud);
   }
   if (!options.curve.empty() || options.no_curve) return compared;
-  auto kept = keep_while_working(options.output + ".candidates", reading, options.given);
+  auto kept = keep_while_working(kept_candidates(options), reading, options.given);
   if (!kept) return tl::unexpected(kept.error());
   compared.kept = std::move(*kept);
   auto curve = curve_about(*recording, built->front().moving, options, *compared.kept, progress.job());
@@ -148,13 +154,23 @@ Result<Compared> compared_maps(const CompareOptions& options, bool by_features) 
   return from_recording(options, by_features);
 }
 
+Result<void> check_files(const CompareOptions& options) {
+  std::vector<std::filesystem::path> inputs;
+  for (const std::string& input : options.inputs)
+    for (const auto& file : recording_files(input)) inputs.push_back(file);
+  if (options.recording.rig) inputs.push_back(*options.recording.rig);
+  for (const std::string& file : {options.curve, options.poses})
+    if (!file.empty()) inputs.emplace_back(file);
+  return check_outputs({options.output, kept_candidates(options)}, std::move(inputs));
+}
+
 Result<void> compare(const CompareOptions& options) {
   // Wrong words cost nothing; they are found before files of hundreds of megabytes are read.
   const auto picture = options.look.parse();
   if (!picture) return tl::unexpected(picture.error());
   const auto writable =
       check_size(*picture).and_then([&] { return check_picture_path(options.output); }).and_then([&] {
-        return check_outputs({options.output});
+        return check_files(options);
       });
   if (!writable) return tl::unexpected(writable.error());
   std::optional<Estimate> given;

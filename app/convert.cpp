@@ -7,6 +7,7 @@
 #include "app/recording_options.hpp"
 #include "core/recording/choose_streams.hpp"
 #include "core/recording/read_raw_recording.hpp"
+#include "core/recording/recording_files.hpp"
 #include "core/recording/recording_writer.hpp"
 
 namespace sweepscope::app {
@@ -28,18 +29,21 @@ Result<RecordingFormat> format_of(const Options& options) {
     return failure(ExitCode::kWrongUsage, fmt::format("{}: is not written with --compression {}",
                                                       options.output.string(), options.compression));
   }
-  std::error_code ignored;
-  if (std::filesystem::equivalent(options.recording, options.output, ignored)) {
-    return failure(ExitCode::kWrongUsage,
-                   fmt::format("{}: a recording is not written over itself", options.output.string()));
-  }
   return *format;
+}
+
+Result<void> check_files(const Options& options, RecordingFormat format) {
+  std::vector<std::filesystem::path> inputs = recording_files(options.recording);
+  if (options.rig) inputs.push_back(*options.rig);
+  return check_outputs(written_files(options.output, format), std::move(inputs),
+                       format == RecordingFormat::kCsv ? options.output : std::filesystem::path());
 }
 
 /// Converts, and gives the line that says so.
 Result<std::string> convert(const Options& options) {
   const auto format = format_of(options);
   if (!format) return tl::unexpected(format.error());
+  if (const auto checked = check_files(options, *format); !checked) return tl::unexpected(checked.error());
   const auto rig = options.rig ? read_rig(*options.rig) : Result<Rig>(Rig());
   if (!rig) return tl::unexpected(rig.error());
   const Progress progress;

@@ -89,9 +89,10 @@ Result<void> check_candidates(const Options& options) {
 
 ExitCode run(const Options& options, std::vector<std::string> deciding) {
   const auto threads = options.input.recording.limit_threads();
-  const auto checked = check_candidates(options).and_then([&] { return options.output.check(); });
-  if (!checked) return fail(checked.error());
   const std::string path = options.resume.empty() && options.shard ? shard_file(options) : options.resume;
+  const auto checked = check_candidates(options).and_then(
+      [&] { return options.output.check(options.input.recording.input_files(), {path}); });
+  if (!checked) return fail(checked.error());
   std::unique_ptr<CandidateFile> candidates;
   Result<Estimate> found;
   {

@@ -130,6 +130,12 @@ void EstimateOutput::declare(CLI::App& app) {
   app.add_flag("--no-timing", no_timing, "cpu_s and wall_s are null: the same bytes run after run");
 }
 
+Result<void> EstimateOutput::check(std::vector<std::filesystem::path> inputs,
+                                   std::vector<std::string> others) const {
+  others.insert(others.end(), {json, csv});
+  return check_outputs(others, std::move(inputs));
+}
+
 Result<void> EstimateOutput::write(const Estimate& estimate) const {
   const Timing timing = no_timing ? Timing::kNull : Timing::kWritten;
   Result<void> first, second;

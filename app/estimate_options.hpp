@@ -28,7 +28,8 @@ struct EstimateOutput {
 
   void declare(CLI::App& app);
   bool on_stdout() const { return json == "-" || csv == "-"; }
-  Result<void> check() const { return check_outputs({json, csv}); }
+  /// See check_outputs; `others` are outputs besides these.
+  Result<void> check(std::vector<std::filesystem::path> inputs, std::vector<std::string> others = {}) const;
   Result<void> write(const Estimate& estimate) const;
 };
 

@@ -178,6 +178,8 @@ std::string as_text(const RecordingSummary& summary) {
 }
 
 ExitCode run(const RecordingOptions& options, const std::string& json) {
+  if (const auto checked = check_outputs({json}, options.input_files()); !checked)
+    return fail(checked.error());
   Result<RecordingSummary> summary = [&]() -> Result<RecordingSummary> {
     const Progress progress;
     const auto recording = options.read(progress.job());

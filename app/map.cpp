@@ -47,7 +47,9 @@ Result<Built> build(const Options& options) {
 
 ExitCode run(const Options& options) {
   const auto threads = options.recording.limit_threads();
-  const auto checked = check_outputs({options.output, options.trajectory});
+  std::vector<std::filesystem::path> inputs = options.recording.input_files();
+  if (!options.poses.empty()) inputs.emplace_back(options.poses);
+  const auto checked = check_outputs({options.output, options.trajectory}, std::move(inputs));
   if (!checked) return fail(checked.error());
   auto built = build(options);
   if (!built) return fail(built.error());

@@ -52,7 +52,10 @@ Result<Estimate> merge(const Options& options, MergedCandidates& candidates) {
   const auto input = input_of(search, options);
   if (!input) return tl::unexpected(input.error());
   const auto threads = (*input)->recording.limit_threads();
-  if (const auto checked = check(**input, search, options); !checked) return tl::unexpected(checked.error());
+  const auto checked = options.output.check((*input)->recording.input_files()).and_then([&] {
+    return check(**input, search, options);
+  });
+  if (!checked) return tl::unexpected(checked.error());
   const Progress progress;
   auto recording = (*input)->recording.read(progress.job());
   if (!recording) return tl::unexpected(recording.error());
@@ -67,7 +70,7 @@ Result<Estimate> merge(const Options& options, MergedCandidates& candidates) {
 }
 
 ExitCode run(const Options& options) {
-  if (const auto checked = options.output.check(); !checked) return fail(checked.error());
+  if (const auto checked = options.output.check(options.parts); !checked) return fail(checked.error());
   auto candidates = MergedCandidates::read(options.parts);
   if (!candidates) return fail(candidates.error());
   const auto found = merge(options, *candidates);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
@@ -9,6 +10,8 @@
 
 #include "app/say.hpp"
 #include "core/io/atomic_file.hpp"
+#include "core/io/output_check.hpp"
+#include "core/recording/recording_files.hpp"
 
 namespace sweepscope::app {
 namespace {
@@ -71,6 +74,12 @@ std::unique_ptr<tbb::global_control> RecordingOptions::limit_threads() const {
                                                std::size_t(threads));
 }
 
+std::vector<std::filesystem::path> RecordingOptions::input_files() const {
+  std::vector<std::filesystem::path> files = recording_files(recording);
+  if (rig) files.push_back(*rig);
+  return files;
+}
+
 Result<Recording> RecordingOptions::read(const Job& job) const {
   ReadOptions options;
   options.stamps = stamps;
@@ -118,12 +127,14 @@ void print_warnings(const Recording& recording) {
   }
 }
 
-Result<void> check_outputs(const std::vector<std::string>& paths) {
-  for (const std::string& path : paths) {
-    if (path.empty() || path == "-") continue;
-    if (auto checked = check_writable(path); !checked) return checked;
-  }
-  return {};
+Result<void> check_outputs(const std::vector<std::string>& outputs, std::vector<std::filesystem::path> inputs,
+                           const std::filesystem::path& folder) {
+  RunFiles files{std::move(inputs), {}, folder};
+  for (const std::string& output : outputs)
+    if (!output.empty() && output != "-") files.outputs.emplace_back(output);
+  if (std::count(outputs.begin(), outputs.end(), "-") > 1)
+    return failure(ExitCode::kWrongUsage, "only one output can be written to standard output (-)");
+  return check_run_files(files);
 }
 
 Result<void> write_text(const std::string& path, const std::string& text) {

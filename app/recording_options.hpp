@@ -36,6 +36,8 @@ struct RecordingOptions {
   void declare_reading(CLI::App& app);
   /// --assume and --threads, of the subcommands that compute.
   void declare_computing(CLI::App& app);
+  /// The files that these options read: the recording's and the rig file.
+  std::vector<std::filesystem::path> input_files() const;
   /// Holds the program to `threads` while the returned object lives.
   std::unique_ptr<tbb::global_control> limit_threads() const;
   /// The recording that they name, cut to the window.
@@ -51,8 +53,12 @@ std::string printable(std::string text);
 ExitCode fail(const Error& error);
 /// Prints what reading warned of, on stderr.
 void print_warnings(const Recording& recording);
-/// Whether files can be created there, before the work that makes them; "-" and empty ones are none.
-Result<void> check_outputs(const std::vector<std::string>& paths);
+/// Checks what a subcommand will write, before any work: see check_run_files. `outputs` may hold "-", for
+/// standard output, at most once; empty names stand for no file. `folder`: that of outputs, where the
+/// subcommand makes one.
+Result<void> check_outputs(const std::vector<std::string>& outputs,
+                           std::vector<std::filesystem::path> inputs,
+                           const std::filesystem::path& folder = {});
 /// Writes to stdout where `path` is "-", else to the file, whole or not at all.
 Result<void> write_text(const std::string& path, const std::string& text);
 

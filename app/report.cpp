@@ -24,14 +24,17 @@ struct Options {
   std::vector<std::string> given;  // the options, as they were given
 };
 
+std::filesystem::path kept_candidates(const Options& options) {
+  return std::filesystem::path(options.folder) / "report.candidates";
+}
+
 /// Finished candidates are kept in the report's folder until the report is there.
 Result<ReportContent> make(const Options& options) {
   const Progress progress;
   const auto recording = options.recording.read(progress.job());
   if (!recording) return tl::unexpected(recording.error());
   if (const auto made = make_report_folder(options.folder); !made) return tl::unexpected(made.error());
-  const auto kept = keep_while_working(std::filesystem::path(options.folder) / "report.candidates",
-                                       options.recording, options.given);
+  const auto kept = keep_while_working(kept_candidates(options), options.recording, options.given);
   if (!kept) return tl::unexpected(kept.error());
   auto content =
       gather_report(*recording, parse_method(options.recording.assume), kept->get(), progress.job());
@@ -43,8 +46,15 @@ Result<ReportContent> make(const Options& options) {
   return content;
 }
 
+Result<void> check_files(const Options& options) {
+  std::vector<std::string> outputs{kept_candidates(options).string()};
+  for (const auto& file : report_files(options.folder)) outputs.push_back(file.string());
+  return check_outputs(outputs, options.recording.input_files(), options.folder);
+}
+
 ExitCode run(const Options& options) {
   const auto threads = options.recording.limit_threads();
+  if (const auto checked = check_files(options); !checked) return fail(checked.error());
   const auto content = make(options);
   if (!content) return fail(content.error());
   fmt::print("{}\n", (std::filesystem::path(options.folder) / "report.html").string());

@@ -6,6 +6,7 @@
 #include "app/progress.hpp"
 #include "app/recording_options.hpp"
 #include "core/recording/detect_rig.hpp"
+#include "core/recording/recording_files.hpp"
 
 namespace sweepscope::app {
 namespace {
@@ -29,7 +30,15 @@ Result<std::string> detect(const Options& options) {
   return detect_rig(options.recording, reading, progress.job()).map(rig_file_text);
 }
 
+std::vector<std::filesystem::path> input_files(const Options& options) {
+  std::vector<std::filesystem::path> files = recording_files(options.recording);
+  if (options.rig) files.push_back(*options.rig);
+  return files;
+}
+
 ExitCode run(const Options& options) {
+  if (const auto checked = check_outputs({options.output}, input_files(options)); !checked)
+    return fail(checked.error());
   const auto text = detect(options);
   if (!text) return fail(text.error());
   const auto written = write_text(options.output, *text);

@@ -41,10 +41,9 @@ std::string summary(const Simulation& simulation, const std::filesystem::path& o
 }
 
 Result<Simulation> simulate_into(const SimulationOptions& options, const std::filesystem::path& output) {
-  const std::filesystem::path folder = std::filesystem::absolute(output).parent_path();
-  if (!std::filesystem::is_directory(folder))
-    return failure(ExitCode::kWrongUsage, fmt::format("{}: cannot be written: there is no folder {}",
-                                                      output.string(), folder.string()));
+  const auto checked =
+      check_outputs({output.string(), truth_json_path(output).string(), truth_tum_path(output).string()}, {});
+  if (!checked) return tl::unexpected(checked.error());
   const Progress progress;
   auto simulation = simulate(options, progress.job());
   if (!simulation) return simulation;

@@ -61,6 +61,8 @@ Result<ui::Ui::Options> ui_options(const ViewOptions& options) {
     out.explorer.shell_options +=
         *options.reading.stamps == StampSource::kHeader ? " --stamps header" : " --stamps receive";
   if (options.reading.assume) out.explorer.shell_options += " --assume " + *options.reading.assume;
+  if (options.reading.rig) out.explorer.input_files.push_back(*options.reading.rig);
+  if (!options.script.empty()) out.explorer.input_files.emplace_back(options.script);
   if (options.scale > 0) out.display_scale = options.scale;
   return out;
 }

@@ -1,9 +1,13 @@
 #include "core/io/atomic_file.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/random.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 #include <fstream>
 #include <system_error>
@@ -14,52 +18,85 @@ namespace sweepscope {
 
 namespace {
 
-constexpr std::string_view kBeside = ".part";
+namespace fs = std::filesystem;
 
-// Where the bytes go first: beside the file that links lead to. What is there and no regular file, such as
-// /dev/stdout or a named pipe, cannot be replaced: it is written as the bytes come.
-std::filesystem::path first_path(const std::filesystem::path& path) {
+Error cannot_be(std::string_view done, const fs::path& path, std::string_view reason) {
+  return {ExitCode::kWrongUsage, fmt::format("{}: cannot be {}: {}", path.string(), done, reason)};
+}
+
+tl::unexpected<Error> failed_to(std::string_view done, const fs::path& path) {
+  return tl::unexpected(cannot_be(done, path, std::strerror(errno)));
+}
+
+/// Where the bytes go in the end.
+struct Target {
+  fs::path path;          // with symbolic links followed, also to a file that does not exist yet
+  bool in_place = false;  // it exists and cannot be replaced: a pipe or a character device
+};
+
+Result<Target> target_of(const fs::path& path) {
   std::error_code error;
-  const auto target = std::filesystem::canonical(path, error);
-  if (error) return path.string().append(kBeside);
-  if (!std::filesystem::is_regular_file(target, error)) return target;
-  return target.string().append(kBeside);
+  const fs::file_status status = fs::status(path, error);
+  if (path.filename().empty() || fs::is_directory(status))
+    return tl::unexpected(cannot_be("written", path, "it is a folder"));
+  if (fs::is_block_file(status)) return tl::unexpected(cannot_be("written", path, "it is a block device"));
+  if (fs::exists(status) && !fs::is_regular_file(status)) return Target{path, true};
+  return behind_links(path).map([](fs::path&& target) { return Target{std::move(target), false}; });
 }
 
-// The regular file's own path; empty where it is written in place.
-std::filesystem::path target_of(const std::filesystem::path& part) {
-  const std::string path = part.string();
-  return path.ends_with(kBeside) ? path.substr(0, path.size() - kBeside.size()) : std::string();
+fs::path folder_of(const fs::path& target) {
+  return target.has_parent_path() ? target.parent_path() : fs::path(".");
 }
 
-void discard(const std::filesystem::path& part) {
-  if (target_of(part).empty()) return;
+/// A new name beside the target, short enough for every file system.
+fs::path name_beside(const fs::path& target) {
+  constexpr std::size_t kMaxStem_bytes = 200;
+  std::uint32_t number = 0;
+  if (getrandom(&number, sizeof number, 0) != sizeof number) number = static_cast<std::uint32_t>(getpid());
+  const std::string stem = target.filename().string().substr(0, kMaxStem_bytes);
+  return folder_of(target) / fmt::format("{}.{:08x}.part", stem, number);
+}
+
+/// Gives the new file the permissions and, where that is allowed, the owner of the file that it replaces.
+void hand_on_permissions(const fs::path& replaced, int descriptor) {
+  struct stat status {};
+  if (stat(replaced.c_str(), &status) != 0) return;
+  if (fchown(descriptor, status.st_uid, status.st_gid) != 0) errno = 0;
+  if (fchmod(descriptor, status.st_mode & 0777) != 0) errno = 0;
+}
+
+/// A file that the caller may not write is not replaced, though its folder would allow it.
+bool is_protected(const fs::path& target) {
+  return access(target.c_str(), F_OK) == 0 && access(target.c_str(), W_OK) != 0;
+}
+
+struct Part {
+  fs::path path;
+  int descriptor = -1;  // -1: see errno
+};
+
+Part create_part(const fs::path& target) {
+  constexpr int kTries = 100;
+  if (is_protected(target)) return {};
+  for (int i = 0; i < kTries; ++i) {
+    const fs::path part = name_beside(target);
+    const int descriptor = create_unfinished(part);
+    if (descriptor >= 0) hand_on_permissions(target, descriptor);
+    if (descriptor >= 0 || errno != EEXIST) return {part, descriptor};
+  }
+  return {};
+}
+
+void discard(const fs::path& part) {
+  if (part.empty()) return;
   std::remove(part.c_str());
   forget_unfinished(part);
 }
 
-bool is_folder(const std::filesystem::path& path) {
-  std::error_code ignored;
-  return path.filename().empty() || std::filesystem::is_directory(path, ignored);
-}
-
-tl::unexpected<Error> refused_folder(const std::filesystem::path& path) {
-  return failure(ExitCode::kWrongUsage, fmt::format("{}: cannot be written: it is a folder", path.string()));
-}
-
-tl::unexpected<Error> failed_to(std::string_view done, const std::filesystem::path& path) {
-  const int reason = errno;
-  return failure(ExitCode::kWrongUsage,
-                 fmt::format("{}: cannot be {}: {}", path.string(), done, std::strerror(reason)));
-}
-
 }  // namespace
 
-AtomicFile::AtomicFile(const std::filesystem::path& path) : path_(path), part_path_(first_path(path)) {
-  if (!target_of(part_path_).empty()) remember_unfinished(part_path_);
-  file_.reset(std::fopen(part_path_.c_str(), "wb"));
-  if (!file_) forget_unfinished(part_path_);
-}
+AtomicFile::AtomicFile(fs::path path, fs::path target, fs::path part, std::FILE* file)
+    : path_(std::move(path)), target_(std::move(target)), part_path_(std::move(part)), file_(file) {}
 
 AtomicFile::~AtomicFile() {
   if (!file_) return;
@@ -67,11 +104,13 @@ AtomicFile::~AtomicFile() {
   discard(part_path_);
 }
 
-Result<AtomicFile> AtomicFile::create(const std::filesystem::path& path) {
-  if (is_folder(path)) return refused_folder(path);
-  AtomicFile file(path);
-  if (!file.file_) return failed_to("created", path);
-  return file;
+Result<AtomicFile> AtomicFile::create(const fs::path& path) {
+  const auto target = target_of(path);
+  if (!target) return tl::unexpected(target.error());
+  const Part part = target->in_place ? Part{{}, open(target->path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY)}
+                                     : create_part(target->path);
+  if (part.descriptor < 0) return failed_to("created", path);
+  return AtomicFile(path, target->path, part.path, fdopen(part.descriptor, "wb"));
 }
 
 Result<void> AtomicFile::write(std::string_view bytes) {
@@ -80,45 +119,64 @@ Result<void> AtomicFile::write(std::string_view bytes) {
   return {};
 }
 
-Result<void> AtomicFile::commit() {
-  const std::filesystem::path target = target_of(part_path_);
+Error AtomicFile::error(std::string_view reason) const {
+  return cannot_be("written", path_, reason);
+}
+
+Result<void> AtomicFile::flush() {
   if (std::fflush(file_.get()) != 0) return failed_to("written", path_);
   // Some file systems say only now that they are full.
-  if (!target.empty() && fsync(fileno(file_.get())) != 0) return failed_to("written", path_);
+  if (!part_path_.empty() && fsync(fileno(file_.get())) != 0) return failed_to("written", path_);
+  return {};
+}
+
+Result<void> AtomicFile::commit() {
+  if (auto flushed = flush(); !flushed) return flushed;
   if (std::fclose(file_.release()) != 0 ||
-      (!target.empty() && std::rename(part_path_.c_str(), target.c_str()) != 0)) {
+      (!part_path_.empty() && std::rename(part_path_.c_str(), target_.c_str()) != 0)) {
     auto error = failed_to("written", path_);
     discard(part_path_);
     return error;
   }
-  forget_unfinished(part_path_);
+  if (!part_path_.empty()) forget_unfinished(part_path_);
   return {};
 }
 
-Result<void> check_writable(const std::filesystem::path& path) {
-  if (is_folder(path)) return refused_folder(path);
-  const std::filesystem::path part = first_path(path);
-  if (target_of(part).empty()) return {};
-  const std::filesystem::path folder = part.has_parent_path() ? part.parent_path() : ".";
-  if (access(folder.c_str(), W_OK | X_OK) != 0) return failed_to("created", path);
+Result<fs::path> behind_links(const fs::path& path) {
+  constexpr int kMaxLinks = 40;  // as the kernel
+  std::error_code ignored;
+  fs::path target = path;
+  for (int links = 0; fs::is_symlink(target, ignored); ++links) {
+    if (links == kMaxLinks) return tl::unexpected(cannot_be("created", path, std::strerror(ELOOP)));
+    target = target.parent_path() / fs::read_symlink(target, ignored);
+  }
+  return target;
+}
+
+Result<void> check_writable(const fs::path& path) {
+  const auto target = target_of(path);
+  if (!target) return tl::unexpected(target.error());
+  if (target->in_place) return {};
+  if (access(folder_of(target->path).c_str(), W_OK | X_OK) != 0 || is_protected(target->path))
+    return failed_to("created", path);
   return {};
 }
 
-Result<void> write_file(const std::filesystem::path& path, std::string_view bytes) {
+Result<void> write_file(const fs::path& path, std::string_view bytes) {
   return AtomicFile::create(path).and_then([&](AtomicFile&& file) -> Result<void> {
     if (auto written = file.write(bytes); !written) return written;
     return file.commit();
   });
 }
 
-Result<std::string> read_file(const std::filesystem::path& path) {
+Result<std::string> read_file(const fs::path& path) {
   std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) return unreadable(fmt::format("{}: no such file", path.string()));
-  if (!std::filesystem::is_regular_file(status)) {
+  const auto status = fs::status(path, error);
+  if (!fs::exists(status)) return unreadable(fmt::format("{}: no such file", path.string()));
+  if (!fs::is_regular_file(status)) {
     return unreadable(fmt::format("{}: not a regular file", path.string()));
   }
-  const auto size = std::filesystem::file_size(path, error);
+  const auto size = fs::file_size(path, error);
   std::ifstream stream(path, std::ios::binary);
   if (error || !stream) {
     return unreadable(fmt::format("{}: cannot be opened: {}", path.string(), std::strerror(errno)));

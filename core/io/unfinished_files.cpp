@@ -1,5 +1,7 @@
 #include "core/io/unfinished_files.hpp"
 
+#include <fcntl.h>
+
 #include <cstdio>
 #include <mutex>
 #include <set>
@@ -20,6 +22,13 @@ Unfinished& unfinished() {
 
 }  // namespace
 
+int create_unfinished(const std::filesystem::path& path) {
+  const std::lock_guard lock(unfinished().mutex);
+  const int descriptor = open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (descriptor >= 0) unfinished().paths.insert(path);
+  return descriptor;
+}
+
 void remember_unfinished(const std::filesystem::path& path) {
   const std::lock_guard lock(unfinished().mutex);
   unfinished().paths.insert(path);
@@ -32,7 +41,7 @@ void forget_unfinished(const std::filesystem::path& path) {
 }
 
 void remove_unfinished_files() {
-  const std::lock_guard lock(unfinished().mutex);
+  unfinished().mutex.lock();
   for (const auto& path : unfinished().paths) std::remove(path.c_str());
 }
 

@@ -157,6 +157,8 @@ Result<void> write_csv_recording(const RawLaser& laser, const RawJoint& joint,
   if (!motor) return tl::unexpected(motor.error());
   return write_scans(laser, *scans, job)
       .and_then([&] { return write_motor(joint, *motor); })
+      .and_then([&] { return scans->flush(); })
+      .and_then([&] { return motor->flush(); })
       .and_then([&] { return scans->commit(); })
       .and_then([&] { return motor->commit(); });
 }

@@ -27,6 +27,11 @@ bool can_compress(RecordingFormat format, std::string_view compression) {
   return format == RecordingFormat::kMcap && (compression == "lz4" || compression == "zstd");
 }
 
+std::vector<std::string> written_files(const std::filesystem::path& output, RecordingFormat format) {
+  if (format != RecordingFormat::kCsv) return {output.string()};
+  return {(output / kScansCsv).string(), (output / kMotorCsv).string()};
+}
+
 Result<void> write_recording(const RawLaser& laser, const RawJoint& joint, RecordingFormat format,
                              const std::string& compression, const std::filesystem::path& output,
                              const Job& job) {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/job.hpp"
@@ -22,6 +23,9 @@ std::optional<RecordingFormat> recording_format_of(const std::filesystem::path& 
 /// Whether chunks of that format can be compressed so: "none"; "bz2" and "lz4" for ROS 1; "lz4" and "zstd"
 /// for MCAP.
 bool can_compress(RecordingFormat format, std::string_view compression);
+
+/// The files that `write_recording` writes: the output, or the tables in its folder.
+std::vector<std::string> written_files(const std::filesystem::path& output, RecordingFormat format);
 
 /// Writes a laser and a motor's joint as they were read: both stamps, ranges before any is judged, positions
 /// before the rig's scale and zero, the names of topics and joint. All formats read back as the same

@@ -189,6 +189,13 @@ bool is_ros2_folder(const fs::path& folder) {
   return fs::exists(folder / kMetadata, ignored) || !found_files(folder).empty();
 }
 
+std::vector<fs::path> ros2_files(const fs::path& folder) {
+  std::vector<fs::path> files = found_files(folder);
+  files.push_back(folder / kMetadata);
+  if (const auto named = named_files(folder)) files.insert(files.end(), named->begin(), named->end());
+  return files;
+}
+
 Result<RawRecording> read_ros2_folder(const fs::path& folder, const Rig& rig, const Job& job,
                                       CloudDetail clouds) {
   std::error_code ignored;

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string_view>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/job.hpp"
@@ -23,6 +24,10 @@ Result<RawRecording> read_ros2_file(const std::filesystem::path& path, const Rig
 
 /// True where the folder is a ROS 2 bag's: it has a metadata.yaml, or files that are stored as one.
 bool is_ros2_folder(const std::filesystem::path& folder);
+
+/// The files of a bag's folder, whether they can be read or not: metadata.yaml, those that it names, and all
+/// that are stored as a bag's are.
+std::vector<std::filesystem::path> ros2_files(const std::filesystem::path& folder);
 
 /// A bag's folder: the files that its metadata.yaml names, in that order; without one, all that are bags, by
 /// name. What is compressed by another format than zstd is refused.

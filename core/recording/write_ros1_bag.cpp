@@ -9,12 +9,15 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 #include <limits>
 #include <memory>
 #include <stdexcept>
-#include <system_error>
+#include <string_view>
+#include <vector>
 
-#include "core/io/unfinished_files.hpp"
+#include "core/io/atomic_file.hpp"
+#include "core/io/temporary_file.hpp"
 #include "core/recording/ros_allocator.hpp"
 #include "core/recording/write_order.hpp"
 
@@ -95,11 +98,40 @@ rosbag::CompressionType compression_of(const std::string& name) {
   return rosbag::compression::Uncompressed;
 }
 
+/// A bag being written. rosbag's destructor writes what is left, and ends the program where that fails, as on
+/// a full disk: a bag whose `close` did not succeed is never destroyed.
+class BagFile {
+ public:
+  BagFile() = default;
+  BagFile(const BagFile&) = delete;
+  BagFile& operator=(const BagFile&) = delete;
+  ~BagFile() {
+    static auto* const never_destroyed = new std::vector<std::unique_ptr<rosbag::Bag>>;
+    if (bag_) never_destroyed->push_back(std::move(bag_));
+  }
+
+  void open(const std::filesystem::path& path, const std::string& compression) {
+    bag_->open(path.string(), rosbag::bagmode::Write);
+    bag_->setCompression(compression_of(compression));
+  }
+  template <typename Message>
+  void write(const std::string& topic, ros::Time received, const Message& message) {
+    bag_->write(topic, received, message);
+  }
+  void close() {
+    bag_->close();
+    bag_.reset();
+  }
+
+ private:
+  std::unique_ptr<rosbag::Bag> bag_ = std::make_unique<rosbag::Bag>();
+};
+
 /// False where the job was cancelled. Throws what rosbag throws.
 bool write_messages(const RawLaser& laser, const RawJoint& joint, const std::filesystem::path& path,
                     const std::string& compression, const Job& job) {
-  rosbag::Bag bag(path.string(), rosbag::bagmode::Write);
-  bag.setCompression(compression_of(compression));
+  BagFile bag;
+  bag.open(path, compression);
   const std::vector<WrittenMessage> all = write_order(laser, joint);
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (job.cancelled()) return false;
@@ -116,28 +148,48 @@ bool write_messages(const RawLaser& laser, const RawJoint& joint, const std::fil
   return true;
 }
 
+/// The messages as a bag at `path`; `output` is named in errors.
+Result<void> write_messages_into(const std::filesystem::path& path, const AtomicFile& output,
+                                 const RawLaser& laser, const RawJoint& joint, const std::string& compression,
+                                 const Job& job) {
+  errno = 0;
+  try {
+    if (write_messages(laser, joint, path, compression, job)) return {};
+    return failure(ExitCode::kInterrupted, "interrupted");
+  } catch (const std::exception& error) {
+    // rosbag says less than the system.
+    return tl::unexpected(output.error(errno != 0 ? std::strerror(errno) : error.what()));
+  }
+}
+
+Result<void> copy_into(AtomicFile& output, const std::filesystem::path& path, const Job& job) {
+  constexpr std::size_t kBlock_bytes = std::size_t{1} << 20;
+  std::string block(kBlock_bytes, '\0');
+  std::ifstream input(path, std::ios::binary);
+  while (input.read(block.data(), static_cast<std::streamsize>(block.size())), input.gcount() > 0) {
+    if (job.cancelled()) return failure(ExitCode::kInterrupted, "interrupted");
+    const auto got = static_cast<std::size_t>(input.gcount());
+    if (auto written = output.write(std::string_view(block).substr(0, got)); !written) return written;
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<void> write_ros1_bag(const RawLaser& laser, const RawJoint& joint, const std::filesystem::path& path,
                             const std::string& compression, const Job& job) {
-  const std::filesystem::path part = path.string() + ".part";
-  remember_unfinished(part);
-  bool finished = false;
-  std::string why;
-  errno = 0;
-  try {
-    finished = write_messages(laser, joint, part, compression, job);
-    if (finished) std::filesystem::rename(part, path);
-  } catch (const std::exception& error) {
-    why = errno != 0 ? std::strerror(errno) : error.what();  // rosbag says less than the system
-  }
-  std::error_code ignored;
-  if (!finished || !why.empty()) std::filesystem::remove(part, ignored);
-  forget_unfinished(part);
-  if (!why.empty())
-    return failure(ExitCode::kWrongUsage, fmt::format("{}: cannot be written: {}", path.string(), why));
-  if (!finished) return failure(ExitCode::kInterrupted, "interrupted");
-  return {};
+  auto output = AtomicFile::create(path);
+  if (!output) return tl::unexpected(output.error());
+  if (!output->part_path().empty())
+    return write_messages_into(output->part_path(), *output, laser, joint, compression, job).and_then([&] {
+      return output->commit();
+    });
+  // rosbag goes back to the beginning of its file, which a pipe or a device does not allow.
+  const auto whole = TemporaryFile::create();
+  if (!whole) return tl::unexpected(whole.error());
+  return write_messages_into(whole->path(), *output, laser, joint, compression, job)
+      .and_then([&] { return copy_into(*output, whole->path(), job); })
+      .and_then([&] { return output->commit(); });
 }
 
 }  // namespace sweepscope

@@ -3,12 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <system_error>
 
+#include "core/io/output_check.hpp"
 #include "core/io/table.hpp"
 #include "core/loam/features.hpp"
 #include "core/map/cross_section.hpp"
+#include "core/recording/recording_files.hpp"
 #include "render/curve_charts.hpp"
 #include "render/figures/figure_data.hpp"
 #include "render/figures/figure_pictures.hpp"
@@ -176,6 +179,31 @@ std::string extension_of(PictureFormat format) {
   return format == PictureFormat::kSvg ? ".svg" : format == PictureFormat::kPdf ? ".pdf" : ".png";
 }
 
+constexpr std::array kTableExtensions{".csv", ".md", ".tex"};
+
+std::vector<std::filesystem::path> input_files(const Recipe& recipe) {
+  std::vector<std::filesystem::path> files{recipe.path};
+  for (const auto& [name, recording] : recipe.recordings) {
+    const auto* file = std::get_if<RecordedFile>(&recording.source);
+    if (file == nullptr) continue;
+    for (const auto& path : recording_files(file->path)) files.push_back(path);
+    if (file->rig) files.push_back(*file->rig);
+  }
+  for (const auto& [name, estimate] : recipe.estimates)
+    if (!estimate.file.empty()) files.push_back(estimate.file);
+  return files;
+}
+
+std::vector<std::filesystem::path> output_files(const Recipe& recipe, const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  for (const FigureSpec& figure : recipe.figures)
+    for (const PictureFormat format : figure.formats)
+      files.push_back(folder / (figure.name + extension_of(format)));
+  for (const TableSpec& table : recipe.tables)
+    for (const char* extension : kTableExtensions) files.push_back(folder / (table.name + extension));
+  return files;
+}
+
 using Said = std::function<void(const std::string&)>;
 
 class FigureMaker {
@@ -229,7 +257,7 @@ class FigureMaker {
   Result<void> write(const TableSpec& spec) {
     const auto table = figure_table(spec, recipe_, data_);
     if (!table) return tl::unexpected(table.error());
-    for (const char* extension : {".csv", ".md", ".tex"}) {
+    for (const char* extension : kTableExtensions) {
       const auto path = folder_ / (spec.name + extension);
       if (auto written = write_table(path, *table); !written) return written;
       keep(path, spec.title);
@@ -256,6 +284,8 @@ class FigureMaker {
 Result<std::vector<std::filesystem::path>> make_figures(const Recipe& recipe,
                                                         const std::filesystem::path& folder, Canvas& canvas,
                                                         const Job& job, const Said& said) {
+  const auto checked = check_run_files({input_files(recipe), output_files(recipe, folder), folder});
+  if (!checked) return tl::unexpected(checked.error());
   std::error_code error;
   std::filesystem::create_directories(folder / "cache", error);
   if (error) {

@@ -91,6 +91,10 @@ Result<void> make_report_folder(const std::filesystem::path& folder) {
                  fmt::format("{}: cannot be made: {}", folder.string(), error.message()));
 }
 
+std::vector<std::filesystem::path> report_files(const std::filesystem::path& folder) {
+  return {folder / "report.html", folder / "estimate.json"};
+}
+
 Result<void> write_report(const ReportContent& content, const std::filesystem::path& folder) {
   return make_report_folder(folder)
       .and_then([&] { return report_html(content); })

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "core/job.hpp"
 #include "core/offset/estimator.hpp"
@@ -18,6 +19,9 @@ Result<ReportContent> gather_report(const Recording& recording, std::optional<Me
 
 /// Makes the folder that a report goes to, where it is not there.
 Result<void> make_report_folder(const std::filesystem::path& folder);
+
+/// The files that `write_report` writes.
+std::vector<std::filesystem::path> report_files(const std::filesystem::path& folder);
 
 /// Writes report.html and estimate.json into a folder, which is made where it is not there.
 Result<void> write_report(const ReportContent& content, const std::filesystem::path& folder);

@@ -32,7 +32,7 @@ EstimateOptions estimate_options(const Settings& settings, std::optional<Method>
 
 }  // namespace
 
-Explorer::Explorer(Options options) : options_(std::move(options)) {}
+Explorer::Explorer(Options options) : options_(std::move(options)), input_files_(options_.input_files) {}
 
 Result<void> Explorer::perform(std::string_view line, const std::string& gesture) {
   const auto call = parse_call(line);
@@ -98,6 +98,7 @@ Result<void> Explorer::act(const Call& call) {
        }},
       {"export-curve", [](Explorer& self, const Call& c) { return self.export_curve(c.text(0)); }},
       {"export-report", [](Explorer& self, const Call& c) { return self.export_report(c.text(0)); }}};
+  if (auto checked = check_outputs_of(call); !checked) return checked;
   const auto action = kActions.find(call.command->name);
   if (action != kActions.end()) return action->second(*this, call);
   return at_window ? at_window(call) : not_now(fmt::format("\"{}\" wants a window", call.command->name));

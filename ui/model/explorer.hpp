@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <optional>
@@ -63,6 +64,7 @@ class Explorer {
     ReadOptions reading;
     std::optional<Method> assume;
     std::string shell_options;  // " --rig F ...", repeated in command lines that are copied
+    std::vector<std::filesystem::path> input_files;  // read before anything is opened: rig file, scripts
   };
   Explorer() : Explorer(Options()) {}
   explicit Explorer(Options options);
@@ -95,6 +97,9 @@ class Explorer {
   /// While one is held, offsets are previewed and nothing is solved.
   void hold_handle(bool held) { handle_held_ = held; }
 
+  /// Whether these files may be written: none of them is one that was opened (see check_run_files).
+  Result<void> check_outputs(std::vector<std::filesystem::path> outputs) const;
+
   /// Writes a file beside the interface, which says when it is there.
   void start_export(const std::string& title, std::function<Result<void>(const Job&)> write,
                     const std::string& done);
@@ -126,6 +131,7 @@ class Explorer {
 
  private:
   Result<void> act(const Call& call);
+  Result<void> check_outputs_of(const Call& call) const;
   void open(const std::string& path, const std::string& poses);
   Result<void> open_json(const std::string& path);
   Result<void> open_session(const std::string& text, const std::string& path);
@@ -187,7 +193,9 @@ class Explorer {
   bool view_fitted_ = false;
   double pane_aspect_ = 1;
   std::optional<Error> export_failure_;
-  std::optional<Settings> session_settings_;  // to take over once the recording is there
+  std::vector<std::filesystem::path> input_files_;  // that were opened, or named before
+  std::filesystem::path session_file_;              // opened or saved last: saving it again is no harm
+  std::optional<Settings> session_settings_;        // to take over once the recording is there
   std::optional<Estimate> session_estimate_;
   Background background_;  // last: its threads end before what they use
 };

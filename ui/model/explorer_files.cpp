@@ -6,6 +6,8 @@
 #include "core/io/atomic_file.hpp"
 #include "core/io/cloud_file.hpp"
 #include "core/io/estimate_json.hpp"
+#include "core/io/output_check.hpp"
+#include "core/recording/recording_files.hpp"
 #include "render/report/gather_report.hpp"
 #include "ui/model/explorer.hpp"
 #include "ui/state/session.hpp"
@@ -57,12 +59,15 @@ void Explorer::open(const std::string& path, const std::string& poses) {
 }
 
 void Explorer::load(const std::string& path, const std::string& poses) {
+  for (const auto& file : recording_files(path)) input_files_.push_back(file);
+  if (!poses.empty()) input_files_.emplace_back(poses);
   start_loading("Reading " + path, [=, reading = options_.reading](const Job& job) {
     return load_file(path, poses, reading, job);
   });
 }
 
 Result<void> Explorer::open_json(const std::string& path) {
+  input_files_.emplace_back(path);
   const auto text = read_file(path);
   if (!text) return tl::unexpected(text.error());
   const auto json = nlohmann::json::parse(*text, nullptr, false);
@@ -97,6 +102,7 @@ Result<void> Explorer::open_session(const std::string& text, const std::string& 
     return done;
   session_settings_ = session->settings;
   session_estimate_ = session->estimate;
+  session_file_ = path;
   return {};
 }
 
@@ -176,8 +182,27 @@ std::string Explorer::session_json() const {
   return session_to_json({loaded_ ? loaded_->source : "", settings_, estimate_});
 }
 
+Result<void> Explorer::check_outputs(std::vector<std::filesystem::path> outputs) const {
+  return check_run_files({input_files_, std::move(outputs), {}});
+}
+
+Result<void> Explorer::check_outputs_of(const Call& call) const {
+  const std::string& name = call.command->name;
+  if (name == "export-report") {
+    const std::filesystem::path folder = call.text(0);
+    return check_run_files({input_files_, report_files(folder), folder});
+  }
+  std::error_code ignored;
+  const bool saves = name == "save-session";
+  if (saves && std::filesystem::equivalent(call.text(0), session_file_, ignored)) return {};
+  if (saves || name == "export-curve" || name == "export-picture") return check_outputs({call.text(0)});
+  if (name == "export-cloud") return check_outputs({call.text(1)});
+  return {};
+}
+
 Result<void> Explorer::save_session(const std::string& path) {
   auto written = write_file(path, session_json());
+  if (written) session_file_ = path;
   if (written) say(Message::Kind::kNote, fmt::format("The session is saved in {}.", path));
   return written;
 }

@@ -319,7 +319,10 @@ class Runner {
     return ui_.screenshot();
   }
 
-  Result<void> screenshot(Words& words) { return write_png(picture(), words.take()); }
+  Result<void> screenshot(Words& words) {
+    const std::string path = words.take();
+    return ui_.explorer().check_outputs({path}).and_then([&] { return write_png(picture(), path); });
+  }
 
   Result<void> expect(Words& words) {
     const std::string name = words.take();
