@@ -121,7 +121,9 @@ int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);
   try {
     app::interrupt_flag();
-    const auto threads = app::limit_threads();
+    // To the end: TBB would start threads once nothing limits it.
+    static const auto* const threads = app::limit_threads().release();
+    (void)threads;
     remove_abandoned_temporary_files();
     return with_output_written(run(argc, argv));
   } catch (const std::system_error& error) {

@@ -87,9 +87,10 @@ Result<std::unique_ptr<Canvas>> make_canvas(Backend backend) {
   }
   if (backend == Backend::kNull) return std::make_unique<NullCanvas>();
   constexpr int kWidth_px = 960, kHeight_px = 600;
-  return gl::make_window(kWidth_px, kHeight_px, "sweepscope").map([](std::unique_ptr<gl::Window>&& window) {
-    return std::unique_ptr<Canvas>(std::make_unique<WindowCanvas>(std::move(window)));
-  });
+  auto window = gl::make_window(kWidth_px, kHeight_px, "sweepscope");
+  if (!window)
+    return failure(window.error().code, window.error().message + ". Without a display: --draw-in offscreen.");
+  return std::make_unique<WindowCanvas>(std::move(*window));
 }
 
 }  // namespace sweepscope

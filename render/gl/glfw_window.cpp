@@ -122,10 +122,7 @@ class GlfwWindow final : public Window {
 
 Result<std::unique_ptr<Window>> make_window(int width_px, int height_px, const std::string& title) {
   if (glfwInit() == 0)
-    return failure(ExitCode::kWrongUsage,
-                   fmt::format("No window can be opened: {}. Set DISPLAY, or draw without a display: view "
-                               "--headless, --draw-in offscreen",
-                               last_error()));
+    return failure(ExitCode::kWrongUsage, fmt::format("No window can be opened: {}", last_error()));
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
@@ -136,9 +133,8 @@ Result<std::unique_ptr<Window>> make_window(int width_px, int height_px, const s
     const std::string why = last_error();
     glfwTerminate();
     return failure(ExitCode::kWrongUsage,
-                   fmt::format("No window with OpenGL 3.3 can be opened: {}. Install an OpenGL driver "
-                               "(Debian's package libgl1-mesa-dri), or draw without a display: view "
-                               "--headless, --draw-in offscreen",
+                   fmt::format("No window with OpenGL 3.3 can be opened: {}; install a driver that has it "
+                               "(Debian's package libgl1-mesa-dri)",
                                why));
   }
   return std::make_unique<GlfwWindow>(window);

@@ -22,7 +22,7 @@ std::string base64(std::string_view bytes) {
 
 std::string escape(std::string_view text) {
   std::string out;
-  for (const char c : printable_text(text)) {
+  for (const char c : printable_line(text)) {
     if (c == '&') {
       out += "&amp;";
     } else if (c == '<') {

@@ -105,7 +105,7 @@ TEST_F(TemporaryFiles, NothingElseIsRemoved) {
   fs::create_hard_link(outside, folder_ / (name + "second"));
   fs::create_directory(folder_ / (name + "folder"));
   ASSERT_EQ(mkfifo((folder_ / (name + "a-pipe")).c_str(), 0600), 0);
-  for (const std::string other : {name + "longer1", name + "short", name + "public"}) {
+  for (const std::string& other : {name + "longer1", name + "short", name + "public"}) {
     std::ofstream(folder_ / other) << "another's";
     chmod((folder_ / other).c_str(), other.ends_with("public") ? 0644 : 0600);
   }

@@ -198,7 +198,8 @@ TEST_F(DamagedMcap, AWrongLengthInAFileThatIsNotCutShortIsCalledThat) {
     const std::string bytes = sound + record + RawMcap::end();
     expect_warning(bytes, "the length of the record at byte " + std::to_string(sound.size()) +
                               " is damaged: it claims 1048576 bytes");
-    for (const std::string& warning : read(bytes)->report.warnings)
+    const auto recording = read(bytes);
+    for (const std::string& warning : recording->report.warnings)
       EXPECT_EQ(warning.find("it is cut short"), std::string::npos) << warning;
   }
 }
