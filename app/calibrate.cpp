@@ -68,8 +68,8 @@ void tell_running(const Progress& progress, const HeardSoFar& heard, const Resul
                            : answer->offset_s ? fmt::format("{:.3f} ms +- {:.3f} ms", *answer->offset_s * 1e3,
                                                             answer->sigma_s.value_or(0) * 1e3)
                                               : answer->reasons.front();
-  progress.say(printable(fmt::format("{:5.1f} s, {} scans, {} samples of the motor: {}", heard.seconds,
-                                     heard.scans, heard.motor_samples, what.substr(0, what.find('\n')))));
+  progress.say(fmt::format("{:5.1f} s, {} scans, {} samples of the motor: {}", heard.seconds, heard.scans,
+                           heard.motor_samples, what.substr(0, what.find('\n'))));
 }
 
 std::string words_of(ListeningEnd end, const HeardSoFar& heard, const CalibrationOptions& options) {

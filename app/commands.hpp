@@ -1,8 +1,6 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <string>
-#include <vector>
 
 #include "core/error.hpp"
 
@@ -20,8 +18,7 @@ void add_merge(CLI::App& app, ExitCode& exit_code);
 void add_map(CLI::App& app, ExitCode& exit_code);
 void add_compare(CLI::App& app, ExitCode& exit_code);
 void add_figures(CLI::App& app, ExitCode& exit_code);
-/// `words`: the command line without the program's name, which the report quotes.
-void add_report(CLI::App& app, ExitCode& exit_code, const std::vector<std::string>& words);
+void add_report(CLI::App& app, ExitCode& exit_code);
 void add_view(CLI::App& app, ExitCode& exit_code);
 
 }  // namespace sweepscope::app

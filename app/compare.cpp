@@ -123,6 +123,7 @@ Result<Compared> from_recording(const CompareOptions& options, bool by_features)
     if (!extracted) return tl::unexpected(extracted.error());
     features = std::move(*extracted);
   }
+  if (!built->front().warning.empty()) progress.say("warning: " + built->front().warning);
   Compared compared;
   for (OffsetMap& map : *built) {
     ComparedMap& next = compared.maps.emplace_back();
@@ -173,6 +174,8 @@ Result<void> compare(const CompareOptions& options) {
         return check_files(options);
       });
   if (!writable) return tl::unexpected(writable.error());
+  const auto canvas = backend(options.draw_in).and_then(make_canvas);
+  if (!canvas) return tl::unexpected(canvas.error());
   std::optional<Estimate> given;
   if (!options.curve.empty()) {
     auto read = read_estimate_json(options.curve);
@@ -183,8 +186,6 @@ Result<void> compare(const CompareOptions& options) {
   if (!compared) return tl::unexpected(compared.error());
   if (given) compared->estimate = std::move(given);
   const Estimate* curve = compared->estimate ? &*compared->estimate : nullptr;
-  const auto canvas = backend(options.draw_in).and_then(make_canvas);
-  if (!canvas) return tl::unexpected(canvas.error());
   return comparison_picture(compared->maps, curve, *picture)
       .and_then([&](const Picture& drawn) {
         return write_picture(options.output, drawn, comparison_texts(compared->maps, *picture), **canvas);

@@ -5,6 +5,7 @@
 #include "app/commands.hpp"
 #include "app/progress.hpp"
 #include "app/recording_options.hpp"
+#include "app/say.hpp"
 #include "core/recording/choose_streams.hpp"
 #include "core/recording/read_raw_recording.hpp"
 #include "core/recording/recording_files.hpp"
@@ -59,8 +60,8 @@ Result<std::string> convert(const Options& options) {
       write_recording(scans, motor, *format, options.compression, options.output, progress.job());
   if (!written) return tl::unexpected(written.error());
   for (const std::string& warning : raw->warnings)
-    progress.say(printable(fmt::format("warning: {}: {}", raw->name, warning)));
-  return fmt::format("{}: {} {} of {} and {} samples of {} on {}\n", options.output.string(),
+    progress.say(fmt::format("warning: {}: {}", raw->name, warning));
+  return fmt::format("{}: {} {} of {} and {} samples of {} on {}", options.output.string(),
                      scans.of_clouds ? scans.clouds.size() : scans.scans.size(),
                      scans.of_clouds ? "clouds" : "scans", scans.topic, motor.stamps.size(), motor.joint,
                      motor.topic);
@@ -69,7 +70,7 @@ Result<std::string> convert(const Options& options) {
 ExitCode run(const Options& options) {
   const auto said = convert(options);
   if (!said) return fail(said.error());
-  fmt::print("{}", printable(*said));
+  print("{}\n", *said);
   return ExitCode::kDone;
 }
 

@@ -9,6 +9,7 @@
 #include "app/estimate_options.hpp"
 #include "app/offset_texts.hpp"
 #include "app/progress.hpp"
+#include "app/say.hpp"
 
 namespace sweepscope::app {
 namespace {
@@ -48,11 +49,10 @@ Result<std::unique_ptr<CandidateFile>> open_candidates(const Options& options, c
 
 ExitCode say_shard(const Options& options, const Estimate& estimate, const CandidateFile& candidates,
                    const std::string& path) {
-  for (const std::string& reason : estimate.reasons) fmt::print("nothing to compute: {}\n", reason);
-  fmt::print(
-      "{}: {} candidates, {} of them computed now; shard {} of {}, put together by `sweepscope merge`\n",
-      path, candidates.held(), candidates.held() - candidates.taken_up(), options.shard->number,
-      options.shard->count);
+  for (const std::string& reason : estimate.reasons) print("nothing to compute: {}\n", reason);
+  print("{}: {} candidates, {} of them computed now; shard {} of {}, put together by `sweepscope merge`\n",
+        path, candidates.held(), candidates.held() - candidates.taken_up(), options.shard->number,
+        options.shard->count);
   return ExitCode::kDone;
 }
 

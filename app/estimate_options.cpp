@@ -28,15 +28,15 @@ void print_answer(const Estimate& estimate) {
   if (estimate.identifiable) {
     const std::string sigma =
         estimate.sigma_s ? fmt::format(" +- {:.3f} ms (1 sigma)", *estimate.sigma_s * 1e3) : "";
-    fmt::print("offset   {:.3f} ms{}      t_motor = t_laser + offset\n", *estimate.offset_s * 1e3, sigma);
+    print("offset   {:.3f} ms{}      t_motor = t_laser + offset\n", *estimate.offset_s * 1e3, sigma);
   } else {
-    fmt::print("offset   cannot be determined from this recording\n");
-    for (const std::string& reason : estimate.reasons) fmt::print("  why: {}\n", reason);
+    print("offset   cannot be determined from this recording\n");
+    for (const std::string& reason : estimate.reasons) print("  why: {}\n", reason);
   }
-  fmt::print("method   {}, {} sweeps, {} scans, {} candidates\n", estimate.method, estimate.sweeps,
-             estimate.scans, estimate.curve.size());
-  if (!estimate.kind.empty()) fmt::print("kind     {}: {}\n", estimate.kind, estimate.kind_reason);
-  for (const CriterionOptimum& criterion : estimate.criteria) fmt::print("{}", criterion_line(criterion));
+  print("method   {}, {} sweeps, {} scans, {} candidates\n", estimate.method, estimate.sweeps, estimate.scans,
+        estimate.curve.size());
+  if (!estimate.kind.empty()) print("kind     {}: {}\n", estimate.kind, estimate.kind_reason);
+  for (const CriterionOptimum& criterion : estimate.criteria) print("{}", criterion_line(criterion));
   for (const std::string& warning : estimate.warnings) say("warning: {}\n", warning);
 }
 

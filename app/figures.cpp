@@ -1,7 +1,6 @@
 #include "render/figures/figures.hpp"
 
 #include <fmt/format.h>
-#include <tbb/global_control.h>
 
 #include <memory>
 #include <string>
@@ -9,6 +8,8 @@
 #include "app/commands.hpp"
 #include "app/progress.hpp"
 #include "app/recording_options.hpp"
+#include "app/say.hpp"
+#include "app/threads.hpp"
 #include "render/look_options.hpp"
 
 namespace sweepscope::app {
@@ -21,10 +22,7 @@ struct Options {
 
 ExitCode run(const Options& options) {
   std::unique_ptr<tbb::global_control> limit;
-  if (options.threads > 0) {
-    limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
-                                                  static_cast<std::size_t>(options.threads));
-  }
+  if (options.threads > 0) limit = limit_threads(static_cast<std::size_t>(options.threads));
   const auto recipe = read_recipe(options.recipe);
   if (!recipe) return fail(recipe.error());
   const Progress progress;
@@ -33,7 +31,7 @@ ExitCode run(const Options& options) {
   if (!canvas) return fail(canvas.error());
   const auto files = make_figures(*recipe, options.folder, **canvas, progress.job(), said);
   if (!files) return fail(files.error());
-  for (const auto& file : *files) fmt::print("{}\n", file.string());
+  for (const auto& file : *files) print("{}\n", file.string());
   return ExitCode::kDone;
 }
 

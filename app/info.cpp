@@ -7,6 +7,7 @@
 #include "app/progress.hpp"
 #include "app/recording_options.hpp"
 #include "app/say.hpp"
+#include "core/io/printable_text.hpp"
 #include "core/offset/motion_test.hpp"
 #include "core/recording/inspect.hpp"
 #include "core/recording/rig_names.hpp"
@@ -87,25 +88,24 @@ std::string as_json(const RecordingSummary& summary) {
                      {"laser", laser_json(summary.laser)}, {"motor", motor_json(summary.motor)},
                      {"motion", or_null(summary.motion)},  {"expectations", summary.expectations},
                      {"version", SWEEPSCOPE_VERSION}};
-  // Names come from the file, and need not be UTF-8.
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_text(json);
 }
 
 std::string row(std::string_view name, const std::string& value) {
-  return fmt::format("  {:<10} {}\n", name, value);
+  return fmt::format("  {:<10} {}\n", name, printable_line(value));
 }
 
 std::string topics_text(const RecordingSummary& summary) {
   std::size_t name_width = 0, type_width = 0;
   for (const RecordedTopic& topic : summary.topics) {
-    name_width = std::max(name_width, topic.name.size());
-    type_width = std::max(type_width, topic.type.size());
+    name_width = std::max(name_width, printable_line(topic.name).size());
+    type_width = std::max(type_width, printable_line(topic.type).size());
   }
   std::string text = "topics\n";
   for (const RecordedTopic& topic : summary.topics) {
     const bool laser = topic.name == summary.laser.topic, motor = topic.name == summary.motor.topic;
-    text += fmt::format("  {:<{}}  {:<{}}  {:>7}{}{}\n", topic.name, name_width, topic.type, type_width,
-                        topic.messages,
+    text += fmt::format("  {:<{}}  {:<{}}  {:>7}{}{}\n", printable_line(topic.name), name_width,
+                        printable_line(topic.type), type_width, topic.messages,
                         laser   ? "  the laser"
                         : motor ? "  the motor"
                                 : "",
@@ -169,11 +169,11 @@ std::string motor_text(const MotorSummary& motor) {
 }
 
 std::string as_text(const RecordingSummary& summary) {
-  std::string text = summary.name + "\n\n" + topics_text(summary) + "\n" + laser_text(summary.laser) + "\n" +
-                     motor_text(summary.motor);
+  std::string text = printable_line(summary.name) + "\n\n" + topics_text(summary) + "\n" +
+                     laser_text(summary.laser) + "\n" + motor_text(summary.motor);
   if (summary.motion) text += "\nmotion\n" + row("the rig is", *summary.motion);
   text += "\nwhat an estimate can hope for\n";
-  for (const std::string& line : summary.expectations) text += "  " + line + "\n";
+  for (const std::string& line : summary.expectations) text += "  " + printable_line(line) + "\n";
   return text;
 }
 
@@ -192,7 +192,7 @@ ExitCode run(const RecordingOptions& options, const std::string& json) {
   }();
   if (!summary) return fail(summary.error());
   for (const std::string& warning : summary->warnings) say("warning: {}: {}\n", summary->name, warning);
-  if (json != "-") fmt::print("{}", printable(as_text(*summary)));
+  if (json != "-") fmt::print("{}", as_text(*summary));
   if (json.empty()) return ExitCode::kDone;
   const auto written = write_text(json, as_json(*summary));
   return written ? ExitCode::kDone : fail(written.error());

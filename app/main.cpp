@@ -1,5 +1,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -8,15 +9,41 @@
 #include <cstring>
 #include <exception>
 #include <iostream>
+#include <new>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+#include <vector>
 
 #include "app/commands.hpp"
 #include "app/interrupt.hpp"
 #include "app/manual.hpp"
+#include "app/recording_options.hpp"
 #include "app/say.hpp"
+#include "app/threads.hpp"
+#include "core/io/printable_text.hpp"
+#include "core/io/temporary_file.hpp"
 
 using namespace sweepscope;
 
 namespace {
+
+/// What the chosen subcommand was to work on, as it was typed.
+std::string input_of(const CLI::App& app) {
+  std::vector<std::string> inputs;
+  for (const CLI::App* command : app.get_subcommands()) {
+    for (const CLI::Option* option : command->get_options())
+      if (option->get_positional())
+        inputs.insert(inputs.end(), option->results().begin(), option->results().end());
+  }
+  return inputs.empty() ? "sweepscope" : fmt::format("{}", fmt::join(inputs, ", "));
+}
+
+ExitCode fail_for_memory(const CLI::App& app) {
+  return app::fail(
+      {ExitCode::kUnreadableInput, input_of(app) + ": needs more memory than this machine gives"});
+}
 
 int run(int argc, char** argv) {
   CLI::App app{
@@ -37,13 +64,22 @@ int run(int argc, char** argv) {
   app::add_map(app, exit_code);
   app::add_compare(app, exit_code);
   app::add_figures(app, exit_code);
-  app::add_report(app, exit_code, {argv + 1, argv + argc});
+  app::add_report(app, exit_code);
   app::add_view(app, exit_code);
   app::declare_manual(app);
   try {
     app.parse(argc, argv);
+  } catch (const std::bad_alloc&) {
+    return static_cast<int>(fail_for_memory(app));
+  } catch (const std::length_error&) {
+    return static_cast<int>(fail_for_memory(app));  // more than any memory could be asked for
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::kWrongUsage);
+    // What is wrong quotes what was typed.
+    std::ostringstream wrong;
+    const bool done = app.exit(error, std::cout, wrong) == 0;
+    const std::string words = printable_text(wrong.str());
+    std::fwrite(words.data(), 1, words.size(), stderr);
+    return static_cast<int>(done ? ExitCode::kDone : ExitCode::kWrongUsage);
   }
   return static_cast<int>(exit_code);
 }
@@ -63,6 +99,12 @@ int output_failed() {
   return static_cast<int>(ExitCode::kWrongUsage);
 }
 
+int internal_error(const std::exception& error) {
+  if (std::ferror(stdout) != 0) return output_failed();
+  app::say("sweepscope: internal error: {}\n", error.what());
+  return 1;
+}
+
 // What was printed may still lie in a buffer, and its disk may be full or its reader gone.
 int with_output_written(int exit_code) {
   std::cout.flush();
@@ -77,12 +119,18 @@ int main(int argc, char** argv) {
   // A write that cannot be done fails with its reason instead of ending the program without a word.
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
-  app::interrupt_flag();
   try {
+    app::interrupt_flag();
+    // To the end: TBB would start threads once nothing limits it.
+    static const auto* const threads = app::limit_threads().release();
+    (void)threads;
+    remove_abandoned_temporary_files();
     return with_output_written(run(argc, argv));
+  } catch (const std::system_error& error) {
+    if (error.code() != std::errc::resource_unavailable_try_again) return internal_error(error);
+    app::say("sweepscope: no thread can be started; raise the limit of processes (ulimit -u)\n");
+    return static_cast<int>(ExitCode::kWrongUsage);
   } catch (const std::exception& error) {
-    if (std::ferror(stdout) != 0) return output_failed();
-    app::say("sweepscope: internal error: {}\n", error.what());
-    return 1;
+    return internal_error(error);
   }
 }

@@ -56,14 +56,15 @@ ExitCode run(const Options& options) {
   OffsetMap* map = &built->map;
   if (options.remove_outliers) map->cloud = without_outliers(map->cloud);
   if (options.voxel_m > 0) map->cloud = thinned(map->cloud, options.voxel_m);
+  if (!map->warning.empty()) say("warning: {}\n", map->warning);
   if (map->lost) say("warning: LOAM lost track at this offset: the map is not to be trusted\n");
   if (const auto written = write_cloud(options.output, *map->cloud); !written) return fail(written.error());
   if (!options.trajectory.empty()) {
     const auto written = write_tum(options.trajectory, map->trajectory, built->epoch_ns);
     if (!written) return fail(written.error());
   }
-  fmt::print("{}: {} points of a {} rig at t_motor = t_laser + {:.3f} ms\n", options.output,
-             map->cloud->size(), map->moving ? "moving" : "standing", options.offset_ms);
+  print("{}: {} points of a {} rig at t_motor = t_laser + {:.3f} ms\n", options.output, map->cloud->size(),
+        map->moving ? "moving" : "standing", options.offset_ms);
   return ExitCode::kDone;
 }
 

@@ -9,6 +9,7 @@
 #include <cstring>
 
 #include "app/say.hpp"
+#include "app/threads.hpp"
 #include "core/io/atomic_file.hpp"
 #include "core/io/output_check.hpp"
 #include "core/recording/recording_files.hpp"
@@ -69,9 +70,7 @@ void RecordingOptions::declare_computing(CLI::App& app) {
 }
 
 std::unique_ptr<tbb::global_control> RecordingOptions::limit_threads() const {
-  if (threads <= 0) return nullptr;
-  return std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
-                                               std::size_t(threads));
+  return threads <= 0 ? nullptr : app::limit_threads(std::size_t(threads));
 }
 
 std::vector<std::filesystem::path> RecordingOptions::input_files() const {
@@ -109,21 +108,14 @@ CLI::Validator finite_number() {
           ""};
 }
 
-std::string printable(std::string text) {
-  for (char& c : text) {
-    if (static_cast<unsigned char>(c) < ' ' && c != '\n') c = '?';
-  }
-  return text;
-}
-
 ExitCode fail(const Error& error) {
-  say("sweepscope: {}\n", printable(error.message));
+  say("sweepscope: {}\n", error.message);
   return error.code;
 }
 
 void print_warnings(const Recording& recording) {
   for (const std::string& warning : recording.report.warnings) {
-    say("warning: {}\n", printable(fmt::format("{}: {}", recording.name, warning)));
+    say("warning: {}: {}\n", recording.name, warning);
   }
 }
 

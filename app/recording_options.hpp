@@ -47,8 +47,6 @@ struct RecordingOptions {
 /// A check of an option's number: not NaN, which CLI11's own checks let through, nor infinite.
 CLI::Validator finite_number();
 
-/// Names from a file, with what would steer a terminal replaced by '?'.
-std::string printable(std::string text);
 /// Prints why a subcommand failed, as every subcommand prints it, and gives the exit code.
 ExitCode fail(const Error& error);
 /// Prints what reading warned of, on stderr.

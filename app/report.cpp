@@ -14,13 +14,15 @@
 #include "app/recording_options.hpp"
 #include "app/say.hpp"
 #include "core/io/shell_word.hpp"
+#include "render/gl/context.hpp"
 
 namespace sweepscope::app {
 namespace {
 
 struct Options {
   RecordingOptions recording;
-  std::string folder, command;
+  std::string folder;
+  std::string quoted;              // the options that decide, as the report quotes them
   std::vector<std::string> given;  // the options, as they were given
 };
 
@@ -30,6 +32,7 @@ std::filesystem::path kept_candidates(const Options& options) {
 
 /// Finished candidates are kept in the report's folder until the report is there.
 Result<ReportContent> make(const Options& options) {
+  if (const auto drawable = gl::check_offscreen(); !drawable) return tl::unexpected(drawable.error());
   const Progress progress;
   const auto recording = options.recording.read(progress.job());
   if (!recording) return tl::unexpected(recording.error());
@@ -39,7 +42,7 @@ Result<ReportContent> make(const Options& options) {
   auto content =
       gather_report(*recording, parse_method(options.recording.assume), kept->get(), progress.job());
   if (!content) return tl::unexpected(ended(content.error(), **kept));
-  content->command = options.command;
+  content->command = report_command(recording->name, options.quoted);
   if (const auto written = write_report(*content, options.folder); !written)
     return tl::unexpected(written.error());
   (*kept)->remove();
@@ -57,24 +60,32 @@ ExitCode run(const Options& options) {
   if (const auto checked = check_files(options); !checked) return fail(checked.error());
   const auto content = make(options);
   if (!content) return fail(content.error());
-  fmt::print("{}\n", (std::filesystem::path(options.folder) / "report.html").string());
+  print("{}\n", (std::filesystem::path(options.folder) / "report.html").string());
   for (const std::string& reason : content->estimate.reasons) say("{}\n", reason);
   return content->estimate.identifiable ? ExitCode::kDone : ExitCode::kNotIdentifiable;
 }
 
-/// The command as a shell would take it, whatever the path of the program.
-std::string as_typed(const std::vector<std::string>& words) {
-  std::string text = "sweepscope";
-  for (const std::string& word : words) text += " " + shell_word(word);
+/// Options as a shell would take them, files by their names. What does not change the report is left out, so
+/// that its bytes are the same wherever files lie and however many threads there are.
+std::string quoted_options(const CLI::App& command) {
+  std::string text;
+  for (const CLI::Option* option : command.get_options()) {
+    const std::string name = option->get_name();
+    if (option->get_positional() || name == "--output" || name == "--threads") continue;
+    for (const std::string& value : option->results()) {
+      const bool is_file = name == "--rig";
+      text +=
+          " " + name + " " + shell_word(is_file ? std::filesystem::path(value).filename().string() : value);
+    }
+  }
   return text;
 }
 
 }  // namespace
 
-void add_report(CLI::App& app, ExitCode& exit_code, const std::vector<std::string>& words) {
+void add_report(CLI::App& app, ExitCode& exit_code) {
   CLI::App* command = app.add_subcommand("report", "Write one HTML page: the offset, its evidence, the maps");
   auto options = std::make_shared<Options>();
-  options->command = as_typed(words);
   options->recording.declare(*command);
   options->recording.declare_computing(*command);
   command->add_option("-o,--output", options->folder, "The folder for report.html and estimate.json")
@@ -82,6 +93,7 @@ void add_report(CLI::App& app, ExitCode& exit_code, const std::vector<std::strin
       ->required();
   command->callback([options, command, &exit_code] {
     options->given = deciding_options(*command);
+    options->quoted = quoted_options(*command);
     exit_code = run(*options);
   });
 }

@@ -2,17 +2,46 @@
 
 #include <fmt/format.h>
 
+#include <concepts>
 #include <cstdio>
 #include <string>
+#include <string_view>
 #include <utility>
+
+#include "core/io/printable_text.hpp"
 
 namespace sweepscope::app {
 
-/// Words for a person, on stderr. Where that is closed or full nobody reads them: that is no failure.
+/// A value that is printed; text with what would steer a terminal escaped.
+template <typename T>
+decltype(auto) printable(T&& value) {
+  if constexpr (std::convertible_to<T, std::string_view>)
+    return printable_message(std::forward<T>(value));
+  else
+    return std::forward<T>(value);
+}
+
+template <typename T>
+using Printable = decltype(printable(std::declval<T>()));
+
+/// The format as it is, with values made printable put into it.
 template <typename... T>
-void say(fmt::format_string<T...> format, T&&... values) {
-  const std::string text = fmt::format(format, std::forward<T>(values)...);
+std::string printable_words(fmt::format_string<Printable<T>...> format, T&&... values) {
+  return fmt::vformat(format, fmt::make_format_args(printable(std::forward<T>(values))...));
+}
+
+/// Words for a person, on stderr, made printable. Where that is closed or full nobody reads them: that is no
+/// failure.
+template <typename... T>
+void say(fmt::format_string<Printable<T>...> format, T&&... values) {
+  const std::string text = printable_words<T...>(format, std::forward<T>(values)...);
   std::fwrite(text.data(), 1, text.size(), stderr);
+}
+
+/// A part of a command's result, on stdout, made printable. Throws where it cannot be written.
+template <typename... T>
+void print(fmt::format_string<Printable<T>...> format, T&&... values) {
+  fmt::print("{}", printable_words<T...>(format, std::forward<T>(values)...));
 }
 
 }  // namespace sweepscope::app

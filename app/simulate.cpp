@@ -9,6 +9,7 @@
 #include "app/commands.hpp"
 #include "app/progress.hpp"
 #include "app/recording_options.hpp"
+#include "app/say.hpp"
 #include "core/simulation/scene.hpp"
 #include "core/simulation/simulate.hpp"
 #include "core/simulation/write_bag.hpp"
@@ -36,7 +37,7 @@ std::string summary(const Simulation& simulation, const std::filesystem::path& o
   if (simulation.moving)
     text += fmt::format("  walked {:.1f} m, at most {:.2f} m/s and {:.2f} rad/s\n", simulation.length_m,
                         simulation.top_speed_mps, simulation.top_angular_rate_radps);
-  return text + fmt::format("  the truth is in {} and {}\n", truth_json_path(output).string(),
+  return text + fmt::format("  the truth is in {} and {}", truth_json_path(output).string(),
                             truth_tum_path(output).filename().string());
 }
 
@@ -70,7 +71,7 @@ ExitCode run(const Typed& typed) {
   options.nudge_m = typed.nudge_mm / 1e3;
   const auto simulation = simulate_into(options, typed.output);
   if (!simulation) return fail(simulation.error());
-  fmt::print("{}", summary(*simulation, typed.output));
+  print("{}\n", summary(*simulation, typed.output));
   return ExitCode::kDone;
 }
 

@@ -55,12 +55,15 @@ Result<ui::Ui::Options> ui_options(const ViewOptions& options) {
     auto rig = read_rig(*options.reading.rig);
     if (!rig) return tl::unexpected(rig.error());
     out.explorer.reading.rig = std::move(*rig);
-    out.explorer.shell_options += " --rig " + shell_word(options.reading.rig->string());
+    out.explorer.shell_options = " --rig " + shell_word(options.reading.rig->string());
+    out.explorer.report_options = " --rig " + shell_word(options.reading.rig->filename().string());
   }
+  std::string others;
   if (options.reading.stamps)
-    out.explorer.shell_options +=
-        *options.reading.stamps == StampSource::kHeader ? " --stamps header" : " --stamps receive";
-  if (options.reading.assume) out.explorer.shell_options += " --assume " + *options.reading.assume;
+    others += *options.reading.stamps == StampSource::kHeader ? " --stamps header" : " --stamps receive";
+  if (options.reading.assume) others += " --assume " + *options.reading.assume;
+  out.explorer.shell_options += others;
+  out.explorer.report_options += others;
   if (options.reading.rig) out.explorer.input_files.push_back(*options.reading.rig);
   if (!options.script.empty()) out.explorer.input_files.emplace_back(options.script);
   if (options.scale > 0) out.display_scale = options.scale;

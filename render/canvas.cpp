@@ -8,6 +8,7 @@
 
 #include <array>
 
+#include "render/gl/context.hpp"
 #include "render/gl/vtk_window.hpp"
 #include "render/gl/window.hpp"
 #include "render/picture_drawing.hpp"
@@ -27,9 +28,9 @@ class WindowCanvas final : public Canvas {
   explicit WindowCanvas(std::unique_ptr<gl::Window> window) : window_(std::move(window)) {}
 
   Result<Image> draw(const Picture& picture) override {
-    return check_size(picture).map([&] {
+    return check_size(picture).and_then([&] {
       auto vtk = gl::make_vtk_window(*window_, drawn_width_px(picture), drawn_height_px(picture));
-      Image image = draw_in(*vtk, picture);
+      auto image = draw_in(*vtk, picture);
       show(*vtk);
       vtk->Finalize();
       return image;
@@ -80,12 +81,16 @@ Result<Backend> backend(std::string_view name) {
 }
 
 Result<std::unique_ptr<Canvas>> make_canvas(Backend backend) {
-  if (backend == Backend::kOffscreen) return std::make_unique<OffscreenCanvas>();
+  if (backend == Backend::kOffscreen) {
+    return gl::check_offscreen().map(
+        [] { return std::unique_ptr<Canvas>(std::make_unique<OffscreenCanvas>()); });
+  }
   if (backend == Backend::kNull) return std::make_unique<NullCanvas>();
   constexpr int kWidth_px = 960, kHeight_px = 600;
-  return gl::make_window(kWidth_px, kHeight_px, "sweepscope").map([](std::unique_ptr<gl::Window>&& window) {
-    return std::unique_ptr<Canvas>(std::make_unique<WindowCanvas>(std::move(window)));
-  });
+  auto window = gl::make_window(kWidth_px, kHeight_px, "sweepscope");
+  if (!window)
+    return failure(window.error().code, window.error().message + ". Without a display: --draw-in offscreen.");
+  return std::make_unique<WindowCanvas>(std::move(*window));
 }
 
 }  // namespace sweepscope

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/io/printable_text.hpp"
+
 namespace sweepscope {
 
 void Drawing::add(Mark mark) {
+  if (auto* text = std::get_if<TextMark>(&mark)) text->text = printable_line(text->text);
   marks_.push_back(std::move(mark));
 }
 
@@ -53,8 +56,8 @@ double baseline_y(const TextMark& mark) {
 }
 
 std::string fit_text(const std::string& text, double size_px, double width_px, bool bold) {
-  if (text_width_px(text, size_px, bold) <= width_px) return text;
-  std::string cut = text;
+  std::string cut = printable_line(text);
+  if (text_width_px(cut, size_px, bold) <= width_px) return cut;
   while (!cut.empty()) {
     const auto is_continuation = [](char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; };
     while (cut.size() > 1 && is_continuation(cut.back())) cut.pop_back();

@@ -7,8 +7,8 @@
 #include <stdexcept>
 
 #include "core/io/atomic_file.hpp"
+#include "core/io/printable_text.hpp"
 #include "render/fonts.hpp"
-#include "render/utf8.hpp"
 #include "render/vector_file.hpp"
 #include "render/view_images.hpp"
 
@@ -95,7 +95,7 @@ class Painter {
     cairo_set_font_face(cairo_, (mark.bold ? bold_ : regular_).get());
     cairo_set_font_size(cairo_, mark.size_px);
     cairo_move_to(cairo_, mark.at.x - before, baseline_y(mark));
-    cairo_show_text(cairo_, valid_utf8(mark.text).c_str());
+    cairo_show_text(cairo_, printable_line(mark.text).c_str());
   }
 
   void paint(const LineMark& mark) {
@@ -140,7 +140,7 @@ class Painter {
 
 void set_metadata(cairo_surface_t* page, std::span<const PngText> texts) {
   const auto set = [&](cairo_pdf_metadata_t what, const std::string& text) {
-    cairo_pdf_surface_set_metadata(page, what, valid_utf8(text).c_str());
+    cairo_pdf_surface_set_metadata(page, what, printable_text(text).c_str());
   };
   std::string others;
   for (const PngText& text : texts) {

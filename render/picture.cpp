@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "render/gl/vtk_messages.hpp"
 #include "render/gl/vtk_window.hpp"
 #include "render/picture_drawing.hpp"
 #include "render/point_polydata.hpp"
@@ -151,7 +152,8 @@ int drawn_height_px(const Picture& picture) {
   return kSupersampling * picture.height_px;
 }
 
-Image draw_in(vtkRenderWindow& window, const Picture& picture) {
+Result<Image> draw_in(vtkRenderWindow& window, const Picture& picture) {
+  (void)gl::take_vtk_error();  // of what was drawn before
   add_flat_layers(window, picture);
   for (const View& view : picture.views) {
     window.AddRenderer(to_renderer(view, picture));
@@ -160,6 +162,8 @@ Image draw_in(vtkRenderWindow& window, const Picture& picture) {
   Image pixels = read_pixels(window, drawn_width_px(picture), drawn_height_px(picture));
   if (is_opaque(picture)) pixels.make_opaque();  // what VTK leaves in alpha depends on its passes
   while (vtkRenderer* renderer = window.GetRenderers()->GetFirstRenderer()) window.RemoveRenderer(renderer);
+  if (const std::string error = gl::take_vtk_error(); !error.empty())
+    return failure(ExitCode::kWrongUsage, "The picture cannot be drawn; VTK says: " + error);
   return shrink_premultiplied(pixels, kSupersampling);
 }
 
@@ -167,7 +171,7 @@ Result<Image> draw(const Picture& picture) {
   return check_size(picture)
       .and_then(
           [&] { return gl::OffscreenWindow::create(drawn_width_px(picture), drawn_height_px(picture)); })
-      .map([&](gl::OffscreenWindow&& offscreen) { return draw_in(offscreen.window(), picture); });
+      .and_then([&](gl::OffscreenWindow&& offscreen) { return draw_in(offscreen.window(), picture); });
 }
 
 }  // namespace sweepscope

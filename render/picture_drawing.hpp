@@ -11,7 +11,7 @@ int drawn_width_px(const Picture& picture);
 int drawn_height_px(const Picture& picture);
 
 /// Draws the picture in a window of that size, whatever is behind it. The window has no renderers before and
-/// after.
-Image draw_in(vtkRenderWindow& window, const Picture& picture);
+/// after. Fails with ExitCode::kWrongUsage and VTK's words where VTK cannot draw it.
+Result<Image> draw_in(vtkRenderWindow& window, const Picture& picture);
 
 }  // namespace sweepscope

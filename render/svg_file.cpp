@@ -3,17 +3,17 @@
 #include <cmath>
 
 #include "core/io/atomic_file.hpp"
-#include "render/utf8.hpp"
+#include "core/io/printable_text.hpp"
 #include "render/vector_file.hpp"
 #include "render/view_images.hpp"
 
 namespace sweepscope {
 namespace {
 
-/// Text as XML holds it: no markup, and none of the control characters that XML forbids.
+/// Text as XML holds it: markup as entities, and the control characters that XML forbids escaped.
 std::string escaped(const std::string& text) {
   std::string out;
-  for (const char c : valid_utf8(text)) {
+  for (const char c : printable_text(text)) {
     if (c == '&') {
       out += "&amp;";
     } else if (c == '<') {
@@ -22,7 +22,7 @@ std::string escaped(const std::string& text) {
       out += "&gt;";
     } else if (c == '"') {
       out += "&quot;";
-    } else if (static_cast<unsigned char>(c) >= 0x20 || c == '\n' || c == '\t') {
+    } else {
       out += c;
     }
   }

@@ -5,13 +5,14 @@
 #include <mutex>
 #include <stdexcept>
 
+#include "core/io/printable_text.hpp"
 #include "render/drawing.hpp"
 #include "render/fonts.hpp"
 
 namespace sweepscope {
 namespace {
 
-/// The code point that begins at `position`, which moves behind it. Broken UTF-8 counts byte by byte.
+/// The code point of valid UTF-8 that begins at `position`, which moves behind it.
 char32_t next_code_point(const std::string& text, std::size_t& position) {
   const auto byte = [&](std::size_t at) { return static_cast<unsigned char>(text[at]); };
   const unsigned char lead = byte(position++);
@@ -54,7 +55,8 @@ class Advances {
 
 }  // namespace
 
-double text_width_px(const std::string& text, double size_px, bool bold) {
+double text_width_px(const std::string& name, double size_px, bool bold) {
+  const std::string text = printable_line(name);
   static std::mutex mutex;
   const std::lock_guard lock(mutex);
   static Advances regular(false), heavy(true);

@@ -170,6 +170,7 @@ Result<void> run_headless(gl::Context& context, Ui::Options options, const std::
     if (auto done = ui.explorer().perform(first_line); !done) return done;
     const Script wait{"REC", {{1, {"wait", "loaded"}, "wait loaded"}}};
     if (auto done = run_script(ui, wait); !done) return done;
+    if (const auto& why = ui.explorer().load_failure()) return tl::unexpected(*why);
     if (ui.explorer().loaded() == nullptr && ui.explorer().message())
       return unreadable(ui.explorer().message()->text);
   }

@@ -9,6 +9,7 @@
 
 #include "core/io/atomic_file.hpp"
 #include "core/io/curve_columns.hpp"
+#include "core/io/printable_text.hpp"
 #include "core/io/whole_number.hpp"
 
 namespace sweepscope {
@@ -180,8 +181,7 @@ std::string estimate_to_json(const Estimate& estimate, Timing timing) {
   document["cpu_s"] = timing == Timing::kWritten ? Json(estimate.cpu_s) : Json(nullptr);
   document["wall_s"] = timing == Timing::kWritten ? Json(estimate.wall_s) : Json(nullptr);
   document["version"] = SWEEPSCOPE_VERSION;
-  // File names need not be UTF-8; what is not becomes U+FFFD.
-  return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_text(std::move(document));
 }
 
 Result<Estimate> parse_estimate_json(std::string_view text, std::string_view name) {

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "core/io/atomic_file.hpp"
+#include "core/io/printable_text.hpp"
 
 namespace sweepscope {
 namespace {
@@ -59,7 +60,8 @@ std::string csv_name(const TableColumn& column) {
   return column.unit.empty() ? title : title + "_" + replaced(column.unit, kWords);
 }
 
-std::string csv_field(const std::string& text) {
+std::string csv_field(const std::string& name) {
+  const std::string text = printable_text(name);
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   return "\"" + replaced(text, std::to_array<Replacement>({{"\"", "\"\""}})) + "\"";
 }
@@ -72,7 +74,8 @@ std::string csv_cell(const TableCell& cell) {
 
 // Markdown
 
-std::string markdown_text(std::string_view text) {
+std::string markdown_text(std::string_view name) {
+  const std::string text = printable_text(name);
   constexpr auto kEscapes = std::to_array<Replacement>({{"\\", "\\\\"},
                                                         {"|", "\\|"},
                                                         {"*", "\\*"},
@@ -195,7 +198,7 @@ constexpr auto kLatexEscapes = std::to_array<Replacement>({
 });
 
 std::string latex_text(std::string_view text) {
-  return replaced(text, kLatexEscapes);
+  return replaced(printable_text(text), kLatexEscapes);
 }
 
 std::string latex_cell(const TableCell& cell, const TableColumn& column) {

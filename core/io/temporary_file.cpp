@@ -1,16 +1,52 @@
 #include "core/io/temporary_file.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <string_view>
 
 #include "core/io/unfinished_files.hpp"
 
 namespace sweepscope {
+namespace {
+
+namespace fs = std::filesystem;
+
+// What a person would hardly name a file; mkstemp puts letters for the last six.
+constexpr std::string_view kPattern = ".sweepscope-temporary-XXXXXX";
+constexpr std::string_view kPrefix = kPattern.substr(0, kPattern.size() - 6);
+
+/// Waits for a program that looks whether the file is abandoned. False where that one removed it.
+bool lock_own(int file) {
+  while (flock(file, LOCK_EX) != 0 && errno == EINTR) {
+  }
+  struct stat status {};
+  return fstat(file, &status) == 0 && status.st_nlink > 0;
+}
+
+/// As TemporaryFile makes them: a plain file of this user with one name, that nobody else may read.
+bool is_ours(int file) {
+  struct stat status {};
+  return fstat(file, &status) == 0 && S_ISREG(status.st_mode) && status.st_uid == geteuid() &&
+         status.st_nlink == 1 && (status.st_mode & 0777) == 0600;
+}
+
+void remove_if_abandoned(const fs::path& path) {
+  const int file = open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (file < 0) return;
+  // The lock first: what was removed meanwhile has no name any more.
+  if (flock(file, LOCK_EX | LOCK_NB) == 0 && is_ours(file)) std::remove(path.c_str());
+  close(file);
+}
+
+}  // namespace
 
 Result<TemporaryFile> TemporaryFile::create() {
   const auto refused = [](const std::string& folder, const std::string& why) {
@@ -18,21 +54,37 @@ Result<TemporaryFile> TemporaryFile::create() {
         ExitCode::kWrongUsage,
         fmt::format("{}: no temporary file can be made: {}; set TMPDIR to a folder with room", folder, why));
   };
+  remove_abandoned_temporary_files();
   std::error_code error;
-  const std::filesystem::path folder = std::filesystem::temp_directory_path(error);
+  const fs::path folder = fs::temp_directory_path(error);
   if (error) return refused("TMPDIR", error.message());
-  std::string pattern = (folder / "sweepscope-XXXXXX").string();
-  const int descriptor = mkstemp(pattern.data());
-  if (descriptor < 0) return refused(folder.string(), std::strerror(errno));
-  close(descriptor);
-  remember_unfinished(pattern);
-  return TemporaryFile(pattern);
+  while (true) {
+    std::string path = (folder / kPattern).string();
+    const int file = mkostemp(path.data(), O_CLOEXEC);
+    if (file < 0) return refused(folder.string(), std::strerror(errno));
+    if (lock_own(file)) {
+      remember_unfinished(path);
+      return TemporaryFile(path, file);
+    }
+    close(file);
+  }
 }
 
 TemporaryFile::~TemporaryFile() {
   if (path_.empty()) return;
   std::remove(path_.c_str());
+  close(lock_);
   forget_unfinished(path_);
+}
+
+void remove_abandoned_temporary_files() {
+  std::error_code error;
+  const fs::path folder = fs::temp_directory_path(error);
+  if (error) return;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    if (name.size() == kPattern.size() && name.starts_with(kPrefix)) remove_if_abandoned(entry->path());
+  }
 }
 
 }  // namespace sweepscope

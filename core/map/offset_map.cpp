@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/loam/sweep_motion.hpp"
+#include "core/map/pose_coverage.hpp"
 #include "core/map/pose_reader.hpp"
 #include "core/offset/search_window.hpp"
 #include "core/offset/still_motion.hpp"
@@ -167,12 +168,17 @@ Result<std::vector<OffsetMap>> build_maps(const Recording& recording, std::span<
   const bool moving = options.assume           ? *options.assume == Method::kMoving
                       : !options.poses.empty() ? true
                                                : moves();
-  if (options.poses.size() == 1)
-    return failure(ExitCode::kUnreadableInput, "A trajectory of one pose places nothing: two at least.");
+  std::string warning;
+  if (!options.poses.empty()) {
+    auto covered = check_pose_coverage(recording, options.poses, problem->scan_used);
+    if (!covered) return tl::unexpected(covered.error());
+    warning = std::move(*covered);
+  }
   std::vector<OffsetMap> maps(offsets_s.size());
   const Job part = Job::part_of(job);
   for_each_index(offsets_s.size(), [&](std::size_t i) {
     maps[i] = build_one(*problem, offsets_s[i], moving, options, i == 0 ? job : part);
+    maps[i].warning = warning;
   });
   if (job.cancelled()) return failure(ExitCode::kInterrupted, "interrupted while building the map");
   return maps;

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/error.hpp"
@@ -16,7 +17,8 @@ namespace sweepscope {
 struct MapOptions {
   std::optional<Method> assume;  // the kind of recording, instead of the motion test
   /// Where the base frame went, instead of LOAM's answer; ascending in time. Between them the pose goes
-  /// linearly; scans before the first and after the last are left out. The map frame is theirs.
+  /// linearly; scans before the first and after the last are left out, with a warning, and where that is all
+  /// of them nothing is built (ExitCode::kNotIdentifiable). The map frame is theirs.
   std::vector<StampedPose> poses;
   FeatureOptions features;
   OdometryOptions odometry;
@@ -33,6 +35,7 @@ struct OffsetMap {
   bool moving = false;
   bool lost = false;               // LOAM lost track: the map is not to be trusted
   double signed_rotation_rad = 0;  // the alternating roll that was taken out, per sweep
+  std::string warning;             // of poses that do not cover every scan; empty where they do
 };
 
 /// Builds the map at each of the offsets from the same scans: every beam is placed with the motor angle of

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "core/io/atomic_file.hpp"
+#include "core/io/printable_text.hpp"
 #include "core/recording/csv_lines.hpp"
 #include "core/recording/csv_table.hpp"
 
@@ -85,7 +86,9 @@ Result<void> read_motor(const std::filesystem::path& path, const Rig& rig, RawRe
   return reader.read(*table, [&] { return lines.take(); });
 }
 
-std::string quoted(const std::string& text) {
+/// A name as a cell. A table's line is one record, so a line break in a name is escaped.
+std::string quoted(const std::string& name) {
+  const std::string text = printable_line(name);
   if (text.find_first_of(",\" \t") == std::string::npos) return text;
   std::string cell = "\"";
   for (const char c : text) cell.append(c == '"' ? 2 : 1, c);

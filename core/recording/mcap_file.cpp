@@ -36,6 +36,17 @@ std::optional<Compression> mcap_compression(std::string_view name) {
   return std::nullopt;
 }
 
+/// Those that the specification has, and private ones, which it leaves to others.
+bool is_known(McapOp op) {
+  constexpr auto kLast = McapOp::kDataEnd;
+  return (op >= McapOp::kHeader && op <= kLast) || static_cast<std::uint8_t>(op) >= 0x80;
+}
+
+bool is_of_chunks(McapOp op) {
+  return op == McapOp::kSchema || op == McapOp::kChannel || op == McapOp::kMessage ||
+         static_cast<std::uint8_t>(op) >= 0x80;
+}
+
 std::int64_t as_ns(std::uint64_t ns) {
   return ns <= static_cast<std::uint64_t>(INT64_MAX) ? static_cast<std::int64_t>(ns) : 0;
 }
@@ -64,7 +75,10 @@ class McapReader {
   void add_schema(std::span<const std::byte> content, const BagPlace& place);
   void add_channel(std::span<const std::byte> content, const BagPlace& place);
   std::optional<Error> visit_message(std::span<const std::byte> content, const BagPlace& place);
+  bool ends_whole();
   void learn_from_summary();
+  void check_unused(const RecordHeader& header);
+  void end_early(const RecordHeader& header, std::uint64_t left);
   void warn(const std::string& what);
   std::vector<std::string> finish();
 
@@ -75,6 +89,8 @@ class McapReader {
   std::map<std::uint16_t, McapChannel> channels_;
   std::vector<std::byte> packed_, unpacked_;
   bool ended_ = false, cut_short_ = false, in_summary_ = false;
+  bool ends_whole_ = false;  // with the magic bytes that end a file: it is not cut short
+  bool stopped_ = false;     // at damage that the file is read no further than
   std::size_t orphans_ = 0;  // messages of channels that nothing describes
   std::size_t warnings_left_out_ = 0;
   std::vector<std::string> warnings_;
@@ -93,7 +109,7 @@ bool McapReader::read_header(RecordHeader& header) {
   std::array<std::byte, kMcapRecordHeader_bytes> bytes;
   const std::size_t got = file_.read(bytes);
   if (got < bytes.size()) {
-    cut_short_ = got > 0;
+    cut_short_ = got > 0 && !ends_whole_;
     return false;
   }
   McapFields fields(bytes);
@@ -114,7 +130,10 @@ std::optional<Error> McapReader::read_record(const RecordHeader& header) {
   const BagPlace place{header.at, std::nullopt};
   const bool used = header.op == McapOp::kSchema || header.op == McapOp::kChannel ||
                     header.op == McapOp::kMessage || header.op == McapOp::kChunk;
-  if (!used) return std::nullopt;
+  if (!used) {
+    if (header.content_bytes <= file_.left()) check_unused(header);
+    return std::nullopt;
+  }
   if (header.content_bytes > kMostMcapChunk_bytes) {
     warn(fmt::format(
         "the record at {} claims {} bytes, more than the {} that are read at once, and was skipped",
@@ -125,6 +144,31 @@ std::optional<Error> McapReader::read_record(const RecordHeader& header) {
   const bool whole = content.size() == header.content_bytes;
   if (header.op == McapOp::kChunk) return read_chunk(content, place, whole);
   return whole ? take(header.op, content, place) : std::nullopt;  // the end is reported by the caller
+}
+
+/// Says where a record that holds no messages cannot be what its op code says.
+void McapReader::check_unused(const RecordHeader& header) {
+  const auto number = static_cast<unsigned>(header.op);
+  if (!is_known(header.op)) {
+    return warn(
+        fmt::format("the record at byte {} has op code {:#04x}, which MCAP does not have, and was "
+                    "skipped: it is damaged",
+                    header.at, number));
+  }
+  bool fits = header.op != McapOp::kDataEnd || header.content_bytes == sizeof(std::uint32_t);
+  if (header.op == McapOp::kMessageIndex) {
+    constexpr std::uint64_t kStart_bytes = sizeof(std::uint16_t) + sizeof(std::uint32_t);
+    const auto start = read_content(std::min(header.content_bytes, kStart_bytes));
+    McapFields fields(start);
+    fields.number<std::uint16_t>();
+    fits = kStart_bytes + fields.number<std::uint32_t>() == header.content_bytes && fields.whole();
+  }
+  if (!fits) {
+    warn(
+        fmt::format("the record at byte {} is damaged, and was skipped: its op code {:#04x} and its content "
+                    "do not fit each other",
+                    header.at, number));
+  }
 }
 
 std::optional<Error> McapReader::take(McapOp op, std::span<const std::byte> content, const BagPlace& place) {
@@ -186,6 +230,12 @@ std::optional<Error> McapReader::read_unpacked(std::span<const std::byte> record
                          place.text(), records.size() - at));
       }
       return std::nullopt;
+    }
+    if (!in_summary_ && !is_of_chunks(op)) {
+      warn(fmt::format(
+          "the record at {} has op code {:#04x}, which no record in a chunk has, and was skipped: "
+          "it is damaged",
+          place.text(), static_cast<unsigned>(op)));
     }
     if (auto error = take(op, fields.rest().first(bytes), place)) return error;
     at += kMcapRecordHeader_bytes + bytes;
@@ -267,10 +317,34 @@ void McapReader::learn_from_summary() {
   file_.seek(here);
 }
 
+/// At a record that claims to end beyond the file.
+void McapReader::end_early(const RecordHeader& header, std::uint64_t left) {
+  cut_short_ = !ends_whole_;
+  if (cut_short_) return;
+  stopped_ = true;
+  warn(fmt::format(
+      "the length of the record at byte {} is damaged: it claims {} bytes, and the file, which is "
+      "not cut short, has {} more; those were not read",
+      header.at, header.content_bytes, left));
+}
+
+bool McapReader::ends_whole() {
+  const std::uint64_t here = file_.position();
+  std::array<char, kMcapMagic.size()> magic{};
+  file_.seek(file_.size() - std::min<std::uint64_t>(file_.size(), magic.size()));
+  const bool whole = here + magic.size() <= file_.size() &&
+                     file_.read(std::as_writable_bytes(std::span(magic))) == magic.size() &&
+                     std::string_view(magic.data(), magic.size()) == kMcapMagic;
+  file_.seek(here);
+  return whole;
+}
+
 std::vector<std::string> McapReader::finish() {
   if (cut_short_) {
     warn(fmt::format("it is cut short at byte {}; what is whole in it was read", file_.size()));
-  } else if (!ended_) {
+  } else if (!ended_ && !stopped_ && ends_whole_) {
+    warn("its footer is damaged; what is whole before it was read");
+  } else if (!ended_ && !stopped_) {
     warn("it was never closed (it has no footer); what is whole in it was read");
   }
   if (warnings_left_out_ > 0)
@@ -281,6 +355,7 @@ std::vector<std::string> McapReader::finish() {
 
 Result<std::vector<std::string>> McapReader::read(const Job& job) {
   file_.seek(kMcapMagic.size());
+  ends_whole_ = ends_whole();
   learn_from_summary();
   RecordHeader header;
   while (!ended_ && read_header(header)) {
@@ -288,7 +363,7 @@ Result<std::vector<std::string>> McapReader::read(const Job& job) {
     ended_ = header.op == McapOp::kFooter;
     if (auto error = read_record(header)) return tl::unexpected(std::move(*error));
     if (header.content_bytes > left) {
-      cut_short_ = true;
+      end_early(header, left);
       break;
     }
     file_.seek(content_at + header.content_bytes);

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <nlohmann/json.hpp>
 
+#include "core/io/printable_text.hpp"
 #include "core/recording/detect_rig.hpp"
 #include "core/recording/rig_names.hpp"
 
@@ -19,27 +21,14 @@ std::string yaml_name(const std::string& name) {
   };
   const bool begins = !name.empty() && std::isdigit(static_cast<unsigned char>(name[0])) == 0;
   if (begins && std::ranges::all_of(name, harmless) && !is_null()) return name;
-  std::string quoted = "\"";
-  for (const char c : name) {
-    if (c == '"' || c == '\\') quoted += '\\';
-    if (static_cast<unsigned char>(c) < ' ')
-      quoted += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
-    else
-      quoted += c;
-  }
-  return quoted + '"';
-}
-
-/// Of a comment, with what would end its line replaced.
-std::string one_line(std::string text) {
-  for (char& c : text)
-    if (static_cast<unsigned char>(c) < ' ') c = '?';
-  return text;
+  std::string quoted = json_text(name);  // whose strings are YAML's
+  quoted.pop_back();                     // the line end
+  return quoted;
 }
 
 std::string line(const std::string& setting, const std::string& comment) {
   if (comment.empty()) return setting + "\n";
-  return fmt::format("{:<34}  # {}\n", setting, one_line(comment));
+  return fmt::format("{:<34}  # {}\n", setting, printable_line(comment));
 }
 
 /// With as many digits as give the same number back, and no exponent's trap: YAML takes 1e-05 as well.
@@ -68,13 +57,13 @@ std::string motor_text(const DetectedRig& detected) {
   if (motor.joint) text += line("  joint: " + yaml_name(*motor.joint), detected.motor_note);
   if (motor.stamp) text += line("  stamp: " + name_of(*motor.stamp), "header | receive");
   text += line(fmt::format("  scale: {}", motor.scale), "angle_rad = scale * raw - zero_deg * pi / 180");
-  if (!detected.scale_note.empty()) text += "  # " + one_line(detected.scale_note) + "\n";
+  if (!detected.scale_note.empty()) text += "  # " + printable_line(detected.scale_note) + "\n";
   return text + line(fmt::format("  zero_deg: {}", motor.zero_deg), "");
 }
 
 std::string mount_text(const DetectedRig& detected) {
   const Rig::Mount& mount = detected.rig.mount;
-  return "mount:  # " + one_line(detected.mount_note) + "\n" +
+  return "mount:  # " + printable_line(detected.mount_note) + "\n" +
          line("  axis: " + vector_text(mount.axis), "the motor's, in the base frame") +
          "  # the laser's pose in the frame that turns with the motor; at motor angle 0 that is the base "
          "frame\n" +
@@ -85,7 +74,7 @@ std::string mount_text(const DetectedRig& detected) {
 }  // namespace
 
 std::string rig_file_text(const DetectedRig& detected) {
-  return "# The rig of " + one_line(detected.recording) +
+  return "# The rig of " + printable_line(detected.recording) +
          ", as detected. Give it with --rig; what is deleted here is detected anew.\n" +
          laser_text(detected) + motor_text(detected) + mount_text(detected);
 }

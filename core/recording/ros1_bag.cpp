@@ -16,6 +16,26 @@ namespace {
 constexpr std::string_view kMagic = "#ROSBAG V2.0\n";
 constexpr std::size_t kMostWarnings = 20;
 
+/// Whether a record has the fields that its op code asks for; a damaged op code has others.
+bool fits_its_op(const BagFields& fields) {
+  const auto has = [&](std::string_view name) { return fields.find(name).has_value(); };
+  switch (fields.op().value_or(BagOp{})) {
+    case BagOp::kMessage:
+      return has("conn") && fields.time_ns();
+    case BagOp::kBagHeader:
+      return has("index_pos") || has("encryptor");
+    case BagOp::kIndex:
+      return has("conn") && has("count");
+    case BagOp::kChunk:
+      return has("compression");
+    case BagOp::kChunkInfo:
+      return has("chunk_pos");
+    case BagOp::kConnection:
+      return has("conn") && has("topic");
+  }
+  return false;
+}
+
 /// Reads one bag. Members hold what is known so far; memory holds one chunk, packed and unpacked.
 class BagReader {
  public:
@@ -39,9 +59,13 @@ class BagReader {
   std::optional<Error> read_chunk(const Header& header, const BagFields& fields);
   std::optional<Error> read_unpacked(std::span<const std::byte> chunk, BagPlace place, bool whole);
   void add_connection(const BagFields& fields, std::span<const std::byte> data, const BagPlace& place);
+  void describe(BagConnection connection, const BagPlace& place);
   std::optional<Error> visit_message(const BagFields& fields, std::span<const std::byte> data,
                                      const BagPlace& place);
-  void learn_connections_from_index();
+  bool check_op(const BagFields& fields, const BagPlace& place);
+  void learn_from_index();
+  bool ends_whole();
+  void warn_of_end(std::uint64_t at, std::uint64_t end);
   void check_end();
   void warn(const std::string& what);
   Result<std::vector<std::string>> finish();
@@ -53,6 +77,7 @@ class BagReader {
   std::vector<std::byte> packed_, unpacked_;
   std::optional<std::uint64_t> index_at_;  // as claimed; 0 in a bag that was never closed
   bool cut_short_ = false;
+  bool ends_whole_ = false;  // its index lies where it should, up to the file's end: it is not cut short
   std::size_t orphans_ = 0;  // messages of connections that nothing describes
   std::size_t warnings_left_out_ = 0;
   std::vector<std::string> warnings_;
@@ -78,7 +103,8 @@ bool BagReader::read_header(Header& header) {
   };
   const auto stop_cut = [&] {
     cut_short_ = true;
-    return stop("it is cut short in the record");
+    return stop(ends_whole_ ? "the file is not cut short, and a length is damaged in the record"
+                            : "it is cut short in the record");
   };
   if (file_.read(length) != length.size()) return stop_cut();
   const std::uint64_t header_bytes = load<std::uint32_t>(length);
@@ -104,6 +130,7 @@ std::span<const std::byte> BagReader::read_data(const Header& header) {
 std::optional<Error> BagReader::read_record(const Header& header) {
   const BagFields fields = *BagFields::parse(header.bytes);
   const BagPlace place{header.at, std::nullopt};
+  if (!check_op(fields, place)) return std::nullopt;
   const auto op = fields.op();
   if (op == BagOp::kBagHeader) return read_bag_header(fields);
   if (op != BagOp::kChunk && op != BagOp::kConnection && op != BagOp::kMessage) return std::nullopt;
@@ -129,13 +156,34 @@ std::optional<Error> BagReader::read_bag_header(const BagFields& fields) {
   }
   if (index_at_) return std::nullopt;
   index_at_ = fields.number<std::uint64_t>("index_pos").value_or(0);
-  learn_connections_from_index();
+  learn_from_index();
   return std::nullopt;
+}
+
+/// Says where what a record is and what it holds do not fit each other.
+bool BagReader::check_op(const BagFields& fields, const BagPlace& place) {
+  if (fits_its_op(fields)) return true;
+  const auto op = fields.number<std::uint8_t>("op");
+  warn(
+      fmt::format("the record at {} is damaged, and was skipped: its op code{} and its other fields do not "
+                  "fit each other",
+                  place.text(), op ? fmt::format(", {},", *op) : ""));
+  return false;
+}
+
+/// Whether records follow each other from here to the file's end.
+bool BagReader::ends_whole() {
+  Header header;
+  while (read_header(header)) {
+    if (header.data_bytes > file_.left()) return false;
+    file_.seek(header.data_at + header.data_bytes);
+  }
+  return file_.left() == 0;
 }
 
 /// A sound index describes every connection again, which helps where the chunk that introduced one is
 /// damaged.
-void BagReader::learn_connections_from_index() {
+void BagReader::learn_from_index() {
   if (*index_at_ == 0 || *index_at_ >= file_.size()) return;
   const std::uint64_t here = file_.position();
   file_.seek(*index_at_);
@@ -148,6 +196,8 @@ void BagReader::learn_connections_from_index() {
     if (data.size() < header.data_bytes) break;
     add_connection(fields, data, {header.at, std::nullopt});
   }
+  file_.seek(*index_at_);
+  ends_whole_ = ends_whole();
   // What is wrong there is said when the reading comes there.
   warnings_.resize(warnings_before);
   warnings_left_out_ = left_out_before;
@@ -192,12 +242,13 @@ std::optional<Error> BagReader::read_unpacked(std::span<const std::byte> chunk, 
       }
       return std::nullopt;
     }
+    at += record->length;
+    if (!check_op(record->fields, place)) continue;
     const auto op = record->fields.op();
     if (op == BagOp::kConnection) add_connection(record->fields, record->data, place);
     if (op == BagOp::kMessage) {
       if (auto error = visit_message(record->fields, record->data, place)) return error;
     }
-    at += record->length;
   }
   return std::nullopt;
 }
@@ -212,8 +263,24 @@ void BagReader::add_connection(const BagFields& fields, std::span<const std::byt
     warn(fmt::format("the connection at {} is damaged and was skipped", place.text()));
     return;
   }
-  connections_.insert_or_assign(*id, BagConnection{*id, std::string(*topic), std::string(*type),
-                                                   std::string(description->text("md5sum").value_or("*"))});
+  describe(
+      {*id, std::string(*topic), std::string(*type), std::string(description->text("md5sum").value_or("*"))},
+      place);
+}
+
+/// The chunk that introduces a connection and the index describe it alike.
+void BagReader::describe(BagConnection connection, const BagPlace& place) {
+  const auto [known, is_new] = connections_.try_emplace(connection.id, connection);
+  BagConnection& before = known->second;
+  if (is_new || (before.topic == connection.topic && before.type == connection.type &&
+                 before.md5sum == connection.md5sum))
+    return;
+  warn(fmt::format(
+      "the connection at {} is of topic {}, type {} and md5sum {}, and the bag describes the same "
+      "one as of topic {}, type {} and md5sum {}: one of the two is damaged",
+      place.text(), connection.topic, connection.type, connection.md5sum, before.topic, before.type,
+      before.md5sum));
+  before = std::move(connection);
 }
 
 std::optional<Error> BagReader::visit_message(const BagFields& fields, std::span<const std::byte> data,
@@ -230,6 +297,21 @@ std::optional<Error> BagReader::visit_message(const BagFields& fields, std::span
     return std::nullopt;
   }
   return visit_({connection->second, *receive_ns, data, place});
+}
+
+/// Of a record that claims to end beyond the file.
+void BagReader::warn_of_end(std::uint64_t at, std::uint64_t end) {
+  cut_short_ = true;
+  if (ends_whole_) {
+    return warn(
+        fmt::format("the length of the record at byte {} is damaged: it would end at byte {}, and the "
+                    "file is whole and ends at byte {}; what follows in it was not read",
+                    at, end, file_.size()));
+  }
+  warn(
+      fmt::format("it is cut short: the record at byte {} ends at byte {} and the file at byte {}; what is "
+                  "whole in it was read",
+                  at, end, file_.size()));
 }
 
 void BagReader::check_end() {
@@ -259,11 +341,7 @@ Result<std::vector<std::string>> BagReader::read(const Job& job) {
     if (auto error = read_record(header)) return tl::unexpected(std::move(*error));
     const std::uint64_t end = header.data_at + header.data_bytes;
     if (end > file_.size()) {
-      cut_short_ = true;
-      warn(fmt::format(
-          "it is cut short: the record at byte {} ends at byte {} and the file at byte {}; what is whole "
-          "in it was read",
-          header.at, end, file_.size()));
+      warn_of_end(header.at, end);
       break;
     }
     file_.seek(end);

@@ -1,9 +1,12 @@
 #include "core/recording/sqlite_bag.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <sqlite3.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <map>
 #include <memory>
 
@@ -19,8 +22,29 @@ constexpr int kStepsPerLook = 100'000;  // of SQLite's machine, between looks at
 using Database = std::unique_ptr<sqlite3, int (*)(sqlite3*)>;
 using Statement = std::unique_ptr<sqlite3_stmt, int (*)(sqlite3_stmt*)>;
 
+/// How a database is opened. None of them makes a file beside it, nor changes one.
+enum class Opening {
+  kAsItLies,     // journals left alone: there are none, or they cannot be read
+  kShared,       // with the files of another program that has it open
+  kWithJournal,  // with a write-ahead journal that nobody has open: SQLite keeps its index in memory
+};
+
+const char* parameters(Opening opening) {
+  switch (opening) {
+    case Opening::kAsItLies:
+      return "?immutable=1";
+    case Opening::kShared:
+      return "?mode=ro";
+    case Opening::kWithJournal:
+      // An index in memory wants the database for itself, and a lock cannot be had for reading alone.
+      // Whoever writes to the database has its index in a file, so there is nobody to be locked out.
+      return "?mode=ro&vfs=unix-none";
+  }
+  return "";
+}
+
 /// "file:" with what has a meaning in it escaped.
-std::string uri_of(const fs::path& path, bool immutable) {
+std::string uri_of(const fs::path& path, Opening opening) {
   std::string uri = "file:";
   for (const char c : fs::absolute(path).string()) {
     if (c == '%' || c == '?' || c == '#')
@@ -28,7 +52,34 @@ std::string uri_of(const fs::path& path, bool immutable) {
     else
       uri += c;
   }
-  return uri + (immutable ? "?immutable=1" : "?mode=ro");
+  return uri + parameters(opening);
+}
+
+/// A file beside the database: "-wal", its write-ahead journal; "-shm", that one's index; "-journal", what
+/// takes a transaction back.
+bool holds_bytes(const fs::path& database, const char* suffix) {
+  std::error_code error;
+  const auto bytes = fs::file_size(database.string() + suffix, error);
+  return !error && bytes > 0;
+}
+
+/// Whether a program has the write-ahead journal open: each holds a lock on its index. One that was killed
+/// leaves the index, and no lock.
+bool journal_in_use(const fs::path& database) {
+  const int file = ::open((database.string() + "-shm").c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return errno != ENOENT;
+  struct flock lock {};
+  lock.l_type = F_WRLCK;
+  lock.l_whence = SEEK_SET;
+  const bool known = fcntl(file, F_GETLK, &lock) == 0;
+  close(file);
+  return !known || lock.l_type != F_UNLCK;
+}
+
+Opening opening_of(const fs::path& database) {
+  if (holds_bytes(database, "-wal"))
+    return journal_in_use(database) ? Opening::kShared : Opening::kWithJournal;
+  return holds_bytes(database, "-journal") ? Opening::kShared : Opening::kAsItLies;
 }
 
 /// Reads one bag.
@@ -40,8 +91,9 @@ class SqliteReader {
   Result<std::vector<std::string>> read();
 
  private:
-  bool open(bool immutable);
+  bool open(Opening opening);
   bool begin();
+  bool must_be_taken_back();
   Statement prepare(const char* sql);
   bool read_topics();
   std::optional<Error> read_messages();
@@ -67,9 +119,9 @@ Error SqliteReader::unreadable_because(const std::string& why) const {
   return {ExitCode::kUnreadableInput, fmt::format("{}: {}", path_.string(), why)};
 }
 
-bool SqliteReader::open(bool immutable) {
+bool SqliteReader::open(Opening opening) {
   sqlite3* database = nullptr;
-  const int code = sqlite3_open_v2(uri_of(path_, immutable).c_str(), &database,
+  const int code = sqlite3_open_v2(uri_of(path_, opening).c_str(), &database,
                                    SQLITE_OPEN_READONLY | SQLITE_OPEN_URI | SQLITE_OPEN_NOMUTEX, nullptr);
   database_.reset(database);
   if (code != SQLITE_OK) return false;
@@ -77,6 +129,10 @@ bool SqliteReader::open(bool immutable) {
   sqlite3_db_config(database, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
   sqlite3_db_config(database, SQLITE_DBCONFIG_ENABLE_TRIGGER, 0, nullptr);
   sqlite3_db_config(database, SQLITE_DBCONFIG_ENABLE_VIEW, 0, nullptr);
+  // Without this the last one to close a journal writes it into the database and removes it.
+  sqlite3_db_config(database, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
+  if (opening == Opening::kWithJournal)
+    sqlite3_exec(database, "PRAGMA locking_mode = EXCLUSIVE", nullptr, nullptr, nullptr);
   const auto look = [](void* job) { return static_cast<const Job*>(job)->cancelled() ? 1 : 0; };
   sqlite3_progress_handler(database, kStepsPerLook, look, const_cast<Job*>(&job_));
   return true;
@@ -94,17 +150,22 @@ bool SqliteReader::has_table(const char* name) {
          sqlite3_step(statement.get()) == SQLITE_ROW;
 }
 
+/// Whether the recorder was ended within a write, which is half done in the database. SQLite takes it back,
+/// which a reader must not.
+bool SqliteReader::must_be_taken_back() {
+  has_table("topics");
+  return sqlite3_extended_errcode(database_.get()) == SQLITE_READONLY_ROLLBACK;
+}
+
 /// Opens the database, with the journal of a recorder that was not ended where there is one. A file shorter
 /// than its header says is read all the same, as far as it goes.
 bool SqliteReader::begin() {
-  std::error_code ignored;
-  const auto journal_bytes = fs::file_size(path_.string() + "-wal", ignored);
-  const bool journal = !ignored && journal_bytes > 0;
-  if (!open(!journal)) return false;
-  if (journal && !has_table("topics")) {
+  const Opening opening = opening_of(path_);
+  if (!open(opening)) return false;
+  if (holds_bytes(path_, "-wal") && !has_table("topics")) {
     warnings_.push_back(fmt::format("it was never closed, and its journal {}-wal could not be read: {}",
                                     path_.filename().string(), problem()));
-    if (!open(true)) return false;
+    if (!open(Opening::kAsItLies)) return false;
   }
   if (has_table("topics")) return true;
   const int code = sqlite3_errcode(database_.get());
@@ -169,6 +230,13 @@ std::optional<Error> SqliteReader::read_messages() {
 
 Result<std::vector<std::string>> SqliteReader::read() {
   if (!begin()) return tl::unexpected(unreadable_because(problem()));
+  if (must_be_taken_back()) {
+    const std::string name = path_.filename().string();
+    return tl::unexpected(unreadable_because(fmt::format(
+        "its recorder was ended within a write, which {}-journal takes back; copy both files to a "
+        "folder that can be written to, run `sqlite3 {} .schema` there, and read that copy",
+        name, name)));
+  }
   if (!has_table("topics") || !has_table("messages")) {
     const int code = sqlite3_errcode(database_.get());
     const bool sound = code == SQLITE_DONE || code == SQLITE_OK;

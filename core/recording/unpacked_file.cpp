@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <cstring>
 #include <memory>
+#include <new>
 #include <vector>
 
 #include "core/recording/input_file.hpp"
@@ -32,6 +33,7 @@ enum class Unpacking { kWhole, kDamaged, kTooShort, kTooLong, kNoRoom, kInterrup
 
 Unpacking unpack_into(std::FILE* output, InputFile& input, std::uint64_t most_bytes, const Job& job) {
   const Context context(ZSTD_createDCtx(), ZSTD_freeDCtx);
+  if (!context) throw std::bad_alloc();
   std::vector<std::byte> packed(ZSTD_DStreamInSize()), plain(ZSTD_DStreamOutSize());
   std::uint64_t unpacked_bytes = 0;
   std::size_t hint = 0;

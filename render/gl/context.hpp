@@ -33,8 +33,11 @@ class Context {
 
 /// A context in memory, drawn by the CPU: needs neither a display nor a GPU. The back ends are chosen at run
 /// time, in one program: OSMesa is loaded here and never linked, and bound to the same OpenGL entry points
-/// that a window would use. Fails with a sentence where libOSMesa or libGLdispatch is missing or is not the
-/// one known.
+/// that a window would use. Fails with ExitCode::kWrongUsage and a sentence that says what to install where
+/// libOSMesa or libGLdispatch is missing or is not the one known.
 Result<std::unique_ptr<Context>> make_offscreen_context(int width_px, int height_px);
+
+/// Whether such a context can be made, by the same errors: for work that takes its time before it draws.
+Result<void> check_offscreen();
 
 }  // namespace sweepscope::gl

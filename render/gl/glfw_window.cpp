@@ -122,7 +122,7 @@ class GlfwWindow final : public Window {
 
 Result<std::unique_ptr<Window>> make_window(int width_px, int height_px, const std::string& title) {
   if (glfwInit() == 0)
-    return failure(ExitCode::kUnreadableInput, fmt::format("No window can be opened: {}", last_error()));
+    return failure(ExitCode::kWrongUsage, fmt::format("No window can be opened: {}", last_error()));
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
@@ -132,8 +132,10 @@ Result<std::unique_ptr<Window>> make_window(int width_px, int height_px, const s
   if (window == nullptr) {
     const std::string why = last_error();
     glfwTerminate();
-    return failure(ExitCode::kUnreadableInput,
-                   fmt::format("No window with OpenGL 3.3 can be opened: {}", why));
+    return failure(ExitCode::kWrongUsage,
+                   fmt::format("No window with OpenGL 3.3 can be opened: {}; install a driver that has it "
+                               "(Debian's package libgl1-mesa-dri)",
+                               why));
   }
   return std::make_unique<GlfwWindow>(window);
 }

@@ -52,16 +52,26 @@ bool load(void* library, const char* name, Function& function) {
   return function != nullptr;
 }
 
-Result<Libraries*> cannot_draw(std::string why) {
-  return failure(ExitCode::kUnreadableInput, "Pictures cannot be drawn: " + std::move(why));
+tl::unexpected<Error> cannot_draw(std::string why) {
+  return failure(ExitCode::kWrongUsage, "Pictures cannot be drawn: " + std::move(why));
+}
+
+/// A library of this machine, by its name or with the reason why there is none.
+Result<void*> load_library(const char* name, const char* package) {
+  dlerror();
+  if (void* library = dlopen(name, RTLD_NOW | RTLD_LOCAL)) return library;
+  const char* why = dlerror();
+  return cannot_draw(fmt::format("install {} (Debian's package {}): {}", name, package,
+                                 why != nullptr ? why : "it cannot be loaded"));
 }
 
 Result<Libraries*> load_libraries() {
   static Libraries libs;
-  void* osmesa = dlopen("libOSMesa.so.8", RTLD_NOW | RTLD_LOCAL);
-  if (osmesa == nullptr) return cannot_draw("libOSMesa.so.8 is missing (Debian's package libosmesa6)");
-  void* dispatch = dlopen("libGLdispatch.so.0", RTLD_NOW | RTLD_LOCAL);
-  if (dispatch == nullptr) return cannot_draw("libGLdispatch.so.0 is missing (Debian's package libglvnd0)");
+  const auto osmesa_library = load_library("libOSMesa.so.8", "libosmesa6");
+  if (!osmesa_library) return tl::unexpected(osmesa_library.error());
+  const auto dispatch_library = load_library("libGLdispatch.so.0", "libglvnd0");
+  if (!dispatch_library) return tl::unexpected(dispatch_library.error());
+  void *osmesa = *osmesa_library, *dispatch = *dispatch_library;
   const bool complete = load(osmesa, "OSMesaCreateContextAttribs", libs.create_context) &&
                         load(osmesa, "OSMesaMakeCurrent", libs.make_current) &&
                         load(osmesa, "OSMesaDestroyContext", libs.destroy_context) &&
@@ -139,6 +149,10 @@ class OsmesaContext final : public Context {
 
 }  // namespace
 
+Result<void> check_offscreen() {
+  return libraries_once().map([](const Libraries*) {});
+}
+
 Result<std::unique_ptr<Context>> make_offscreen_context(int width_px, int height_px) {
   return libraries_once().and_then([&](const Libraries* libraries) -> Result<std::unique_ptr<Context>> {
     // A compatibility profile would give other pixels than a window's core profile.
@@ -157,8 +171,7 @@ Result<std::unique_ptr<Context>> make_offscreen_context(int width_px, int height
                                          0};
     void* context = libraries->create_context(attributes.data(), nullptr);
     if (context == nullptr) {
-      return failure(ExitCode::kUnreadableInput,
-                     "Pictures cannot be drawn: OSMesa gives no OpenGL 3.3 core context");
+      return cannot_draw("libOSMesa.so.8 gives no OpenGL 3.3 core context; install Mesa 17 or later");
     }
     return std::make_unique<OsmesaContext>(*libraries, context, width_px, height_px);
   });

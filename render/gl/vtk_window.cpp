@@ -7,6 +7,8 @@
 
 #include <utility>
 
+#include "render/gl/vtk_messages.hpp"
+
 namespace sweepscope::gl {
 namespace {
 
@@ -48,6 +50,7 @@ vtkStandardNewMacro(ContextWindow);
 }  // namespace
 
 vtkSmartPointer<vtkGenericOpenGLRenderWindow> make_vtk_window(Context& context, int width_px, int height_px) {
+  quiet_vtk();
   context.make_current();
   auto window = vtkSmartPointer<ContextWindow>::New();
   window->adopt(context);

@@ -38,7 +38,8 @@ class Window : public Context {
   virtual void set_clipboard(const std::string& text) = 0;
 };
 
-/// Fails with a sentence where there is no display, or no OpenGL 3.3 on it. Only on the main thread.
+/// Fails with ExitCode::kWrongUsage and a sentence where there is no display, or no OpenGL 3.3 on it. Only on
+/// the main thread.
 Result<std::unique_ptr<Window>> make_window(int width_px, int height_px, const std::string& title);
 
 /// Ends a wait() early; from any thread.

@@ -5,6 +5,8 @@
 #include <boost/archive/iterators/base64_from_binary.hpp>
 #include <boost/archive/iterators/transform_width.hpp>
 
+#include "core/io/printable_text.hpp"
+
 namespace sweepscope::html {
 namespace {
 
@@ -20,7 +22,7 @@ std::string base64(std::string_view bytes) {
 
 std::string escape(std::string_view text) {
   std::string out;
-  for (const char c : text) {
+  for (const char c : printable_line(text)) {
     if (c == '&') {
       out += "&amp;";
     } else if (c == '<') {
@@ -29,8 +31,6 @@ std::string escape(std::string_view text) {
       out += "&gt;";
     } else if (c == '"') {
       out += "&quot;";
-    } else if (static_cast<unsigned char>(c) < 32 && c != '\n') {
-      out += '?';
     } else {
       out += c;
     }

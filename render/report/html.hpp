@@ -5,7 +5,7 @@
 
 namespace sweepscope::html {
 
-/// The text with what HTML reads as markup written as entities, and control characters as '?'.
+/// The text, of one line, made printable and with what HTML reads as markup written as entities.
 std::string escape(std::string_view text);
 
 /// "<name>inside</name>" and a line end.

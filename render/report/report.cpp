@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "core/io/shell_word.hpp"
 #include "render/comparison.hpp"
 #include "render/curve_charts.hpp"
 #include "render/figures/figure_pictures.hpp"
@@ -206,6 +207,10 @@ Result<std::string> profile(const ReportContent& content) {
 }
 
 }  // namespace
+
+std::string report_command(const std::string& recording_name, const std::string& options) {
+  return fmt::format("sweepscope report {}{} -o report", shell_word(recording_name), options);
+}
 
 Result<std::string> report_html(const ReportContent& content) {
   const auto curve_part = curves(content), map_part = maps(content), profile_part = profile(content);

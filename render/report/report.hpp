@@ -15,13 +15,17 @@ namespace sweepscope {
 /// What a report tells. The maps are those 5 ms off and at the answer; where there is no answer there are
 /// none.
 struct ReportContent {
-  std::string command;  // as it was typed
+  std::string command;  // by report_command()
   RecordingSummary recording;
   Estimate estimate;
   std::optional<Estimate> direct;  // what the direct method answers, beside the paper's criteria
   std::vector<ComparedMap> maps;
   std::optional<CrossSection> section;  // the face that shows the offset best, where there is one
 };
+
+/// The command that makes a report, as a shell would take it. It names files without their folders, and
+/// always the folder "report": the page is the same wherever files lie. `options` begin with a space.
+std::string report_command(const std::string& recording_name, const std::string& options);
 
 /// One self-contained HTML page: what was recorded, the answer with its equation and uncertainty or the
 /// reasons why there is none, the criteria, the maps, a profile, warnings, and how it was made. Its pictures

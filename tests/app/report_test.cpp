@@ -18,7 +18,7 @@ TEST_F(ReportCommand, IsOnePageWithTheAnswerAndItsEvidence) {
   const std::string html = page();
   for (const char* part : {"t_motor = t_laser + offset", "7.0", "What was recorded", "Warnings", "<svg",
                            "data:image/png;base64,", "sweepscope " SWEEPSCOPE_VERSION,
-                           "sweepscope report 'a &lt;room&gt;.bag' -o out --threads 2"}) {
+                           "sweepscope report 'a &lt;room&gt;.bag' -o report"}) {
     EXPECT_NE(html.find(part), std::string::npos) << part;
   }
   EXPECT_EQ(html.find("<room>"), std::string::npos) << "names are escaped";
@@ -32,6 +32,23 @@ TEST_F(ReportCommand, IsTheSameToTheByteEachTime) {
   const std::string first = page();
   ASSERT_EQ(run("report r.bag -o out").exit_code, 0);
   EXPECT_EQ(page(), first);
+}
+
+TEST_F(ReportCommand, IsTheSameToTheByteWhereverFilesLieAndForAnyNumberOfThreads) {
+  std::filesystem::create_directories(folder_ / "far/away");
+  std::ofstream(folder_ / "rig.yaml") << "mount: {axis: [1, 0, 0]}\n";
+  std::filesystem::copy(folder_ / "rig.yaml", folder_ / "far/a rig.yaml");
+  std::filesystem::copy(folder_ / "rig.yaml", folder_ / "a rig.yaml");
+  ASSERT_EQ(run("simulate room-3 -o r.bag --duration-s 4").exit_code, 0);
+  std::filesystem::copy(folder_ / "r.bag", folder_ / "far/away/r.bag");
+  ASSERT_EQ(run("report r.bag -o out --rig 'a rig.yaml' --threads 1").exit_code, 0);
+  const std::string elsewhere = "'" + (folder_ / "far/away/r.bag").string() + "'";
+  const Outcome outcome = run("report --threads=2 --rig=\"$PWD/far/a rig.yaml\" -o far/other " + elsewhere);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(page().find("sweepscope report r.bag --rig 'a rig.yaml' -o report"), std::string::npos);
+  for (const char* file : {"report.html", "estimate.json"})
+    EXPECT_EQ(test::contents_of(folder_ / "far/other" / file), test::contents_of(folder_ / "out" / file))
+        << file;
 }
 
 TEST_F(ReportCommand, ARecordingThatCannotAnswerGetsThePageWithTheReasons) {

@@ -14,6 +14,8 @@
 #include <optional>
 #include <thread>
 
+#include "core/io/printable_text.hpp"
+
 namespace sweepscope::ui {
 namespace {
 
@@ -134,7 +136,7 @@ void Background::start(const std::string& lane, const std::string& key, const st
   auto task = std::make_shared<Task>();
   task->lane = lane;
   task->key = key;
-  task->title = title;
+  task->title = printable_line(title);
   task->work = std::move(work);
   task->job = std::make_unique<Job>([this, raw = task.get()](std::string_view phase, double fraction) {
     shared_->report(*raw, phase, fraction);

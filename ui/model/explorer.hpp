@@ -63,7 +63,8 @@ class Explorer {
   struct Options {
     ReadOptions reading;
     std::optional<Method> assume;
-    std::string shell_options;  // " --rig F ...", repeated in command lines that are copied
+    std::string shell_options;   // " --rig F ...", repeated in command lines that are copied
+    std::string report_options;  // the same as reports quote them: files without their folders
     std::vector<std::filesystem::path> input_files;  // read before anything is opened: rig file, scripts
   };
   Explorer() : Explorer(Options()) {}
@@ -105,6 +106,8 @@ class Explorer {
                     const std::string& done);
   bool is_exporting() const { return background_.has(kExport); }
   /// Why the last export failed, once.
+  /// Why the last recording could not be opened; empty where it was, or is not yet.
+  const std::optional<Error>& load_failure() const { return load_failure_; }
   std::optional<Error> take_export_failure() { return std::exchange(export_failure_, std::nullopt); }
 
   /// Once per frame: takes what is finished, and starts what the settings ask for.
@@ -192,7 +195,7 @@ class Explorer {
   bool b_was_set_ = false;  // by a person, since the recording was opened
   bool view_fitted_ = false;
   double pane_aspect_ = 1;
-  std::optional<Error> export_failure_;
+  std::optional<Error> export_failure_, load_failure_;
   std::vector<std::filesystem::path> input_files_;  // that were opened, or named before
   std::filesystem::path session_file_;              // opened or saved last: saving it again is no harm
   std::optional<Settings> session_settings_;        // to take over once the recording is there

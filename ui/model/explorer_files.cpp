@@ -111,14 +111,16 @@ void Explorer::start_loading(const std::string& title, std::function<Result<Load
   session_settings_.reset();
   session_estimate_.reset();
   message_.reset();
+  load_failure_.reset();
   const auto work = [this, load = std::move(load),
                      assume = options_.assume](const Job& job) -> Background::Finish {
     auto loaded = load(job);
     if (!loaded) {
-      return [this, why = loaded.error().message] {
+      return [this, why = loaded.error()] {
         session_settings_.reset();
         session_estimate_.reset();
-        say(Message::Kind::kError, why);
+        load_failure_ = why;
+        say(Message::Kind::kError, why.message);
       };
     }
     job.report("the first map", 0);
@@ -244,9 +246,7 @@ Result<void> Explorer::export_curve(const std::string& path) {
 
 Result<void> Explorer::export_report(const std::string& folder) {
   if (!loaded_) return not_now("There is no recording to report on.");
-  const std::string shell = loaded_->shell.empty() ? loaded_->recording.name : loaded_->shell;
-  const std::string command =
-      fmt::format("sweepscope report {}{} -o {}", shell, options_.shell_options, folder);
+  const std::string command = report_command(loaded_->recording.name, options_.report_options);
   start_export(
       "Writing a report",
       [loaded = loaded_, assume = options_.assume, folder, command](const Job& job) -> Result<void> {

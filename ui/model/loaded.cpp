@@ -6,6 +6,7 @@
 
 #include "core/io/shell_word.hpp"
 #include "core/io/trajectory_file.hpp"
+#include "core/map/pose_coverage.hpp"
 #include "core/offset/motion_test.hpp"
 #include "core/simulation/simulate.hpp"
 #include "ui/state/value.hpp"
@@ -53,7 +54,9 @@ Result<LoadedPtr> load_file(const std::filesystem::path& path, const std::filesy
   if (!poses.empty()) {
     auto known = read_tum(poses, recording->epoch_ns);
     if (!known) return tl::unexpected(known.error());
-    if (known->size() < 2) return unreadable(poses.string() + ": a trajectory needs two poses at least.");
+    auto covered = check_pose_coverage(*recording, *known);
+    if (!covered) return tl::unexpected(covered.error());
+    if (!covered->empty()) recording->report.warnings.push_back(*covered);
     loaded->poses = std::move(*known);
     loaded->source += fmt::format(" {}", ui::quoted(poses.string()));
     loaded->shell += fmt::format(" --poses {}", shell_word(poses.string()));

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "core/io/printable_text.hpp"
 #include "ui/panes/widgets.hpp"
 
 namespace sweepscope::ui {
@@ -49,7 +50,7 @@ void menu(const PaneContext& context, const std::string& name) {
 /// The recording's name, in the middle of the bar.
 void title(const PaneContext& context, const PixelRect& place) {
   const Loaded* loaded = context.explorer.loaded();
-  const std::string text = loaded != nullptr ? loaded->recording.name : "sweepscope";
+  const std::string text = loaded != nullptr ? printable_line(loaded->recording.name) : "sweepscope";
   const ImVec2 size = ImGui::CalcTextSize(text.c_str());
   ImGui::GetWindowDrawList()->AddText(
       {static_cast<float>(place.left + (place.width - static_cast<double>(size.x)) / 2),

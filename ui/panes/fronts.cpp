@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/io/printable_text.hpp"
 #include "ui/host/input.hpp"
 #include "ui/panes/widgets.hpp"
 
@@ -272,7 +273,7 @@ void draw_message(const PaneContext& context, const PixelRect& whole) {
     ImGui::PopFont();
   }
   ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + wrap);
-  ImGui::TextUnformatted(message->text.c_str());
+  ImGui::TextUnformatted(printable_message(message->text).c_str());
   ImGui::PopTextWrapPos();
   ImGui::SetCursorPos({static_cast<float>(place.width - context.px(92)), context.pxf(10)});
   const bool dismissed = ImGui::SmallButton("Dismiss");

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/io/printable_text.hpp"
 #include "render/curve_charts.hpp"
 #include "ui/panes/widgets.hpp"
 
@@ -52,7 +53,7 @@ void notes(const PaneContext& context, const Loaded& loaded) {
   heading(context, "Notes");
   ImGui::PushFont(context.fonts.small);
   ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(context.style.faint_text));
-  for (const std::string& note : all) ImGui::TextWrapped("%s", note.c_str());
+  for (const std::string& note : all) ImGui::TextWrapped("%s", printable_line(note).c_str());
   ImGui::PopStyleColor();
   ImGui::PopFont();
 }
@@ -127,11 +128,13 @@ void answer(const PaneContext& context, const Estimate& estimate) {
     ImGui::PushFont(context.fonts.heading);
     ImGui::TextUnformatted("None: it cannot be told");
     ImGui::PopFont();
-    for (const std::string& reason : estimate.reasons) ImGui::TextWrapped("%s", reason.c_str());
+    for (const std::string& reason : estimate.reasons)
+      ImGui::TextWrapped("%s", printable_line(reason).c_str());
   }
   ImGui::PushFont(context.fonts.small);
   ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(context.style.faint_text));
-  for (const std::string& warning : estimate.warnings) ImGui::TextWrapped("%s", warning.c_str());
+  for (const std::string& warning : estimate.warnings)
+    ImGui::TextWrapped("%s", printable_line(warning).c_str());
   ImGui::PopStyleColor();
   ImGui::PopFont();
 }

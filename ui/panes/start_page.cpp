@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "core/io/printable_text.hpp"
 #include "ui/panes/widgets.hpp"
 
 namespace sweepscope::ui {
@@ -31,7 +32,7 @@ void recent_files(const PaneContext& context) {
     return;
   }
   for (const std::string& path : context.transient.recent) {
-    if (ImGui::Selectable(std::filesystem::path(path).filename().c_str()))
+    if (ImGui::Selectable(printable_line(std::filesystem::path(path).filename().string()).c_str()))
       context.perform("open " + ui::quoted(path));
     context.anchor_last("recent " + path);
     tooltip(context, path);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/io/printable_text.hpp"
+
 namespace sweepscope::ui {
 namespace {
 
@@ -151,7 +153,7 @@ void row(const PaneContext& context, const char* name, const std::string& value)
   ImGui::TextDisabled("%s", name);
   ImGui::SameLine(ImGui::GetWindowContentRegionMin().x + context.pxf(78));
   ImGui::PushTextWrapPos(0);
-  ImGui::TextUnformatted(value.c_str());
+  ImGui::TextUnformatted(printable_line(value).c_str());
   ImGui::PopTextWrapPos();
   ImGui::PopStyleVar();
 }
@@ -211,7 +213,7 @@ void tooltip(const PaneContext& context, const std::string& text) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(context.pxf(10), context.pxf(7)));
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(context.pxf(330));
-  ImGui::TextUnformatted(text.c_str());
+  ImGui::TextUnformatted(printable_text(text).c_str());
   ImGui::PopTextWrapPos();
   ImGui::EndTooltip();
   ImGui::PopStyleVar();

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/io/estimate_json.hpp"
+#include "core/io/printable_text.hpp"
 #include "ui/state/commands.hpp"
 
 namespace sweepscope::ui {
@@ -54,7 +55,7 @@ std::string session_to_json(const Session& session) {
   }
   Json json{{"schema", kSchema}, {"source", session.source}, {"settings", settings}};
   if (session.estimate) json["estimate"] = Json::parse(estimate_to_json(*session.estimate, Timing::kNull));
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_text(std::move(json));
 }
 
 Result<Session> parse_session(std::string_view text, std::string_view name) {

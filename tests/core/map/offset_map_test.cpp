@@ -114,6 +114,40 @@ TEST_F(WalkingThroughAStation, EveryOffsetsMapHoldsTheSameScans) {
   expect_same_instants(maps_[0], maps_[1]);
 }
 
+/// Poses of a rig that stands still, from and to those times.
+MapOptions placed_by_poses(double from_s, double to_s) {
+  MapOptions options;
+  options.poses = {{from_s, Eigen::Vector3d::Zero(), Eigen::Quaterniond::Identity()},
+                   {to_s, Eigen::Vector3d::Zero(), Eigen::Quaterniond::Identity()}};
+  return options;
+}
+
+TEST_F(StandingInTheHall, PosesOfAnotherTimeAreRefusedWithBothSpans) {
+  const std::vector<double> offsets_s = {kTruth_s};
+  const double end_s = recording_.scans.back().last_beam_s();
+  for (const double from_s : {-1000.0, end_s + 1}) {
+    const auto maps = build_maps(recording_, offsets_s, placed_by_poses(from_s, from_s + 0.5), Job());
+    ASSERT_FALSE(maps);
+    EXPECT_EQ(maps.error().code, ExitCode::kNotIdentifiable);
+    EXPECT_NE(maps.error().message.find("no scan lies within the time of the poses: the poses are from"),
+              std::string::npos)
+        << maps.error().message;
+  }
+}
+
+TEST_F(StandingInTheHall, PosesOfAPartOfTheTimeLeaveScansOutWithAWarning) {
+  const std::vector<double> offsets_s = {kTruth_s};
+  const double end_s = recording_.scans.back().last_beam_s();
+  const auto whole = build_maps(recording_, offsets_s, placed_by_poses(-1, end_s + 1), Job());
+  ASSERT_TRUE(whole);
+  EXPECT_EQ(whole->front().warning, "");
+  const auto part = build_maps(recording_, offsets_s, placed_by_poses(-1, end_s / 2), Job());
+  ASSERT_TRUE(part);
+  EXPECT_NE(part->front().warning.find("scans lie outside the time of the poses, from "), std::string::npos)
+      << part->front().warning;
+  EXPECT_LT(part->front().cloud->size(), whole->front().cloud->size());
+}
+
 TEST(OffsetMap, AnotherKindOfRecordingCanBeAssumed) {
   MapOptions options;
   options.assume = Method::kStationary;

@@ -191,6 +191,42 @@ TEST_F(DamagedMcap, SizesThatTheFileDoesNotHoldAreNotBelieved) {
       "the channel at byte");
 }
 
+TEST_F(DamagedMcap, AWrongLengthInAFileThatIsNotCutShortIsCalledThat) {
+  const std::string sound = RawMcap::magic() + RawMcap::records();
+  for (const char op : {'\x05', '\x06', '\x09'}) {
+    const std::string record = std::string(1, op) + RawMcap::number(1 << 20, 8) + std::string(40, 'x');
+    const std::string bytes = sound + record + RawMcap::end();
+    expect_warning(bytes, "the length of the record at byte " + std::to_string(sound.size()) +
+                              " is damaged: it claims 1048576 bytes");
+    const auto recording = read(bytes);
+    for (const std::string& warning : recording->report.warnings)
+      EXPECT_EQ(warning.find("it is cut short"), std::string::npos) << warning;
+  }
+}
+
+TEST_F(DamagedMcap, AWrongOpCodeIsCalledThat) {
+  const std::string sound = RawMcap::magic() + RawMcap::records();
+  const std::string place = "the record at byte " + std::to_string(sound.size());
+  expect_warning(sound + RawMcap::record(0x45, "lost") + RawMcap::end(), place + " has op code 0x45");
+  const std::string chunk = RawMcap::chunk("", 4, 0, "lost");
+  for (const char op : {'\x07', '\x0f'})
+    expect_warning(sound + op + chunk.substr(1) + RawMcap::end(), place + " is damaged, and was skipped");
+  const std::string within = RawMcap::record(0x25, "lost");
+  expect_warning(
+      sound + RawMcap::chunk("", within.size(), 0, within) + RawMcap::end(),
+      "the record at byte 0 of the chunk at byte " + std::to_string(sound.size()) + " has op code 0x25");
+  const auto without = read(sound + RawMcap::record(0x80, "of another program") + RawMcap::end());
+  ASSERT_TRUE(without);
+  for (const std::string& warning : without->report.warnings)
+    EXPECT_EQ(warning.find("op code"), std::string::npos) << "from 0x80 on they are free: " << warning;
+}
+
+TEST_F(DamagedMcap, ADamagedFooterIsCalledThat) {
+  std::string end = RawMcap::end();
+  end[end.size() - RawMcap::magic().size() - 29] = '\x0c';
+  expect_warning(RawMcap::magic() + RawMcap::records() + end, "its footer is damaged");
+}
+
 TEST_F(DamagedMcap, MessagesOfNoChannelAreCounted) {
   std::string bytes = RawMcap::magic() + RawMcap::records();
   for (int i = 0; i < 3; ++i) bytes += RawMcap::message(77, 1, "x");

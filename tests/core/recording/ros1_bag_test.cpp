@@ -221,6 +221,56 @@ TEST(Ros1Bag, AHeaderSizeBeyondTheFileEndsTheReading) {
   EXPECT_NE(beyond.all_warnings().find("cut short in the record at byte"), std::string::npos);
 }
 
+/// A bag with an index after these records, at which it is seen to be whole.
+Reading read_closed(const test::ScratchFolder& folder, const std::string& records,
+                    const std::string& index = RawBag::connection(7, "/a", "x/Y")) {
+  return read_records(folder, records + index, (RawBag::magic() + RawBag::bag_header(0) + records).size());
+}
+
+TEST(Ros1Bag, AWrongLengthInABagThatIsNotCutShortIsCalledThat) {
+  const test::ScratchFolder folder;
+  const std::string sound = sample_chunk_records();
+  const std::string place = std::to_string((RawBag::magic() + RawBag::bag_header(0) + sound).size());
+  std::string of_data = RawBag::message(7, 5, "three");
+  of_data[of_data.size() - 7] = '\x01';  // 65,541 bytes and not 5
+  const Reading data = read_closed(folder, sound + of_data);
+  EXPECT_EQ(data.messages.size(), 2U);
+  EXPECT_NE(data.all_warnings().find("the length of the record at byte " + place + " is damaged"),
+            std::string::npos)
+      << data.all_warnings();
+  const Reading header = read_closed(folder, sound + RawBag::number(1 << 19, 4) + "xxxxxxxx");
+  EXPECT_NE(header.all_warnings().find("a length is damaged in the record at byte " + place),
+            std::string::npos)
+      << header.all_warnings();
+  for (const Reading* reading : {&data, &header})
+    EXPECT_EQ(reading->all_warnings().find("it is cut short"), std::string::npos) << reading->all_warnings();
+}
+
+TEST(Ros1Bag, AWrongOpCodeIsCalledThat) {
+  const test::ScratchFolder folder;
+  const std::string lost = RawBag::message(7, 5, "three");
+  for (const char op : {'\x04', '\x05', '\x06', '\x07', '\x31'}) {
+    std::string damaged = lost;
+    damaged[damaged.find("op=") + 3] = op;
+    for (const bool in_chunk : {false, true}) {
+      const std::string record = in_chunk ? RawBag::chunk("none", damaged.size(), damaged) : damaged;
+      const Reading reading = read_closed(folder, sample_chunk_records() + record);
+      EXPECT_EQ(reading.messages.size(), 2U);
+      EXPECT_NE(reading.all_warnings().find("its op code, " + std::to_string(int(op)) + ","),
+                std::string::npos)
+          << int(op) << ": " << reading.all_warnings();
+    }
+  }
+}
+
+TEST(Ros1Bag, AConnectionThatTheIndexDescribesOtherwiseIsNamed) {
+  const test::ScratchFolder folder;
+  const Reading reading =
+      read_closed(folder, sample_chunk_records(), RawBag::connection(7, "/a", "x/Y", "of another version"));
+  EXPECT_NE(reading.all_warnings().find("one of the two is damaged"), std::string::npos)
+      << reading.all_warnings();
+}
+
 /// Zeros that lz4 packs some two hundred times smaller.
 std::string packed_zeros(std::size_t mebibytes) {
   const std::string zeros(std::size_t{1} << 20, '\0');

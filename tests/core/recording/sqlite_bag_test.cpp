@@ -1,6 +1,7 @@
 #include "core/recording/sqlite_bag.hpp"
 
 #include "core/recording/read_recording.hpp"
+#include "tests/core/io/folder_contents.hpp"
 #include "tests/core/recording/message_bytes.hpp"
 #include "tests/core/recording/test_bag.hpp"
 #include "tests/core/recording/test_database.hpp"
@@ -26,6 +27,13 @@ void write_sample(TestDatabase& database) {
                      test::joint_bytes(MessageBytes::kCdr, std::uint32_t(ns / 1'000'000'000),
                                        std::uint32_t(ns % 1'000'000'000), {"roll_motor"}, {0.01 * i}));
   }
+}
+
+/// More scans, after those of write_sample().
+void write_sample_again(TestDatabase& database) {
+  for (int i = 0; i < kScans; ++i)
+    database.message(1, 11'005'000'000 + 25'000'000 * i,
+                     test::scan_bytes(MessageBytes::kCdr, 11, 25'000'000U * unsigned(i), {1, 2, 3}));
 }
 
 class SqliteBag : public testing::Test {
@@ -113,6 +121,49 @@ TEST_F(SqliteBag, ARecorderThatWasNotEndedLeavesItsJournal) {
   const auto recording = read("left.db3");
   ASSERT_TRUE(recording) << recording.error().message;
   EXPECT_EQ(recording->scans.size(), std::size_t{kScans});
+}
+
+TEST_F(SqliteBag, ReadingLeavesTheFolderAsItWas) {
+  {
+    TestDatabase live(folder_ / "live.db3", "WAL"), closed(folder_ / "closed.db3", "WAL");
+    write_sample(live);
+    write_sample(closed);
+    for (const char* copy : {"journal", "both"}) {
+      std::filesystem::create_directories(folder_ / copy);
+      for (const std::string end : {"", "-wal"})
+        std::filesystem::copy_file(folder_ / ("live.db3" + end), folder_ / copy / ("a.db3" + end));
+    }
+    std::filesystem::copy_file(folder_ / "live.db3-shm", folder_ / "both" / "a.db3-shm");
+  }
+  std::filesystem::create_directories(folder_ / "closed");
+  std::filesystem::rename(folder_ / "closed.db3", folder_ / "closed" / "a.db3");
+  for (const char* folder : {"closed", "journal", "both"}) {
+    const auto before = test::files_in(folder_ / folder);
+    const auto recording = read(std::string(folder) + "/a.db3");
+    ASSERT_TRUE(recording) << folder << ": " << recording.error().message;
+    EXPECT_EQ(recording->scans.size(), std::size_t{kScans}) << folder;
+    EXPECT_TRUE(recording->report.warnings.empty()) << folder;
+    EXPECT_TRUE(test::files_in(folder_ / folder) == before) << folder;
+  }
+}
+
+TEST_F(SqliteBag, AWriteThatIsHalfDoneIsRefusedWithWhatToDo) {
+  std::filesystem::create_directories(folder_ / "left");
+  {
+    TestDatabase database(folder_ / "live.db3", "DELETE");
+    write_sample(database);
+    database.run("COMMIT; PRAGMA cache_size = 2; BEGIN");
+    write_sample_again(database);
+    for (const std::string end : {"", "-journal"})
+      std::filesystem::copy_file(folder_ / ("live.db3" + end), folder_ / "left" / ("a.db3" + end));
+  }
+  const auto before = test::files_in(folder_ / "left");
+  EXPECT_NE(refusal("left/a.db3")
+                .find("a.db3: its recorder was ended within a write, which a.db3-journal "
+                      "takes back"),
+            std::string::npos)
+      << refusal("left/a.db3");
+  EXPECT_TRUE(test::files_in(folder_ / "left") == before);
 }
 
 TEST_F(SqliteBag, CutAnywhereItIsReadAsFarAsItGoesWithAWarning) {
