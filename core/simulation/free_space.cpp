@@ -29,7 +29,7 @@ Result<void> check_free_space(const RayCaster& scene, const std::function<Vector
     const Vector3d now = laser_at(i * kStep_s);
     if (const auto near_m = scene.distance_m(now, kClearance_m))
       return failure(ExitCode::kWrongUsage,
-                     fmt::format("{} is {:.2f} m from a surface, nearer than {:g} m{}",
+                     fmt::format("{} is {:.3f} m from a surface, nearer than {:g} m{}",
                                  place(i * kStep_s, now), *near_m, kClearance_m, kRemedy));
     if (is_blocked(scene, before, now))
       return failure(ExitCode::kWrongUsage,

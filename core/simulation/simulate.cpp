@@ -40,6 +40,7 @@ struct Bound {
 };
 
 Result<void> check(const SimulationOptions& o) {
+  const Vector3d at_m = o.own.placement.at_m.value_or(Vector3d::Zero());
   const Bound bounds[] = {
       {"the offset", o.offset_s * 1e3, -10e3, 10e3, " ms"},
       {"the noise", o.noise_m * 1e3, 0, 1000, " mm"},
@@ -68,6 +69,9 @@ Result<void> check(const SimulationOptions& o) {
       {"the number of people", static_cast<double>(o.people), 0, 50, ""},
       {"the part of glass", o.glass, 0, 1, ""},
       {"the trajectory's scale", o.own.placement.scale, 0, 100, ""},
+      {"the trajectory's place, x", at_m.x(), -5000, 5000, " m"},
+      {"the trajectory's place, y", at_m.y(), -5000, 5000, " m"},
+      {"the trajectory's place, z", at_m.z(), -5000, 5000, " m"},
       {"the trajectory's yaw", o.own.placement.yaw_deg, -360, 360, " deg"},
       {"the trajectory's start", o.own.from_s, 0, 1e6, " s"},
       {"the trajectory's smoothing", o.own.placement.smoothing_s * 1e3, 10, 1000, " ms"},

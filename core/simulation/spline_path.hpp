@@ -16,7 +16,7 @@ namespace sweepscope::simulation {
 class SplinePath {
  public:
   /// The poses' times must ascend strictly, and neighbours differ by less than 180 deg. Poses that are
-  /// missing for several knots are bridged with the least jerk. Throws std::invalid_argument for fewer than
+  /// missing for several knots are bridged with little bending. Throws std::invalid_argument for fewer than
   /// two poses.
   SplinePath(std::span<const StampedPose> poses, double knots_s);
 
