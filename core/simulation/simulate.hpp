@@ -60,7 +60,7 @@ struct SimulationOptions {
   int people = 0;                     // who walk about, 0 to 50
   double glass = 0;                   // part of the upright surfaces, in cells of 1 m, that are panes, 0 to 1
 
-  OwnScene own;  // instead of `scene`
+  OwnScene own = {};  // instead of `scene`
 };
 
 /// The base frame in the world.
