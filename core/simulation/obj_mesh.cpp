@@ -28,10 +28,10 @@ std::string take_face(TextCursor& words, MeshBuilder& builder) {
     if (error != std::errc() || end != index.data() + index.size() || number == 0)
       return fmt::format("\"{}\" is not a corner of a face", word->substr(0, 40));
     // Counted from 1, or back from the last vertex so far.
-    if (number < 0 && -number > static_cast<std::int64_t>(builder.vertices()))
-      return fmt::format("a face counts back by {}, but there are {} vertices so far", -number,
-                         builder.vertices());
-    corners.push_back(number > 0 ? number - 1 : static_cast<std::int64_t>(builder.vertices()) + number);
+    const auto vertices = static_cast<std::int64_t>(builder.vertices());
+    if (number < -vertices)
+      return fmt::format("a face counts back to {}, but there are {} vertices so far", number, vertices);
+    corners.push_back(number > 0 ? number - 1 : vertices + number);
   }
   return builder.add_face(corners);
 }

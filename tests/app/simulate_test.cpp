@@ -105,9 +105,10 @@ TEST_F(SimulateCommand, RefusesAnOwnSceneThatIsNotPlain) {
   const std::string own = "--mesh room.obj --trajectory walk.tum -o a.bag ";
   for (const std::string& arguments :
        {"room-1 " + own, std::string("--trajectory walk.tum -o a.bag"), std::string("-o a.bag"),
-        "room-1 --trajectory walk.tum -o a.bag", own + "--trajectory-at 1,2", own + "--trajectory-at 1,2,3,4",
-        own + "--trajectory-at 1,2,z", own + "--trajectory-scale nan", own + "--mount-error-deg 1",
-        own + "--trajectory-at 0,0,0.1", own + "--trajectory-at 0,0,1 --trajectory-scale 40"})
+        std::string("room-1 --trajectory walk.tum -o a.bag"), own + "--trajectory-at 1,2",
+        own + "--trajectory-at 1,2,3,4", own + "--trajectory-at 1,2,z", own + "--trajectory-scale nan",
+        own + "--mount-error-deg 1", own + "--trajectory-at 0,0,0.1",
+        own + "--trajectory-at 0,0,1 --trajectory-scale 40"})
     EXPECT_EQ(simulate(arguments).exit_code, 2) << arguments;
   for (const char* arguments :
        {"--mesh open.obj -o a.bag", "--mesh none.ply -o a.bag",

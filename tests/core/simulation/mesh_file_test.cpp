@@ -169,10 +169,10 @@ TEST(MeshFile, ABadObjIsRefusedWithItsPlace) {
             "m.obj: line 4: a face names vertex 3 (counted from 0), but there are 3");
   EXPECT_EQ(refused(corners + "f 1 2 0\n"), "m.obj: line 4: \"0\" is not a corner of a face");
   EXPECT_EQ(refused(corners + "f -4 2 3\n"),
-            "m.obj: line 4: a face counts back by 4, but there are 3 vertices so far");
+            "m.obj: line 4: a face counts back to -4, but there are 3 vertices so far");
   EXPECT_EQ(refused(corners + "f 1 2 c\n"), "m.obj: line 4: \"c\" is not a corner of a face");
   EXPECT_EQ(refused(corners + "f -9223372036854775808 2 3\n"),
-            "m.obj: line 4: \"-9223372036854775808\" is not a corner of a face");
+            "m.obj: line 4: a face counts back to -9223372036854775808, but there are 3 vertices so far");
   EXPECT_EQ(refused("v 0 0\n"), "m.obj: line 1: a vertex needs three numbers");
   EXPECT_EQ(refused("v 0 inf 0\n"), "m.obj: line 1: a coordinate is not a finite number");
   EXPECT_EQ(refused(corners), "m.obj: holds no triangle with an area");

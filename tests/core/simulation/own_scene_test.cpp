@@ -119,13 +119,13 @@ TEST_F(OwnScenes, PointsOfAWalkLieOnTheWallsAtTheTruth) {
 TEST_F(OwnScenes, AWalkThatComesTooNearIsRefusedWithTimeAndPlace) {
   write_walk(1.5);
   SimulationOptions walk = walking();
-  walk.own.placement.at_m = Vector3d(4.4, 0, 1.2);  // 1.5 m further is 0.1 m from the wall at x = 6
+  walk.own.placement.at_m = Vector3d(4.7, 0, 1.2);  // 1.18 m further is 0.12 m from the wall at x = 6
   const auto near = simulated(walk);
   ASSERT_FALSE(near);
   EXPECT_EQ(near.error().code, ExitCode::kWrongUsage);
   EXPECT_NE(near.error().message.find("room.obj: 0.9"), std::string::npos) << near.error().message;
   EXPECT_NE(near.error().message.find("m from a surface, nearer than 0.15 m"), std::string::npos);
-  walk.own.placement.at_m = Vector3d(4.3, 0, 1.2);
+  walk.own.placement.at_m = Vector3d(4.6, 0, 1.2);
   EXPECT_TRUE(simulated(walk));
   walk.own.placement.scale = 2;  // through the wall
   EXPECT_FALSE(simulated(walk));
