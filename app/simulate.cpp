@@ -130,10 +130,11 @@ ExitCode run(const Typed& typed) {
 void declare_own_scene(CLI::App& app, CLI::Option* scene, Typed& typed) {
   OwnScene& own = typed.options.own;
   const char* group = "A scene and a walk of your own";
-  CLI::Option* mesh = app.add_option("--mesh", own.mesh, "A triangle mesh instead of SCENE, metres, z up")
-                          ->type_name("M.ply|.obj")
-                          ->group(group)
-                          ->excludes(scene);
+  CLI::Option* mesh =
+      app.add_option("--mesh", own.mesh, "A triangle mesh (PLY or OBJ) instead of SCENE, in metres, z up")
+          ->type_name("M.ply")
+          ->group(group)
+          ->excludes(scene);
   CLI::Option* trajectory =
       app.add_option("--trajectory", own.trajectory,
                      "The rig's motion, smoothed by a spline; without it the rig stands at --trajectory-at")
