@@ -18,22 +18,6 @@ struct PlyHeader {
   bool in_vertex = false, ended = false;
 };
 
-std::optional<ScalarType> scalar_type(std::string_view word) {
-  struct Row {
-    std::string_view word, sized_word;
-    ScalarType type;
-  };
-  static constexpr Row kRows[] = {
-      {"char", "int8", ScalarType::kI8},      {"uchar", "uint8", ScalarType::kU8},
-      {"short", "int16", ScalarType::kI16},   {"ushort", "uint16", ScalarType::kU16},
-      {"int", "int32", ScalarType::kI32},     {"uint", "uint32", ScalarType::kU32},
-      {"float", "float32", ScalarType::kF32}, {"double", "float64", ScalarType::kF64}};
-  for (const Row& row : kRows) {
-    if (word == row.word || word == row.sized_word) return row.type;
-  }
-  return std::nullopt;
-}
-
 /// Empty, or what is wrong with the line.
 std::string take_element(TextCursor& words, PlyHeader& header) {
   const auto element = words.next_word();
@@ -54,7 +38,7 @@ std::string take_property(TextCursor& words, PlyHeader& header) {
   const auto type_word = words.next_word();
   const auto field = words.next_word();
   if (type_word && *type_word == "list") return "a list in the element vertex cannot be read";
-  const auto type = type_word ? scalar_type(*type_word) : std::nullopt;
+  const auto type = type_word ? ply_scalar_type(*type_word) : std::nullopt;
   if (!type || !field) return "a property needs a known type and a name";
   if (header.layout.fields.size() == kMostFields) return "the vertices have too many properties";
   header.layout.fields.push_back({std::string(*field), *type});
@@ -79,6 +63,22 @@ std::string take_header_line(std::string_view line, PlyHeader& header) {
 }
 
 }  // namespace
+
+std::optional<ScalarType> ply_scalar_type(std::string_view word) {
+  struct Row {
+    std::string_view word, sized_word;
+    ScalarType type;
+  };
+  static constexpr Row kRows[] = {
+      {"char", "int8", ScalarType::kI8},      {"uchar", "uint8", ScalarType::kU8},
+      {"short", "int16", ScalarType::kI16},   {"ushort", "uint16", ScalarType::kU16},
+      {"int", "int32", ScalarType::kI32},     {"uint", "uint32", ScalarType::kU32},
+      {"float", "float32", ScalarType::kF32}, {"double", "float64", ScalarType::kF64}};
+  for (const Row& row : kRows) {
+    if (word == row.word || word == row.sized_word) return row.type;
+  }
+  return std::nullopt;
+}
 
 Result<MapCloud::Ptr> parse_ply(std::string_view bytes, std::string_view name) {
   PlyHeader header;

@@ -17,7 +17,14 @@ double load_as_double(const char* bytes) {
   return static_cast<double>(value);
 }
 
-double load(ScalarType type, const char* bytes) {
+std::uint32_t to_sweep(double value) {
+  constexpr double kMost = std::numeric_limits<std::uint32_t>::max();
+  return value >= 0 && value <= kMost ? static_cast<std::uint32_t>(value) : 0;  // NaN is 0 too
+}
+
+}  // namespace
+
+double load_scalar(ScalarType type, const char* bytes) {
   switch (type) {
     case ScalarType::kI8:
       return load_as_double<std::int8_t>(bytes);
@@ -42,13 +49,6 @@ double load(ScalarType type, const char* bytes) {
   }
   return 0;
 }
-
-std::uint32_t to_sweep(double value) {
-  constexpr double kMost = std::numeric_limits<std::uint32_t>::max();
-  return value >= 0 && value <= kMost ? static_cast<std::uint32_t>(value) : 0;  // NaN is 0 too
-}
-
-}  // namespace
 
 std::size_t size_of(ScalarType type) {
   switch (type) {
@@ -148,7 +148,7 @@ Result<MapCloud::Ptr> read_binary_points(const BinaryTable& table, const PointLa
     for (std::size_t column = 0; column < kMapColumns; ++column) {
       if (const auto f = (*columns)[column]) {
         values[column] =
-            load(layout.fields[*f].type, table.bytes.data() + table.begin[*f] + i * table.stride[*f]);
+            load_scalar(layout.fields[*f].type, table.bytes.data() + table.begin[*f] + i * table.stride[*f]);
       }
     }
     collector.add(values);

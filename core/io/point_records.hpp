@@ -18,6 +18,10 @@ namespace sweepscope {
 enum class ScalarType { kI8, kU8, kI16, kU16, kI32, kU32, kI64, kU64, kF32, kF64 };
 
 std::size_t size_of(ScalarType type);
+/// The number that begins at `bytes`.
+double load_scalar(ScalarType type, const char* bytes);
+/// A type by its name in a PLY header; none for another word.
+std::optional<ScalarType> ply_scalar_type(std::string_view word);
 
 /// One named column of a table of points; `count` numbers follow each other in it.
 struct PointField {

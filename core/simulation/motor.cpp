@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kReach_rad = kPi / 2;
 constexpr double kReversal = 0.16;  // of a sweep is spent on one reversal of the trapezoid
+constexpr std::uint64_t kUnevenPurpose = 7;
 
 constexpr std::array kNames = {
     std::pair{MotorKind::kTriangle, std::string_view("triangle")},
@@ -52,11 +53,26 @@ std::vector<std::string_view> motor_names() {
   return names;
 }
 
-Motor::Motor(MotorKind kind, double sweep_s, double phase_s)
-    : kind_(kind), sweep_s_(sweep_s), phase_s_(phase_s) {}
+Motor::Motor(MotorKind kind, double sweep_s, double phase_s, const Unevenness& uneven)
+    : kind_(kind), sweep_s_(sweep_s), phase_s_(phase_s) {
+  constexpr int kWaves = 5;
+  Random random(uneven.seed, kUnevenPurpose, 0);
+  for (int i = 0; uneven.part > 0 && i < kWaves; ++i) {
+    const double rate_radps = 2 * kPi * (0.05 + 0.95 * random.uniform());
+    const double phase_rad = 2 * kPi * random.uniform();
+    waves_.push_back({rate_radps, phase_rad, uneven.part / kWaves / rate_radps});
+  }
+}
+
+double Motor::warped_s(double t_s) const {
+  double warped_s = t_s;
+  for (const Wave& wave : waves_)
+    warped_s += wave.amplitude_s * sin_cos(wave.rate_radps * t_s + wave.phase_rad).sin;
+  return warped_s;
+}
 
 Motor::Swing Motor::swing(double t_s) const {
-  const double sweeps = (t_s + phase_s_) / sweep_s_;
+  const double sweeps = (warped_s(t_s) + phase_s_) / sweep_s_;
   if (kind_ == MotorKind::kOneWay) return {2 * kReach_rad * sweeps, true};
   if (kind_ == MotorKind::kStuck) return {2 * kReach_rad * phase_s_ / sweep_s_, true};
   const double nearest = std::floor(sweeps + 0.5);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -18,11 +19,17 @@ std::optional<MotorKind> motor_kind(std::string_view name);
 std::string_view name_of(MotorKind kind);
 std::vector<std::string_view> motor_names();
 
+/// A motor that does not keep its speed: it varies slowly (0.05 to 1 Hz) and at random by at most `part`.
+struct Unevenness {
+  double part = 0;
+  std::uint64_t seed = 1;
+};
+
 /// The motor's true angle over true time. It swings between -90 and +90 deg in sweep_s; phase_s, in [0, 2
 /// sweep_s), is how long after a passage through 0 deg, upwards, true time 0 falls.
 class Motor {
  public:
-  Motor(MotorKind kind, double sweep_s, double phase_s);
+  Motor(MotorKind kind, double sweep_s, double phase_s, const Unevenness& uneven = {});
 
   /// What the encoder, on the motor's side of the gears, would read if it had no steps.
   double angle_rad(double t_s) const;
@@ -34,10 +41,16 @@ class Motor {
     double angle_rad;
     bool upwards;
   };
+  struct Wave {
+    double rate_radps, phase_rad, amplitude_s;
+  };
   Swing swing(double t_s) const;
+  /// How long an even motor takes to get where this one is at t_s.
+  double warped_s(double t_s) const;
 
   MotorKind kind_;
   double sweep_s_, phase_s_;
+  std::vector<Wave> waves_;
 };
 
 }  // namespace sweepscope::simulation

@@ -76,6 +76,47 @@ void meet(const RTCIntersectFunctionNArguments* arguments) {
   ray.hit.primID = arguments->primID;
 }
 
+/// The point of a triangle that is nearest to p, by the regions of its plane (Ericson, Real-Time Collision
+/// Detection, 5.1.5).
+Vector3d nearest_point(const Facet& facet, const Vector3d& p) {
+  const Vector3d &ab = facet.side_u, &ac = facet.side_v;
+  const Vector3d from_a = p - facet.corner;
+  const double d1 = ab.dot(from_a), d2 = ac.dot(from_a);
+  if (d1 <= 0 && d2 <= 0) return facet.corner;
+  const Vector3d from_b = from_a - ab;
+  const double d3 = ab.dot(from_b), d4 = ac.dot(from_b);
+  if (d3 >= 0 && d4 <= d3) return facet.corner + ab;
+  const double beside_ab = d1 * d4 - d3 * d2;
+  if (beside_ab <= 0 && d1 >= 0 && d3 <= 0) return facet.corner + d1 / (d1 - d3) * ab;
+  const Vector3d from_c = from_a - ac;
+  const double d5 = ab.dot(from_c), d6 = ac.dot(from_c);
+  if (d6 >= 0 && d5 <= d6) return facet.corner + ac;
+  const double beside_ac = d5 * d2 - d1 * d6;
+  if (beside_ac <= 0 && d2 >= 0 && d6 <= 0) return facet.corner + d2 / (d2 - d6) * ac;
+  const double beside_bc = d3 * d6 - d5 * d4;
+  if (beside_bc <= 0 && d4 >= d3 && d5 >= d6)
+    return facet.corner + ab + (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (ac - ab);
+  const double sum = beside_bc + beside_ac + beside_ab;
+  return facet.corner + beside_ac / sum * ab + beside_ab / sum * ac;
+}
+
+struct NearestQuery {
+  const std::vector<Facet>* facets;
+  Vector3d point_m;
+  double distance_m;
+};
+
+bool come_near(RTCPointQueryFunctionArguments* arguments) {
+  NearestQuery& query = *static_cast<NearestQuery*>(arguments->userPtr);
+  const Vector3d nearest = nearest_point((*query.facets)[arguments->primID], query.point_m);
+  const double distance_m = (nearest - query.point_m).norm();
+  if (distance_m >= query.distance_m) return false;
+  query.distance_m = distance_m;
+  constexpr double kMargin_m = 2e-3;
+  arguments->query->radius = static_cast<float>(distance_m + kMargin_m);
+  return true;
+}
+
 struct Release {
   void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
   void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
@@ -135,7 +176,29 @@ std::optional<Hit> RayCaster::cast(const Vector3d& origin, const Vector3d& direc
   rtcIntersect1(implementation_->scene.get(), &query.embree, &ray);
   if (query.facet == kNone) return std::nullopt;
   const Facet& facet = implementation_->facets[query.facet];
-  return Hit{query.range_m, std::abs(facet.normal.dot(direction)) / facet.normal.norm(), facet.albedo};
+  const double area = facet.normal.norm();
+  return Hit{query.range_m, std::abs(facet.normal.dot(direction)) / area, facet.albedo, facet.normal / area};
+}
+
+std::optional<double> RayCaster::distance_m(const Vector3d& point_m, double within_m) const {
+  NearestQuery nearest{&implementation_->facets, point_m, within_m};
+  RTCPointQuery query{};
+  query.x = static_cast<float>(point_m.x());
+  query.y = static_cast<float>(point_m.y());
+  query.z = static_cast<float>(point_m.z());
+  query.radius = static_cast<float>(within_m * 1.001 + 1e-3);
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  rtcPointQuery(implementation_->scene.get(), &query, &context, come_near, &nearest);
+  if (nearest.distance_m >= within_m) return std::nullopt;
+  return nearest.distance_m;
+}
+
+Eigen::AlignedBox3d RayCaster::bounds_m() const {
+  Eigen::AlignedBox3d box;
+  for (const Facet& facet : implementation_->facets)
+    box.extend(facet.corner).extend(facet.corner + facet.side_u).extend(facet.corner + facet.side_v);
+  return box;
 }
 
 }  // namespace sweepscope::simulation

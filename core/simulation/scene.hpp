@@ -7,14 +7,16 @@
 #include <vector>
 
 #include "core/simulation/mesh.hpp"
+#include "core/simulation/recorded_path.hpp"
 #include "core/simulation/trajectory.hpp"
 
 namespace sweepscope::simulation {
 
-/// A place to record in, and how it is recorded: walked through, or standing still.
+/// A place to record in, and how it is recorded: walked through, standing still, or moved as somebody
+/// recorded.
 struct Scene {
   Mesh mesh;
-  std::variant<WalkSpec, Stand> motion;
+  std::variant<WalkSpec, Stand, RecordedPath> motion;
 };
 
 /// metro-station, parking-area, cemetery, lecture-room, room-1 to room-6.

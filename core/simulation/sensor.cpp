@@ -10,7 +10,14 @@
 namespace sweepscope::simulation {
 namespace {
 
-enum Purpose : std::uint64_t { kPhases = 2, kBeamNoise = 3, kEncoder = 4, kScanStamp = 5, kMotorStamp = 6 };
+enum Purpose : std::uint64_t {
+  kPhases = 2,
+  kBeamNoise = 3,
+  kEncoder = 4,
+  kScanStamp = 5,
+  kMotorStamp = 6,
+  kWeakReturn = 8
+};
 
 constexpr double kMotorMargin_s = 0.3;  // the motor is recorded for this much longer, before and after
 
@@ -20,6 +27,8 @@ double phase_s(const SimulationOptions& options, std::uint64_t which, double per
 
 Trajectory trajectory_of(const Scene& scene, std::uint64_t seed) {
   if (const WalkSpec* walk = std::get_if<WalkSpec>(&scene.motion)) return Trajectory(*walk, seed);
+  if (const RecordedPath* path = std::get_if<RecordedPath>(&scene.motion))
+    return Trajectory([path = *path](double t_s) { return path.at(t_s); });
   return Trajectory(std::get<Stand>(scene.motion));
 }
 
@@ -35,17 +44,31 @@ float intensity_of(const Hit& hit) {
       std::floor(4000 * hit.albedo * (0.25 + 0.75 * hit.cos_incidence) / (1 + far * far)));
 }
 
+/// Rz(yaw) Ry(pitch) Rx(roll), as a rig file's rpy_deg means it.
+Eigen::Matrix3d rotation_of(const Vector3d& rpy_deg) {
+  const SinCos r = sin_cos(radians(rpy_deg.x())), p = sin_cos(radians(rpy_deg.y())),
+               y = sin_cos(radians(rpy_deg.z()));
+  Eigen::Matrix3d rotation;
+  rotation << y.cos * p.cos, y.cos * p.sin * r.sin - y.sin * r.cos, y.cos * p.sin * r.cos + y.sin * r.sin,
+      y.sin * p.cos, y.sin * p.sin * r.sin + y.cos * r.cos, y.sin * p.sin * r.cos - y.cos * r.sin,  //
+      -p.sin, p.cos * r.sin, p.cos * r.cos;
+  return rotation;
+}
+
 }  // namespace
 
 Sensor::Sensor(const SimulationOptions& options, const Scene& scene)
     : options_(options),
       caster_(scene.mesh),
       trajectory_(trajectory_of(scene, options.seed)),
-      motor_(options.motor, options.sweep_s, phase_s(options, 0, 2 * options.sweep_s)),
-      encoder_phase_s_(phase_s(options, 1, 1 / options.encoder_hz)) {
+      motor_(options.motor, options.sweep_s, phase_s(options, 0, 2 * options.sweep_s),
+             {options.uneven_motor, options.seed}),
+      encoder_phase_s_(phase_s(options, 1, 1 / options.encoder_hz)),
+      glass_(options.glass, options.seed) {
+  const Eigen::Matrix3d motor_from_laser = rotation_of(options.mount_error_deg);
   for (std::size_t beam = 0; beam < kBeams; ++beam) {
     const SinCos angle = sin_cos(radians(-90 + 0.25 * static_cast<double>(beam)));
-    beam_directions_.emplace_back(angle.cos, angle.sin);
+    beam_directions_.emplace_back(motor_from_laser * Vector3d(angle.cos, angle.sin, 0));
   }
 }
 
@@ -69,40 +92,63 @@ Pose Sensor::pose_at(double t_s) const {
   return pose;
 }
 
-Vector3d Sensor::direction_in_world(const Pose& pose, double t_s, std::size_t beam) const {
+Vector3d Sensor::from_motor(const Pose& pose, double t_s, const Vector3d& in_motor) const {
   const SinCos roll = sin_cos(motor_.laser_angle_rad(t_s, radians(options_.backlash_deg)));
-  const Vector2d& in_laser = beam_directions_[beam];
-  const Vector3d in_base(in_laser.x(), in_laser.y() * roll.cos, in_laser.y() * roll.sin);
-  return (pose.orientation * in_base).normalized();
+  const Vector3d in_base(in_motor.x(), in_motor.y() * roll.cos - in_motor.z() * roll.sin,
+                         in_motor.y() * roll.sin + in_motor.z() * roll.cos);
+  return pose.orientation * in_base;
+}
+
+Vector3d Sensor::laser_position_at(double t_s) const {
+  const Pose pose = pose_at(t_s);
+  return pose.position_m + from_motor(pose, t_s, options_.mount_error_m);
+}
+
+Sensor::Return Sensor::fire(std::size_t number, std::size_t beam, float& intensity) const {
+  const double t_s =
+      static_cast<double>(number) * kScanPeriod_s + static_cast<double>(beam) * kTimeIncrement_s;
+  const Pose pose = pose_at(t_s);
+  const Vector3d origin = pose.position_m + from_motor(pose, t_s, options_.mount_error_m);
+  const Vector3d direction = from_motor(pose, t_s, beam_directions_[beam]).normalized();
+  auto [hit, end_m] = glass_.cast(caster_, origin, direction, kRangeMax_m, number * kBeams + beam);
+  for (const Person& person : people_) {
+    const auto body = person.cast(origin, direction, t_s);
+    if (!body || body->range_m >= end_m) continue;
+    hit = body;
+    end_m = body->range_m;
+  }
+  intensity = hit ? intensity_of(*hit) : 0;
+  if (!hit) return {};
+  return {hit->range_m + options_.grazing_bias_m * (1 - hit->cos_incidence),
+          options_.grazing_dropout * std::max(0.0, 1 - 2 * hit->albedo * hit->cos_incidence)};
 }
 
 void Sensor::cast_scan(std::size_t number, std::span<float> ranges_m, std::span<float> intensities) const {
-  Random random(options_.seed, kBeamNoise, number);
-  std::vector<double> met_m(kBeams, std::numeric_limits<double>::infinity());
-  for (std::size_t beam = 0; beam < kBeams; ++beam) {
-    const double t_s =
-        static_cast<double>(number) * kScanPeriod_s + static_cast<double>(beam) * kTimeIncrement_s;
-    const Pose pose = pose_at(t_s);
-    intensities[beam] = 0;
-    const auto hit = caster_.cast(pose.position_m, direction_in_world(pose, t_s, beam), kRangeMax_m);
-    if (!hit) continue;
-    met_m[beam] = hit->range_m + options_.grazing_bias_m * (1 - hit->cos_incidence);
-    intensities[beam] = intensity_of(*hit);
-  }
+  Random random(options_.seed, kBeamNoise, number), weak(options_.seed, kWeakReturn, number);
+  std::vector<Return> met(kBeams);
+  for (std::size_t beam = 0; beam < kBeams; ++beam) met[beam] = fire(number, beam, intensities[beam]);
   for (std::size_t beam = 0; beam < kBeams; ++beam) {
     // Drawn whatever the beam met, so that one option does not change the luck of another.
-    const double noise_m = options_.noise_m * random.normal();
-    const bool dropped = random.uniform() < options_.dropout;
+    const double luck = random.normal();
+    const bool dropped = random.uniform() < options_.dropout, lost = weak.uniform() < met[beam].lost;
     const double mixed = random.uniform(), between = random.uniform();
-    double range_m = met_m[beam];
-    const double beside_m = met_m[std::min(beam + 1, kBeams - 1)];
+    double range_m = met[beam].range_m;
+    const double beside_m = met[std::min(beam + 1, kBeams - 1)].range_m;
     if (mixed < options_.mixed_pixels && std::isfinite(beside_m) && std::abs(beside_m - range_m) > 0.2)
       range_m += between * (beside_m - range_m);
+    // Nothing is NaN from here on, and not usable.
+    const double noise_m = (options_.noise_m + options_.noise_per_m * range_m) * luck;
     const double whole_mm = std::floor((range_m + noise_m) * 1e3 + 0.5);
-    const bool usable = !dropped && whole_mm >= kRangeMin_m * 1e3 && whole_mm <= kRangeMax_m * 1e3;
+    const bool usable = !dropped && !lost && whole_mm >= kRangeMin_m * 1e3 && whole_mm <= kRangeMax_m * 1e3;
     ranges_m[beam] = usable ? static_cast<float>(whole_mm / 1e3) : std::numeric_limits<float>::quiet_NaN();
     if (!usable) intensities[beam] = 0;
   }
+}
+
+double Sensor::encoder_angle_rad(double t_s) const {
+  const double angle_rad = motor_.angle_rad(t_s);
+  return angle_rad + radians(options_.eccentricity_deg) *
+                         sin_cos(angle_rad + radians(options_.eccentricity_phase_deg)).sin;
 }
 
 MotorTrack Sensor::motor_track(double duration_s) const {
@@ -118,7 +164,8 @@ MotorTrack Sensor::motor_track(double duration_s) const {
                           std::clamp(off_s, -0.45 * period_s, 0.45 * period_s);
     const double late_s = options_.stamp_jitter_s * Random(options_.seed, kMotorStamp, number).normal();
     const double stamp_s = true_s * (1 + options_.clock_drift_ppm * 1e-6) + options_.offset_s + late_s;
-    samples.emplace_back(whole_ns(stamp_s), std::floor(motor_.angle_rad(true_s) / step_rad + 0.5) * step_rad);
+    const double angle_rad = encoder_angle_rad(true_s);
+    samples.emplace_back(whole_ns(stamp_s), std::floor(angle_rad / step_rad + 0.5) * step_rad);
   }
   // As reading does with stamps out of order. Leaving those out that come too late would keep the late stamps
   // rather than the early ones, and so shift the offset.

@@ -2,11 +2,15 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/recording/recording.hpp"
+#include "core/simulation/glass.hpp"
 #include "core/simulation/motor.hpp"
+#include "core/simulation/people.hpp"
 #include "core/simulation/ray_caster.hpp"
 #include "core/simulation/scene.hpp"
 #include "core/simulation/simulate.hpp"
@@ -33,17 +37,34 @@ class Sensor {
   void cast_scan(std::size_t number, std::span<float> ranges_m, std::span<float> intensities) const;
   /// The encoder's samples from a little before true time 0 to a little after duration_s.
   MotorTrack motor_track(double duration_s) const;
+  /// Of the base frame.
   Pose pose_at(double t_s) const;
+  /// Where the beams begin: off the base frame where the mount has an error.
+  Vector3d laser_position_at(double t_s) const;
+  const RayCaster& surroundings() const { return caster_; }
+  /// Whom the beams meet from now on.
+  void set_people(std::vector<Person> people) { people_ = std::move(people); }
 
  private:
-  Vector3d direction_in_world(const Pose& pose, double t_s, std::size_t beam) const;
+  /// A beam's luck before noise: infinite where nothing returns.
+  struct Return {
+    double range_m = std::numeric_limits<double>::infinity();
+    double lost = 0;  // the probability that it is too weak
+  };
+  /// What the encoder would read if it had no steps.
+  double encoder_angle_rad(double t_s) const;
+  Return fire(std::size_t number, std::size_t beam, float& intensity) const;
+  /// v_in_world of a vector in the frame that turns with the motor.
+  Vector3d from_motor(const Pose& pose, double t_s, const Vector3d& in_motor) const;
 
   SimulationOptions options_;
   RayCaster caster_;
   Trajectory trajectory_;
   Motor motor_;
   double encoder_phase_s_ = 0;
-  std::vector<Vector2d> beam_directions_;  // in the laser's plane
+  Glass glass_;
+  std::vector<Person> people_;
+  std::vector<Vector3d> beam_directions_;  // in the frame that turns with the motor
 };
 
 }  // namespace sweepscope::simulation

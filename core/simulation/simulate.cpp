@@ -7,8 +7,12 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/parallel.hpp"
+#include "core/simulation/free_space.hpp"
+#include "core/simulation/own_scene.hpp"
+#include "core/simulation/people.hpp"
 #include "core/simulation/portable_math.hpp"
 #include "core/simulation/ray_caster.hpp"
 #include "core/simulation/scene.hpp"
@@ -23,7 +27,7 @@ using namespace simulation;
 constexpr std::int64_t kEpoch_ns = 1'489'900'000'000'000'000;
 constexpr double kRoomDuration_s = 4.5;
 constexpr double kLongestStand_s = 600;
-constexpr double kTruthStep_s = 0.01;
+constexpr double kTruthStep_s = 0.01, kOwnTruthStep_s = 0.005;
 
 tl::unexpected<Error> wrong(std::string sentence) {
   return failure(ExitCode::kWrongUsage, std::move(sentence));
@@ -36,6 +40,7 @@ struct Bound {
 };
 
 Result<void> check(const SimulationOptions& o) {
+  const Vector3d at_m = o.own.placement.at_m.value_or(Vector3d::Zero());
   const Bound bounds[] = {
       {"the offset", o.offset_s * 1e3, -10e3, 10e3, " ms"},
       {"the noise", o.noise_m * 1e3, 0, 1000, " mm"},
@@ -50,6 +55,26 @@ Result<void> check(const SimulationOptions& o) {
       {"the backlash", o.backlash_deg, 0, 10, " deg"},
       {"the clock drift", o.clock_drift_ppm, -1000, 1000, " ppm"},
       {"the nudge", o.nudge_m * 1e3, -1000, 1000, " mm"},
+      {"the noise per metre", o.noise_per_m * 1e3, 0, 100, " mm"},
+      {"the grazing dropout", o.grazing_dropout, 0, 1, ""},
+      {"the mount's roll error", o.mount_error_deg.x(), -10, 10, " deg"},
+      {"the mount's pitch error", o.mount_error_deg.y(), -10, 10, " deg"},
+      {"the mount's yaw error", o.mount_error_deg.z(), -10, 10, " deg"},
+      {"the mount's error along x", o.mount_error_m.x() * 1e3, -500, 500, " mm"},
+      {"the mount's error along y", o.mount_error_m.y() * 1e3, -500, 500, " mm"},
+      {"the mount's error along z", o.mount_error_m.z() * 1e3, -500, 500, " mm"},
+      {"the encoder's eccentricity", o.eccentricity_deg, 0, 10, " deg"},
+      {"the phase of the eccentricity", o.eccentricity_phase_deg, -360, 360, " deg"},
+      {"the unevenness of the motor", o.uneven_motor, 0, 0.5, ""},
+      {"the number of people", static_cast<double>(o.people), 0, 50, ""},
+      {"the part of glass", o.glass, 0, 1, ""},
+      {"the trajectory's scale", o.own.placement.scale, 0, 100, ""},
+      {"the trajectory's place, x", at_m.x(), -5000, 5000, " m"},
+      {"the trajectory's place, y", at_m.y(), -5000, 5000, " m"},
+      {"the trajectory's place, z", at_m.z(), -5000, 5000, " m"},
+      {"the trajectory's yaw", o.own.placement.yaw_deg, -360, 360, " deg"},
+      {"the trajectory's start", o.own.from_s, 0, 1e6, " s"},
+      {"the trajectory's smoothing", o.own.placement.smoothing_s * 1e3, 10, 1000, " ms"},
   };
   for (const Bound& b : bounds)
     if (!(b.value >= b.least && b.value <= b.most))
@@ -58,15 +83,54 @@ Result<void> check(const SimulationOptions& o) {
   return {};
 }
 
+/// How long the scene's motion takes; a rig that stands has no end of its own.
+std::optional<double> motion_s(const Scene& scene) {
+  if (const WalkSpec* walk = std::get_if<WalkSpec>(&scene.motion)) return walk->duration_s;
+  if (const RecordedPath* path = std::get_if<RecordedPath>(&scene.motion)) return path->duration_s;
+  return std::nullopt;
+}
+
 /// The duration asked for, or the scene's own.
 Result<double> duration_of(const SimulationOptions& options, const Scene& scene) {
-  const WalkSpec* walk = std::get_if<WalkSpec>(&scene.motion);
-  const double longest_s = walk != nullptr ? walk->duration_s : kLongestStand_s;
-  const double duration_s = options.duration_s.value_or(walk != nullptr ? walk->duration_s : kRoomDuration_s);
+  const double longest_s = motion_s(scene).value_or(kLongestStand_s);
+  const double duration_s = options.duration_s.value_or(motion_s(scene).value_or(kRoomDuration_s));
   if (!(duration_s >= 0.1 && duration_s <= longest_s))
     return wrong(fmt::format("the duration is {:g} s, but {} can be recorded for 0.1 to {:g} s", duration_s,
                              options.scene, longest_s));
   return duration_s;
+}
+
+/// The scene asked for; fills in what the simulation says about an own one.
+Result<Scene> scene_of(Simulation& simulation) {
+  SimulationOptions& options = simulation.options;
+  if (options.own.mesh.empty()) {
+    auto scene = make_scene(options.scene);
+    if (!scene)
+      return wrong(fmt::format("there is no scene '{}'; the scenes are {}", options.scene,
+                               fmt::join(scene_names(), ", ")));
+    return std::move(*scene);
+  }
+  options.scene = options.own.mesh.filename().string();
+  auto own = load_own_scene(options.own);
+  if (!own) return tl::unexpected(own.error());
+  simulation.mesh_hash = own->mesh_hash;
+  simulation.trajectory_hash = own->trajectory_hash;
+  if (const RecordedPath* path = std::get_if<RecordedPath>(&own->scene.motion))
+    simulation.deviation = path->deviation;
+  return std::move(own->scene);
+}
+
+/// Brings the people in, and keeps an own walk out of the walls.
+Result<void> furnish(Sensor& sensor, const SimulationOptions& options) {
+  const auto laser_at = [&](double t_s) { return sensor.laser_position_at(t_s); };
+  const double duration_s = *options.duration_s;
+  if (!options.own.mesh.empty())
+    if (auto free = check_free_space(sensor.surroundings(), laser_at, duration_s); !free)
+      return wrong(fmt::format("{}: {}", options.scene, free.error().message));
+  auto people = place_people(options.people, options.seed, sensor.surroundings(), laser_at, duration_s);
+  if (!people) return tl::unexpected(people.error());
+  sensor.set_people(std::move(*people));
+  return {};
 }
 
 /// Casts all scans into the recording; false where the job was cancelled.
@@ -106,10 +170,11 @@ Recording blank_recording(const SimulationOptions& options, const Sensor& sensor
 
 void fill_truth(Simulation& simulation, const Sensor& sensor) {
   const double end_s = *simulation.options.duration_s;
-  const auto steps = static_cast<int>(std::floor(end_s / kTruthStep_s + 1e-9));
+  const double step_s = simulation.options.own.mesh.empty() ? kTruthStep_s : kOwnTruthStep_s;
+  const auto steps = static_cast<int>(std::floor(end_s / step_s + 1e-9));
   for (int i = 0; i <= steps; ++i) {
-    const Pose pose = sensor.pose_at(i * kTruthStep_s);
-    simulation.truth.push_back({i * kTruthStep_s, pose.position_m, pose.orientation});
+    const simulation::Pose pose = sensor.pose_at(i * step_s);
+    simulation.truth.push_back({i * step_s, pose.position_m, pose.orientation});
   }
   const WalkMeasure measured = measure([&](double t_s) { return sensor.pose_at(t_s); }, 0, end_s);
   simulation.length_m = measured.length_m;
@@ -121,20 +186,19 @@ void fill_truth(Simulation& simulation, const Sensor& sensor) {
 
 Result<Simulation> simulate(const SimulationOptions& options, const Job& job) {
   if (auto checked = check(options); !checked) return tl::unexpected(checked.error());
-  const std::optional<Scene> scene = make_scene(options.scene);
-  if (!scene)
-    return wrong(fmt::format("there is no scene '{}'; the scenes are {}", options.scene,
-                             fmt::join(scene_names(), ", ")));
-  const Result<double> duration_s = duration_of(options, *scene);
-  if (!duration_s) return tl::unexpected(duration_s.error());
-
   Simulation simulation;
   simulation.options = options;
+  const Result<Scene> scene = scene_of(simulation);
+  if (!scene) return tl::unexpected(scene.error());
+  const Result<double> duration_s = duration_of(simulation.options, *scene);
+  if (!duration_s) return tl::unexpected(duration_s.error());
   simulation.options.duration_s = *duration_s;
-  simulation.moving = std::holds_alternative<WalkSpec>(scene->motion);
+  simulation.moving = motion_s(*scene).has_value();
   simulation.triangles = scene->mesh.triangles.size();
-  const Sensor sensor(simulation.options, *scene);
-  simulation.recording = blank_recording(options, sensor, *duration_s);
+  Sensor sensor(simulation.options, *scene);
+  if (auto furnished = furnish(sensor, simulation.options); !furnished)
+    return tl::unexpected(furnished.error());
+  simulation.recording = blank_recording(simulation.options, sensor, *duration_s);
   if (!cast_scans(sensor, simulation.recording, job)) return failure(ExitCode::kInterrupted, "interrupted");
   fill_truth(simulation, sensor);
   return simulation;

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,8 +12,18 @@
 #include "core/job.hpp"
 #include "core/recording/recording.hpp"
 #include "core/simulation/motor.hpp"
+#include "core/simulation/recorded_path.hpp"
 
 namespace sweepscope {
+
+/// A scene and a walk of the user's.
+struct OwnScene {
+  std::filesystem::path mesh;  // .ply or .obj; empty: none
+  std::filesystem::path
+      trajectory;  // TUM; empty: the rig stands at placement.at_m, turned by placement.yaw_deg
+  simulation::PathPlacement placement;
+  double from_s = 0;  // the trajectory's first seconds are left out
+};
 
 /// What to record. t_motor = t_laser + offset: at one true instant the laser's clock shows T and the motor's
 /// T + offset_s. Equal options give equal bytes, on every x86-64 machine and for any number of threads.
@@ -36,7 +47,20 @@ struct SimulationOptions {
   double stamp_jitter_s = 0;   // standard deviation added to every header stamp, 0 to 0.01
   double backlash_deg = 0;     // play between the encoder and the laser, 0 to 10
   double clock_drift_ppm = 0;  // by how much the motor's clock runs faster than the laser's, within +-1000
-  double nudge_m = 0;  // a stationary rig is pushed aside by this a second after the start, within +-1
+  double nudge_m = 0;      // a stationary rig is pushed aside by this a second after the start, within +-1
+  double noise_per_m = 0;  // added to the noise for every metre of range, 0 to 0.1
+  double grazing_dropout =
+      0;  // dropped with this times 1 - 2 albedo cos(incidence), where that is above 0; 0 to 1
+  Eigen::Vector3d mount_error_deg =
+      Eigen::Vector3d::Zero();                              // Mount::laser_in_motor_rpy_deg, each within +-10
+  Eigen::Vector3d mount_error_m = Eigen::Vector3d::Zero();  // Mount::laser_in_motor_xyz_m, each within +-0.5
+  double eccentricity_deg = 0;        // the encoder shows angle + this sin(angle + phase), 0 to 10
+  double eccentricity_phase_deg = 0;  // within +-360
+  double uneven_motor = 0;            // the motor's speed varies at random by at most this part, 0 to 0.5
+  int people = 0;                     // who walk about, 0 to 50
+  double glass = 0;                   // part of the upright surfaces, in cells of 1 m, that are panes, 0 to 1
+
+  OwnScene own = {};  // instead of `scene`
 };
 
 /// The base frame in the world.
@@ -49,19 +73,21 @@ struct TruthPose {
 /// A recording and the truth about it.
 struct Simulation {
   Recording recording;           // as reading the bag of write_bag gives it
-  std::vector<TruthPose> truth;  // every 10 ms from the first beam to the last
+  std::vector<TruthPose> truth;  // every 10 ms from the first beam to the last; every 5 ms in an own scene
   SimulationOptions options;     // with the duration filled in
   bool moving = false;
   double length_m = 0;  // of the path, from the truth, swaying included; the tops likewise
   double top_speed_mps = 0;
   double top_angular_rate_radps = 0;
-  std::size_t triangles = 0;  // of the scene
+  std::size_t triangles = 0;               // of the scene
+  std::string mesh_hash, trajectory_hash;  // content_hash of the files of an own scene
+  simulation::SplineDeviation deviation;   // of the spline from an own trajectory's poses
 };
 
 /// Records a scene with a UTM-30LX (40 scans/s, 721 beams over 180 deg, 0.1 to 30 m) that a motor rolls about
 /// the base frame's x axis. Every beam is cast at its own instant, with the pose and the motor angle of that
 /// instant. Ranges are rounded to 1 mm and angles to the encoder's step. Wrong options are
-/// ExitCode::kWrongUsage.
+/// ExitCode::kWrongUsage; so is an own walk that comes nearer than 0.15 m to a surface.
 Result<Simulation> simulate(const SimulationOptions& options, const Job& job);
 
 }  // namespace sweepscope

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "core/simulation/plan_curve.hpp"
 #include "core/simulation/portable_math.hpp"
@@ -130,11 +131,14 @@ Trajectory::Trajectory(const WalkSpec& spec, std::uint64_t seed) {
 Trajectory::Trajectory(const Stand& stand)
     : stand_{stand.position_m, about(2, radians(stand.yaw_deg)) * about(1, radians(stand.pitch_deg))} {}
 
+Trajectory::Trajectory(std::function<Pose(double t_s)> motion) : motion_(std::move(motion)) {}
+
 Trajectory::~Trajectory() = default;
 Trajectory::Trajectory(Trajectory&&) noexcept = default;
 Trajectory& Trajectory::operator=(Trajectory&&) noexcept = default;
 
 Pose Trajectory::at(double t_s) const {
+  if (motion_) return motion_(t_s);
   return walk_ ? walk_->at(t_s) : stand_;
 }
 

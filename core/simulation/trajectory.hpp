@@ -46,6 +46,8 @@ class Trajectory {
   /// `seed` sets the phases of the swaying. The walk is fitted to its specification here.
   Trajectory(const WalkSpec& walk, std::uint64_t seed);
   explicit Trajectory(const Stand& stand);
+  /// A motion of any kind.
+  explicit Trajectory(std::function<Pose(double t_s)> motion);
   ~Trajectory();
   Trajectory(Trajectory&&) noexcept;
   Trajectory& operator=(Trajectory&&) noexcept;
@@ -56,7 +58,8 @@ class Trajectory {
 
  private:
   class Walk;
-  std::unique_ptr<Walk> walk_;  // none: stands
+  std::unique_ptr<Walk> walk_;
+  std::function<Pose(double t_s)> motion_;  // neither of the two: stands
   Pose stand_;
 };
 

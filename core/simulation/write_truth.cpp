@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/io/atomic_file.hpp"
+#include "core/simulation/portable_math.hpp"
 #include "core/simulation/write_bag.hpp"
 
 namespace sweepscope {
@@ -16,6 +17,10 @@ using Json = nlohmann::ordered_json;
 /// Six digits after the point: free of binary tails such as 24.000000000000004.
 double tidy(double value) {
   return std::round(value * 1e6) / 1e6;
+}
+
+Json triple(const Eigen::Vector3d& v) {
+  return {tidy(v.x()), tidy(v.y()), tidy(v.z())};
 }
 
 /// The offset between the two streams' receive times: what an estimate on receive stamps finds.
@@ -40,7 +45,35 @@ Json options_json(const SimulationOptions& o) {
           {"stamp_jitter_ms", tidy(o.stamp_jitter_s * 1e3)},
           {"backlash_deg", tidy(o.backlash_deg)},
           {"clock_drift_ppm", tidy(o.clock_drift_ppm)},
-          {"nudge_mm", tidy(o.nudge_m * 1e3)}};
+          {"nudge_mm", tidy(o.nudge_m * 1e3)},
+          {"noise_per_m_mm", tidy(o.noise_per_m * 1e3)},
+          {"grazing_dropout", tidy(o.grazing_dropout)},
+          {"mount_error_deg", triple(o.mount_error_deg)},
+          {"mount_error_mm", triple(o.mount_error_m * 1e3)},
+          {"eccentricity_deg", tidy(o.eccentricity_deg)},
+          {"eccentricity_phase_deg", tidy(o.eccentricity_phase_deg)},
+          {"uneven_motor", tidy(o.uneven_motor)},
+          {"people", o.people},
+          {"glass", tidy(o.glass)}};
+}
+
+/// The files that an own scene is made of, and how far its motion is from the recorded one.
+Json own_json(const Simulation& simulation) {
+  const OwnScene& own = simulation.options.own;
+  const simulation::PathPlacement& placement = own.placement;
+  Json json = {{"mesh", own.mesh.filename().string()}, {"mesh_hash", simulation.mesh_hash}};
+  json["at_m"] = placement.at_m ? triple(*placement.at_m) : Json(nullptr);
+  json["yaw_deg"] = tidy(placement.yaw_deg);
+  if (own.trajectory.empty()) return json;
+  json["trajectory"] = own.trajectory.filename().string();
+  json["trajectory_hash"] = simulation.trajectory_hash;
+  json["scale"] = tidy(placement.scale);
+  json["upright"] = placement.upright;
+  json["from_s"] = tidy(own.from_s);
+  json["smoothing_ms"] = tidy(placement.smoothing_s * 1e3);
+  json["spline_rms_mm"] = tidy(simulation.deviation.position_m * 1e3);
+  json["spline_rms_deg"] = tidy(simulation::degrees(simulation.deviation.rotation_rad));
+  return json;
 }
 
 std::filesystem::path stem_of(std::filesystem::path bag_path) {
@@ -59,20 +92,24 @@ std::filesystem::path truth_tum_path(const std::filesystem::path& bag_path) {
 
 std::string truth_json(const Simulation& simulation) {
   const Recording& recording = simulation.recording;
-  const Json json = {{"schema", "sweepscope.truth/1"},
-                     {"scene", simulation.options.scene},
-                     {"equation", "t_motor = t_laser + offset"},
-                     {"offset_ms", tidy(simulation.options.offset_s * 1e3)},
-                     {"receive_offset_ms", tidy(receive_offset_s(simulation) * 1e3)},
-                     {"moving", simulation.moving},
-                     {"length_m", tidy(simulation.length_m)},
-                     {"top_speed_mps", tidy(simulation.top_speed_mps)},
-                     {"top_angular_rate_radps", tidy(simulation.top_angular_rate_radps)},
-                     {"scans", recording.scans.size()},
-                     {"motor_samples", recording.motor.time_s.size()},
-                     {"triangles", simulation.triangles},
-                     {"options", options_json(simulation.options)},
-                     {"version", SWEEPSCOPE_VERSION}};
+  Json json = {{"schema", "sweepscope.truth/1"},
+               {"scene", simulation.options.scene},
+               {"equation", "t_motor = t_laser + offset"},
+               {"offset_ms", tidy(simulation.options.offset_s * 1e3)},
+               {"receive_offset_ms", tidy(receive_offset_s(simulation) * 1e3)},
+               {"moving", simulation.moving},
+               {"length_m", tidy(simulation.length_m)},
+               {"top_speed_mps", tidy(simulation.top_speed_mps)},
+               {"top_angular_rate_radps", tidy(simulation.top_angular_rate_radps)},
+               {"scans", recording.scans.size()},
+               {"motor_samples", recording.motor.time_s.size()},
+               {"triangles", simulation.triangles},
+               {"laser_in_motor",
+                {{"xyz_m", triple(simulation.options.mount_error_m)},
+                 {"rpy_deg", triple(simulation.options.mount_error_deg)}}},
+               {"options", options_json(simulation.options)},
+               {"version", SWEEPSCOPE_VERSION}};
+  if (!simulation.options.own.mesh.empty()) json["own_scene"] = own_json(simulation);
   return json.dump(2) + "\n";
 }
 

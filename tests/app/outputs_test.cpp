@@ -45,6 +45,7 @@ constexpr Slot kSlots[] = {
     {"report_json", "report {REC} --rig {RIG} -o {OUT}", "", "estimate.json"},
     {"calibrate_json", "calibrate - --rig {RIG} --json {OUT} <{REC}", ".json"},
     {"calibrate_record", "calibrate - --rig {RIG} --record {OUT} <{REC}", ".bag"},
+    {"simulate", "simulate --mesh {MESH} --trajectory {POSES} -o {OUT}", ".bag"},
     {"view_session", "view {REC} --rig {RIG} --poses {POSES} --headless --run 'save-session {OUT}'",
      ".session"},
     {"view_picture", "view {REC} --rig {RIG} --poses {POSES} --headless --run 'export-picture {OUT}'",
@@ -82,6 +83,7 @@ class OutputsOntoInputs : public test::ProgramTest, public ::testing::WithParamI
                                               "estimates: {room: {file: estimate.json, recording: room}}\n"
                                               "figures: {scan: {kind: scan, recording: room, at_s: 1}}\n";
     std::ofstream(folder_ / "view.script") << "wait loaded\n";
+    std::ofstream(folder_ / "mesh.ply") << "ply\n";
     ASSERT_EQ(run("view room.bag --headless --run 'wait loaded; save-session session.json'").exit_code, 0);
   }
 
@@ -89,7 +91,8 @@ class OutputsOntoInputs : public test::ProgramTest, public ::testing::WithParamI
   const std::map<std::string, std::string> inputs_{{"REC", "room.bag"},           {"RIG", "rig.yaml"},
                                                    {"POSES", "poses.tum"},        {"PART", "part"},
                                                    {"ESTIMATE", "estimate.json"}, {"RECIPE", "recipe.yaml"},
-                                                   {"SESSION", "session.json"},   {"SCRIPT", "view.script"}};
+                                                   {"SESSION", "session.json"},   {"SCRIPT", "view.script"},
+                                                   {"MESH", "mesh.ply"}};
 
   static std::string with(std::string text, const std::string& name, const std::string& value) {
     const std::string token = "{" + name + "}";

@@ -73,4 +73,50 @@ TEST_F(SimulateCommand, CannotWriteIntoAFolderThatIsNotThere) {
   EXPECT_NE(outcome.output.find("nowhere/a.bag: cannot be written"), std::string::npos);
 }
 
+constexpr const char* kRoom =
+    "v -4 -3 0\nv 6 -3 0\nv 6 3 0\nv -4 3 0\nv -4 -3 2.8\nv 6 -3 2.8\nv 6 3 2.8\nv -4 3 2.8\n"
+    "f 1 2 3 4\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+
+std::string walk_along_x() {
+  std::string text;
+  for (int i = 0; i <= 100; ++i)
+    text += std::to_string(0.02 * i) + " " + std::to_string(0.01 * i) + " 0 0 0 0 0 1\n";
+  return text;
+}
+
+TEST_F(SimulateCommand, WalksThroughASceneOfOnesOwn) {
+  std::ofstream(folder_ / "room.obj") << kRoom;
+  std::ofstream(folder_ / "walk.tum") << walk_along_x();
+  const Outcome outcome = simulate(
+      "--mesh room.obj --trajectory walk.tum --trajectory-at -1,0.5,1.2 --trajectory-yaw-deg -90 "
+      "--mount-error-deg 0.5,-1,2 --mount-error-mm=-5,0,10 -o own.bag");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_NE(outcome.output.find("own.bag: room.obj for 2 s, 80 scans"), std::string::npos) << outcome.output;
+  EXPECT_NE(outcome.output.find("from the recorded poses (RMS)"), std::string::npos);
+  const auto truth = nlohmann::json::parse(std::ifstream(folder_ / "own.truth.json"));
+  EXPECT_EQ(truth["own_scene"]["at_m"], nlohmann::json({-1.0, 0.5, 1.2}));
+  EXPECT_EQ(truth["options"]["mount_error_mm"], nlohmann::json({-5.0, 0.0, 10.0}));
+}
+
+TEST_F(SimulateCommand, RefusesAnOwnSceneThatIsNotPlain) {
+  std::ofstream(folder_ / "room.obj") << kRoom;
+  std::ofstream(folder_ / "open.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 5\n";
+  std::ofstream(folder_ / "walk.tum") << walk_along_x();
+  const std::string own = "--mesh room.obj --trajectory walk.tum -o a.bag ";
+  for (const std::string& arguments :
+       {"room-1 " + own, std::string("--trajectory walk.tum -o a.bag"), std::string("-o a.bag"),
+        std::string("room-1 --trajectory walk.tum -o a.bag"), own + "--trajectory-at 1,2",
+        own + "--trajectory-at 1,2,3,4", own + "--trajectory-at 1,2,z", own + "--trajectory-scale nan",
+        own + "--mount-error-deg 1", own + "--trajectory-at 0,0,0.1",
+        own + "--trajectory-at 0,0,1 --trajectory-scale 40"})
+    EXPECT_EQ(simulate(arguments).exit_code, 2) << arguments;
+  for (const char* arguments :
+       {"--mesh open.obj -o a.bag", "--mesh none.ply -o a.bag",
+        "--mesh room.obj --trajectory none.tum -o a.bag", "--mesh room.obj --trajectory room.obj -o a.bag"})
+    EXPECT_EQ(simulate(arguments).exit_code, 3) << arguments;
+  EXPECT_NE(simulate("--mesh open.obj -o a.bag").output.find("open.obj: line 4: "), std::string::npos);
+  EXPECT_FALSE(fs::exists(folder_ / "a.bag"));
+  EXPECT_FALSE(fs::exists(folder_ / "a.truth.json"));
+}
+
 }  // namespace

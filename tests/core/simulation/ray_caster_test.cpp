@@ -54,5 +54,22 @@ TEST(RayCaster, GivesTheEarlierOfTwoSurfacesInOnePlace) {
     EXPECT_DOUBLE_EQ(caster.cast({0, y, 0.2}, {1, 0, 0}, 30)->albedo, 0.3);
 }
 
+TEST(RayCaster, SaysHowFarTheNearestSurfaceIs) {
+  const RayCaster caster(box({0, 0, 0}, {2, 3, 4}));
+  EXPECT_NEAR(caster.distance_m({1, 1.5, 5}, 2).value(), 1, 1e-12);  // above a face
+  EXPECT_NEAR(caster.distance_m({-3, 1, -4}, 6).value(), 5, 1e-12);  // beside an edge
+  EXPECT_NEAR(caster.distance_m({4, 5, 5}, 6).value(), 3, 1e-12);    // off a corner
+  EXPECT_NEAR(caster.distance_m({1, 1.2, 2}, 6).value(), 1, 1e-12);  // inside
+  EXPECT_FALSE(caster.distance_m({1, 1.5, 5}, 0.999));
+  // Against the distance of a box, from everywhere.
+  Random random(3, 0, 0);
+  for (int i = 0; i < 500; ++i) {
+    const Vector3d p(8 * random.uniform() - 3, 8 * random.uniform() - 3, 8 * random.uniform() - 2);
+    const Vector3d outside = (p - Vector3d(1, 1.5, 2)).cwiseAbs() - Vector3d(1, 1.5, 2);
+    const double expected_m = outside.maxCoeff() > 0 ? outside.cwiseMax(0).norm() : -outside.maxCoeff();
+    EXPECT_NEAR(caster.distance_m(p, 20).value(), expected_m, 1e-9);
+  }
+}
+
 }  // namespace
 }  // namespace sweepscope::simulation

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+#include "core/simulation/scene.hpp"
+#include "core/simulation/simulate.hpp"
+
+namespace sweepscope::simulation {
+
+struct LoadedScene {
+  Scene scene;
+  std::string mesh_hash, trajectory_hash;  // content_hash; empty without the file
+};
+
+/// Reads the mesh and the trajectory. What cannot be read is said with the file and the place.
+Result<LoadedScene> load_own_scene(const OwnScene& own);
+
+}  // namespace sweepscope::simulation
