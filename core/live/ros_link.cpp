@@ -98,10 +98,10 @@ class RoscppLink : public RosLink {
 
 }  // namespace
 
-std::unique_ptr<RosLink> RosLink::open() {
-  // Signals stay the program's, and nothing is published.
+std::unique_ptr<RosLink> RosLink::open(const std::string& master) {
+  // Signals stay the program's, and nothing is published. Without a name for its log roscpp makes ~/.ros.
   ros::init(
-      ros::M_string(), "sweepscope",
+      ros::M_string{{"__master", master}, {"__log", "/dev/null"}}, "sweepscope",
       ros::init_options::NoSigintHandler | ros::init_options::AnonymousName | ros::init_options::NoRosout);
   if (!ros::master::check()) return nullptr;
   return std::make_unique<RoscppLink>();

@@ -27,8 +27,8 @@ struct RosTopic {
 /// All that touches roscpp, whose headers are not made for C++20. One at a time in a program.
 class RosLink {
  public:
-  /// None where no master answers.
-  static std::unique_ptr<RosLink> open();
+  /// None where no master answers at http://HOST:PORT.
+  static std::unique_ptr<RosLink> open(const std::string& master);
   virtual ~RosLink() = default;
   /// What is published now.
   virtual std::vector<RosTopic> topics() = 0;

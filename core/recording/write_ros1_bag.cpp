@@ -16,6 +16,7 @@
 
 #include "core/io/unfinished_files.hpp"
 #include "core/recording/ros_allocator.hpp"
+#include "core/recording/ros_home.hpp"
 #include "core/recording/write_order.hpp"
 
 namespace sweepscope {
@@ -95,24 +96,29 @@ rosbag::CompressionType compression_of(const std::string& name) {
   return rosbag::compression::Uncompressed;
 }
 
+std::unique_ptr<rosbag::Bag> opened(const std::filesystem::path& path) {
+  const RosHome home;
+  return std::make_unique<rosbag::Bag>(path.string(), rosbag::bagmode::Write);
+}
+
 /// False where the job was cancelled. Throws what rosbag throws.
 bool write_messages(const RawLaser& laser, const RawJoint& joint, const std::filesystem::path& path,
                     const std::string& compression, const Job& job) {
-  rosbag::Bag bag(path.string(), rosbag::bagmode::Write);
-  bag.setCompression(compression_of(compression));
+  const auto bag = opened(path);
+  bag->setCompression(compression_of(compression));
   const std::vector<WrittenMessage> all = write_order(laser, joint);
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (job.cancelled()) return false;
     const ros::Time received = std::max(ros_time(all[i].receive_ns), ros::TIME_MIN);
     if (all[i].is_scan && laser.of_clouds)
-      bag.write(laser.topic, received, cloud_message(laser.clouds[all[i].number], all[i].number));
+      bag->write(laser.topic, received, cloud_message(laser.clouds[all[i].number], all[i].number));
     else if (all[i].is_scan)
-      bag.write(laser.topic, received, scan_message(laser, all[i].number));
+      bag->write(laser.topic, received, scan_message(laser, all[i].number));
     else
-      bag.write(joint.topic, received, joint_message(joint, all[i].number));
+      bag->write(joint.topic, received, joint_message(joint, all[i].number));
     if (i % 512 == 0) job.report("writing", static_cast<double>(i) / static_cast<double>(all.size()));
   }
-  bag.close();
+  bag->close();
   return true;
 }
 
