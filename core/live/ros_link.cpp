@@ -64,8 +64,7 @@ class RoscppLink : public RosLink {
     return topics;
   }
 
-  void subscribe(const std::string& topic) override {
-    constexpr std::uint32_t kQueued = 2000;
+  void subscribe(const std::string& topic, std::uint32_t most_queued) override {
     const boost::function<void(const Event&)> take = [this, topic](const Event& event) {
       const ros::M_string& said = event.getConnectionHeader();
       const auto value = [&](const char* key) {
@@ -77,7 +76,7 @@ class RoscppLink : public RosLink {
       const auto received_ns = static_cast<std::int64_t>(event.getReceiptTime().toNSec());
       if (take_ != nullptr) (*take_)({topic, type, md5sum, received_ns, bytes.data(), bytes.size()});
     };
-    subscribers_.push_back(node_.subscribe<AnyRosMessage>(topic, kQueued, take, ros::VoidConstPtr(),
+    subscribers_.push_back(node_.subscribe<AnyRosMessage>(topic, most_queued, take, ros::VoidConstPtr(),
                                                           ros::TransportHints().tcpNoDelay()));
   }
 

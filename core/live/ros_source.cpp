@@ -57,9 +57,12 @@ class RosSource : public LiveSource {
 
  private:
   void subscribe() {
-    for (const RosTopic& topic : link_->topics())
-      if (find_message_type(topic.type) != nullptr && subscribed_.insert(topic.name).second)
-        link_->subscribe(topic.name);
+    constexpr std::uint32_t kClouds = 50, kOthers = 2000;  // clouds are of megabytes each
+    for (const RosTopic& topic : link_->topics()) {
+      const auto* const type = find_message_type(topic.type);
+      if (type != nullptr && subscribed_.insert(topic.name).second)
+        link_->subscribe(topic.name, type->kind == MessageKind::kCloud ? kClouds : kOthers);
+    }
   }
 
   std::unique_ptr<RosLink> link_;

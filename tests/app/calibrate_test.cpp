@@ -100,16 +100,17 @@ TEST_F(CalibrateCommand, WhatDoesNotAdvanceEndsItWithTheTrueReason) {
       << "grep -m 1 ^motor stream.csv; grep -m 1 ^scan stream.csv\n"
          "line=$(grep \"^$1,1\" stream.csv | head -n 1); while echo \"$line\" 2>&-; do :; done\n";
   const auto reason = [&](const std::string& word) {
-    const std::string command = "cd '" + folder_.string() + "' && bash endless.sh " + word +
-                                " | '" SWEEPSCOPE_EXECUTABLE
-                                "' calibrate - --silence-s 0.5 --json said.json >said.out 2>said.err; "
-                                "exit ${PIPESTATUS[1]}";
+    const std::string command =
+        "cd '" + folder_.string() + "' && bash endless.sh " + word +
+        " | '" SWEEPSCOPE_EXECUTABLE
+        "' calibrate - --silence-s 0.5 --seconds 600 --json said.json >said.out 2>said.err; "
+        "exit ${PIPESTATUS[1]}";
     std::ofstream(folder_ / "calibrate.sh") << command;
     const int status = std::system(("bash '" + (folder_ / "calibrate.sh").string() + "'").c_str());
     EXPECT_EQ(WEXITSTATUS(status), 4) << test::contents_of(folder_ / "said.err");
     return parsed(test::contents_of(folder_ / "said.json"))["reasons"][0].get<std::string>();
   };
-  EXPECT_EQ(reason("motor").rfind("No scan came for 0.5 s, after 0.0 of 10 s; ", 0), 0U) << reason("motor");
+  EXPECT_EQ(reason("motor").rfind("No scan came for 0.5 s, after 0.0 of 600 s; ", 0), 0U) << reason("motor");
   EXPECT_EQ(reason("scan").rfind("The scans' stamps did not advance for 0.5 s: ", 0), 0U) << reason("scan");
 }
 
@@ -132,8 +133,9 @@ TEST_F(CalibrateCommand, NoCommandLeavesAnythingOfRossInTheHomeFolder) {
   std::filesystem::create_directory(folder_ / "home");
   std::filesystem::create_directory(folder_ / "temporary");
   const auto at = [&](const char* name) { return "'" + (folder_ / name).string() + "'"; };
-  const std::string plain = "-u ROS_LOG_DIR -u ROS_HOME ROS_MASTER_URI=http://localhost:9 TMPDIR=" +
-                            at("temporary") + " HOME=" + at("home");
+  const std::string plain =
+      "-u ROS_LOG_DIR -u ROS_HOME ROS_MASTER_URI=http://localhost:9 TMPDIR=" + at("temporary") +
+      " HOME=" + at("home");
   // Where ROS_HOME does not say it, rospack asks the system for the home folder and not the environment.
   for (const std::string& environment :
        {plain, plain + " ROS_HOME=" + at("home/.ros"), plain + " ROS_HOME=" + at("missing/.ros")}) {

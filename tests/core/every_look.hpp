@@ -48,7 +48,7 @@ void expect_interrupted_at_every_look(std::uint64_t between, const Work& work) {
       const std::optional<std::string> said = work(job);
       const bool cancelled = looks.looks() >= look;
       ASSERT_EQ(said.has_value(), !cancelled) << "at look " << look << " of " << all.looks();
-      if (said) ASSERT_EQ(*said, *answer) << "at look " << look;
+      ASSERT_EQ(said.value_or(*answer), *answer) << "at look " << look;
     }
   }
 }
