@@ -148,7 +148,7 @@ class OnATerminal {
         "cd '" + folder.string() + "' && exec '" SWEEPSCOPE_EXECUTABLE "' " + arguments + " >said.out";
     child_ = fork();
     if (child_ == 0) {
-      constexpr int kAfterTheTest = 19;  // who signals comes first, however busy the machine is
+      constexpr int kAfterTheTest = 3;  // who signals comes first, however busy the machine is
       (void)setpriority(PRIO_PROCESS, 0, kAfterTheTest);
       dup2(terminal, STDERR_FILENO);
       close(terminal);

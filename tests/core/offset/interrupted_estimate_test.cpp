@@ -18,7 +18,7 @@ const Recording& standing() {
 }
 
 const Recording& walking() {
-  return test::simulated("metro-station", 0.024, 12).recording;
+  return test::simulated("metro-station", 0.024, 11).recording;
 }
 
 EstimateOptions directly() {
@@ -29,7 +29,7 @@ EstimateOptions directly() {
 
 EstimateOptions over_candidates() {
   EstimateOptions options;
-  options.ranges = {{21 * kMs, 27 * kMs, 1 * kMs}};
+  options.ranges = {{22 * kMs, 26 * kMs, 1 * kMs}};
   return options;
 }
 
@@ -53,11 +53,11 @@ TEST(InterruptedEstimate, OfAStandingRigOverCandidates) {
 }
 
 TEST(InterruptedEstimate, OfAWalkDirectly) {
-  expect_whole_or_none(walking(), directly(), 20);
+  expect_whole_or_none(walking(), directly(), 10);
 }
 
 TEST(InterruptedEstimate, OfAWalkOverCandidates) {
-  expect_whole_or_none(walking(), over_candidates(), 20);
+  expect_whole_or_none(walking(), over_candidates(), 10);
 }
 
 TEST(InterruptedWork, MapsOfAWalk) {
