@@ -8,7 +8,7 @@ namespace {
 
 TEST(GatherReport, InterruptedAtAnyLookItGivesNothing) {
   const Recording& recording = test::simulated("room-1", 0.024, 2.5).recording;
-  test::expect_interrupted_at_every_look(20, [&](const Job& job) -> std::optional<std::string> {
+  test::expect_interrupted_at_every_look(5, [&](const Job& job) -> std::optional<std::string> {
     const auto content = gather_report(recording, std::nullopt, nullptr, job);
     if (content) return report_html(*content).value();
     EXPECT_EQ(content.error().code, ExitCode::kInterrupted);
