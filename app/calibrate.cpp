@@ -81,6 +81,17 @@ std::string words_of(ListeningEnd end, const HeardSoFar& heard, const Calibratio
       return fmt::format("The input ended after {}.", much);
     case ListeningEnd::kSilence:
       return fmt::format("Nothing new was heard for {:g} s, after {}.", options.silence_s, much);
+    case ListeningEnd::kNoScans:
+      return fmt::format("No scan came for {:g} s, after {}; {} motor samples were heard.", options.silence_s,
+                         much, heard.motor_samples);
+    case ListeningEnd::kStampsStandStill:
+      return fmt::format(
+          "The scans' stamps did not advance for {:g} s: {} scans were heard, the last one stamped {:.3f} s "
+          "after the first one.",
+          options.silence_s, heard.scans, heard.seconds);
+    case ListeningEnd::kTooMuch:
+      return fmt::format("More was heard than is kept, after {}: {} scans and {} motor samples.", much,
+                         heard.scans, heard.motor_samples);
     case ListeningEnd::kCancelled:
       return fmt::format("Interrupted after {}.", much);
   }
@@ -97,6 +108,12 @@ Result<void> check_files(const Options& options, RecordingFormat format) {
     for (const std::string& file : written_files(options.record, format)) outputs.push_back(file);
   return check_outputs(outputs, std::move(inputs),
                        format == RecordingFormat::kCsv ? options.record : std::filesystem::path());
+}
+
+/// What ended the listening before its time is why there is no answer, too.
+bool is_a_reason(ListeningEnd end) {
+  return end == ListeningEnd::kNoScans || end == ListeningEnd::kStampsStandStill ||
+         end == ListeningEnd::kTooMuch;
 }
 
 /// `kept`: whether what was heard could be recorded.
@@ -126,6 +143,8 @@ Result<Estimate> run_calibration(Options& options, Result<void>& kept) {
   if (!options.record.empty()) kept = keep(heard, options, *format);
   // What was heard is used after an interruption as well.
   auto found = calibrate(std::move(heard), options.calibration, Job());
+  if (found && !found->identifiable && is_a_reason(*end))
+    found->reasons.insert(found->reasons.begin(), ended);
   if (!kept && !found) return tl::unexpected(kept.error());
   if (!kept) found->warnings.push_back(fmt::format("Nothing was recorded: {}", kept.error().message));
   return found;
@@ -162,7 +181,7 @@ void add_calibrate(CLI::App& app, ExitCode& exit_code) {
       ->type_name("S");
   command
       ->add_option("--silence-s", options->calibration.silence_s,
-                   "End listening after so many seconds without anything new")
+                   "End listening after so many seconds without a scan stamped later than those before")
       ->check(finite_number())
       ->check(CLI::Range(0.1, 3600.0))
       ->capture_default_str()

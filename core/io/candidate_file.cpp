@@ -15,6 +15,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/io/atomic_file.hpp"
+#include "core/io/content_hash.hpp"
 #include "core/io/curve_columns.hpp"
 #include "core/io/whole_number.hpp"
 
@@ -23,10 +24,24 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kSchema = "sweepscope.candidates/1";
+constexpr std::string_view kSchema = "sweepscope.candidates/2";
+constexpr std::string_view kOurs = "{\"schema\":\"sweepscope.candidates/";  // what every version begins with
+
+/// What ends a line: the hash of the bytes before it.
+std::string seal_of(std::string_view bytes) {
+  return fmt::format(",\"hash\":\"{}\"}}", content_hash(bytes));
+}
 
 std::string text_of(const Json& line) {
-  return line.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return sealed_line(line.dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
+/// Whether no byte of it is another than when it was written.
+bool is_sound(std::string_view line) {
+  static const std::size_t seal_bytes = seal_of("").size();
+  if (line.size() < seal_bytes) return false;
+  const std::string_view bytes = line.substr(0, line.size() - seal_bytes);
+  return line.substr(bytes.size()) == seal_of(bytes);
 }
 
 std::string header_line(const CandidateSearch& search) {
@@ -146,23 +161,42 @@ int open_locked(const std::filesystem::path& path) {
   return -1;
 }
 
+bool is_ours(std::string_view text) {
+  return text.starts_with(kOurs) || kOurs.starts_with(text);
+}
+
+/// Whether a first line is that of a file of candidates, and of this version.
+Result<void> check_header(std::string_view line, std::string_view name) {
+  if (!line.starts_with(kOurs)) return unreadable(fmt::format("{}: not a file of candidates", name));
+  if (line.substr(kOurs.find("sweepscope")).starts_with(fmt::format("{}\"", kSchema))) return {};
+  return unreadable(fmt::format(
+      "{}: line 1: another version of sweepscope wrote this file of candidates. Delete it and run the "
+      "estimate again",
+      name));
+}
+
 }  // namespace
 
 Result<Candidates> parse_candidates(std::string_view text, std::string_view name) {
   Candidates candidates;
   std::size_t number = 0;
   for (std::size_t begin = 0, end; (end = text.find('\n', begin)) != text.npos; begin = end + 1) {
-    ++number;
+    const std::string_view line = text.substr(begin, end - begin);
+    if (++number == 1) {
+      if (auto checked = check_header(line, name); !checked) return tl::unexpected(checked.error());
+    }
+    if (!is_sound(line))
+      return unreadable(
+          fmt::format("{}: line {}: its bytes are not those that were written. Delete the file and run the "
+                      "estimate again",
+                      name, number));
     try {
-      const Json line = Json::parse(text.substr(begin, end - begin));
-      if (number == 1) {
-        if (line.at("schema") != kSchema) break;
-        candidates.search = search_of(line);
-      } else if (!add_once(candidates.points, point_of(line))) {
+      const Json values = Json::parse(line);
+      if (number == 1)
+        candidates.search = search_of(values);
+      else if (!add_once(candidates.points, point_of(values)))
         return unreadable(fmt::format("{}: line {}: the same offset again with other values", name, number));
-      }
     } catch (const std::exception&) {
-      if (number == 1) break;
       return unreadable(fmt::format("{}: line {}: not a candidate", name, number));
     }
     candidates.whole_bytes = end + 1;
@@ -175,6 +209,11 @@ Result<Candidates> parse_candidates(std::string_view text, std::string_view name
 Result<Candidates> read_candidates(const std::filesystem::path& path) {
   return read_file(path).and_then(
       [&](const std::string& text) { return parse_candidates(text, path.string()); });
+}
+
+std::string sealed_line(std::string_view object) {
+  const std::string_view bytes = object.substr(0, object.size() - 1);  // the seal closes it
+  return fmt::format("{}{}\n", bytes, seal_of(bytes));
 }
 
 std::string candidates_text(const CandidateSearch& search, const std::vector<CurvePoint>& points) {
@@ -210,6 +249,16 @@ Error CandidateFile::cannot_write() const {
 
 Result<std::unique_ptr<CandidateFile>> CandidateFile::open(const std::filesystem::path& path,
                                                            const CandidateSearch& search) {
+  return open(path, search, Unusable::kRefused);
+}
+
+Result<std::unique_ptr<CandidateFile>> CandidateFile::open_while_working(const std::filesystem::path& path,
+                                                                         const CandidateSearch& search) {
+  return open(path, search, Unusable::kBegunAnew);
+}
+
+Result<std::unique_ptr<CandidateFile>> CandidateFile::open(const std::filesystem::path& path,
+                                                           const CandidateSearch& search, Unusable unusable) {
   struct stat status {};
   if (stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode))
     return failure(ExitCode::kWrongUsage, fmt::format("{}: is not a regular file", path.string()));
@@ -219,36 +268,36 @@ Result<std::unique_ptr<CandidateFile>> CandidateFile::open(const std::filesystem
     return failure(ExitCode::kWrongUsage, fmt::format("{}: cannot be opened: {}", path.string(), why));
   }
   std::unique_ptr<CandidateFile> file(new CandidateFile(path, search, descriptor));
-  if (auto taken = file->take_up(); !taken) return tl::unexpected(taken.error());
+  if (auto taken = file->take_up(unusable); !taken) return tl::unexpected(taken.error());
   return file;
 }
 
-Result<std::unique_ptr<CandidateFile>> CandidateFile::open_while_working(const std::filesystem::path& path,
-                                                                         const CandidateSearch& search) {
-  std::error_code ignored;
-  if (std::filesystem::is_regular_file(path, ignored)) {
-    const auto there = read_candidates(path);
-    if (!there || !difference(there->search, search).empty()) std::filesystem::remove(path, ignored);
-  }
-  return open(path, search);
+Result<void> CandidateFile::begin() {
+  if (ftruncate(descriptor_, 0) != 0 || !write_whole(descriptor_, header_line(search_)))
+    return tl::unexpected(cannot_write());
+  return {};
 }
 
-Result<void> CandidateFile::take_up() {
-  const auto text = read_file(path_);
-  if (!text) return tl::unexpected(text.error());
-  const std::string header = header_line(search_);
-  if (text->size() < header.size() && header.starts_with(*text)) {  // new, or killed in its first line
-    if (ftruncate(descriptor_, 0) != 0 || !write_whole(descriptor_, header))
-      return tl::unexpected(cannot_write());
-    return {};
-  }
-  auto there = parse_candidates(*text, path_.string());
-  if (!there) return tl::unexpected(there.error());
+Result<Candidates> CandidateFile::parse_own(std::string_view text) const {
+  auto there = parse_candidates(text, path_.string());
+  if (!there) return there;
   std::string differs = difference(there->search, search_);
   if (differs.empty() && shard_text(there->search.shard) != shard_text(search_.shard))
     differs = fmt::format("it holds {}, and this is {}", shard_text(there->search.shard),
                           shard_text(search_.shard));
   if (!differs.empty()) return failure(ExitCode::kWrongUsage, fmt::format("{}: {}", path_.string(), differs));
+  return there;
+}
+
+Result<void> CandidateFile::take_up(Unusable unusable) {
+  const auto text = read_file(path_);
+  if (!text) return tl::unexpected(text.error());
+  const std::string header = header_line(search_);
+  if (text->size() < header.size() && header.starts_with(*text))  // new, or killed in its first line
+    return begin();
+  auto there = parse_own(*text);
+  if (!there && unusable == Unusable::kBegunAnew && is_ours(*text)) return begin();
+  if (!there) return tl::unexpected(there.error());
   if (ftruncate(descriptor_, static_cast<off_t>(there->whole_bytes)) != 0)
     return tl::unexpected(cannot_write());
   points_ = std::move(there->points);

@@ -23,19 +23,23 @@ struct CandidateSearch {
   std::optional<Shard> shard;
 };
 
-/// A file of candidates ("sweepscope.candidates/1"): a line of JSON that says what they belong to, then one
-/// line for each.
+/// A file of candidates ("sweepscope.candidates/2"): a line of JSON that says what they belong to, then one
+/// line for each. Every line ends with the hash of its bytes, so that none is taken for what it is not.
 struct Candidates {
   CandidateSearch search;
   std::vector<CurvePoint> points;  // offsets ascend
   std::size_t whole_bytes = 0;     // of the text; behind them a line that was not written to its end
 };
 
-/// `name` stands for the file in messages, which name the line, too.
+/// Refuses a line that is not as it was written; a last one without its end is left aside. `name` stands for
+/// the file in messages, which name the line, too.
 Result<Candidates> parse_candidates(std::string_view text, std::string_view name);
 Result<Candidates> read_candidates(const std::filesystem::path& path);
 /// The text of such a file.
 std::string candidates_text(const CandidateSearch& search, const std::vector<CurvePoint>& points);
+
+/// A JSON object as a line of such a file, with its hash and its end.
+std::string sealed_line(std::string_view object);
 
 /// Why two searches are not the same, shards aside: "it holds --weight-c=2, and this is --weight-c=1".
 /// Where the files lie does not matter. Empty where they are the same.
@@ -50,7 +54,7 @@ class CandidateFile final : public CandidateStore {
   static Result<std::unique_ptr<CandidateFile>> open(const std::filesystem::path& path,
                                                      const CandidateSearch& search);
   /// The same for a file that a command keeps while it works, beside what it makes: one that belongs to
-  /// another search is begun anew.
+  /// another search or version, or is damaged, is begun anew. What never was such a file is refused.
   static Result<std::unique_ptr<CandidateFile>> open_while_working(const std::filesystem::path& path,
                                                                    const CandidateSearch& search);
   ~CandidateFile() override;
@@ -69,8 +73,15 @@ class CandidateFile final : public CandidateStore {
   void remove();
 
  private:
+  enum class Unusable { kRefused, kBegunAnew };
+
   CandidateFile(std::filesystem::path path, const CandidateSearch& search, int descriptor);
-  Result<void> take_up();
+  static Result<std::unique_ptr<CandidateFile>> open(const std::filesystem::path& path,
+                                                     const CandidateSearch& search, Unusable unusable);
+  Result<void> take_up(Unusable unusable);
+  Result<void> begin();
+  /// What a text holds that is to be of this search and shard.
+  Result<Candidates> parse_own(std::string_view text) const;
   Error cannot_write() const;
 
   std::filesystem::path path_;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <future>
 #include <numbers>
+#include <optional>
 
 #include "core/offset/motion_test.hpp"
 #include "core/recording/assemble.hpp"
@@ -43,6 +44,42 @@ class RunningAnswer {
   std::future<Result<Estimate>> answer_;
 };
 
+std::size_t scan_bytes(const RawRecording& raw) {
+  std::size_t bytes = 0;
+  for (const RawLaser& laser : raw.lasers)
+    bytes += laser.scans.size() * sizeof(RawScan) + laser.directions.size() * sizeof(Eigen::Vector3f) +
+             (laser.ranges_m.size() + laser.intensities.size()) * sizeof(float);
+  return bytes;
+}
+
+bool exceeds(const RawRecording& raw, const HeardSoFar& heard, const HeardLimits& limits) {
+  return heard.motor_samples > limits.motor_samples || scan_bytes(raw) > limits.scan_bytes ||
+         raw.topics.size() + raw.joints.size() + raw.frames.size() > limits.names;
+}
+
+/// Since when nothing has come that brings the end nearer: a scan stamped later than all before.
+class Silence {
+ public:
+  void hear(const HeardSoFar& heard) {
+    now_ = heard;
+    if (heard.scans == 0 || heard.seconds <= furthest_s_) return;
+    furthest_s_ = heard.seconds;
+    latest_ = Clock::now();
+    then_ = heard;
+  }
+  /// None before it has lasted so long.
+  std::optional<ListeningEnd> ended(double after_s) const {
+    if (Clock::now() - latest_ <= std::chrono::duration<double>(after_s)) return std::nullopt;
+    if (now_.scans != then_.scans) return ListeningEnd::kStampsStandStill;
+    return now_.motor_samples != then_.motor_samples ? ListeningEnd::kNoScans : ListeningEnd::kSilence;
+  }
+
+ private:
+  HeardSoFar now_, then_;
+  double furthest_s_ = -1;  // the first scan is at 0
+  Clock::time_point latest_ = Clock::now();
+};
+
 Estimate refused(const RawRecording& raw, std::string reason) {
   Estimate estimate;
   estimate.recording = raw.name;
@@ -67,25 +104,36 @@ HeardSoFar heard_so_far(const RawRecording& raw) {
   return heard;
 }
 
+HeardLimits limits_of(const CalibrationOptions& options) {
+  // A spinning scanner of 128 lines sends 20 MB/s, a scanner of one line less than 1 MB/s, a motor 1000
+  // samples/s, and before the first scan as well.
+  constexpr double kScans_bytes_per_s = 32e6, kMostScans_bytes = 512e6;
+  constexpr double kSamples_per_s = 20e3, kMostSamples = 10e6;
+  constexpr std::size_t kMostNames = 10'000;
+  return {static_cast<std::size_t>(std::min(kMostScans_bytes, kScans_bytes_per_s * options.seconds)),
+          static_cast<std::size_t>(
+              std::min(kMostSamples, kSamples_per_s * (options.seconds + options.silence_s))),
+          kMostNames};
+}
+
 Result<ListeningEnd> listen(
     LiveSource& source, const CalibrationOptions& options, const Job& job,
     const std::function<void(const HeardSoFar& heard, const Result<Estimate>& answer)>& tell) {
   constexpr std::chrono::milliseconds kAtATime(50);
   RunningAnswer running;
-  HeardSoFar before;
+  const HeardLimits limits = limits_of(options);
+  Silence silence;
   double next_answer_s = options.every_s;
-  Clock::time_point latest = Clock::now();
   while (!job.cancelled()) {
     const auto more = source.listen(kAtATime);
     if (!more) return tl::unexpected(more.error());
     const HeardSoFar heard = heard_so_far(source.so_far());
-    if (heard.scans != before.scans || heard.motor_samples != before.motor_samples) latest = Clock::now();
-    before = heard;
+    silence.hear(heard);
     job.report("listening", heard.seconds / options.seconds);
     if (heard.seconds >= options.seconds) return ListeningEnd::kHeardEnough;
     if (!*more) return ListeningEnd::kInputEnded;
-    if (Clock::now() - latest > std::chrono::duration<double>(options.silence_s))
-      return ListeningEnd::kSilence;
+    if (exceeds(source.so_far(), heard, limits)) return ListeningEnd::kTooMuch;
+    if (const auto end = silence.ended(options.silence_s)) return *end;
     if (const auto answer = running.take()) tell(running.about(), *answer);
     if (running.idle() && heard.seconds >= next_answer_s) {
       running.begin(source, options);

@@ -15,7 +15,7 @@ namespace sweepscope {
 /// Finding the offset of a running rig that stands still, before data acquisition (section 3.2 of the paper).
 struct CalibrationOptions {
   double seconds = 10;    // of scans, by their own stamps
-  double silence_s = 10;  // after so long without anything new listening ends
+  double silence_s = 10;  // after so long without a scan stamped later than those before listening ends
   double every_s = 2;     // of scans, between running answers
   Rig rig;
   std::optional<StampSource> stamps;
@@ -29,11 +29,27 @@ struct HeardSoFar {
 };
 HeardSoFar heard_so_far(const RawRecording& raw);
 
-/// Why listening ended.
-enum class ListeningEnd { kHeardEnough, kInputEnded, kSilence, kCancelled };
+/// What is kept at most of what is heard, whatever comes: far more than scanners and motors send in the
+/// seconds asked for.
+struct HeardLimits {
+  std::size_t scan_bytes = 0, motor_samples = 0;
+  std::size_t names = 0;  // of topics, joints and frames
+};
+HeardLimits limits_of(const CalibrationOptions& options);
 
-/// Listens until enough was heard, the input ended or fell silent, or the job was cancelled, and reports how
-/// far it is. `tell` gets the answer to what was heard meanwhile, worked out beside the listening; its calls
+/// Why listening ended.
+enum class ListeningEnd {
+  kHeardEnough,
+  kInputEnded,
+  kSilence,           // nothing came any more
+  kNoScans,           // motor samples came, and no scans
+  kStampsStandStill,  // scans came that were not stamped later than those before
+  kTooMuch,           // the limits were reached
+  kCancelled,
+};
+
+/// Listens until enough was heard, one of the other ends came, or the job was cancelled, and reports how far
+/// it is. `tell` gets the answer to what was heard meanwhile, worked out beside the listening; its calls
 /// come from this thread. Fails where the source does.
 Result<ListeningEnd> listen(
     LiveSource& source, const CalibrationOptions& options, const Job& job,

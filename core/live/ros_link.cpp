@@ -64,8 +64,7 @@ class RoscppLink : public RosLink {
     return topics;
   }
 
-  void subscribe(const std::string& topic) override {
-    constexpr std::uint32_t kQueued = 2000;
+  void subscribe(const std::string& topic, std::uint32_t most_queued) override {
     const boost::function<void(const Event&)> take = [this, topic](const Event& event) {
       const ros::M_string& said = event.getConnectionHeader();
       const auto value = [&](const char* key) {
@@ -77,7 +76,7 @@ class RoscppLink : public RosLink {
       const auto received_ns = static_cast<std::int64_t>(event.getReceiptTime().toNSec());
       if (take_ != nullptr) (*take_)({topic, type, md5sum, received_ns, bytes.data(), bytes.size()});
     };
-    subscribers_.push_back(node_.subscribe<AnyRosMessage>(topic, kQueued, take, ros::VoidConstPtr(),
+    subscribers_.push_back(node_.subscribe<AnyRosMessage>(topic, most_queued, take, ros::VoidConstPtr(),
                                                           ros::TransportHints().tcpNoDelay()));
   }
 
@@ -98,10 +97,10 @@ class RoscppLink : public RosLink {
 
 }  // namespace
 
-std::unique_ptr<RosLink> RosLink::open() {
-  // Signals stay the program's, and nothing is published.
+std::unique_ptr<RosLink> RosLink::open(const std::string& master) {
+  // Signals stay the program's, and nothing is published. Without a name for its log roscpp makes ~/.ros.
   ros::init(
-      ros::M_string(), "sweepscope",
+      ros::M_string{{"__master", master}, {"__log", "/dev/null"}}, "sweepscope",
       ros::init_options::NoSigintHandler | ros::init_options::AnonymousName | ros::init_options::NoRosout);
   if (!ros::master::check()) return nullptr;
   return std::make_unique<RoscppLink>();

@@ -27,12 +27,13 @@ struct RosTopic {
 /// All that touches roscpp, whose headers are not made for C++20. One at a time in a program.
 class RosLink {
  public:
-  /// None where no master answers.
-  static std::unique_ptr<RosLink> open();
+  /// None where no master answers at http://HOST:PORT.
+  static std::unique_ptr<RosLink> open(const std::string& master);
   virtual ~RosLink() = default;
   /// What is published now.
   virtual std::vector<RosTopic> topics() = 0;
-  virtual void subscribe(const std::string& topic) = 0;
+  /// Of what is not taken in time the newest `most_queued` messages wait.
+  virtual void subscribe(const std::string& topic, std::uint32_t most_queued) = 0;
   /// Hands on the messages that have come, waiting for the first at most so long.
   virtual void receive(std::chrono::milliseconds most,
                        const std::function<void(const RosMessage&)>& take) = 0;

@@ -1,6 +1,10 @@
 #include "core/live/ros_source.hpp"
 
 #ifdef SWEEPSCOPE_HAS_ROS
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
 #include <cstdlib>
 #include <optional>
 #include <set>
@@ -53,9 +57,12 @@ class RosSource : public LiveSource {
 
  private:
   void subscribe() {
-    for (const RosTopic& topic : link_->topics())
-      if (find_message_type(topic.type) != nullptr && subscribed_.insert(topic.name).second)
-        link_->subscribe(topic.name);
+    constexpr std::uint32_t kClouds = 50, kOthers = 2000;  // clouds are of megabytes each
+    for (const RosTopic& topic : link_->topics()) {
+      const auto* const type = find_message_type(topic.type);
+      if (type != nullptr && subscribed_.insert(topic.name).second)
+        link_->subscribe(topic.name, type->kind == MessageKind::kCloud ? kClouds : kOthers);
+    }
   }
 
   std::unique_ptr<RosLink> link_;
@@ -66,6 +73,22 @@ class RosSource : public LiveSource {
   std::size_t messages_ = 0;
 };
 
+/// Whether it is http://HOST:PORT: roscpp ends the whole program at any other address.
+bool is_address(std::string_view uri) {
+  constexpr std::string_view kScheme = "http://";
+  if (!uri.starts_with(kScheme)) return false;
+  uri.remove_prefix(kScheme.size());
+  if (uri.ends_with('/')) uri.remove_suffix(1);
+  const std::size_t colon = uri.find(':');
+  if (colon == 0 || colon == std::string_view::npos) return false;
+  const auto is_of_a_name = [](char c) { return c > ' ' && c < 0x7f && c != '/'; };
+  if (!std::all_of(uri.begin(), uri.begin() + std::ptrdiff_t(colon), is_of_a_name)) return false;
+  std::uint16_t port = 0;
+  const char* const end = uri.data() + uri.size();
+  const auto [behind, error] = std::from_chars(uri.data() + colon + 1, end, port);
+  return error == std::errc() && behind == end && port > 0;
+}
+
 }  // namespace
 
 bool ros_source_is_built() {
@@ -73,12 +96,13 @@ bool ros_source_is_built() {
 }
 
 Result<std::unique_ptr<LiveSource>> open_ros_source(const Rig& rig) {
-  auto link = RosLink::open();
-  if (!link) {
-    const char* master = std::getenv("ROS_MASTER_URI");
-    return unreadable(std::string("ROS: no master answers at ") +
-                      (master != nullptr ? master : "http://localhost:11311") + " (ROS_MASTER_URI)");
-  }
+  const char* const given = std::getenv("ROS_MASTER_URI");
+  const std::string master = given != nullptr ? given : "http://localhost:11311";
+  if (!is_address(master))
+    return unreadable(fmt::format(
+        "ROS: ROS_MASTER_URI=\"{}\" is no address of a master, such as http://localhost:11311", master));
+  auto link = RosLink::open(master);
+  if (!link) return unreadable(fmt::format("ROS: no master answers at {} (ROS_MASTER_URI)", master));
   return std::make_unique<RosSource>(std::move(link), rig);
 }
 

@@ -37,11 +37,12 @@ Result<bool> StreamSource::listen(std::chrono::milliseconds most) {
 
 Result<void> StreamSource::take_lines() {
   std::size_t begin = 0;
-  for (std::size_t end = 0; (end = pending_.find('\n', begin)) != std::string::npos; begin = end + 1) {
+  for (std::size_t end = searched_; (end = pending_.find('\n', end)) != std::string::npos; begin = ++end) {
     if (auto taken = stream_.take(std::string_view(pending_).substr(begin, end - begin)); !taken)
       return taken;
   }
   pending_.erase(0, begin);
+  searched_ = pending_.size();
   if (pending_.size() > kLongestLine_bytes)
     return unreadable(fmt::format("{}: a line is longer than {} bytes", name_, kLongestLine_bytes));
   return {};

@@ -24,7 +24,8 @@ class StreamSource : public LiveSource {
   int descriptor_;
   std::string name_;
   CsvStream stream_;
-  std::string pending_;  // the beginning of a line
+  std::string pending_;       // the beginning of a line
+  std::size_t searched_ = 0;  // so much of it holds no line end
 };
 
 }  // namespace sweepscope

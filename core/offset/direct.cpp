@@ -81,6 +81,7 @@ void estimate_standing(const OffsetProblem& problem, double coarse_s, const std:
                        const SearchScale& scale, const Job& job, Estimate& result) {
   const StillGrid grid = still_grid(problem);
   const StationaryDirect found = solve_stationary(grid, coarse_s, {}, job);
+  if (job.cancelled()) return;
   if (found.matches < StationaryDirectOptions().least_matches) {
     result.reasons.push_back(fmt::format("Only {} of {} points lie on surfaces that the other direction saw.",
                                          found.matches, found.features));

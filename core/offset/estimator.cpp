@@ -55,7 +55,18 @@ class Search {
     problem_.motor = find_sweeps(recording.motor);
   }
 
+  /// Whatever was cut short, wherever: no answer is given once the job is cancelled.
   Result<Estimate> run() {
+    Result<Estimate> found = search();
+    if (found && !found->interrupted && job_.cancelled()) {
+      result_ = std::move(*found);
+      return interrupted();
+    }
+    return found;
+  }
+
+ private:
+  Result<Estimate> search() {
     result_.method = name_of(options_.method.value_or(Method::kStationary));
     result_.reasons = motor_reasons(problem_.recording->motor, problem_.motor);
     if (!result_.reasons.empty()) return std::move(result_);
@@ -83,20 +94,22 @@ class Search {
     return std::move(result_);
   }
 
- private:
   // As what the sweeps are treated.
   bool moving() const { return (method_ == Method::kDirect ? kind_ : method_) == Method::kMoving; }
   CurveValue decisive() const { return moving() ? &CurvePoint::e_m : &CurvePoint::d; }
 
   Result<Estimate> directly() {
     estimate_directly(problem_, coarse_, moving(), options_.mapping, job_, result_);
-    if (job_.cancelled()) return interrupted();
     return std::move(result_);
   }
 
   Estimate interrupted() {
     result_.interrupted = true;
     result_.identifiable = false;
+    result_.offset_s.reset();
+    result_.sigma_s.reset();
+    result_.drift_ppm.reset();
+    result_.criteria.clear();
     result_.reasons = {"Interrupted; the curve holds the candidates that were finished."};
     return std::move(result_);
   }
@@ -135,8 +148,9 @@ class Search {
       return true;
     }
     coarse_ = search_coarsely(problem_, {least_s, greatest_s}, scale_, job_);
+    if (job_.cancelled()) return false;
     judge_kind(test_motion(still_grid(problem_), coarse_offset_s(least_s, greatest_s)));
-    return !job_.cancelled();
+    return true;
   }
 
   double coarse_offset_s(double least_s, double greatest_s) const {

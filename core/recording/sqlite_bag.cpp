@@ -101,7 +101,8 @@ class SqliteReader {
   bool has_table(const char* name);
   Error unreadable_because(const std::string& why) const;
   std::string problem() const { return sqlite3_errmsg(database_.get()); }
-  bool interrupted() const { return sqlite3_errcode(database_.get()) == SQLITE_INTERRUPT; }
+  /// Of the job and not of SQLite, whose last error is that of the statement asked last.
+  bool interrupted() const { return job_.cancelled(); }
 
   fs::path path_;
   const SqliteVisitor& visit_;
@@ -216,11 +217,10 @@ std::optional<Error> SqliteReader::read_messages() {
     if (auto error = visit_row(rows.get())) return error;
     if (visited_ % 512 == 0 && most_ids_ > 0)
       job_.report("reading", std::min(1.0, static_cast<double>(last_id_) / static_cast<double>(most_ids_)));
-    if (job_.cancelled())
-      return Error{ExitCode::kInterrupted, fmt::format("{}: reading was interrupted", path_.string())};
+    if (interrupted()) return unreadable_because("");
   }
-  if (code == SQLITE_DONE) return std::nullopt;
   if (interrupted()) return unreadable_because("");
+  if (code == SQLITE_DONE) return std::nullopt;
   warnings_.push_back(
       fmt::format("its table of messages is damaged after message {} ({}); what comes before "
                   "was read",

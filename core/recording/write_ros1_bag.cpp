@@ -19,6 +19,7 @@
 #include "core/io/atomic_file.hpp"
 #include "core/io/temporary_file.hpp"
 #include "core/recording/ros_allocator.hpp"
+#include "core/recording/ros_home.hpp"
 #include "core/recording/write_order.hpp"
 
 namespace sweepscope {
@@ -111,6 +112,8 @@ class BagFile {
   }
 
   void open(const std::filesystem::path& path, const std::string& compression) {
+    const RosHome home;
+    bag_ = std::make_unique<rosbag::Bag>();
     bag_->open(path.string(), rosbag::bagmode::Write);
     bag_->setCompression(compression_of(compression));
   }
@@ -124,7 +127,7 @@ class BagFile {
   }
 
  private:
-  std::unique_ptr<rosbag::Bag> bag_ = std::make_unique<rosbag::Bag>();
+  std::unique_ptr<rosbag::Bag> bag_;
 };
 
 /// False where the job was cancelled. Throws what rosbag throws.

@@ -95,5 +95,63 @@ TEST_F(CalibrateCommand, WhatIsTooLittleIsRefused) {
   EXPECT_EQ(run("calibrate - --record out.xyz </dev/null").exit_code, 2);
 }
 
+TEST_F(CalibrateCommand, WhatDoesNotAdvanceEndsItWithTheTrueReason) {
+  std::ofstream(folder_ / "endless.sh")
+      << "grep -m 1 ^motor stream.csv; grep -m 1 ^scan stream.csv\n"
+         "line=$(grep \"^$1,1\" stream.csv | head -n 1); while echo \"$line\" 2>&-; do :; done\n";
+  const auto reason = [&](const std::string& word) {
+    const std::string command =
+        "cd '" + folder_.string() + "' && bash endless.sh " + word +
+        " | '" SWEEPSCOPE_EXECUTABLE
+        "' calibrate - --silence-s 0.5 --seconds 600 --json said.json >said.out 2>said.err; "
+        "exit ${PIPESTATUS[1]}";
+    std::ofstream(folder_ / "calibrate.sh") << command;
+    const int status = std::system(("bash '" + (folder_ / "calibrate.sh").string() + "'").c_str());
+    EXPECT_EQ(WEXITSTATUS(status), 4) << test::contents_of(folder_ / "said.err");
+    return parsed(test::contents_of(folder_ / "said.json"))["reasons"][0].get<std::string>();
+  };
+  EXPECT_EQ(reason("motor").rfind("No scan came for 0.5 s, after 0.0 of 600 s; ", 0), 0U) << reason("motor");
+  EXPECT_EQ(reason("scan").rfind("The scans' stamps did not advance for 0.5 s: ", 0), 0U) << reason("scan");
+}
+
+TEST_F(CalibrateCommand, AnAddressThatIsNoneIsRefused) {
+  if (run("calibrate --help").out.find("or ros for") == std::string::npos)
+    GTEST_SKIP() << "this build has no ROS";
+  for (const char* address : {"", "foo", "http://", "http://localhost", "http://:11311", "http://localhost:0",
+                              "http://localhost:99999999", "http://localhost:11311abc",
+                              "https://localhost:11311", "http://local host:11311", "http://localhost:-5"}) {
+    const Outcome outcome = run("calibrate ros", std::string("'ROS_MASTER_URI=") + address + "'");
+    EXPECT_EQ(outcome.exit_code, 3) << address << outcome.err;
+    EXPECT_EQ(outcome.err, std::string("sweepscope: ROS: ROS_MASTER_URI=\"") + address +
+                               "\" is no address of a master, such as http://localhost:11311\n");
+  }
+  const Outcome unset = run("calibrate ros", "-u ROS_MASTER_URI");
+  EXPECT_EQ(unset.exit_code, 3) << unset.err;
+}
+
+TEST_F(CalibrateCommand, NoCommandLeavesAnythingOfRossInTheHomeFolder) {
+  std::filesystem::create_directory(folder_ / "home");
+  std::filesystem::create_directory(folder_ / "temporary");
+  const auto at = [&](const char* name) { return "'" + (folder_ / name).string() + "'"; };
+  const std::string plain =
+      "-u ROS_LOG_DIR -u ROS_HOME ROS_MASTER_URI=http://localhost:9 TMPDIR=" + at("temporary") +
+      " HOME=" + at("home");
+  // Where ROS_HOME does not say it, rospack asks the system for the home folder and not the environment.
+  for (const std::string& environment :
+       {plain, plain + " ROS_HOME=" + at("home/.ros"), plain + " ROS_HOME=" + at("missing/.ros")}) {
+    for (const char* command :
+         {"simulate room-1 --duration-s 1 -o made.bag", "info made.bag", "convert made.bag -o again.bag",
+          "convert made.bag -o again.mcap", "calibrate ros"}) {
+      const Outcome outcome = run(command, environment);
+      const bool listens = std::string(command) == "calibrate ros";
+      EXPECT_EQ(outcome.exit_code, listens ? 3 : 0) << command << ": " << outcome.err;
+      EXPECT_EQ(outcome.err.find("[rospack]"), std::string::npos) << command << ": " << outcome.err;
+    }
+    EXPECT_TRUE(std::filesystem::is_empty(folder_ / "home"));
+    EXPECT_TRUE(std::filesystem::is_empty(folder_ / "temporary"));
+    EXPECT_FALSE(exists("missing"));
+  }
+}
+
 }  // namespace
 }  // namespace sweepscope

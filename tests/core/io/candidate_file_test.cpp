@@ -1,5 +1,7 @@
 #include "core/io/candidate_file.hpp"
 
+#include <fmt/format.h>
+
 #include <limits>
 
 #include "tests/core/io/test_files.hpp"
@@ -75,14 +77,12 @@ TEST_F(CandidateFiles, WhatIsNoSuchFileIsRefusedAndUntouched) {
   }
 }
 
-TEST_F(CandidateFiles, ABrokenLineInTheMiddleIsRefusedWithItsNumber) {
+TEST_F(CandidateFiles, ASoundLineThatIsNoCandidateIsRefusedWithItsNumber) {
   const std::string text = candidates_text(search(), {point(0.001, 0.5)});
-  const auto refused = parse_candidates(text + "{\"offset_ns\":\n" + text.substr(text.find('\n') + 1), "f");
-  ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().message, "f: line 3: not a candidate");
+  const std::string last = text.substr(text.find('\n') + 1);
   for (const char* offset_ns : {"1e300", "0.5", "-9223372036854775807", "18446744073709551615", "null"}) {
-    const auto wrong = parse_candidates(
-        text + "{\"offset_ns\": " + offset_ns + "}\n" + text.substr(text.find('\n') + 1), "f");
+    const auto wrong =
+        parse_candidates(text + sealed_line(std::string("{\"offset_ns\": ") + offset_ns + "}") + last, "f");
     ASSERT_FALSE(wrong) << offset_ns;
     EXPECT_EQ(wrong.error().message, "f: line 3: not a candidate") << offset_ns;
   }
@@ -92,13 +92,123 @@ TEST_F(CandidateFiles, ABrokenLineInTheMiddleIsRefusedWithItsNumber) {
   EXPECT_EQ(doubled.error().message, "f: line 3: the same offset again with other values");
 }
 
+/// A file after a change is refused with a line's number, or holds the same points; a line's end that is lost
+/// leaves the last one aside, as a kill does.
+void expect_refused_or_the_same(const std::string& changed, const std::string& text,
+                                const std::string& what) {
+  const auto read = parse_candidates(changed, "f");
+  if (!read) {
+    EXPECT_EQ(read.error().code, ExitCode::kUnreadableInput) << what;
+    EXPECT_EQ(read.error().message.rfind("f: ", 0), 0U) << what;
+    return;
+  }
+  const std::string held = candidates_text(read->search, read->points);
+  const bool unended = !changed.ends_with('\n');
+  const std::size_t last = text.rfind('\n', text.size() - 2) + 1;
+  EXPECT_EQ(held, unended ? text.substr(0, last) : text) << what;
+}
+
+TEST_F(CandidateFiles, EveryChangeOfAByteIsRefusedOrHarmless) {
+  const std::string text = candidates_text(search(), {point(0.001, 0.5), point(0.002, 0.25)});
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    for (const int flip : {0x01, 0x02, 0x04, 0x08, 0x10, 0x20, 0x40, 0x80}) {
+      std::string changed = text;
+      changed[at] = static_cast<char>(changed[at] ^ flip);
+      expect_refused_or_the_same(changed, text, fmt::format("bits {:#x} of byte {}", flip, at));
+    }
+    for (const char other : {'0', '1', '9', '"', '{', '}', ',', ' ', '\n', '\0'}) {
+      std::string changed = text;
+      changed[at] = other;
+      if (changed == text) continue;
+      expect_refused_or_the_same(changed, text, fmt::format("{} as byte {}", int(other), at));
+      expect_refused_or_the_same(std::string(text).insert(at, 1, other), text,
+                                 fmt::format("{} before byte {}", int(other), at));
+    }
+    expect_refused_or_the_same(std::string(text).erase(at, 1), text, fmt::format("without byte {}", at));
+    expect_refused_or_the_same(std::string(text).insert(at, 1, text[at]), text,
+                               fmt::format("byte {} twice", at));
+  }
+}
+
+TEST_F(CandidateFiles, AChangedLineIsRefusedWithItsNumberAndUntouched) {
+  std::string text = candidates_text(search(), {point(0.001, 0.5), point(0.002, 0.25)});
+  text.replace(text.find("0.25"), 4, "0.75");
+  std::ofstream(path(), std::ios::binary) << text;
+  const auto resumed = CandidateFile::open(path(), search());
+  const auto merged = MergedCandidates::read({path()});
+  ASSERT_FALSE(resumed || merged);
+  EXPECT_EQ(resumed.error().code, ExitCode::kUnreadableInput);
+  EXPECT_NE(resumed.error().message.find("kept.candidates: line 3: its bytes are not those"),
+            std::string::npos)
+      << resumed.error().message;
+  EXPECT_EQ(merged.error().message, resumed.error().message);
+  EXPECT_EQ(test::contents_of(path()), text);
+}
+
+constexpr const char* kVersion1 =
+    "{\"schema\":\"sweepscope.candidates/1\",\"program\":\"p\",\"recording\":\"walk.bag\",\"recording_hash\":"
+    "\"h\",\"rig\":\"\",\"rig_hash\":\"\",\"options\":[\"--range=1:3:1\"],\"shard\":[1,2]}\n"
+    "{\"offset_ns\":1000000,\"n\":12345.0,\"e_m\":0.5}\n";
+
+TEST_F(CandidateFiles, AnotherVersionIsRefusedWithWhatToDo) {
+  std::ofstream(path(), std::ios::binary) << kVersion1;
+  const auto file = CandidateFile::open(path(), search());
+  ASSERT_FALSE(file);
+  EXPECT_EQ(file.error().code, ExitCode::kUnreadableInput);
+  EXPECT_EQ(file.error().message, path().string() +
+                                      ": line 1: another version of sweepscope wrote this file of "
+                                      "candidates. Delete it and run the estimate again");
+  EXPECT_EQ(test::contents_of(path()), kVersion1);
+}
+
+TEST_F(CandidateFiles, WhatACommandKeepsForItselfIsBegunAnewWhereItIsOfNoUse) {
+  const std::string whole = candidates_text(search(), {point(0.001, 0.5), point(0.002, 0.25)});
+  CandidateSearch other = search();
+  other.recording_hash = "another";
+  std::string damaged = whole;
+  damaged.replace(damaged.find("0.5"), 3, "0.7");
+  const std::string of_another = candidates_text(other, {point(0.001, 0.5)});
+  for (const std::string& text :
+       {std::string(kVersion1), damaged, of_another, of_another.substr(0, of_another.find('\n') - 9),
+        whole.substr(0, 5), std::string()}) {
+    std::ofstream(path(), std::ios::binary) << text;
+    const auto file = CandidateFile::open_while_working(path(), search());
+    ASSERT_TRUE(file) << file.error().message;
+    EXPECT_EQ((*file)->taken_up(), 0U) << text;
+    (*file)->keep(point(0.003, 0.125));
+    EXPECT_EQ(test::contents_of(path()), candidates_text(search(), {point(0.003, 0.125)})) << text;
+  }
+  std::ofstream(path(), std::ios::binary) << whole;
+  EXPECT_EQ((*CandidateFile::open_while_working(path(), search()))->taken_up(), 2U);
+}
+
+TEST_F(CandidateFiles, WhatIsNotACommandsOwnStaysAsItIs) {
+  for (const char* text :
+       {"my notes\n", "{\"offsets\": [1, 2]}\n", "{\"schema\":\"sweepscope.estimate/1\"}\n"}) {
+    std::ofstream(path(), std::ios::binary) << text;
+    const auto file = CandidateFile::open_while_working(path(), search());
+    ASSERT_FALSE(file) << text;
+    EXPECT_EQ(file.error().code, ExitCode::kUnreadableInput);
+    EXPECT_EQ(test::contents_of(path()), text);
+  }
+  const auto first = CandidateFile::open_while_working(folder_ / "busy.candidates", search());
+  CandidateSearch other = search();
+  other.recording_hash = "another";
+  const auto second = CandidateFile::open_while_working(folder_ / "busy.candidates", other);
+  ASSERT_TRUE(first);
+  ASSERT_FALSE(second);
+  EXPECT_EQ(second.error().code, ExitCode::kWrongUsage);
+}
+
 TEST_F(CandidateFiles, AShardIsTwoWholeNumbers) {
   const std::string text = candidates_text(search(), {});
-  const std::size_t at = text.find("[1,2]");
+  const std::string object = text.substr(0, text.find(",\"hash\"")) + "}";
+  const std::size_t at = object.find("[1,2]");
   ASSERT_NE(at, std::string::npos) << text;
+  ASSERT_EQ(sealed_line(object), text);
   for (const char* shard : {"[4294967297,4294967298]", "[1e300,2]", "[1.5,2]", "[0,2]", "[3,2]", "[1,2,3]"}) {
-    std::string wrong = text;
-    EXPECT_FALSE(parse_candidates(wrong.replace(at, 5, shard), "f")) << shard;
+    std::string wrong = object;
+    EXPECT_FALSE(parse_candidates(sealed_line(wrong.replace(at, 5, shard)), "f")) << shard;
   }
 }
 

@@ -6,7 +6,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <csignal>
+#include <functional>
 #include <span>
 #include <thread>
 
@@ -59,6 +61,41 @@ class Pipe {
   std::thread writer_;
 };
 
+/// A source that hears what a test says, a piece at each listening, for ever.
+class EndlessSource : public LiveSource {
+ public:
+  using Piece = std::function<void(int number, RawLaser& laser, RawJoint& joint)>;
+  explicit EndlessSource(Piece piece) : piece_(std::move(piece)) {
+    raw_.lasers.emplace_back();
+    raw_.joints.emplace_back();
+  }
+  Result<bool> listen(std::chrono::milliseconds) override {
+    piece_(number_++, raw_.lasers.front(), raw_.joints.front());
+    return true;
+  }
+  const RawRecording& so_far() const override { return raw_; }
+  RawRecording heard() override { return raw_; }
+
+ private:
+  Piece piece_;
+  RawRecording raw_;
+  int number_ = 0;
+};
+
+void add_scan(RawLaser& laser, double stamp_s, std::uint32_t beams = 3) {
+  RawScan scan;
+  scan.stamps.header_ns = std::llround(stamp_s * 1e9);
+  scan.first_range = laser.ranges_m.size();
+  scan.beams = beams;
+  laser.ranges_m.resize(laser.ranges_m.size() + beams, 1.0f);
+  laser.scans.push_back(scan);
+}
+
+void add_samples(RawJoint& joint, std::size_t count) {
+  joint.stamps.resize(joint.stamps.size() + count, {1'000'000'000, 0});
+  joint.positions.resize(joint.stamps.size());
+}
+
 class Calibration : public testing::Test {
  protected:
   void SetUp() override {
@@ -73,6 +110,13 @@ class Calibration : public testing::Test {
     });
     heard_ = source.heard();
     return end;
+  }
+  /// How listening to such pieces ends.
+  ListeningEnd end_of(EndlessSource::Piece piece) {
+    EndlessSource source(std::move(piece));
+    const auto end = listen(source, options_, Job(), [](const HeardSoFar&, const Result<Estimate>&) {});
+    heard_ = source.heard();
+    return end.value();
   }
   CalibrationOptions options_;
   RawRecording heard_;
@@ -150,6 +194,55 @@ TEST_F(Calibration, SilenceAndCancellationEndIt) {
   Job job;
   job.cancel();
   EXPECT_EQ(*listen_to(other, job), ListeningEnd::kCancelled);
+}
+
+TEST_F(Calibration, AMotorAloneEndsItForWantOfScans) {
+  options_.silence_s = 0.05;
+  options_.seconds = 600;  // for as many samples as a fast machine adds
+  EXPECT_EQ(end_of([](int, RawLaser&, RawJoint& joint) { add_samples(joint, 1); }), ListeningEnd::kNoScans);
+}
+
+TEST_F(Calibration, ScansWhoseStampsDoNotAdvanceEndIt) {
+  options_.silence_s = 0.05;
+  options_.seconds = 600;
+  const auto same = [](int, RawLaser& laser, RawJoint& joint) {
+    add_scan(laser, 1000);
+    add_samples(joint, 1);
+  };
+  const auto backward = [](int number, RawLaser& laser, RawJoint&) {
+    add_scan(laser, 1000 - 0.025 * number);
+  };
+  const auto there_and_back = [](int number, RawLaser& laser, RawJoint&) {
+    add_scan(laser, 1000 + 0.025 * (number < 40 ? number : number % 40));
+  };
+  EXPECT_EQ(end_of(same), ListeningEnd::kStampsStandStill);
+  EXPECT_EQ(end_of(backward), ListeningEnd::kStampsStandStill);
+  EXPECT_EQ(end_of(there_and_back), ListeningEnd::kStampsStandStill);
+  EXPECT_GE(heard_.lasers.front().scans.size(), 40U);
+}
+
+// Silence is far: what comes by then would fill any memory.
+TEST_F(Calibration, WhatIsKeptIsBoundedWhateverComes) {
+  options_.silence_s = 3600;
+  options_.seconds = 0.5;
+  const HeardLimits limits = limits_of(options_);
+  EXPECT_EQ(end_of([](int, RawLaser&, RawJoint& joint) { add_samples(joint, 10'000); }),
+            ListeningEnd::kTooMuch);
+  EXPECT_LE(heard_.joints.front().stamps.size(), limits.motor_samples + 10'000);
+  EXPECT_EQ(end_of([](int, RawLaser& laser, RawJoint&) { add_scan(laser, 1000, 10'000); }),
+            ListeningEnd::kTooMuch);
+  EXPECT_LE(heard_.lasers.front().ranges_m.size() * sizeof(float), limits.scan_bytes + 40'000);
+}
+
+TEST_F(Calibration, TheLimitsLeaveRoomForFastScannersAndMotors) {
+  for (const double seconds : {0.5, 10.0, 600.0}) {
+    options_.seconds = seconds;
+    const HeardLimits limits = limits_of(options_);
+    EXPECT_GT(double(limits.scan_bytes), 2 * seconds * 40 * 1081 * 2 * sizeof(float));
+    EXPECT_GT(double(limits.motor_samples), 2 * seconds * 1000);
+    EXPECT_LE(limits.scan_bytes, std::size_t{512'000'000});
+    EXPECT_LE(limits.motor_samples, std::size_t{10'000'000});
+  }
 }
 
 }  // namespace
