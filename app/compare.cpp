@@ -115,6 +115,7 @@ Result<Compared> from_recording(const CompareOptions& options, bool by_features)
     if (!poses) return tl::unexpected(poses.error());
     map_options.poses = std::move(*poses);
   }
+  warn_of_memory(*recording, offsets_s.size(), progress);
   auto built = build_maps(*recording, offsets_s, map_options, progress.job());
   if (!built) return tl::unexpected(built.error());
   std::optional<FeatureSet> features;

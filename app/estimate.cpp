@@ -143,6 +143,7 @@ bool asks_for_candidates(const CLI::App& command) {
 void add_estimate(CLI::App& app, ExitCode& exit_code) {
   CLI::App* command = app.add_subcommand("estimate", "Find the offset: t_motor = t_laser + offset");
   auto options = std::make_shared<Options>();
+  options->input.recording.keep_intensities = false;
   options->input.declare(*command);
   options->output.declare(*command);
   declare_candidates(*command, *options);

@@ -207,6 +207,7 @@ void add_info(CLI::App& app, ExitCode& exit_code) {
   CLI::App* info =
       app.add_subcommand("info", "Show what a recording holds and what an estimate can hope for");
   const auto options = std::make_shared<Options>();
+  options->keep_intensities = false;
   options->declare(*info);
   info->add_option("--json", options->json, "Write it as JSON, - for stdout")->type_name("F|-");
   info->callback([options, &exit_code] { exit_code = run(*options, options->json); });

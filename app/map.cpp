@@ -39,6 +39,7 @@ Result<Built> build(const Options& options) {
     if (!poses) return tl::unexpected(poses.error());
     map_options.poses = std::move(*poses);
   }
+  warn_of_memory(*recording, 1, progress);
   const double offset_s = options.offset_ms * 1e-3;
   auto maps = build_maps(*recording, {&offset_s, 1}, map_options, progress.job());
   if (!maps) return tl::unexpected(maps.error());

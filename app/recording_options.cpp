@@ -11,7 +11,9 @@
 #include "app/say.hpp"
 #include "app/threads.hpp"
 #include "core/io/atomic_file.hpp"
+#include "core/io/memory.hpp"
 #include "core/io/output_check.hpp"
+#include "core/map/offset_map.hpp"
 #include "core/recording/recording_files.hpp"
 
 namespace sweepscope::app {
@@ -82,6 +84,7 @@ std::vector<std::filesystem::path> RecordingOptions::input_files() const {
 Result<Recording> RecordingOptions::read(const Job& job) const {
   ReadOptions options;
   options.stamps = stamps;
+  options.keep_intensities = keep_intensities;
   if (rig) {
     auto from_file = read_rig(*rig);
     if (!from_file) return tl::unexpected(std::move(from_file.error()));
@@ -127,6 +130,13 @@ Result<void> check_outputs(const std::vector<std::string>& outputs, std::vector<
   if (std::count(outputs.begin(), outputs.end(), "-") > 1)
     return failure(ExitCode::kWrongUsage, "only one output can be written to standard output (-)");
   return check_run_files(files);
+}
+
+void warn_of_memory(const Recording& recording, std::size_t maps, const Progress& progress) {
+  const std::string what = maps == 1 ? "its map" : fmt::format("working on its {} maps", maps);
+  const auto warning = memory_warning(what, map_memory_bytes(recording, maps), available_memory_bytes());
+  if (warning)
+    progress.say(fmt::format("warning: {}: {}; --window takes a part of it", recording.name, *warning));
 }
 
 Result<void> write_text(const std::string& path, const std::string& text) {

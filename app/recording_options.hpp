@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "app/progress.hpp"
 #include "core/error.hpp"
 #include "core/job.hpp"
 #include "core/recording/read_recording.hpp"
@@ -28,6 +29,7 @@ struct RecordingOptions {
   std::optional<StampSource> stamps;
   std::optional<Window> window;       // seconds since the first scan
   std::optional<std::string> assume;  // "stationary" or "moving"; empty: the motion test says
+  bool keep_intensities = true;       // of the beams; false where nothing comes of them
   int threads = 0;                    // 0: as many as there are processors
 
   /// REC, --rig, --stamps and --window. The options write to this object, which must outlive `app`'s parsing.
@@ -49,6 +51,8 @@ CLI::Validator finite_number();
 
 /// Prints why a subcommand failed, as every subcommand prints it, and gives the exit code.
 ExitCode fail(const Error& error);
+/// Warns, above the bar, where so many maps of the recording need more memory than there is.
+void warn_of_memory(const Recording& recording, std::size_t maps, const Progress& progress);
 /// Prints what reading warned of, on stderr.
 void print_warnings(const Recording& recording);
 /// Checks what a subcommand will write, before any work: see check_run_files. `outputs` may hold "-", for

@@ -65,11 +65,25 @@ class BeamPlacer {
   double offset_s_;
 };
 
+/// Of the scans that a map is made of: its points, grown by doubling, would be there twice meanwhile.
+std::size_t usable_beams(const Recording& recording, const std::vector<std::size_t>& sweep_of,
+                         const std::vector<char>& used) {
+  std::size_t beams = 0;
+  for (std::size_t i = 0; i < recording.scans.size(); ++i) {
+    if (sweep_of[i] == kNoSweep || !used[i]) continue;
+    const auto ranges_m = recording.ranges(recording.scans[i]);
+    beams += static_cast<std::size_t>(
+        std::ranges::count_if(ranges_m, [](float range_m) { return std::isfinite(range_m); }));
+  }
+  return beams;
+}
+
 MapCloud::Ptr place_beams(const OffsetProblem& problem, double offset_s,
                           const std::vector<SweepPose>& poses) {
   const Recording& recording = *problem.recording;
   const std::vector<std::size_t> sweep_of = assign_sweeps(recording.scans, problem.motor.sweeps, offset_s);
   MapCloud::Ptr cloud(new MapCloud);
+  cloud->points.reserve(usable_beams(recording, sweep_of, problem.scan_used));
   BeamPlacer placer(recording, offset_s);
   auto pose = poses.begin();
   for (std::size_t i = 0; i < recording.scans.size(); ++i) {
@@ -90,6 +104,7 @@ MapCloud::Ptr place_beams_along(const OffsetProblem& problem, double offset_s,
   const Recording& recording = *problem.recording;
   const std::vector<std::size_t> sweep_of = assign_sweeps(recording.scans, problem.motor.sweeps, offset_s);
   MapCloud::Ptr cloud(new MapCloud);
+  cloud->points.reserve(usable_beams(recording, sweep_of, problem.scan_used));
   BeamPlacer placer(recording, offset_s);
   PoseReader reader(poses);
   for (std::size_t i = 0; i < recording.scans.size(); ++i) {
@@ -125,7 +140,7 @@ OffsetMap build_one(const OffsetProblem& problem, double offset_s, bool moving, 
   OffsetMap map;
   map.offset_s = offset_s;
   map.moving = moving;
-  const std::vector<PlacedSweep> sweeps = place_sweeps(problem, offset_s);
+  std::vector<PlacedSweep> sweeps = place_sweeps(problem, offset_s);
   std::vector<SweepPose> poses = standing_poses(sweeps);
   if (moving) {
     const Eigen::Vector3d axis = problem.recording->rig.mount.axis.normalized();
@@ -136,6 +151,7 @@ OffsetMap build_one(const OffsetProblem& problem, double offset_s, bool moving, 
     map.signed_rotation_rad = roll.signed_rotation_rad;
     poses = std::move(roll.sweeps);
   }
+  std::vector<PlacedSweep>().swap(sweeps);  // as large as the map itself
   map.cloud = place_beams(problem, offset_s, poses);
   for (const SweepPose& pose : poses) {
     // A sweep's end and the next one's begin are one instant: a quarter in from each keeps the times apart.
@@ -151,6 +167,14 @@ OffsetMap build_one(const OffsetProblem& problem, double offset_s, bool moving, 
 
 }  // namespace
 
+std::uint64_t map_memory_bytes(const Recording& recording, std::size_t maps) {
+  // Features are there for all maps; each has its placed features, the surfaces that LOAM keeps, and points.
+  // Measured by tests/benchmark/memory.
+  constexpr std::uint64_t kOfFeatures_a_beam = 8, kOfMap_a_beam = 16;
+  const std::uint64_t beams = recording.ranges_m.size();
+  return beams * (kOfFeatures_a_beam + maps * (kOfMap_a_beam + sizeof(MapPoint)));
+}
+
 Result<std::vector<OffsetMap>> build_maps(const Recording& recording, std::span<const double> offsets_s,
                                           const MapOptions& options, const Job& job) {
   const auto [least, greatest] = std::minmax_element(offsets_s.begin(), offsets_s.end());
@@ -159,8 +183,7 @@ Result<std::vector<OffsetMap>> build_maps(const Recording& recording, std::span<
   const std::vector<std::string> reasons = motor_reasons(recording.motor, problem->motor);
   if (!reasons.empty())
     return failure(ExitCode::kNotIdentifiable, fmt::format("{}: {}", recording.name, reasons.front()));
-  const std::vector<PlacedSweep> placed = place_sweeps(*problem, *least);
-  if (placed.empty())
+  if (place_sweeps(*problem, *least).empty())
     return failure(
         ExitCode::kNotIdentifiable,
         fmt::format("{}: no scan is covered by the motor's samples at these offsets.", recording.name));

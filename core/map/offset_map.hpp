@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -44,5 +45,8 @@ struct OffsetMap {
 /// wrong offset. A motor that does not turn to and fro is ExitCode::kNotIdentifiable.
 Result<std::vector<OffsetMap>> build_maps(const Recording& recording, std::span<const double> offsets_s,
                                           const MapOptions& options, const Job& job);
+
+/// About how much more memory so many maps of a recording that is read take, at the most, to build.
+std::uint64_t map_memory_bytes(const Recording& recording, std::size_t maps);
 
 }  // namespace sweepscope

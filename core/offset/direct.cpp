@@ -77,6 +77,13 @@ void judge_drift(const std::optional<Trend>& trend, double recorded_s, std::opti
   add(result.reasons, drift_reason(*trend, recorded_s, sigma_s.value_or(0)));
 }
 
+// Matches come and go, so that the last steps may go to and fro: by less than sigma they leave an answer.
+void judge_convergence(bool converged, double last_step_s, double sigma_s, Estimate& result) {
+  if (converged) return;
+  const bool small = std::abs(last_step_s) < sigma_s;
+  (small ? result.warnings : result.reasons).push_back("The least squares did not converge.");
+}
+
 void estimate_standing(const OffsetProblem& problem, double coarse_s, const std::vector<double>& window_s,
                        const SearchScale& scale, const Job& job, Estimate& result) {
   const StillGrid grid = still_grid(problem);
@@ -87,10 +94,10 @@ void estimate_standing(const OffsetProblem& problem, double coarse_s, const std:
                                          found.matches, found.features));
     return;
   }
-  if (!found.converged) result.warnings.push_back("The least squares did not settle.");
   add(result.reasons, lever_reason(found.lever_m, found.reach_m));
   add(result.warnings, few_matches_warning(found.matches, found.features));
   std::optional<double> sigma_s = sigma_of(found, *problem.recording);
+  judge_convergence(found.converged, found.step_s, sigma_s.value_or(0), result);
   if (sigma_s)
     sigma_s = std::hypot(*sigma_s, unseen_sigma_s(*problem.recording, problem.motor, found.offset_s));
   judge_drift(trend_of(found.block_s, found.block_offset_s), duration_s(problem), sigma_s, result);
@@ -103,7 +110,7 @@ void estimate_standing(const OffsetProblem& problem, double coarse_s, const std:
 }
 
 void judge_walk(const MovingDirect& found, Estimate& result) {
-  if (!found.converged) result.warnings.push_back("The least squares did not settle.");
+  judge_convergence(found.converged, found.joint->step_s, found.joint->sigma_s, result);
   add(result.reasons, lever_reason(found.joint->lever_m, found.joint->reach_m));
   const auto &below = found.curve.front().e_m, &here = found.curve[1].e_m, &above = found.curve.back().e_m;
   if (!here)
@@ -192,6 +199,7 @@ void estimate_directly(const OffsetProblem& problem, const CoarseSearch& coarse,
     return;
   }
   const std::vector<double> window_s{coarse.curve.front().offset_s, coarse.curve.back().offset_s};
+  add(result.reasons, beam_times_reason(*problem.recording, scale));
   add(result.reasons, edge_reason(coarse.curve, *coarse.best));
   add(result.reasons, flat_reason(coarse.curve, *coarse.best));
   add(result.reasons, rival_reason(coarse.curve, *coarse.best, scale));

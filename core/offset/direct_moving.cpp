@@ -13,8 +13,13 @@ namespace {
 // n and e along the joint walk, below, at and above its offset.
 std::vector<CurvePoint> sides(const OffsetProblem& problem, const JointWalk& walk,
                               const MovingDirectOptions& options) {
+  // All features placed at once take half a dozen times the room of their beams; of long walks one side is
+  // worked out after the other.
+  constexpr std::size_t kMostTogether = 2'000'000;
+  const auto& [edges, planes, noise_m] = *problem.features;
+  const bool together = edges.features.size() + planes.features.size() <= kMostTogether;
   std::vector<CurvePoint> curve(3);
-  for_each_index(curve.size(), [&](std::size_t i) {
+  const auto side = [&](std::size_t i) {
     CurvePoint& point = curve[i];
     point.offset_s = walk.offset_s + (double(i) - 1) * options.side_s;
     std::vector<PlacedSweep> sweeps = place_sweeps(problem, point.offset_s);
@@ -31,7 +36,11 @@ std::vector<CurvePoint> sides(const OffsetProblem& problem, const JointWalk& wal
     point.n = double(count.matches);
     if (count.features > 0) point.capped_cost_m = count.capped_cost_m();
     if (count.matches > 0) point.e_m = count.mean_distance_m();
-  });
+  };
+  if (together)
+    for_each_index(curve.size(), side);
+  else
+    for (std::size_t i = 0; i < curve.size(); ++i) side(i);
   return curve;
 }
 

@@ -317,6 +317,7 @@ StationaryDirect solve_stationary(const StillGrid& grid, double first_offset_s,
     result.matches = sums.matches;
     if (sums.matches < options.least_matches || !(sums.jj > 0)) return result;
     const double step_s = -sums.jr / sums.jj;
+    result.step_s = step_s;
     result.residual_m = robust_deviation_m(lines);
     result.converged = narrowed && std::abs(step_s) < options.step_tolerance_s;
     const bool last = result.converged || result.iterations + 1 == options.most_iterations;

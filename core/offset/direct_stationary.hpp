@@ -34,6 +34,7 @@ std::vector<CurvePoint> stationary_coarse_curve(const StillGrid& grid, const std
 struct StationaryDirect {
   bool converged = false;
   double offset_s = 0;
+  double step_s = 0;  // the last one
   int iterations = 0;
   std::size_t features = 0, matches = 0;
   double residual_m = 0;  // robust deviation of the distances

@@ -169,10 +169,24 @@ double stamps_sigma_s(const Recording& recording) {
   return kConcentration * unevenness_s(stamps_s) / kNineInTenOfSpacings / std::sqrt(double(stamps_s.size()));
 }
 
+double beam_times_sigma_s(const Recording& recording) {
+  return recording.report.beam_time_doubt_s / 2;
+}
+
+Remark beam_times_reason(const Recording& recording, const SearchScale& scale) {
+  if (beam_times_sigma_s(recording) < scale.unit_s) return std::nullopt;
+  return fmt::format(
+      "When the beams were fired is not known: the last one of a scan may be off by {:.1f} ms. Give "
+      "laser.time_increment_s in a rig file.",
+      recording.report.beam_time_doubt_s * 1e3);
+}
+
 double unseen_sigma_s(const Recording& recording, const MotorMotion& motor, double offset_s) {
-  return std::hypot(encoder_step_sigma_s(recording.motor, motor),
-                    encoder_sampling_sigma_s(recording.motor, motor),
-                    lines_sigma_s(motor, distinct_lines(recording, motor, offset_s)));
+  const double of_motor_and_lines_s = std::hypot(
+      encoder_step_sigma_s(recording.motor, motor), encoder_sampling_sigma_s(recording.motor, motor),
+      lines_sigma_s(motor, distinct_lines(recording, motor, offset_s)));
+  const double of_beams_s = beam_times_sigma_s(recording);
+  return of_beams_s > 0 ? std::hypot(of_motor_and_lines_s, of_beams_s) : of_motor_and_lines_s;
 }
 
 Remark lines_reason(double distinct_lines) {

@@ -52,7 +52,13 @@ double lines_sigma_s(const MotorMotion& motor, double distinct_lines);
 /// What scans whose stamps scatter leave uncertain at least, however few sweeps there are to tell it by:
 /// their spacings tell how much each errs.
 double stamps_sigma_s(const Recording& recording);
-/// What encoder and lines leave: what the scatter of the sweeps does not tell at an offset.
+/// What doubt about the beams' times leaves (ReadReport::beam_time_doubt_s): the answer rests on beams from
+/// the first to the last of a scan, so it may err by what the last one does.
+double beam_times_sigma_s(const Recording& recording);
+/// That doubt is larger than what the motor's speed should allow.
+Remark beam_times_reason(const Recording& recording, const SearchScale& scale);
+/// What encoder, lines and doubt about the beams' times leave: what the scatter of the sweeps does not tell
+/// at an offset.
 double unseen_sigma_s(const Recording& recording, const MotorMotion& motor, double offset_s);
 /// Sigma is larger than what the motor's speed should allow.
 Remark sigma_reason(std::optional<double> sigma_s, const SearchScale& scale);

@@ -157,6 +157,7 @@ class Part {
       if (!solution) return;
       path_.move(solution->knot_steps);
       result_.offset_s += solution->offset_step_s;
+      result_.step_s = solution->offset_step_s;
       result_.sigma_s = solution->offset_sigma_s;
       result_.converged = std::abs(solution->offset_step_s) < options_.step_tolerance * result_.sigma_s;
     }
@@ -314,6 +315,7 @@ void summarise(JointWalk& walk) {
     const double weight = 1 / (part.sigma_s * part.sigma_s);
     weights += weight;
     sum += weight * part.offset_s;
+    walk.step_s += weight * std::abs(part.step_s);
     lever_m2 += part.lever_m2;
     reach_m2 += part.reach_m2;
     walk.features += part.features;
@@ -321,6 +323,7 @@ void summarise(JointWalk& walk) {
     walk.converged = walk.converged && part.converged;
   }
   walk.offset_s = sum / weights;
+  walk.step_s /= weights;
   walk.lever_m = std::sqrt(lever_m2 / double(walk.matches));
   walk.reach_m = std::sqrt(reach_m2 / double(walk.matches));
   walk.sigma_s = std::sqrt(1 / weights);

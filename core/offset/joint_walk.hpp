@@ -32,12 +32,14 @@ struct JointWalkOptions {
 struct JointWalkPart {
   double middle_s = 0;  // laser clock
   double offset_s = 0, sigma_s = 0;
+  double step_s = 0;  // the last one
   std::size_t features = 0, matches = 0;
   double lever_m2 = 0, reach_m2 = 0;  // sums over the matches of (n . (a x p))^2 and of |a x p|^2
   bool converged = false;
 };
 
 struct JointWalk {
+  double step_s = 0;                 // weighted mean of the parts' last steps, each without its sign
   double offset_s = 0;               // weighted mean of the parts
   double sigma_s = 0;                // from the parts' own, widened where they scatter more
   std::vector<JointWalkPart> parts;  // those with enough matches

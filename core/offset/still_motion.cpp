@@ -47,14 +47,49 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-std::vector<std::size_t> whole_sweeps(const StillGrid& grid, const std::vector<LinePool>& pools) {
-  std::size_t most = 0;
-  for (const LinePool& pool : pools) most = std::max(most, pool.size());
+// The sweep of each of the grid's lines; kNoSweep where none.
+std::vector<std::size_t> sweep_of_lines(const StillGrid& grid, double offset_s) {
+  const auto sweep_of_scan =
+      assign_sweeps(grid.problem->recording->scans, grid.problem->motor.sweeps, offset_s);
+  std::vector<std::size_t> sweep_of;
+  for (const std::uint32_t scan : grid.scan) sweep_of.push_back(sweep_of_scan[scan]);
+  return sweep_of;
+}
+
+// The grid's lines of these sweeps (ascending) alone: the points of all would take more memory than the
+// recording.
+StillGrid lines_of(const StillGrid& grid, const std::vector<std::size_t>& sweep_of,
+                   const std::vector<std::size_t>& sweeps) {
+  StillGrid part;
+  part.problem = grid.problem;
+  part.bins = grid.bins;
+  const auto append = [&](const auto& from, std::size_t line, auto& to) {
+    const auto first = from.begin() + static_cast<std::ptrdiff_t>(line * grid.bins);
+    to.insert(to.end(), first, first + static_cast<std::ptrdiff_t>(grid.bins));
+  };
+  for (std::size_t line = 0; line < grid.lines(); ++line) {
+    if (!std::binary_search(sweeps.begin(), sweeps.end(), sweep_of[line])) continue;
+    part.scan.push_back(grid.scan[line]);
+    append(grid.feature, line, part.feature);
+    append(grid.time_s, line, part.time_s);
+    append(grid.range_m, line, part.range_m);
+  }
+  return part;
+}
+
+std::vector<std::size_t> whole_sweeps(const StillGrid& grid, const std::vector<std::size_t>& sweep_of) {
+  std::vector<std::size_t> lines;
+  for (const std::size_t sweep : sweep_of) {
+    if (sweep == kNoSweep) continue;
+    if (sweep >= lines.size()) lines.resize(sweep + 1);
+    ++lines[sweep];
+  }
+  const std::size_t most = lines.empty() ? 0 : *std::max_element(lines.begin(), lines.end());
   std::vector<std::size_t> whole;
-  for (std::size_t sweep = 0; sweep < pools.size(); ++sweep) {
+  for (std::size_t sweep = 0; sweep < lines.size(); ++sweep) {
     const Sweep& motor = grid.problem->motor.sweeps[sweep];
     const bool full_turn = motor.end_s - motor.begin_s > 0.7 * grid.problem->motor.median_sweep_s;
-    if (full_turn && 10 * pools[sweep].size() > 7 * most) whole.push_back(sweep);
+    if (full_turn && 10 * lines[sweep] > 7 * most) whole.push_back(sweep);
   }
   return whole;
 }
@@ -89,17 +124,24 @@ std::optional<SweepShift> shift_between(const StillPoints& points, const LinePoo
 }
 
 MotionTest test_motion(const StillGrid& grid, double offset_s) {
-  const StillPoints points = place_still(grid, offset_s, StillDetail::kPoints);
-  const std::vector<LinePool> pools = pools_by_sweep(points);
-  const std::vector<std::size_t> whole = whole_sweeps(grid, pools);
-  std::vector<std::size_t> firsts;
+  const std::vector<std::size_t> sweep_of = sweep_of_lines(grid, offset_s);
+  const std::vector<std::size_t> whole = whole_sweeps(grid, sweep_of);
+  std::vector<std::size_t> firsts, chosen, needed;
   for (const std::size_t sweep : whole)
     if (std::binary_search(whole.begin(), whole.end(), sweep + 2)) firsts.push_back(sweep);
-  MotionTest test;
-  std::vector<double> translations_m, rotations_rad;
   const std::size_t stride = std::max<std::size_t>(1, firsts.size() / kMostPairs);
   for (std::size_t i = 0; i < firsts.size(); i += stride) {
-    const auto shift = shift_between(points, pools[firsts[i]], pools[firsts[i] + 2], grid);
+    chosen.push_back(firsts[i]);
+    needed.insert(needed.end(), {firsts[i], firsts[i] + 2});
+  }
+  std::sort(needed.begin(), needed.end());
+  const StillGrid part = lines_of(grid, sweep_of, needed);
+  const StillPoints points = place_still(part, offset_s, StillDetail::kPoints);
+  const std::vector<LinePool> pools = pools_by_sweep(points);
+  MotionTest test;
+  std::vector<double> translations_m, rotations_rad;
+  for (const std::size_t first : chosen) {
+    const auto shift = shift_between(points, pools[first], pools[first + 2], part);
     if (!shift) continue;  // too little to see for either answer
     ++test.pairs;
     if (shift->translation_m > kStillTranslation_m || shift->rotation_rad > kStillRotation_rad) ++test.moved;
@@ -112,12 +154,15 @@ MotionTest test_motion(const StillGrid& grid, double offset_s) {
 }
 
 std::optional<SweepShift> shift_from_first_to_last(const StillGrid& grid, double offset_s) {
-  const StillPoints points = place_still(grid, offset_s, StillDetail::kPoints);
-  const std::vector<LinePool> pools = pools_by_sweep(points);
-  const std::vector<std::size_t> whole = whole_sweeps(grid, pools);
-  for (std::size_t back = whole.size(); back-- > 1;)
-    if ((whole[back] - whole.front()) % 2 == 0)
-      return shift_between(points, pools[whole.front()], pools[whole[back]], grid);
+  const std::vector<std::size_t> sweep_of = sweep_of_lines(grid, offset_s);
+  const std::vector<std::size_t> whole = whole_sweeps(grid, sweep_of);
+  for (std::size_t back = whole.size(); back-- > 1;) {
+    if ((whole[back] - whole.front()) % 2 != 0) continue;
+    const StillGrid part = lines_of(grid, sweep_of, {whole.front(), whole[back]});
+    const StillPoints points = place_still(part, offset_s, StillDetail::kPoints);
+    const std::vector<LinePool> pools = pools_by_sweep(points);
+    return shift_between(points, pools[whole.front()], pools[whole[back]], part);
+  }
   return std::nullopt;
 }
 

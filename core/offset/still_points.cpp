@@ -16,6 +16,19 @@ std::size_t beams_per_bin(const FeatureOptions& options) {
   return std::size_t(std::max(1, options.map_spacing));
 }
 
+// Enough for the longest scan; but where a few scans are that much longer than the others that the grid would
+// be empty mostly, their far ends are left out of it.
+std::size_t bins_of(const std::vector<LaserScan>& scans, std::size_t beams_a_bin) {
+  constexpr std::size_t kSparsest = 16;
+  std::size_t most = 0, all = 0;
+  for (const LaserScan& scan : scans) {
+    most = std::max<std::size_t>(most, scan.beams);
+    all += scan.beams;
+  }
+  const std::size_t mean = all / std::max<std::size_t>(1, scans.size()) + 1;
+  return std::min(most, kSparsest * mean) / beams_a_bin + 1;
+}
+
 }  // namespace
 
 StillGrid still_grid(const OffsetProblem& problem) {
@@ -24,9 +37,7 @@ StillGrid still_grid(const OffsetProblem& problem) {
   const FeatureOptions& options = problem.feature_options;
   StillGrid grid;
   grid.problem = &problem;
-  std::uint32_t beams = 0;
-  for (const LaserScan& scan : scans) beams = std::max(beams, scan.beams);
-  grid.bins = beams / beams_per_bin(options) + 1;
+  grid.bins = bins_of(scans, beams_per_bin(options));
   for (std::size_t i = 0; i < scans.size(); ++i)
     if (problem.scan_used[i]) grid.scan.push_back(std::uint32_t(i));
   grid.feature.assign(grid.lines() * grid.bins, StillGrid::kNone);
@@ -40,6 +51,7 @@ StillGrid still_grid(const OffsetProblem& problem) {
     for (std::size_t i = planes.scan_begin[scan]; i < planes.scan_begin[scan + 1]; ++i) {
       const Feature& feature = planes.features[i];
       const std::size_t bin = (feature.beam - std::size_t(half)) / beams_per_bin(options);
+      if (bin >= grid.bins) continue;
       grid.feature[first + bin] = std::uint32_t(i);
       grid.time_s[first + bin] = feature.time_s;
       grid.range_m[first + bin] = feature.range_m;

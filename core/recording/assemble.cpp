@@ -8,6 +8,7 @@
 #include <map>
 #include <numbers>
 
+#include "core/recording/beam_times.hpp"
 #include "core/recording/choose_streams.hpp"
 #include "core/recording/stream_stamps.hpp"
 
@@ -24,6 +25,17 @@ double since_s(std::int64_t ns, std::int64_t epoch_ns) {
 
 bool usable_increment(double increment_s) {
   return increment_s > 0 && increment_s < kLongestTimeIncrement_s;
+}
+
+/// Refuses a scan of more beams than can be told apart.
+std::optional<Error> too_many_beams(const RawRecording& raw, const RawLaser& laser) {
+  for (std::size_t i = 0; i < laser.scans.size(); ++i) {
+    if (laser.scans[i].beams <= kMostBeamsAScan) continue;
+    return Error{ExitCode::kUnreadableInput,
+                 fmt::format("{}: scan {} on {} has {} beams, and at most {} a scan are read", raw.file,
+                             i + 1, laser.topic, laser.scans[i].beams, kMostBeamsAScan)};
+  }
+  return std::nullopt;
 }
 
 /// Turns raw scans into those of the recording.
@@ -52,7 +64,9 @@ class ScanAssembler {
   ReadReport& report_;
   std::vector<double> cloud_spans_s_;  // of the lines placed
   std::string cloud_problem_;
-  std::size_t without_stamp_ = 0, without_beams_ = 0, without_increment_ = 0, increment_from_scan_time_ = 0;
+  double period_s_ = 0;  // from scan to scan; 0 where it is not known
+  BeamTimesReport beam_times_;
+  std::size_t without_stamp_ = 0, without_beams_ = 0;
 };
 
 /// The whole second at or before the first scan: near enough for times in double precision.
@@ -95,24 +109,26 @@ bool ScanAssembler::place(const RawScan& raw, LaserScan& scan) {
   scan.angle_min_rad = double{raw.angle_min_rad};
   scan.angle_increment_rad = double{raw.angle_increment_rad};
   scan.first_range = raw.first_range;
-  scan.time_increment_s = double{raw.time_increment_s};
-  if (!usable_increment(scan.time_increment_s)) {
-    const auto& of_rig = recording_.rig.laser.time_increment_s;
-    scan.time_increment_s = of_rig ? *of_rig : double{raw.scan_time_s} / raw.beams;
-    if (!usable_increment(scan.time_increment_s)) return ++without_increment_, false;
-    if (!of_rig) ++increment_from_scan_time_;
-  }
+  // The times of a cloud's points have a check of their own.
+  const BeamTimes times =
+      judge_beam_times(raw, raw_.of_clouds ? 0 : period_s_, recording_.rig.laser.time_increment_s);
+  beam_times_.add(raw, times);
+  if (times.time_increment_s == 0) return false;
+  scan.time_increment_s = times.time_increment_s;
   scan.ring = raw.ring;
   const double stamp_s = since_s(ns, recording_.epoch_ns);
   const bool first = recording_.rig.laser.stamp_at == StampAt::kFirstBeam;
   const double end_s =
       raw_.of_clouds ? raw.cloud_end_after_stamp_s : (raw.beams - 1.0) * scan.time_increment_s;
-  scan.first_beam_s = stamp_s + raw.first_beam_after_stamp_s - (first ? 0 : end_s);
+  const bool turned_round = !raw_.of_clouds && raw.first_beam_after_stamp_s < 0;
+  const double after_stamp_s = turned_round ? -end_s : raw.first_beam_after_stamp_s;
+  scan.first_beam_s = stamp_s + after_stamp_s - (first ? 0 : end_s);
   return true;
 }
 
 bool ScanAssembler::assemble() {
   set_epoch();
+  period_s_ = scan_period_s(raw_.scans, report_.laser_stamps.used);
   std::vector<LaserScan> placed;
   std::vector<double> times_s;
   for (RawScan& raw : raw_.scans) {
@@ -238,11 +254,8 @@ std::string ScanAssembler::reason() const {
   if (!cloud_problem_.empty()) reasons.push_back(cloud_problem_);
   if (without_stamp_ > 0) reasons.push_back(fmt::format("{} have no stamp", without_stamp_));
   if (without_beams_ > 0) reasons.push_back(fmt::format("{} have no beams with directions", without_beams_));
-  if (without_increment_ > 0) {
-    reasons.push_back(fmt::format(
-        "{} have neither a time_increment nor a scan_time (give laser.time_increment_s in a rig file)",
-        without_increment_));
-  }
+  if (std::string without_increment = beam_times_.unusable(); !without_increment.empty())
+    reasons.push_back(std::move(without_increment));
   return fmt::format("{}", fmt::join(reasons, ", "));
 }
 
@@ -251,12 +264,9 @@ void ScanAssembler::warn_of_drops() {
     report_.warnings.push_back(fmt::format("{} of {} scans on {} were dropped: {}", report_.scans_dropped,
                                            raw_.scans.size(), raw_.topic, reason()));
   }
-  if (increment_from_scan_time_ > 0) {
-    report_.warnings.push_back(fmt::format(
-        "{} scans on {} have no time_increment; scan_time / beams is used, {:.4g} s, which is too long "
-        "where the scanner also turns through a blind part (give laser.time_increment_s in a rig file)",
-        increment_from_scan_time_, raw_.topic, recording_.scans.front().time_increment_s));
-  }
+  for (std::string& warning : beam_times_.warnings(raw_.topic, period_s_))
+    report_.warnings.push_back(std::move(warning));
+  report_.beam_time_doubt_s = beam_times_.doubt_s();
 }
 
 void ScanAssembler::warn_of_overlap() {
@@ -396,6 +406,7 @@ Result<Recording> assemble(RawRecording raw, const Rig& rig, std::optional<Stamp
   const auto joint = choose_joint(raw, rig);
   if (!joint) return tl::unexpected(joint.error());
   RawLaser& raw_laser = raw.lasers[*laser];
+  if (auto error = too_many_beams(raw, raw_laser)) return tl::unexpected(std::move(*error));
   const RawJoint& raw_joint = raw.joints[*joint];
 
   Recording recording;

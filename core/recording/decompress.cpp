@@ -60,7 +60,7 @@ Decompressed unpack_bz2(std::span<const std::byte> block, std::size_t most_bytes
     stream.avail_out = static_cast<unsigned>(space.size());
     const int code = BZ2_bzDecompress(&stream);
     const std::size_t written = space.size() - stream.avail_out;
-    if (full && written > 0) return {output.bytes(), too_long(most_bytes)};
+    if (full && written > 0) return {output.bytes(), too_long(most_bytes), true};
     output.take(written);
     if (code == BZ_STREAM_END) return {output.bytes(), ""};
     if (code != BZ_OK) return {output.bytes(), "its bz2 data is damaged"};
@@ -86,7 +86,7 @@ Decompressed unpack_lz4(std::span<const std::byte> block, std::size_t most_bytes
     // Not LZ4F_decompressOptions_t::stableDst: the buffer moves as it grows.
     const std::size_t hint = LZ4F_decompress(context, space.data(), &written, block.data(), &eaten, nullptr);
     if (LZ4F_isError(hint)) return {output.bytes(), "its lz4 data is damaged"};
-    if (full && written > 0) return {output.bytes(), too_long(most_bytes)};
+    if (full && written > 0) return {output.bytes(), too_long(most_bytes), true};
     output.take(written);
     block = block.subspan(eaten);
     if (hint == 0) return {output.bytes(), ""};
@@ -109,7 +109,7 @@ Decompressed unpack_zstd(std::span<const std::byte> block, std::size_t most_byte
     const std::size_t eaten_before = input.pos;
     const std::size_t hint = ZSTD_decompressStream(context.get(), &written, &input);
     if (ZSTD_isError(hint)) return {output.bytes(), "its zstd data is damaged"};
-    if (full && written.pos > 0) return {output.bytes(), too_long(most_bytes)};
+    if (full && written.pos > 0) return {output.bytes(), too_long(most_bytes), true};
     output.take(written.pos);
     if (hint == 0 && input.pos == input.size) return {output.bytes(), ""};
     if (input.pos == eaten_before && written.pos == 0)

@@ -20,6 +20,7 @@ std::optional<Compression> compression_named(std::string_view name);
 struct Decompressed {
   std::span<const std::byte> bytes;
   std::string problem;
+  bool too_long = false;  // more than `most_bytes` would have come out
 };
 
 /// Decompresses `block` (bz2, or the frame formats of LZ4 and Zstandard) into `buffer`, which grows with what

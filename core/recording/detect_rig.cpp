@@ -51,10 +51,17 @@ void judge_stamp(const Recording& recording, const LaserSummary& laser, bool giv
 void note_increment(const RawScan& first, const Recording& recording, DetectedRig& detected) {
   const double recorded_s = double{first.time_increment_s};
   if (recorded_s != 0) {
-    detected.increment_note = fmt::format("recorded: {:.6g}; used where a scan says 0", recorded_s);
+    detected.increment_note =
+        recording.report.beam_time_doubt_s > 0
+            ? fmt::format("recorded: {:.6g}, which cannot be right or can be read in two ways", recorded_s)
+            : fmt::format("recorded: {:.6g}; used where a scan says 0", recorded_s);
     return;
   }
-  if (!detected.rig.laser.time_increment_s) {
+  if (recording.report.beam_time_doubt_s > 0) {
+    detected.increment_note =
+        "not recorded, and not told: scan_time / beams would be too long where the "
+        "scanner has a blind part";
+  } else if (!detected.rig.laser.time_increment_s) {
     detected.rig.laser.time_increment_s = recording.scans.front().time_increment_s;
     detected.increment_note = "not recorded: scan_time / beams, too long where the scanner has a blind part";
   } else {

@@ -46,11 +46,12 @@ LaserSummary inspect_laser(const Recording& recording) {
   laser.doubled = report.scans_doubled;
   laser.dropped = report.scans_dropped;
   laser.scans_without_motor = report.scans_without_motor;
+  laser.beam_time_doubt_s = report.beam_time_doubt_s;
   laser.nan = report.nan_ranges;
   laser.infinite = report.infinite_ranges;
   laser.zero = report.zero_ranges;
   laser.out_of_range = report.out_of_range_ranges;
-  laser.intensities = !recording.intensities.empty();
+  laser.intensities = report.intensities || !recording.intensities.empty();
   laser.beams = recording.ranges_m.size();
   laser.usable_beams = static_cast<std::size_t>(
       std::ranges::count_if(recording.ranges_m, [](float range_m) { return !std::isnan(range_m); }));
@@ -135,6 +136,13 @@ std::string refusal(const LaserSummary& laser, const MotorSummary& motor, double
         "Expect a refusal: the scans' receive times come unevenly, by up to {:.0f} ms nine times in ten, "
         "where a scan takes {:.0f} ms.",
         1000 * laser.uneven_s, 1000 * laser.median_period_s);
+  constexpr double kLeastUnit_ms = 1, kUnit_deg = 0.36;  // what an answer must be surer than
+  if (const double doubt_ms = 1000 * laser.beam_time_doubt_s;
+      doubt_ms / 2 > std::max(kLeastUnit_ms, kUnit_deg / motor.deg_per_ms()))
+    return fmt::format(
+        "Expect a refusal: when the beams were fired is not known, the last one of a scan to {:.1f} ms only; "
+        "give laser.time_increment_s in a rig file.",
+        doubt_ms);
   if (const double samples = samples_a_sweep(motor); samples > 0 && samples < kFewestSamples)
     return fmt::format("Expect a refusal: the motor is sampled {:.1f} times a sweep only.", samples);
   if (distinct_lines < kLeastDistinctLines)

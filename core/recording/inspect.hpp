@@ -33,6 +33,7 @@ struct LaserSummary : StreamSummary {
   std::size_t nan = 0, infinite = 0, zero = 0, out_of_range = 0;  // of the whole file
   double median_range_m = 0;
   std::size_t scans_without_motor = 0;  // at offset 0
+  double beam_time_doubt_s = 0;         // see ReadReport
   bool intensities = false;
 };
 

@@ -60,8 +60,8 @@ std::uint32_t checksum(std::span<const std::byte> bytes) {
 /// Reads one file. Members hold what is known so far; memory holds one chunk, packed and unpacked.
 class McapReader {
  public:
-  McapReader(InputFile& file, std::string name, const McapVisitor& visit)
-      : file_(file), name_(std::move(name)), visit_(visit) {}
+  McapReader(InputFile& file, std::string name, UnpackingLimit& limit, const McapVisitor& visit)
+      : file_(file), name_(std::move(name)), limit_(limit), visit_(visit) {}
 
   Result<std::vector<std::string>> read(const Job& job);
 
@@ -84,6 +84,7 @@ class McapReader {
 
   InputFile& file_;
   std::string name_;
+  UnpackingLimit& limit_;
   const McapVisitor& visit_;
   std::map<std::uint16_t, std::string> schemas_;
   std::map<std::uint16_t, McapChannel> channels_;
@@ -198,7 +199,10 @@ std::optional<Error> McapReader::read_chunk(std::span<const std::byte> content, 
                      place.text(), chunk.compression));
     return std::nullopt;
   }
-  const Decompressed unpacked = decompress(*compression, chunk.records, kMostMcapChunk_bytes, unpacked_);
+  const Decompressed unpacked =
+      decompress(*compression, chunk.records, limit_.most(kMostMcapChunk_bytes), unpacked_);
+  if (*compression != Compression::kNone)
+    if (auto error = limit_.take(unpacked.bytes.size() + (unpacked.too_long ? 1 : 0))) return error;
   const bool sound = whole && unpacked.problem.empty();
   if (whole && !sound) {
     warn(fmt::format("the chunk at {} is damaged ({}); what is whole before the damage was used",
@@ -378,13 +382,19 @@ Result<std::vector<std::string>> McapReader::read(const Job& job) {
 
 Result<std::vector<std::string>> read_mcap(const std::filesystem::path& path, const McapVisitor& visit,
                                            const Job& job) {
+  UnpackingLimit limit(path);
+  return read_mcap(path, limit, visit, job);
+}
+
+Result<std::vector<std::string>> read_mcap(const std::filesystem::path& path, UnpackingLimit& limit,
+                                           const McapVisitor& visit, const Job& job) {
   auto file = InputFile::open(path);
   if (!file) return tl::unexpected(file.error());
   std::array<char, kMcapMagic.size()> magic{};
   file->read(std::as_writable_bytes(std::span(magic)));
   if (std::string_view(magic.data(), magic.size()) != kMcapMagic)
     return unreadable(fmt::format("{}: byte 0 does not begin an MCAP file of version 0", path.string()));
-  return McapReader(*file, path.string(), visit).read(job);
+  return McapReader(*file, path.string(), limit, visit).read(job);
 }
 
 }  // namespace sweepscope

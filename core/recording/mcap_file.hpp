@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "core/job.hpp"
 #include "core/recording/bag_place.hpp"
+#include "core/recording/unpacking_limit.hpp"
 
 namespace sweepscope {
 
@@ -44,5 +45,8 @@ using McapVisitor = std::function<std::optional<Error>(const McapMessage&)>;
 /// naming the place. What is whole in a damaged file is visited; a chunk whose checksum is wrong is not.
 Result<std::vector<std::string>> read_mcap(const std::filesystem::path& path, const McapVisitor& visit,
                                            const Job& job);
+/// The same of a file that was itself unpacked, under the limit of the packed one.
+Result<std::vector<std::string>> read_mcap(const std::filesystem::path& path, UnpackingLimit& limit,
+                                           const McapVisitor& visit, const Job& job);
 
 }  // namespace sweepscope

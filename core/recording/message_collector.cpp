@@ -73,8 +73,13 @@ std::size_t MessageCollector::number_of(const Topic& topic) {
 }
 
 /// Empty, which no message is, where it is damaged.
-std::span<const std::byte> MessageCollector::unpacked(std::span<const std::byte> message) {
-  const Decompressed plain = decompress(Compression::kZstd, message, kMostPackedMessage_bytes, unpacked_);
+Result<std::span<const std::byte>> MessageCollector::unpacked(std::span<const std::byte> message) {
+  const std::uint64_t most =
+      limit_ != nullptr ? limit_->most(kMostPackedMessage_bytes) : kMostPackedMessage_bytes;
+  const Decompressed plain = decompress(Compression::kZstd, message, most, unpacked_);
+  if (limit_ != nullptr)
+    if (auto error = limit_->take(plain.bytes.size() + (plain.too_long ? 1 : 0)))
+      return tl::unexpected(std::move(*error));
   return plain.problem.empty() ? plain.bytes : std::span<const std::byte>();
 }
 
@@ -86,7 +91,11 @@ std::optional<Error> MessageCollector::add(std::size_t topic, std::int64_t recei
   ++counts.messages;
   if (entry.type == nullptr) return std::nullopt;
   // CDR begins with 00, a frame of zstd never does.
-  if (entry.topic.encoding == Encoding::kCdr && begins_zstd(message)) message = unpacked(message);
+  if (entry.topic.encoding == Encoding::kCdr && begins_zstd(message)) {
+    const auto plain = unpacked(message);
+    if (!plain) return plain.error();
+    message = *plain;
+  }
   const bool whole = entry.type->kind == MessageKind::kLaserScan ? add_scan(entry, receive_ns, message)
                      : entry.type->kind == MessageKind::kCloud   ? add_cloud(entry, receive_ns, message)
                                                                  : add_joints(entry, receive_ns, message);

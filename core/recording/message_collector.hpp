@@ -13,6 +13,7 @@
 #include "core/recording/messages.hpp"
 #include "core/recording/point_cloud.hpp"
 #include "core/recording/raw_recording.hpp"
+#include "core/recording/unpacking_limit.hpp"
 
 namespace sweepscope {
 
@@ -43,6 +44,8 @@ class MessageCollector {
   MessageCollector(const Rig& rig, RawRecording& raw, CloudDetail clouds = CloudDetail::kLines)
       : rig_(rig), raw_(raw), clouds_(clouds) {}
 
+  /// What the messages that follow may unpack to; it must outlive them.
+  void begin_file(UnpackingLimit& limit) { limit_ = &limit; }
   /// The number of a topic, for add(): the same for the same name, type and encoding.
   std::size_t number_of(const Topic& topic);
   /// Takes a message, one of CDR also packed by zstd (rosbag2's compression mode MESSAGE). `place` says where
@@ -65,7 +68,7 @@ class MessageCollector {
   };
 
   const MessageType* type_of(const Topic& topic);
-  std::span<const std::byte> unpacked(std::span<const std::byte> message);
+  Result<std::span<const std::byte>> unpacked(std::span<const std::byte> message);
   bool add_scan(const Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message);
   bool add_cloud(Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message);
   void keep_cloud(const Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message,
@@ -77,6 +80,7 @@ class MessageCollector {
   const Rig& rig_;
   RawRecording& raw_;
   CloudDetail clouds_;
+  UnpackingLimit* limit_ = nullptr;
   std::vector<Entry> entries_;  // like RawRecording::topics
   std::map<std::tuple<std::string, std::string, Encoding>, std::size_t> numbers_;
   std::vector<std::byte> unpacked_;

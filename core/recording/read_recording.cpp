@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <set>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/recording/assemble.hpp"
 #include "core/recording/csv_recording.hpp"
@@ -68,7 +71,17 @@ Result<Recording> read_recording(const fs::path& path, const ReadOptions& option
   const Rig rig = options.rig.value_or(Rig{});
   auto raw = read_raw_recording(path, rig, job);
   if (!raw) return tl::unexpected(std::move(raw.error()));
-  return assemble(std::move(*raw), rig, options.stamps);
+  std::set<std::string> with_intensities;
+  for (RawLaser& laser : raw->lasers) {
+    if (laser.intensities.empty()) continue;
+    with_intensities.insert(laser.topic);
+    if (options.keep_intensities) continue;
+    std::vector<float>().swap(laser.intensities);
+    laser.has_intensities = false;
+  }
+  auto recording = assemble(std::move(*raw), rig, options.stamps);
+  if (recording) recording->report.intensities = with_intensities.contains(*recording->rig.laser.topic);
+  return recording;
 }
 
 }  // namespace sweepscope

@@ -12,6 +12,7 @@ namespace sweepscope {
 struct ReadOptions {
   std::optional<Rig> rig;             // else all is detected, and the motor rolls the laser about x
   std::optional<StampSource> stamps;  // for both streams, whatever the rig says
+  bool keep_intensities = true;       // false: only ReadReport::intensities says whether there are any
 };
 
 /// Reads a recording, told by its content and not by its name: a ROS 1 bag, a ROS 2 bag (.db3, MCAP), or a

@@ -13,6 +13,9 @@
 
 namespace sweepscope {
 
+/// A scan has no more beams than this: features count them in 16 bits.
+inline constexpr std::uint32_t kMostBeamsAScan = 65'536;
+
 /// One scan line of the laser. Beam i was fired at `first_beam_s + i * time_increment_s`, in the direction
 /// `angle_min_rad + i * angle_increment_rad` about the laser's z axis, 0 along its x axis. Of a 3D scanner a
 /// line is one ring of one turn, or a slice of time; these angles then say how its beams lie beside each
@@ -72,6 +75,10 @@ struct ReadReport {
   std::size_t motor_unwrapped = 0;      // jumps of a whole turn that were taken out
   std::size_t scans_without_motor = 0;  // scans that the motor track does not cover at offset 0
   double longest_scan_gap_s = 0, longest_motor_gap_s = 0;
+  /// How far a scan's last beam may be off its instant, where a time_increment is a guess or can be read in
+  /// two ways (beam_times.hpp): the mean over the scans.
+  double beam_time_doubt_s = 0;
+  bool intensities = false;           // every scan has them, whether they were kept or not
   std::vector<std::string> warnings;  // whole sentences for a person
 };
 

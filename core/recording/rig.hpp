@@ -19,7 +19,7 @@ struct Rig {
     std::optional<std::string> topic;
     std::optional<StampSource> stamp;
     StampAt stamp_at = StampAt::kFirstBeam;
-    std::optional<double> time_increment_s;  // where the recording says 0
+    std::optional<double> time_increment_s;  // where the recording's is 0 or in doubt
   };
   struct Motor {
     std::optional<std::string> topic;

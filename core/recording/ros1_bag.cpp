@@ -9,6 +9,7 @@
 #include "core/recording/decompress.hpp"
 #include "core/recording/input_file.hpp"
 #include "core/recording/ros1_record.hpp"
+#include "core/recording/unpacking_limit.hpp"
 
 namespace sweepscope {
 namespace {
@@ -40,7 +41,7 @@ bool fits_its_op(const BagFields& fields) {
 class BagReader {
  public:
   BagReader(InputFile& file, std::string name, const BagVisitor& visit)
-      : file_(file), name_(std::move(name)), visit_(visit) {}
+      : file_(file), name_(std::move(name)), visit_(visit), limit_(name_, file.size()) {}
 
   Result<std::vector<std::string>> read(const Job& job);
 
@@ -73,6 +74,7 @@ class BagReader {
   InputFile& file_;
   std::string name_;
   const BagVisitor& visit_;
+  UnpackingLimit limit_;
   std::map<std::uint32_t, BagConnection> connections_;
   std::vector<std::byte> packed_, unpacked_;
   std::optional<std::uint64_t> index_at_;  // as claimed; 0 in a bag that was never closed
@@ -217,7 +219,9 @@ std::optional<Error> BagReader::read_chunk(const Header& header, const BagFields
   }
   const std::span<const std::byte> packed = read_data(header);
   const bool whole = packed.size() == header.data_bytes;
-  const Decompressed unpacked = decompress(*compression, packed, kMostChunk_bytes, unpacked_);
+  const Decompressed unpacked = decompress(*compression, packed, limit_.most(kMostChunk_bytes), unpacked_);
+  if (*compression != Compression::kNone)
+    if (auto error = limit_.take(unpacked.bytes.size() + (unpacked.too_long ? 1 : 0))) return error;
   const auto claimed_bytes = fields.number<std::uint32_t>("size");
   if (whole && !unpacked.problem.empty()) {
     warn(fmt::format("the chunk at {} is damaged ({}); what is whole before the damage was used",

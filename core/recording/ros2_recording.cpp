@@ -27,15 +27,15 @@ MessageCollector::Topic topic_of(const std::string& name, const std::string& typ
   return {name, type, cdr ? Encoding::kCdr : Encoding::kRos1, ros1 || cdr, ros1 ? md5sum : "*"};
 }
 
-Result<std::vector<std::string>> collect_mcap(const fs::path& path, MessageCollector& collector,
-                                              const Job& job) {
+Result<std::vector<std::string>> collect_mcap(const fs::path& path, UnpackingLimit& limit,
+                                              MessageCollector& collector, const Job& job) {
   const auto visit = [&](const McapMessage& message) {
     const McapChannel& from = message.channel;
     const auto topic = topic_of(from.topic, from.type, from.encoding, from.md5sum);
     return collector.add(collector.number_of(topic), message.log_ns, message.bytes,
                          [&] { return message.place.text(); });
   };
-  return read_mcap(path, visit, job);
+  return read_mcap(path, limit, visit, job);
 }
 
 Result<std::vector<std::string>> collect_sqlite(const fs::path& path, MessageCollector& collector,
@@ -85,9 +85,10 @@ std::optional<StoredFile> stored_as(const fs::path& path) {
   return StoredFile{*storage, packed};
 }
 
-Result<std::vector<std::string>> collect_as(BagStorage storage, const fs::path& path,
+Result<std::vector<std::string>> collect_as(BagStorage storage, const fs::path& path, UnpackingLimit& limit,
                                             MessageCollector& collector, const Job& job) {
-  return storage == BagStorage::kMcap ? collect_mcap(path, collector, job)
+  collector.begin_file(limit);
+  return storage == BagStorage::kMcap ? collect_mcap(path, limit, collector, job)
                                       : collect_sqlite(path, collector, job);
 }
 
@@ -100,10 +101,11 @@ std::string renamed(std::string sentence, const fs::path& file, const fs::path& 
 }
 
 Result<std::vector<std::string>> collect_packed(BagStorage storage, const fs::path& path,
-                                                MessageCollector& collector, const Job& job) {
-  const auto unpacked = UnpackedFile::unpack(path, job);
+                                                UnpackingLimit& limit, MessageCollector& collector,
+                                                const Job& job) {
+  const auto unpacked = UnpackedFile::unpack(path, limit, job);
   if (!unpacked) return tl::unexpected(unpacked.error());
-  auto damage = collect_as(storage, unpacked->path(), collector, job);
+  auto damage = collect_as(storage, unpacked->path(), limit, collector, job);
   if (!damage) return failure(damage.error().code, renamed(damage.error().message, unpacked->path(), path));
   for (std::string& what : *damage) what = renamed(what, unpacked->path(), path);
   if (!unpacked->problem().empty()) damage->push_back(unpacked->problem());
@@ -113,8 +115,9 @@ Result<std::vector<std::string>> collect_packed(BagStorage storage, const fs::pa
 /// Gives the warnings.
 Result<std::vector<std::string>> collect(const fs::path& path, MessageCollector& collector, const Job& job) {
   if (const auto stored = stored_as(path)) {
-    return stored->packed ? collect_packed(stored->storage, path, collector, job)
-                          : collect_as(stored->storage, path, collector, job);
+    UnpackingLimit limit(path);
+    return stored->packed ? collect_packed(stored->storage, path, limit, collector, job)
+                          : collect_as(stored->storage, path, limit, collector, job);
   }
   if (const auto file = InputFile::open(path); !file) return tl::unexpected(file.error());
   return unreadable(

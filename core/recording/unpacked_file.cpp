@@ -31,7 +31,12 @@ tl::unexpected<Error> no_room(const fs::path& packed, const fs::path& unpacked) 
 
 enum class Unpacking { kWhole, kDamaged, kTooShort, kTooLong, kNoRoom, kInterrupted };
 
-Unpacking unpack_into(std::FILE* output, InputFile& input, std::uint64_t most_bytes, const Job& job) {
+struct UnpackingEnd {
+  Unpacking how;
+  std::uint64_t unpacked_bytes;
+};
+
+UnpackingEnd unpack_into(std::FILE* output, InputFile& input, std::uint64_t most_bytes, const Job& job) {
   const Context context(ZSTD_createDCtx(), ZSTD_freeDCtx);
   if (!context) throw std::bad_alloc();
   std::vector<std::byte> packed(ZSTD_DStreamInSize()), plain(ZSTD_DStreamOutSize());
@@ -44,16 +49,17 @@ Unpacking unpack_into(std::FILE* output, InputFile& input, std::uint64_t most_by
     for (bool more = true; more;) {
       ZSTD_outBuffer out{plain.data(), plain.size(), 0};
       hint = ZSTD_decompressStream(context.get(), &out, &in);
-      if (ZSTD_isError(hint)) return Unpacking::kDamaged;
+      if (ZSTD_isError(hint)) return {Unpacking::kDamaged, unpacked_bytes};
       unpacked_bytes += out.pos;
-      if (unpacked_bytes > most_bytes) return Unpacking::kTooLong;
-      if (std::fwrite(plain.data(), 1, out.pos, output) != out.pos) return Unpacking::kNoRoom;
+      if (unpacked_bytes > most_bytes) return {Unpacking::kTooLong, unpacked_bytes};
+      if (std::fwrite(plain.data(), 1, out.pos, output) != out.pos)
+        return {Unpacking::kNoRoom, unpacked_bytes};
       more = in.pos < in.size || (out.pos == out.size && hint != 0);
-      if (job.cancelled()) return Unpacking::kInterrupted;
+      if (job.cancelled()) return {Unpacking::kInterrupted, unpacked_bytes};
     }
     job.report("unpacking", static_cast<double>(input.position()) / static_cast<double>(input.size()));
   }
-  return hint == 0 ? Unpacking::kWhole : Unpacking::kTooShort;
+  return {hint == 0 ? Unpacking::kWhole : Unpacking::kTooShort, unpacked_bytes};
 }
 
 }  // namespace
@@ -64,6 +70,12 @@ bool begins_zstd(std::span<const std::byte> bytes) {
 }
 
 Result<UnpackedFile> UnpackedFile::unpack(const fs::path& packed, const Job& job, std::uint64_t most_bytes) {
+  UnpackingLimit limit(packed);
+  return unpack(packed, limit, job, most_bytes);
+}
+
+Result<UnpackedFile> UnpackedFile::unpack(const fs::path& packed, UnpackingLimit& limit, const Job& job,
+                                          std::uint64_t most_bytes) {
   auto input = InputFile::open(packed);
   if (!input) return tl::unexpected(input.error());
   auto temporary = TemporaryFile::create();
@@ -71,7 +83,8 @@ Result<UnpackedFile> UnpackedFile::unpack(const fs::path& packed, const Job& job
   UnpackedFile file(std::move(*temporary));
   Output output(std::fopen(file.path().c_str(), "wb"), std::fclose);
   if (!output) return no_room(packed, file.path());
-  const Unpacking end = unpack_into(output.get(), *input, most_bytes, job);
+  const auto [end, unpacked_bytes] = unpack_into(output.get(), *input, limit.most(most_bytes), job);
+  if (auto error = limit.take(unpacked_bytes)) return tl::unexpected(std::move(*error));
   if (end == Unpacking::kInterrupted)
     return failure(ExitCode::kInterrupted, fmt::format("{}: reading was interrupted", packed.string()));
   if (end == Unpacking::kTooLong)

@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/io/temporary_file.hpp"
 #include "core/job.hpp"
+#include "core/recording/unpacking_limit.hpp"
 
 namespace sweepscope {
 
@@ -26,6 +27,9 @@ class UnpackedFile {
   /// written (kWrongUsage: a full disk), and what holds more than `most_bytes`.
   static Result<UnpackedFile> unpack(const std::filesystem::path& packed, const Job& job,
                                      std::uint64_t most_bytes = kMostUnpackedFile_bytes);
+  /// The same for a file that is one layer of several.
+  static Result<UnpackedFile> unpack(const std::filesystem::path& packed, UnpackingLimit& limit,
+                                     const Job& job, std::uint64_t most_bytes = kMostUnpackedFile_bytes);
 
   const std::filesystem::path& path() const { return file_.path(); }
   /// What was wrong with the packed file; empty where it was whole. What came before the damage is there.

@@ -28,6 +28,16 @@ void expect_refused(const Estimate& estimate, const std::string& why) {
       << why << " is not in: " << testing::PrintToString(estimate.reasons);
 }
 
+TEST(Direct, AnswersWhereTheLastStepsGoToAndFroByLessThanTheUncertainty) {
+  SimulationOptions options;
+  options.scene = "room-5";
+  options.offset_s = 17.3 * kMs;
+  options.noise_m = 0.030;
+  const Estimate found = directly(made(options));
+  ASSERT_TRUE(found.offset_s) << testing::PrintToString(found.reasons);
+  EXPECT_LT(std::abs(*found.offset_s - options.offset_s), 3 * *found.sigma_s);
+}
+
 // Truth, sweep, noise and the most that the answer may be off.
 struct Standing {
   double truth_s, sweep_s, noise_m, most_error_s;

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "core/error.hpp"
+
+namespace sweepscope {
+
+/// A file of a recording unpacks to no more than this, over all layers of compression ...
+inline constexpr std::uint64_t kMostUnpacked_bytes = std::uint64_t{1} << 40;
+/// ... and, beyond this, to no more than so many times its own size. Recordings of scans stay below 20.
+inline constexpr std::uint64_t kAlwaysUnpacked_bytes = std::uint64_t{256} << 20;
+inline constexpr std::uint64_t kMostUnpackedPerPacked = 250;
+
+/// Counts what a file's packed parts, one within the other, have unpacked to: a few kilobytes can be made to
+/// unpack for hours.
+class UnpackingLimit {
+ public:
+  /// With the size of the file as it lies there, and of its journal where there is one.
+  explicit UnpackingLimit(const std::filesystem::path& file);
+  UnpackingLimit(std::string name, std::uint64_t packed_bytes)
+      : name_(std::move(name)), packed_bytes_(packed_bytes) {}
+
+  /// How much a part of at most `part_bytes` may unpack to before take() refuses it.
+  std::uint64_t most(std::uint64_t part_bytes) const;
+  /// The refusal of the file (ExitCode::kUnreadableInput) where it unpacked to too much.
+  std::optional<Error> take(std::uint64_t unpacked_bytes);
+
+ private:
+  std::uint64_t limit_bytes() const;
+
+  std::string name_;
+  std::uint64_t packed_bytes_ = 0, unpacked_bytes_ = 0;
+};
+
+}  // namespace sweepscope
