@@ -21,7 +21,7 @@ std::string criterion_line(const CriterionOptimum& criterion) {
   const std::string where = criterion.name == "direct" ? "direct"
                             : criterion.name == "n"    ? "n greatest"
                                                        : criterion.name + " least";
-  return fmt::format("  {:<10} {:>9.3f} ms   ({})\n", where, criterion.offset_s * 1e3, value);
+  return fmt::format("  {:<10} {:>9.3f} ms   ({})", where, criterion.offset_s * 1e3, value);
 }
 
 void print_answer(const Estimate& estimate) {
@@ -36,7 +36,7 @@ void print_answer(const Estimate& estimate) {
   print("method   {}, {} sweeps, {} scans, {} candidates\n", estimate.method, estimate.sweeps, estimate.scans,
         estimate.curve.size());
   if (!estimate.kind.empty()) print("kind     {}: {}\n", estimate.kind, estimate.kind_reason);
-  for (const CriterionOptimum& criterion : estimate.criteria) print("{}", criterion_line(criterion));
+  for (const CriterionOptimum& criterion : estimate.criteria) print("{}\n", criterion_line(criterion));
   for (const std::string& warning : estimate.warnings) say("warning: {}\n", warning);
 }
 

@@ -58,8 +58,7 @@ void print_warnings(const Recording& recording);
 /// Checks what a subcommand will write, before any work: see check_run_files. `outputs` may hold "-", for
 /// standard output, at most once; empty names stand for no file. `folder`: that of outputs, where the
 /// subcommand makes one.
-Result<void> check_outputs(const std::vector<std::string>& outputs,
-                           std::vector<std::filesystem::path> inputs,
+Result<void> check_outputs(const std::vector<std::string>& outputs, std::vector<std::filesystem::path> inputs,
                            const std::filesystem::path& folder = {});
 /// Writes to stdout where `path` is "-", else to the file, whole or not at all.
 Result<void> write_text(const std::string& path, const std::string& text);

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <memory>
+#include <optional>
 
 #include "core/loam/least_squares.hpp"
 #include "core/loam/patch_search.hpp"
@@ -318,22 +321,70 @@ bool lost_track(const TrackedWalk& walk, const MappingOptions& options) {
 
 }  // namespace
 
+namespace {
+
+// Gives the next sweep in place of the one it is given; false at the end.
+using NextSweep = std::function<bool(PlacedSweep&)>;
+
+NextSweep one_by_one(const std::vector<PlacedSweep>& sweeps) {
+  return [&sweeps, next = std::size_t{0}](PlacedSweep& sweep) mutable {
+    if (next == sweeps.size()) return false;
+    sweep = sweeps[next++];
+    return true;
+  };
+}
+
+NextSweep placed_one_by_one(const OffsetProblem& problem, double offset_s) {
+  return [placer = std::make_shared<SweepPlacer>(problem, offset_s)](PlacedSweep& sweep) {
+    return placer->next(sweep);
+  };
+}
+
+// The first sweeps, as many as the first velocity is found from, and one more.
+std::vector<PlacedSweep> beginning_of(const NextSweep& next, const MappingOptions& options) {
+  std::vector<PlacedSweep> beginning;
+  for (PlacedSweep sweep; beginning.size() <= std::size_t(options.velocity_sweeps) && next(sweep); sweep = {})
+    beginning.push_back(std::move(sweep));
+  return beginning;
+}
+
+Result<TrackedWalk> track(const NextSweep& next, std::size_t count, const Eigen::Vector3d& motor_axis,
+                          const MappingOptions& options, const Job& job) {
+  const std::vector<PlacedSweep> beginning = beginning_of(next, options);
+  const std::size_t first = first_whole_sweep(beginning);
+  std::vector<PlacedSweep> tried(
+      beginning.begin() + std::ptrdiff_t(first),
+      beginning.begin() +
+          std::ptrdiff_t(std::min(beginning.size(), first + std::size_t(options.velocity_sweeps))));
+  for (PlacedSweep& sweep : tried) match_half(sweep);
+  Tracker tracker(options, motor_axis, find_first_twist_per_s(tried, motor_axis, options));
+  std::size_t done = first;
+  const auto add = [&](const PlacedSweep& sweep) {
+    if (job.cancelled()) return false;
+    tracker.add(sweep);
+    job.report("tracking", double(++done) / double(count));
+    return true;
+  };
+  bool whole = true;
+  for (std::size_t i = first; i < beginning.size() && whole; ++i) whole = add(beginning[i]);
+  for (PlacedSweep sweep; whole && next(sweep);) whole = add(sweep);
+  if (!whole) return failure(ExitCode::kInterrupted, "interrupted while tracking");
+  tracker.walk().lost = lost_track(tracker.walk(), options);
+  if (first > 0) prepend_backwards(beginning[0], tracker.walk().sweeps);
+  return std::move(tracker.walk());
+}
+
+}  // namespace
+
+Result<TrackedWalk> track(const OffsetProblem& problem, double offset_s, const MappingOptions& options,
+                          const Job& job) {
+  return track(placed_one_by_one(problem, offset_s), problem.motor.sweeps.size(),
+               problem.recording->rig.mount.axis.normalized(), options, job);
+}
+
 Result<TrackedWalk> track(const std::vector<PlacedSweep>& sweeps, const Eigen::Vector3d& motor_axis,
                           const MappingOptions& options, const Job& job) {
-  const std::size_t first = first_whole_sweep(sweeps);
-  std::vector<PlacedSweep> beginning(
-      sweeps.begin() + std::ptrdiff_t(first),
-      sweeps.begin() + std::ptrdiff_t(std::min(sweeps.size(), first + std::size_t(options.velocity_sweeps))));
-  for (PlacedSweep& sweep : beginning) match_half(sweep);
-  Tracker tracker(options, motor_axis, find_first_twist_per_s(beginning, motor_axis, options));
-  for (std::size_t i = first; i < sweeps.size(); ++i) {
-    if (job.cancelled()) return failure(ExitCode::kInterrupted, "interrupted while tracking");
-    tracker.add(sweeps[i]);
-    job.report("tracking", double(i + 1) / double(sweeps.size()));
-  }
-  tracker.walk().lost = lost_track(tracker.walk(), options);
-  if (first > 0) prepend_backwards(sweeps[0], tracker.walk().sweeps);
-  return std::move(tracker.walk());
+  return track(one_by_one(sweeps), sweeps.size(), motor_axis, options, job);
 }
 
 AlternatingRoll take_out_alternating_roll(const std::vector<SweepPose>& sweeps,
@@ -371,34 +422,66 @@ AlternatingRoll take_out_alternating_roll(const std::vector<SweepPose>& sweeps,
   return result;
 }
 
+namespace {
+
+// Counts one sweep after the other, each against the map of those before it that turned the other way.
+class MatchCounter {
+ public:
+  explicit MatchCounter(const MappingOptions& options) : options_(options) {}
+
+  void add(const PlacedSweep& sweep, const SweepPose& pose) {
+    if (sweeps_++ >= std::size_t(options_.settling_sweeps)) count_sweep(sweep, pose.motion());
+    maps_.insert(sweep, pose);
+  }
+  const MatchCount& count() const { return count_; }
+
+ private:
+  void count_sweep(const PlacedSweep& sweep, const SweepMotion& motion) {
+    const SearchRule rule =
+        rule_for(options_, true, sweep.direction > 0 ? SweepFilter::kBackward : SweepFilter::kForward);
+    for (const PlacedFeature& feature : sweep.planes) {
+      if (!feature.sharp) continue;
+      const Eigen::Vector3d p_m = motion(feature.p_in_base_m, feature.u);
+      const auto plane = find_plane(maps_.planes, p_m, feature.range_m, rule, near_);
+      const double distance_m = plane ? std::abs((p_m - plane->centre_m).dot(plane->normal)) : 0.0;
+      count_one(plane.has_value(), distance_m, options_.plane_gate_m, options_.cost_cap_m, count_);
+    }
+    for (const PlacedFeature& feature : sweep.edges) {
+      if (!feature.sharp) continue;
+      const Eigen::Vector3d p_m = motion(feature.p_in_base_m, feature.u);
+      const auto line = find_line(maps_.edges, p_m, feature.range_m, rule, near_);
+      const double distance_m = line ? from_line(*line, p_m).norm() : 0.0;
+      count_one(line.has_value(), distance_m, options_.edge_gate_m, options_.cost_cap_m, count_);
+    }
+  }
+
+  const MappingOptions& options_;
+  std::size_t sweeps_ = 0;
+  SweepMaps maps_;
+  MatchCount count_;
+  Neighbours near_;
+};
+
+}  // namespace
+
+MatchCount count_matches(const OffsetProblem& problem, double offset_s, const std::vector<SweepPose>& poses,
+                         const MappingOptions& options) {
+  MatchCounter counter(options);
+  SweepPlacer placer(problem, offset_s);
+  auto pose = poses.begin();
+  for (PlacedSweep sweep; placer.next(sweep);) {
+    while (pose != poses.end() && pose->sweep < sweep.sweep) ++pose;
+    // Those at either end may come or go with the offset.
+    if (pose != poses.end() && pose->sweep == sweep.sweep) counter.add(sweep, *pose);
+  }
+  return counter.count();
+}
+
 MatchCount count_matches(const std::vector<PlacedSweep>& sweeps, const std::vector<SweepPose>& poses,
                          const MappingOptions& options) {
-  SweepMaps maps;
-  MatchCount count;
-  Neighbours near;
-  for (std::size_t k = 0; k < sweeps.size(); ++k) {
-    if (k >= std::size_t(options.settling_sweeps)) {
-      const SearchRule rule =
-          rule_for(options, true, sweeps[k].direction > 0 ? SweepFilter::kBackward : SweepFilter::kForward);
-      const SweepMotion motion = poses[k].motion();
-      for (const PlacedFeature& feature : sweeps[k].planes) {
-        if (!feature.sharp) continue;
-        const Eigen::Vector3d p_m = motion(feature.p_in_base_m, feature.u);
-        const auto plane = find_plane(maps.planes, p_m, feature.range_m, rule, near);
-        const double distance_m = plane ? std::abs((p_m - plane->centre_m).dot(plane->normal)) : 0.0;
-        count_one(plane.has_value(), distance_m, options.plane_gate_m, options.cost_cap_m, count);
-      }
-      for (const PlacedFeature& feature : sweeps[k].edges) {
-        if (!feature.sharp) continue;
-        const Eigen::Vector3d p_m = motion(feature.p_in_base_m, feature.u);
-        const auto line = find_line(maps.edges, p_m, feature.range_m, rule, near);
-        const double distance_m = line ? from_line(*line, p_m).norm() : 0.0;
-        count_one(line.has_value(), distance_m, options.edge_gate_m, options.cost_cap_m, count);
-      }
-    }
-    maps.insert(sweeps[k], poses[k]);
-  }
-  return count;
+  MatchCounter counter(options);
+  for (std::size_t k = 0; k < sweeps.size(); ++k) counter.add(sweeps[k], poses[k]);
+  return counter.count();
 }
 
 }  // namespace sweepscope

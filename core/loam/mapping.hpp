@@ -80,6 +80,9 @@ struct TrackedWalk {
 /// Tracks the sweeps on the map that they build (LOAM's odometry and mapping in one): each sweep has a pose
 /// at its begin and one at its end, tied softly to the previous sweep's end, since a wrong offset makes the
 /// sweeps seem to roll to and fro and strict continuity would lose track of it.
+Result<TrackedWalk> track(const OffsetProblem& problem, double offset_s, const MappingOptions& options,
+                          const Job& job);
+/// The same of sweeps that are placed already.
 Result<TrackedWalk> track(const std::vector<PlacedSweep>& sweeps, const Eigen::Vector3d& motor_axis,
                           const MappingOptions& options, const Job& job);
 
@@ -98,8 +101,11 @@ struct AlternatingRoll {
 AlternatingRoll take_out_alternating_roll(const std::vector<SweepPose>& sweeps,
                                           const Eigen::Vector3d& motor_axis, int settling_sweeps);
 
-/// Rebuilds the map along given poses and counts each sweep's matches with the map of the sweeps before it
-/// that turned the other way (equations 4 to 7).
+/// Rebuilds the map along given poses, ascending in time, and counts each sweep's matches with the map of the
+/// sweeps before it that turned the other way (equations 4 to 7).
+MatchCount count_matches(const OffsetProblem& problem, double offset_s, const std::vector<SweepPose>& poses,
+                         const MappingOptions& options);
+/// The same of sweeps that are placed already, with a pose for each.
 MatchCount count_matches(const std::vector<PlacedSweep>& sweeps, const std::vector<SweepPose>& poses,
                          const MappingOptions& options);
 

@@ -18,27 +18,37 @@ void place(const FeatureList& list, std::size_t scan, const Sweep& sweep, double
 
 }  // namespace
 
-std::vector<PlacedSweep> place_sweeps(const OffsetProblem& problem, double offset_s) {
-  const auto& scans = problem.recording->scans;
-  const Kinematics kinematics(problem.recording->rig.mount);
-  MotorReader motor(problem.recording->motor);
-  const std::vector<std::size_t> sweep_of = assign_sweeps(scans, problem.motor.sweeps, offset_s);
-  std::vector<PlacedSweep> placed;
-  for (std::size_t scan = 0; scan < scans.size(); ++scan) {
-    if (sweep_of[scan] == kNoSweep || !problem.scan_used[scan]) continue;
-    const Sweep& sweep = problem.motor.sweeps[sweep_of[scan]];
-    if (placed.empty() || placed.back().sweep != sweep_of[scan]) {
-      PlacedSweep& next = placed.emplace_back();
-      next.sweep = sweep_of[scan];
-      next.direction = sweep.direction;
-      next.begin_s = sweep.begin_s - offset_s;
-      next.end_s = sweep.end_s - offset_s;
-    }
-    ++placed.back().scans;
-    place(problem.features->edges, scan, sweep, offset_s, kinematics, motor, placed.back().edges);
-    place(problem.features->planes, scan, sweep, offset_s, kinematics, motor, placed.back().planes);
+SweepPlacer::SweepPlacer(const OffsetProblem& problem, double offset_s)
+    : problem_(problem),
+      offset_s_(offset_s),
+      kinematics_(problem.recording->rig.mount),
+      motor_(problem.recording->motor),
+      sweep_of_(assign_sweeps(problem.recording->scans, problem.motor.sweeps, offset_s)) {}
+
+bool SweepPlacer::next(PlacedSweep& placed) {
+  placed.edges.clear();
+  placed.planes.clear();
+  placed.scans = 0;
+  for (; scan_ < sweep_of_.size(); ++scan_) {
+    if (sweep_of_[scan_] == kNoSweep || !problem_.scan_used[scan_]) continue;
+    const Sweep& sweep = problem_.motor.sweeps[sweep_of_[scan_]];
+    if (placed.scans > 0 && placed.sweep != sweep_of_[scan_]) return true;
+    placed.sweep = sweep_of_[scan_];
+    placed.direction = sweep.direction;
+    placed.begin_s = sweep.begin_s - offset_s_;
+    placed.end_s = sweep.end_s - offset_s_;
+    ++placed.scans;
+    place(problem_.features->edges, scan_, sweep, offset_s_, kinematics_, motor_, placed.edges);
+    place(problem_.features->planes, scan_, sweep, offset_s_, kinematics_, motor_, placed.planes);
   }
-  return placed;
+  return placed.scans > 0;
+}
+
+std::vector<PlacedSweep> place_sweeps(const OffsetProblem& problem, double offset_s) {
+  SweepPlacer placer(problem, offset_s);
+  std::vector<PlacedSweep> all;
+  for (PlacedSweep sweep; placer.next(sweep); sweep = {}) all.push_back(std::move(sweep));
+  return all;
 }
 
 }  // namespace sweepscope

@@ -37,8 +37,27 @@ struct OffsetProblem {
   FeatureOptions feature_options{};  // by which the features were picked
 };
 
-/// Places the features of every sweep at an offset: t_motor = t_laser + offset. Features within a reversal's
-/// unsteady part, and scans that are not used, are left out; sweeps without any scan are not in the result.
+/// Places the features of one sweep after the other at an offset: t_motor = t_laser + offset. Features within
+/// a reversal's unsteady part, and scans that are not used, are left out; sweeps without any scan are passed
+/// over.
+class SweepPlacer {
+ public:
+  /// The problem must outlive it.
+  SweepPlacer(const OffsetProblem& problem, double offset_s);
+
+  /// The next sweep, in place of what `placed` held; false where there is none.
+  bool next(PlacedSweep& placed);
+
+ private:
+  const OffsetProblem& problem_;
+  double offset_s_;
+  Kinematics kinematics_;
+  MotorReader motor_;
+  std::vector<std::size_t> sweep_of_;  // per scan
+  std::size_t scan_ = 0;               // the first one that was not placed
+};
+
+/// All sweeps at once. Of a long recording they take several times the memory of its beams.
 std::vector<PlacedSweep> place_sweeps(const OffsetProblem& problem, double offset_s);
 
 }  // namespace sweepscope

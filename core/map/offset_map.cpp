@@ -15,9 +15,10 @@
 namespace sweepscope {
 namespace {
 
-std::vector<SweepPose> standing_poses(const std::vector<PlacedSweep>& sweeps) {
+std::vector<SweepPose> standing_poses(const OffsetProblem& problem, double offset_s) {
   std::vector<SweepPose> poses;
-  for (const PlacedSweep& sweep : sweeps) {
+  SweepPlacer placer(problem, offset_s);
+  for (PlacedSweep sweep; placer.next(sweep);) {
     SweepPose& pose = poses.emplace_back();
     pose.sweep = sweep.sweep;
     pose.direction = sweep.direction;
@@ -140,18 +141,18 @@ OffsetMap build_one(const OffsetProblem& problem, double offset_s, bool moving, 
   OffsetMap map;
   map.offset_s = offset_s;
   map.moving = moving;
-  std::vector<PlacedSweep> sweeps = place_sweeps(problem, offset_s);
-  std::vector<SweepPose> poses = standing_poses(sweeps);
-  if (moving) {
+  std::vector<SweepPose> poses;
+  if (!moving) {
+    poses = standing_poses(problem, offset_s);
+  } else {
     const Eigen::Vector3d axis = problem.recording->rig.mount.axis.normalized();
-    const auto walk = track(sweeps, axis, options.mapping, job);
+    const auto walk = track(problem, offset_s, options.mapping, job);
     if (!walk) return map;
     AlternatingRoll roll = take_out_alternating_roll(walk->sweeps, axis, options.mapping.settling_sweeps);
     map.lost = walk->lost;
     map.signed_rotation_rad = roll.signed_rotation_rad;
     poses = std::move(roll.sweeps);
   }
-  std::vector<PlacedSweep>().swap(sweeps);  // as large as the map itself
   map.cloud = place_beams(problem, offset_s, poses);
   for (const SweepPose& pose : poses) {
     // A sweep's end and the next one's begin are one instant: a quarter in from each keeps the times apart.
@@ -183,7 +184,8 @@ Result<std::vector<OffsetMap>> build_maps(const Recording& recording, std::span<
   const std::vector<std::string> reasons = motor_reasons(recording.motor, problem->motor);
   if (!reasons.empty())
     return failure(ExitCode::kNotIdentifiable, fmt::format("{}: {}", recording.name, reasons.front()));
-  if (place_sweeps(*problem, *least).empty())
+  PlacedSweep any;
+  if (!SweepPlacer(*problem, *least).next(any))
     return failure(
         ExitCode::kNotIdentifiable,
         fmt::format("{}: no scan is covered by the motor's samples at these offsets.", recording.name));

@@ -13,34 +13,15 @@ namespace {
 // n and e along the joint walk, below, at and above its offset.
 std::vector<CurvePoint> sides(const OffsetProblem& problem, const JointWalk& walk,
                               const MovingDirectOptions& options) {
-  // All features placed at once take half a dozen times the room of their beams; of long walks one side is
-  // worked out after the other.
-  constexpr std::size_t kMostTogether = 2'000'000;
-  const auto& [edges, planes, noise_m] = *problem.features;
-  const bool together = edges.features.size() + planes.features.size() <= kMostTogether;
   std::vector<CurvePoint> curve(3);
-  const auto side = [&](std::size_t i) {
+  for_each_index(curve.size(), [&](std::size_t i) {
     CurvePoint& point = curve[i];
     point.offset_s = walk.offset_s + (double(i) - 1) * options.side_s;
-    std::vector<PlacedSweep> sweeps = place_sweeps(problem, point.offset_s);
-    // Those at either end may come or go with the offset.
-    std::erase_if(sweeps, [&](const PlacedSweep& sweep) {
-      return sweep.sweep < walk.sweeps.front().sweep || sweep.sweep > walk.sweeps.back().sweep;
-    });
-    std::vector<SweepPose> poses;
-    for (const PlacedSweep& sweep : sweeps)
-      poses.push_back(
-          *std::lower_bound(walk.sweeps.begin(), walk.sweeps.end(), sweep.sweep,
-                            [](const SweepPose& pose, std::size_t wanted) { return pose.sweep < wanted; }));
-    const MatchCount count = count_matches(sweeps, poses, options.mapping);
+    const MatchCount count = count_matches(problem, point.offset_s, walk.sweeps, options.mapping);
     point.n = double(count.matches);
     if (count.features > 0) point.capped_cost_m = count.capped_cost_m();
     if (count.matches > 0) point.e_m = count.mean_distance_m();
-  };
-  if (together)
-    for_each_index(curve.size(), side);
-  else
-    for (std::size_t i = 0; i < curve.size(); ++i) side(i);
+  });
   return curve;
 }
 
@@ -71,7 +52,7 @@ MovingPass moving_pass(const OffsetProblem& problem, double offset_s, const Mapp
   MovingPass pass;
   pass.offset_s = offset_s;
   const Eigen::Vector3d axis = problem.recording->rig.mount.axis.normalized();
-  const auto walk = track(place_sweeps(problem, offset_s), axis, options, job);
+  const auto walk = track(problem, offset_s, options, job);
   if (!walk || walk->lost) return pass;
   AlternatingRoll roll = take_out_alternating_roll(walk->sweeps, axis, options.settling_sweeps);
   pass.tracked = !roll.sweep_s.empty();

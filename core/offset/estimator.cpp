@@ -130,13 +130,14 @@ class Search {
     if (!problem) return false;
     problem_ = std::move(*problem);
     odometry_ = for_lines(options_.odometry, problem_.line_spacing_rad);
-    const std::vector<PlacedSweep> placed = place_sweeps(problem_, (least_s + greatest_s) / 2);
-    result_.sweeps = placed.size();
+    SweepPlacer placer(problem_, (least_s + greatest_s) / 2);
+    std::size_t scans = 0;
+    for (PlacedSweep sweep; placer.next(sweep); ++result_.sweeps) scans += sweep.scans;
     if (const auto gaps = gaps_reason(*problem_.recording, problem_.scan_used, least_s, greatest_s)) {
       result_.reasons.push_back(*gaps);
       return true;
     }
-    for (const PlacedSweep& sweep : placed) result_.scans += sweep.scans;
+    result_.scans = scans;
     if (result_.sweeps < 2) {
       result_.reasons.push_back(
           "Fewer than two sweeps have both scans and motor samples at every offset searched.");

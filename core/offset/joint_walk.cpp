@@ -315,7 +315,7 @@ void summarise(JointWalk& walk) {
     const double weight = 1 / (part.sigma_s * part.sigma_s);
     weights += weight;
     sum += weight * part.offset_s;
-    walk.step_s += weight * std::abs(part.step_s);
+    if (!part.converged) walk.step_s += weight * std::abs(part.step_s);
     lever_m2 += part.lever_m2;
     reach_m2 += part.reach_m2;
     walk.features += part.features;

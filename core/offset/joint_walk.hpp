@@ -39,9 +39,9 @@ struct JointWalkPart {
 };
 
 struct JointWalk {
-  double step_s = 0;                 // weighted mean of the parts' last steps, each without its sign
-  double offset_s = 0;               // weighted mean of the parts
-  double sigma_s = 0;                // from the parts' own, widened where they scatter more
+  double step_s = 0;    // what the last steps of parts that did not converge move the mean by, at most
+  double offset_s = 0;  // weighted mean of the parts
+  double sigma_s = 0;   // from the parts' own, widened where they scatter more
   std::vector<JointWalkPart> parts;  // those with enough matches
   std::vector<SweepPose> sweeps;     // along the smooth walk; those of parts left out as they were given
   std::size_t features = 0, matches = 0;

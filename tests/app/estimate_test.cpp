@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "tests/app/program.hpp"
@@ -35,6 +36,15 @@ TEST_F(EstimateCommand, WritesTheJsonOfTheContract) {
     EXPECT_TRUE(json["curve"][0][key].is_number()) << key;
   EXPECT_TRUE(json["curve"][0]["n"].is_null());
   EXPECT_TRUE(json["curve"][0]["e_m"].is_null());
+}
+
+TEST_F(EstimateCommand, SaysTheAnswerInWholeLines) {
+  simulate("room-1 -o room.bag");
+  const Outcome outcome = run("estimate room.bag");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.out.find('\\'), std::string::npos) << "nothing of it is escaped: " << outcome.out;
+  EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 4) << outcome.out;
+  EXPECT_TRUE(outcome.out.ends_with(" mm)\n")) << outcome.out;
 }
 
 TEST_F(EstimateCommand, AsksForCandidatesByThePapersMethods) {

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <nlohmann/json.hpp>
 #include <thread>
 
+#include "core/io/candidate_file.hpp"
 #include "tests/app/program.hpp"
 
 namespace sweepscope {
@@ -112,8 +114,12 @@ TEST_F(Shards, WhatIsKeptIsNotComputedAgain) {
   const std::string search = "room.bag --method stationary --range 20:28:1 ";
   expect_done("estimate " + search + "--resume kept.candidates");
   std::string kept = file("kept.candidates");
-  const std::size_t at = kept.find("\"d\":", kept.find("\"offset_ns\":20000000,")) + 4;
-  kept.replace(at, kept.find(',', at) - at, "77.25");
+  const std::size_t begin = kept.rfind('\n', kept.find("\"offset_ns\":20000000,")) + 1;
+  const std::size_t end = kept.find('\n', begin) + 1;
+  auto line = nlohmann::ordered_json::parse(kept.substr(begin, end - begin));
+  line.erase("hash");
+  line["d"] = 77.25;
+  kept.replace(begin, end - begin, sealed_line(line.dump()));
   std::ofstream(folder_ / "kept.candidates") << kept;
   expect_done("estimate " + search + "--resume kept.candidates --json -");
   EXPECT_NE(file("said.out").find("\"d\": 77.25"), std::string::npos) << "the kept value, whatever it is";
@@ -144,7 +150,7 @@ TEST_F(Shards, CandidatesOfAnotherSearchOrRecordingAreRefused) {
                 .exit_code,
             2);
   EXPECT_EQ(file("kept.candidates"), kept);
-  EXPECT_EQ(run("estimate room.bag --range 20:28:1 --resume room.bag").exit_code, 3)
+  EXPECT_EQ(run("estimate room.bag --range 20:28:1 --resume other.bag").exit_code, 3)
       << "no file of candidates";
 }
 

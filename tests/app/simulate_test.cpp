@@ -70,7 +70,7 @@ TEST_F(SimulateCommand, NamesTheScenesWhereOneIsUnknown) {
 TEST_F(SimulateCommand, CannotWriteIntoAFolderThatIsNotThere) {
   const Outcome outcome = simulate("room-1 -o nowhere/a.bag");
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_NE(outcome.output.find("nowhere/a.bag: cannot be written"), std::string::npos);
+  EXPECT_NE(outcome.output.find("nowhere/a.bag: cannot be created"), std::string::npos);
 }
 
 constexpr const char* kRoom =

@@ -292,12 +292,18 @@ TEST_F(InARoom, FittingShowsAllThatThereIsFromWhereverItIsLookedAt) {
 }
 
 TEST_F(InARoom, AnExportThatFailsSaysSoAndIsForgottenOnce) {
-  perform(explorer_, "export-cloud a /nowhere/map.pcd");
+  perform(explorer_, "export-cloud a /dev/full");
   rest(explorer_);
   ASSERT_TRUE(explorer_.message());
-  EXPECT_NE(explorer_.message()->text.find("/nowhere/map.pcd"), std::string::npos);
+  EXPECT_NE(explorer_.message()->text.find("/dev/full"), std::string::npos);
   EXPECT_TRUE(explorer_.take_export_failure());
   EXPECT_FALSE(explorer_.take_export_failure());
+}
+
+TEST_F(InARoom, AnExportThatCannotBeginIsRefusedAtOnce) {
+  const auto done = explorer_.perform("export-cloud a /nowhere/map.pcd");
+  ASSERT_FALSE(done);
+  EXPECT_EQ(done.error().message, "/nowhere/map.pcd: cannot be created: No such file or directory");
 }
 
 TEST_F(InARoom, AnotherRecordingForgetsWhatWasAskedOfTheOneBefore) {
