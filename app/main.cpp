@@ -122,8 +122,7 @@ int main(int argc, char** argv) {
   try {
     app::interrupt_flag();
     // To the end: TBB would start threads once nothing limits it.
-    static const auto* const threads = app::limit_threads().release();
-    (void)threads;
+    [[gnu::used]] static const auto* const threads = app::limit_threads().release();
     remove_abandoned_temporary_files();
     return with_output_written(run(argc, argv));
   } catch (const std::system_error& error) {
