@@ -169,8 +169,8 @@ OffsetMap build_one(const OffsetProblem& problem, double offset_s, bool moving, 
 }  // namespace
 
 std::uint64_t map_memory_bytes(const Recording& recording, std::size_t maps) {
-  // Features are there for all maps; each has its placed features, the surfaces that LOAM keeps, and points.
-  // Measured by tests/benchmark/memory.
+  // All maps share the features; each has the surfaces that LOAM keeps, and its points. Held against what
+  // tests/benchmark/memory measures.
   constexpr std::uint64_t kOfFeatures_a_beam = 8, kOfMap_a_beam = 18;
   const std::uint64_t beams = recording.ranges_m.size();
   return beams * (kOfFeatures_a_beam + maps * (kOfMap_a_beam + sizeof(MapPoint)));
