@@ -24,6 +24,11 @@ double to_ms(double seconds) {
   return std::round(seconds * 1e12) / 1e9;
 }
 
+// Of an instant in a recording.
+double to_millisecond(double time_s) {
+  return std::round(time_s * 1e3) / 1e3;
+}
+
 /// Whole numbers, such as counts, without a decimal point.
 Json number(double value) {
   if (value == std::floor(value) && std::abs(value) < 1e15) return static_cast<std::int64_t>(value);
@@ -128,6 +133,15 @@ std::vector<CriterionOptimum> criteria_from_json(const Json& criteria) {
   return optima;
 }
 
+// Older documents have none.
+std::vector<Interval> intervals_from_json(const Json& document, const char* key) {
+  if (!document.contains(key)) return {};
+  std::vector<Interval> intervals;
+  for (const auto& [begin_s, end_s] : required<std::vector<std::array<double, 2>>>(document, key))
+    intervals.push_back({begin_s, end_s});
+  return intervals;
+}
+
 Estimate estimate_from_json(const Json& document) {
   if (!document.is_object()) throw BadValue("it is not a JSON object");
   if (required<std::string>(document, "schema") != kSchema) {
@@ -142,6 +156,7 @@ Estimate estimate_from_json(const Json& document) {
   estimate.drift_ppm = optional_number(document, "drift_ppm");
   estimate.kind = optional_text(document, "kind");
   estimate.kind_reason = optional_text(document, "kind_reason");
+  estimate.lost = intervals_from_json(document, "lost_s");
   estimate.warnings = required<std::vector<std::string>>(document, "warnings");
   estimate.reasons = required<std::vector<std::string>>(document, "reasons");
   estimate.criteria = criteria_from_json(member(document, "criteria", ""));
@@ -168,6 +183,9 @@ std::string estimate_to_json(const Estimate& estimate, Timing timing) {
   document["drift_ppm"] = number_or_null(estimate.drift_ppm);
   document["kind"] = estimate.kind.empty() ? Json(nullptr) : Json(estimate.kind);
   document["kind_reason"] = estimate.kind_reason.empty() ? Json(nullptr) : Json(estimate.kind_reason);
+  document["lost_s"] = Json::array();
+  for (const Interval& lost : estimate.lost)
+    document["lost_s"].push_back({to_millisecond(lost.begin_s), to_millisecond(lost.end_s)});
   document["warnings"] = estimate.warnings;
   document["reasons"] = estimate.reasons;
   document["criteria"] = Json::object();

@@ -1,487 +1,284 @@
 #include "core/loam/mapping.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
-#include <memory>
 #include <optional>
 
-#include "core/loam/least_squares.hpp"
-#include "core/loam/patch_search.hpp"
-#include "core/loam/sweep_motion.hpp"
+#include "core/loam/tracker.hpp"
 
 namespace sweepscope {
 namespace {
 
-struct SweepMaps {
-  FeatureMap edges, planes;
-
-  void insert(const PlacedSweep& sweep, const SweepPose& pose) {
-    const SweepMotion motion = pose.motion();
-    for (const PlacedFeature& feature : sweep.edges)
-      edges.insert(motion(feature.p_in_base_m, feature.u).cast<float>(), feature.line, sweep.direction);
-    for (const PlacedFeature& feature : sweep.planes)
-      planes.insert(motion(feature.p_in_base_m, feature.u).cast<float>(), feature.line, sweep.direction);
-  }
+struct SweepSource {
+  std::size_t count = 0;
+  std::function<PlacedSweep(std::size_t)> place;
 };
 
-SearchRule rule_for(const MappingOptions& options, bool grown, SweepFilter filter) {
-  SearchRule rule{options.patch, options.search_radius_m, options.search_radius_slope, filter};
-  if (!grown) {
-    rule.patch.per_line = 3;
-    rule.patch.least_lines = 3;
-    rule.radius_slope = std::max(rule.radius_slope, 0.25);
-  }
-  return rule;
-}
-
-void count_one(bool found, double distance_m, double gate_m, double cap_m, MatchCount& count) {
-  ++count.features;
-  count.capped_sum_m += found ? std::min(distance_m, cap_m) : cap_m;
-  if (!found || !(distance_m < gate_m)) return;
-  ++count.matches;
-  count.distance_sum_m += distance_m;
-}
-
-// A feature to be matched, and the patch that it was matched to last.
-template <typename Patch>
-struct MatchedFeature {
-  Eigen::Vector3d p_in_base_m;
-  double u;
-  float range_m;
-  std::optional<Patch> patch = std::nullopt;
-  Eigen::Vector3d searched_at_m = Eigen::Vector3d::Constant(1e30);
+// Sweeps [first, end) of the recording.
+struct Range {
+  std::size_t first, end;
+  std::size_t size() const { return end - first; }
 };
 
-template <typename Patch>
-std::vector<MatchedFeature<Patch>> to_match(const std::vector<PlacedFeature>& features) {
-  std::vector<MatchedFeature<Patch>> found;
-  found.reserve(features.size() / 2);
-  for (const PlacedFeature& feature : features)
-    if (feature.sharp) found.push_back({feature.p_in_base_m, feature.u, feature.range_m});
-  return found;
+// How far a sweep's features lie from where the last sweep saw them, were the rig at rest.
+double cost_at_rest_m(const PlacedSweep& from, const PlacedSweep& to, const MappingOptions& options) {
+  SweepMaps maps;
+  maps.insert(from, SweepPose{});
+  const SearchRule rule = search_rule(options, false, SweepFilter::kAny);
+  return count_sweep(maps, to, SweepPose{}, rule, options, Eigen::Vector3d::Zero()).capped_cost_m();
 }
 
-// One sweep's matches with the map, kept from step to step while their points hardly move.
-class SweepMatcher {
+// A recording mostly begins within a sweep. What is left of that one may see too little to be matched to.
+bool is_whole(const PlacedSweep& sweep, const PlacedSweep& next) {
+  return 4 * sweep.scans >= 3 * next.scans;
+}
+
+// Tracks a recording stretch by stretch.
+class Walk {
  public:
-  SweepMatcher(const SweepMaps& maps, const PlacedSweep& sweep, const SearchRule& rule,
-               const MappingOptions& options)
-      : maps_(maps),
-        rule_(rule),
-        options_(options),
-        planes_(to_match<PlanePatch>(sweep.planes)),
-        edges_(to_match<LinePatch>(sweep.edges)) {}
+  Walk(const SweepSource& source, const MappingOptions& options, const Job& job)
+      : source_(source), options_(options), job_(job), poses_(source.count) {}
 
-  // Adds the matches of every `stride`-th feature at the given poses to the equations; counts them too.
-  MatchCount linearise(const SweepPose& pose, std::size_t stride, SweepEquations& equations) {
-    const SweepMotion motion = pose.motion();
-    const Eigen::Vector3d pivot_m = pose.pivot_m();
+  // False where the job was cancelled.
+  bool track(Range range) {
+    if (range.size() < min_sweeps()) return true;  // they stay lost
+    Stretch best;
+    for (const std::size_t start : starts(range)) {
+      Stretch found = follow(start, range);
+      if (job_.cancelled()) return false;
+      if (best.poses.empty() || better(found, best)) best = std::move(found);
+      if (best.range.size() == range.size() && best.well) break;
+    }
+    if (job_.cancelled()) return false;
+    if (best.poses.empty()) return true;
+    if (++stretches_ == 1) {
+      start_ = best.start;
+      well_ = best.well && best.range.size() == source_.count;
+    }
+    for (SweepPose& pose : best.poses) pose.stretch = stretches_;
+    std::ranges::move(best.poses, poses_.begin() + std::ptrdiff_t(best.range.first));
+    count_ += best.count;
+    return track({range.first, best.range.first}) && track({best.range.end, range.end});
+  }
+
+  TrackedWalk result() {
+    join_stretches();
+    return {std::move(poses_), start_, well_, count_};
+  }
+
+ private:
+  std::size_t min_sweeps() const { return std::size_t(options_.first_sweeps); }
+
+  // Sweeps tracked on one map.
+  struct Stretch {
+    Range range{0, 0};
+    std::size_t start = 0;
+    std::vector<SweepPose> poses;
     MatchCount count;
-    for (std::size_t i = 0; i < planes_.size(); i += stride) {
-      MatchedFeature<PlanePatch>& feature = planes_[i];
-      const Eigen::Vector3d p_m = motion(feature.p_in_base_m, feature.u);
-      refresh(feature, p_m, [&] { return find_plane(maps_.planes, p_m, feature.range_m, rule_, near_); });
-      const auto& plane = feature.patch;
-      const double distance_m = plane ? (p_m - plane->centre_m).dot(plane->normal) : 0.0;
-      count_one(plane.has_value(), std::abs(distance_m), options_.plane_gate_m, options_.cost_cap_m, count);
-      if (plane) add(p_m, plane->normal, distance_m, feature.u, pivot_m, equations);
+    bool alternates = false, well = false;
+  };
+  static bool better(const Stretch& a, const Stretch& b) {
+    return a.alternates != b.alternates ? b.alternates : a.count.matches > b.count.matches;
+  }
+  struct Start {
+    std::size_t sweep;
+    double cost_m;
+  };
+
+  std::vector<std::size_t> starts(Range range) const {
+    if (options_.start && range.size() == source_.count) return {std::min(*options_.start, range.end - 1)};
+    return calm_starts(range);
+  }
+
+  // Sweeps from which on the rig moved little, over as many as a first pose is found from; the calmest first,
+  // and the first one of all before those that are hardly better. None where the job was cancelled.
+  std::vector<std::size_t> calm_starts(Range range) const {
+    constexpr double kHardlyBetter = 0.8;
+    const std::size_t pairs = min_sweeps() - 1;
+    std::vector<double> costs_m;
+    std::vector<Start> starts;
+    PlacedSweep last = source_.place(range.first);
+    for (std::size_t i = range.first; i + 1 < range.end; ++i) {
+      if (job_.cancelled()) return {};
+      PlacedSweep next = source_.place(i + 1);
+      costs_m.push_back(is_whole(last, next) ? cost_at_rest_m(last, next, options_) : options_.cost_cap_m);
+      last = std::move(next);
+      if (costs_m.size() < pairs) continue;
+      const double cost_m = *std::max_element(costs_m.end() - std::ptrdiff_t(pairs), costs_m.end());
+      starts.push_back({i + 1 - pairs, cost_m * (starts.empty() ? kHardlyBetter : 1)});
     }
-    for (std::size_t i = 0; i < edges_.size(); i += stride) {
-      MatchedFeature<LinePatch>& feature = edges_[i];
-      const Eigen::Vector3d p_m = motion(feature.p_in_base_m, feature.u);
-      refresh(feature, p_m, [&] { return find_line(maps_.edges, p_m, feature.range_m, rule_, near_); });
-      const auto& line = feature.patch;
-      const Eigen::Vector3d away_m = line ? from_line(*line, p_m) : Eigen::Vector3d::Zero();
-      const double distance_m = away_m.norm();
-      count_one(line.has_value(), distance_m, options_.edge_gate_m, options_.cost_cap_m, count);
-      if (distance_m > 1e-9) add(p_m, away_m / distance_m, distance_m, feature.u, pivot_m, equations);
+    std::ranges::stable_sort(starts, {}, &Start::cost_m);
+    return apart(starts);
+  }
+
+  // A few of them that lie apart.
+  std::vector<std::size_t> apart(const std::vector<Start>& starts) const {
+    constexpr std::size_t kApart = 3;
+    std::vector<std::size_t> chosen;
+    for (const Start& start : starts) {
+      const bool is_apart = std::ranges::all_of(chosen, [&](std::size_t other) {
+        return start.sweep + kApart <= other || other + kApart <= start.sweep;
+      });
+      if (is_apart && chosen.size() < std::size_t(options_.max_starts)) chosen.push_back(start.sweep);
     }
-    return count;
+    return chosen;
   }
 
- private:
-  template <typename Patch, typename Search>
-  void refresh(MatchedFeature<Patch>& feature, const Eigen::Vector3d& p_m, const Search& search) {
-    const double reach_m = options_.reuse_within_m;
-    if ((p_m - feature.searched_at_m).squaredNorm() < reach_m * reach_m) return;
-    feature.patch = search();
-    feature.searched_at_m = p_m;
+  SweepPose first_pose(std::size_t start, Range range) const {
+    std::vector<PlacedSweep> sweeps;
+    for (std::size_t i = start; i < range.end && sweeps.size() < min_sweeps(); ++i) {
+      sweeps.push_back(source_.place(i));
+      match_half(sweeps.back());
+    }
+    return find_first_pose(sweeps, options_);
   }
 
-  void add(const Eigen::Vector3d& p_m, const Eigen::Vector3d& normal, double distance_m, double u,
-           const Eigen::Vector3d& pivot_m, SweepEquations& equations) const {
-    const double weight =
-        cauchy_weight(distance_m, options_.loss_width_m) / (options_.match_sigma_m * options_.match_sigma_m);
-    equations.add(distance_jacobian(p_m, normal, pivot_m), distance_m, weight, u);
+  // Leaves every other feature to the map alone: enough for a first guess.
+  static void match_half(PlacedSweep& sweep) {
+    for (std::vector<PlacedFeature>* features : {&sweep.edges, &sweep.planes}) {
+      bool keep = false;
+      for (PlacedFeature& feature : *features)
+        if (feature.sharp) feature.sharp = keep = !keep;
+    }
   }
 
-  const SweepMaps& maps_;
-  SearchRule rule_;
-  const MappingOptions& options_;
-  std::vector<MatchedFeature<PlanePatch>> planes_;
-  std::vector<MatchedFeature<LinePatch>> edges_;
-  Neighbours near_;
-};
-
-// A soft tie: the sum of signed pose steps plus a residual is near zero, rotation and translation alike.
-struct Tie {
-  Eigen::Matrix<double, 6, 18> jacobian = Eigen::Matrix<double, 6, 18>::Zero();
-  Vector6d residual;
-
-  // How a pose's step about the pivot moves the pose itself.
-  void moves(int block, const Pose& pose, const Eigen::Vector3d& pivot_m, double sign) {
-    const Eigen::Vector3d d = pose.translation_m - pivot_m;
-    Eigen::Matrix3d cross;  // step_rotation x d = -[d]x step_rotation
-    cross << 0, d.z(), -d.y(), -d.z(), 0, d.x(), d.y(), -d.x(), 0;
-    jacobian.block<3, 3>(0, 6 * block) += sign * Eigen::Matrix3d::Identity();
-    jacobian.block<3, 3>(3, 6 * block) += sign * cross;
-    jacobian.block<3, 3>(3, 6 * block + 3) += sign * Eigen::Matrix3d::Identity();
-  }
-  void add_to(Matrix18d& a, Vector18d& g, double sigma) const {
-    a.noalias() += jacobian.transpose() * jacobian / (sigma * sigma);
-    g.noalias() += jacobian.transpose() * residual / (sigma * sigma);
-  }
-};
-
-Vector6d difference(const Pose& to, const Pose& from) {  // in the map frame
-  Vector6d d;
-  d << vector_from_rotation(to.rotation * from.rotation.conjugate()), to.translation_m - from.translation_m;
-  return d;
-}
-
-class Tracker {
- public:
-  Tracker(const MappingOptions& options, const Eigen::Vector3d& motor_axis, const Vector6d& first_twist_per_s)
-      : options_(options), motor_axis_(motor_axis), first_twist_per_s_(first_twist_per_s) {}
-
-  void add(const PlacedSweep& sweep) {
-    SweepPose pose = predict(sweep);
-    if (!walk_.sweeps.empty()) solve(sweep, pose);
-    if (!walk_.sweeps.empty()) learn_jump(pose);
-    maps_.insert(sweep, pose);
-    walk_.sweeps.push_back(pose);
-  }
-  TrackedWalk& walk() { return walk_; }
-
- private:
-  SweepPose predict(const PlacedSweep& sweep) const {
-    SweepPose pose;
-    pose.sweep = sweep.sweep;
-    pose.direction = sweep.direction;
-    pose.begin_s = sweep.begin_s;
-    pose.end_s = sweep.end_s;
-    const double duration_s = sweep.end_s - sweep.begin_s;
-    if (walk_.sweeps.empty()) {
-      const Vector6d twist = first_twist_per_s_ * duration_s;
-      pose.end = {rotation_from_vector(twist.head<3>()), twist.tail<3>()};
+  // From the start to the range's end, then back to its first sweep, each until track is lost for good.
+  Stretch follow(std::size_t start, Range range) {
+    Tracker tracker(options_, first_pose(start, range));
+    Stretch found;
+    found.start = start;
+    const auto add = [&](const PlacedSweep& sweep) {
+      SweepPose pose = tracker.add(sweep);
+      if (tracker.settled()) found.count += tracker.last_count();
+      job_.report("tracking", double(std::min(++done_, source_.count)) / double(source_.count));
       return pose;
+    };
+    const auto goes_on = [&] {
+      return tracker.lost_in_a_row() < options_.give_up_after && !job_.cancelled();
+    };
+    std::size_t end = start, first = start;
+    std::vector<SweepPose> before;
+    for (; end < range.end && goes_on(); ++end) found.poses.push_back(add(source_.place(end)));
+    const auto lost_at_end = std::size_t(tracker.lost_in_a_row());
+    if (found.poses.empty()) return found;  // cancelled
+    tracker.turn_back(found.poses.front());
+    for (; first > range.first && goes_on(); --first)
+      before.push_back(reversed(add(reversed(source_.place(first - 1)))));
+    const auto lost_at_first = std::size_t(tracker.lost_in_a_row());
+    found.poses.insert(found.poses.begin(), before.rbegin() + std::ptrdiff_t(lost_at_first), before.rend());
+    found.poses.resize(found.poses.size() - lost_at_end);
+    found.range = {first + lost_at_first, end - lost_at_end};
+    judge(found);
+    return found;
+  }
+
+  void judge(Stretch& found) const {
+    const Eigen::Vector3d motor_axis = source_.place(found.start).turned_rad.normalized();
+    found.alternates = alternating_sway_rad(found.poses, motor_axis) > options_.most_alternation_rad;
+    found.well = found.count.matched_part() >= options_.well_tracked && !found.alternates;
+  }
+
+  // Each stretch goes on from where the one before it ended, at its velocity; so do sweeps that were not
+  // tracked at all.
+  void join_stretches() {
+    std::optional<Pose> map_from_stretch;
+    for (std::size_t i = 0; i < poses_.size(); ++i) {
+      SweepPose& pose = poses_[i];
+      const SweepPose* last = i > 0 ? &poses_[i - 1] : nullptr;
+      const bool tracked = pose.stretch > 0;
+      if (!tracked) {
+        const PlacedSweep sweep = source_.place(i);
+        pose.sweep = sweep.sweep;
+        pose.direction = sweep.direction;
+        pose.begin_s = sweep.begin_s;
+        pose.end_s = sweep.end_s;
+        pose.lost = true;
+        if (last != nullptr) pose.knots = {last->end(), last->at(2)};
+        continue;
+      }
+      if (last != nullptr && last->stretch != pose.stretch)
+        map_from_stretch = last->end() * pose.begin().inverse();
+      else if (last == nullptr)
+        map_from_stretch = pose.begin().inverse();
+      for (Pose& knot : pose.knots) knot = *map_from_stretch * knot;
     }
-    const SweepPose& last = walk_.sweeps.back();
-    const double ratio = duration_s / (last.end_s - last.begin_s);
-    pose.begin = joined_to(last, pose.direction);
-    const Pose gone = last.begin.inverse() * last.end;
-    pose.end = pose.begin * interpolate(Pose{}, gone, ratio);
-    return pose;
   }
 
-  // Where a sweep is expected to begin. A wrong offset makes the pose jump at every reversal, to and fro
-  // about the motor's axis; by how much is learned on the way.
-  Pose joined_to(const SweepPose& last, int direction) const {
-    Pose begin = last.end;
-    begin.rotation =
-        (begin.rotation * rotation_from_vector(direction * jump_rad_ * motor_axis_)).normalized();
-    return begin;
-  }
-
-  void learn_jump(const SweepPose& pose) {
-    if (!options_.expects_jump) return;
-    const Eigen::Quaterniond jump = walk_.sweeps.back().end.rotation.conjugate() * pose.begin.rotation;
-    const double jump_rad = pose.direction * motor_axis_.dot(vector_from_rotation(jump));
-    ++jumps_;
-    jump_rad_ += std::max(options_.jump_gain, 1.0 / jumps_) * (jump_rad - jump_rad_);
-  }
-
-  void solve(const PlacedSweep& sweep, SweepPose& pose) {
-    const bool grown = walk_.sweeps.size() >= std::size_t(options_.settling_sweeps);
-    SweepMatcher matcher(maps_, sweep, rule_for(options_, grown, SweepFilter::kAny), options_);
-    const SweepPose last = walk_.sweeps.back();
-    MatchCount count;
-    for (int iteration = 0; iteration < options_.most_iterations; ++iteration) {
-      const Eigen::Vector3d pivot_m = pose.pivot_m();
-      const bool rough = grown && iteration < options_.rough_iterations;
-      SweepEquations equations;
-      count = matcher.linearise(pose, rough ? std::size_t(options_.rough_stride) : 1, equations);
-      const Vector18d step = step_of(equations, last, pose, pivot_m);
-      pose.begin = stepped(pose.begin, step.head<6>(), pivot_m);
-      pose.end = stepped(pose.end, step.segment<6>(6), pivot_m);
-      pose.bend += step.tail<6>();
-      if (!rough && step.cwiseAbs().maxCoeff() < options_.step_tolerance) break;
-    }
-    pose.features = count.features;
-    pose.matches = count.matches;
-    if (walk_.sweeps.size() >= std::size_t(options_.settling_sweeps)) walk_.count += count;
-  }
-
-  double tie_sigma() const {
-    if (!options_.expects_jump) return options_.continuous_tie_sigma;
-    constexpr int kUnknownJumps = 4;
-    return jumps_ < kUnknownJumps ? options_.first_tie_sigma : options_.tie_sigma;
-  }
-
-  Vector18d step_of(const SweepEquations& equations, const SweepPose& last, const SweepPose& pose,
-                    const Eigen::Vector3d& pivot_m) const {
-    Matrix18d a = equations.matrix();
-    Vector18d g = equations.gradient();
-    const double bend_weight = 1 / (options_.bend_sigma * options_.bend_sigma);
-    a.diagonal().tail<6>().array() += bend_weight;
-    g.tail<6>() += bend_weight * pose.bend;
-    Tie joint;
-    joint.moves(0, pose.begin, pivot_m, 1);
-    joint.residual = difference(pose.begin, joined_to(last, pose.direction));
-    joint.add_to(a, g, tie_sigma());
-    Tie steady;
-    steady.moves(1, pose.end, pivot_m, 1);
-    steady.moves(0, pose.begin, pivot_m, -1);
-    const double ratio = (pose.end_s - pose.begin_s) / (last.end_s - last.begin_s);
-    steady.residual = difference(pose.end, pose.begin) - ratio * difference(last.end, last.begin);
-    steady.add_to(a, g, options_.twist_change_sigma);
-    return -a.ldlt().solve(g);
-  }
-
+  const SweepSource& source_;
   const MappingOptions& options_;
-  Eigen::Vector3d motor_axis_;
-  Vector6d first_twist_per_s_;
-  double jump_rad_ = 0;
-  int jumps_ = 0;
-  SweepMaps maps_;
-  TrackedWalk walk_;
+  const Job& job_;
+  std::vector<SweepPose> poses_;  // stretch 0: not tracked
+  std::size_t stretches_ = 0, start_ = 0, done_ = 0;
+  bool well_ = false;
+  MatchCount count_;
 };
 
-// The first sweep has no map to be matched to, so the velocity within it is guessed, tried and averaged:
-// taken at its word the new estimate would swing to and fro for ever.
-Vector6d find_first_twist_per_s(const std::vector<PlacedSweep>& sweeps, const Eigen::Vector3d& motor_axis,
-                                const MappingOptions& options) {
-  Vector6d twist_per_s = Vector6d::Zero();
-  const std::size_t tried = std::min<std::size_t>(std::size_t(options.velocity_sweeps), sweeps.size());
-  if (tried < 2) return twist_per_s;
-  for (int round = 0; round < options.velocity_rounds; ++round) {
-    Tracker tracker(options, motor_axis, twist_per_s);
-    for (std::size_t i = 0; i < tried; ++i) tracker.add(sweeps[i]);
-    Vector6d found = Vector6d::Zero();
-    for (std::size_t i = 1; i < tried; ++i) {
-      const SweepPose& pose = tracker.walk().sweeps[i];
-      found += difference(pose.end, pose.begin) / (pose.end_s - pose.begin_s);
-    }
-    const Vector6d next = (twist_per_s + found / double(tried - 1)) / 2;
-    const bool settled = (next - twist_per_s).cwiseAbs().maxCoeff() < 0.01;
-    twist_per_s = next;
-    if (settled) break;
-  }
-  return twist_per_s;
-}
-
-// Leaves every other feature to the map alone: enough for a first guess.
-void match_half(PlacedSweep& sweep) {
-  for (std::vector<PlacedFeature>* features : {&sweep.edges, &sweep.planes}) {
-    bool keep = false;
-    for (PlacedFeature& feature : *features)
-      if (feature.sharp) feature.sharp = keep = !keep;
-  }
-}
-
-// A recording mostly begins within a sweep. What is left of that one may see too little to be matched to, and
-// the whole map would stand on it.
-std::size_t first_whole_sweep(const std::vector<PlacedSweep>& sweeps) {
-  return sweeps.size() > 2 && 4 * sweeps[0].scans < 3 * sweeps[1].scans ? 1 : 0;
-}
-
-// The pose of a sweep before the first one tracked: the motion goes on backwards.
-void prepend_backwards(const PlacedSweep& sweep, std::vector<SweepPose>& poses) {
-  const SweepPose& next = poses.front();
-  const double ratio = (sweep.end_s - sweep.begin_s) / (next.end_s - next.begin_s);
-  SweepPose pose;
-  pose.sweep = sweep.sweep;
-  pose.direction = sweep.direction;
-  pose.begin_s = sweep.begin_s;
-  pose.end_s = sweep.end_s;
-  pose.begin = interpolate(next.begin, next.end, -ratio);
-  pose.end = next.begin;
-  poses.insert(poses.begin(), pose);
-}
-
-bool lost_track(const TrackedWalk& walk, const MappingOptions& options) {
-  std::size_t judged = 0, poor = 0;
-  for (std::size_t i = std::size_t(options.settling_sweeps); i < walk.sweeps.size(); ++i) {
-    ++judged;
-    if (walk.sweeps[i].matches * 4 < walk.sweeps[i].features) ++poor;
-  }
-  return poor * 4 > judged;
+Result<TrackedWalk> track(const SweepSource& source, const MappingOptions& options, const Job& job) {
+  Walk walk(source, options, job);
+  if (job.cancelled() || !walk.track({0, source.count}))
+    return failure(ExitCode::kInterrupted, "interrupted while tracking");
+  return walk.result();
 }
 
 }  // namespace
 
-namespace {
-
-// Gives the next sweep in place of the one it is given; false at the end.
-using NextSweep = std::function<bool(PlacedSweep&)>;
-
-NextSweep one_by_one(const std::vector<PlacedSweep>& sweeps) {
-  return [&sweeps, next = std::size_t{0}](PlacedSweep& sweep) mutable {
-    if (next == sweeps.size()) return false;
-    sweep = sweeps[next++];
-    return true;
-  };
+std::size_t TrackedWalk::tracked() const {
+  return std::size_t(std::ranges::count_if(sweeps, [](const SweepPose& pose) { return !pose.lost; }));
 }
-
-NextSweep placed_one_by_one(const OffsetProblem& problem, double offset_s) {
-  return [placer = std::make_shared<SweepPlacer>(problem, offset_s)](PlacedSweep& sweep) {
-    return placer->next(sweep);
-  };
-}
-
-// The first sweeps, as many as the first velocity is found from, and one more.
-std::vector<PlacedSweep> beginning_of(const NextSweep& next, const MappingOptions& options) {
-  std::vector<PlacedSweep> beginning;
-  for (PlacedSweep sweep; beginning.size() <= std::size_t(options.velocity_sweeps) && next(sweep); sweep = {})
-    beginning.push_back(std::move(sweep));
-  return beginning;
-}
-
-Result<TrackedWalk> track(const NextSweep& next, std::size_t count, const Eigen::Vector3d& motor_axis,
-                          const MappingOptions& options, const Job& job) {
-  const std::vector<PlacedSweep> beginning = beginning_of(next, options);
-  const std::size_t first = first_whole_sweep(beginning);
-  std::vector<PlacedSweep> tried(
-      beginning.begin() + std::ptrdiff_t(first),
-      beginning.begin() +
-          std::ptrdiff_t(std::min(beginning.size(), first + std::size_t(options.velocity_sweeps))));
-  for (PlacedSweep& sweep : tried) match_half(sweep);
-  Tracker tracker(options, motor_axis, find_first_twist_per_s(tried, motor_axis, options));
-  std::size_t done = first;
-  const auto add = [&](const PlacedSweep& sweep) {
-    if (job.cancelled()) return false;
-    tracker.add(sweep);
-    job.report("tracking", double(++done) / double(count));
-    return true;
-  };
-  bool whole = true;
-  for (std::size_t i = first; i < beginning.size() && whole; ++i) whole = add(beginning[i]);
-  for (PlacedSweep sweep; whole && next(sweep);) whole = add(sweep);
-  if (!whole) return failure(ExitCode::kInterrupted, "interrupted while tracking");
-  tracker.walk().lost = lost_track(tracker.walk(), options);
-  if (first > 0) prepend_backwards(beginning[0], tracker.walk().sweeps);
-  return std::move(tracker.walk());
-}
-
-}  // namespace
 
 Result<TrackedWalk> track(const OffsetProblem& problem, double offset_s, const MappingOptions& options,
                           const Job& job) {
-  return track(placed_one_by_one(problem, offset_s), problem.motor.sweeps.size(),
-               problem.recording->rig.mount.axis.normalized(), options, job);
+  SweepPlacer placer(problem, offset_s);
+  const SweepSource source{placer.count(), [&](std::size_t i) {
+                             PlacedSweep sweep;
+                             placer.place(i, sweep);
+                             return sweep;
+                           }};
+  return track(source, options, job);
 }
 
-Result<TrackedWalk> track(const std::vector<PlacedSweep>& sweeps, const Eigen::Vector3d& motor_axis,
-                          const MappingOptions& options, const Job& job) {
-  return track(one_by_one(sweeps), sweeps.size(), motor_axis, options, job);
+Result<TrackedWalk> track(const std::vector<PlacedSweep>& sweeps, const MappingOptions& options,
+                          const Job& job) {
+  return track(SweepSource{sweeps.size(), [&](std::size_t i) { return sweeps[i]; }}, options, job);
 }
 
-AlternatingRoll take_out_alternating_roll(const std::vector<SweepPose>& sweeps,
-                                          const Eigen::Vector3d& motor_axis, int settling_sweeps) {
-  AlternatingRoll result;
-  result.sweeps = sweeps;
-  const std::size_t count = sweeps.size();
-  if (count < 5) return result;
-  std::vector<double> jump_rad(count, 0.0);  // from each sweep's predecessor
-  for (std::size_t k = 1; k < count; ++k) {
-    const Eigen::Quaterniond turn = sweeps[k - 1].end.rotation.conjugate() * sweeps[k].begin.rotation;
-    jump_rad[k] = motor_axis.dot(vector_from_rotation(turn));
+std::vector<Interval> lost_intervals(const std::vector<SweepPose>& sweeps) {
+  std::vector<Interval> lost;
+  bool last_was = false;
+  for (const SweepPose& sweep : sweeps) {
+    if (sweep.lost && last_was)
+      lost.back().end_s = sweep.end_s;
+    else if (sweep.lost)
+      lost.push_back({sweep.begin_s, sweep.end_s});
+    last_was = sweep.lost;
   }
-  const std::size_t settled = std::max<std::size_t>(2, std::size_t(settling_sweeps));
-  std::vector<double> away_rad;
-  for (std::size_t k = settled + 2 < count ? settled : 2; k + 1 < count; ++k) {
-    const double alternating_rad = (-jump_rad[k - 1] + 2 * jump_rad[k] - jump_rad[k + 1]) / 4;
-    // A wrong offset turns the pose against the sweep.
-    away_rad.push_back(-sweeps[k].direction * alternating_rad / 2);
-    result.sweep_s.push_back(sweeps[k].begin_s);
-    result.sweep_roll_rad.push_back(2 * away_rad.back());
-  }
-  // The middle four fifths: a sweep that slipped does not count.
-  std::sort(away_rad.begin(), away_rad.end());
-  const std::size_t cut = away_rad.size() / 10;
-  double sum_rad = 0;
-  for (std::size_t i = cut; i < away_rad.size() - cut; ++i) sum_rad += away_rad[i];
-  const double mean_rad = sum_rad / double(away_rad.size() - 2 * cut);
-  result.signed_rotation_rad = 2 * mean_rad;
-  for (std::size_t k = 0; k < count; ++k) {
-    const Eigen::Quaterniond back = rotation_from_vector(sweeps[k].direction * mean_rad * motor_axis);
-    result.sweeps[k].begin.rotation = (sweeps[k].begin.rotation * back).normalized();
-    result.sweeps[k].end.rotation = (sweeps[k].end.rotation * back).normalized();
-  }
-  return result;
+  return lost;
 }
-
-namespace {
-
-// Counts one sweep after the other, each against the map of those before it that turned the other way.
-class MatchCounter {
- public:
-  explicit MatchCounter(const MappingOptions& options) : options_(options) {}
-
-  void add(const PlacedSweep& sweep, const SweepPose& pose) {
-    if (sweeps_++ >= std::size_t(options_.settling_sweeps)) count_sweep(sweep, pose.motion());
-    maps_.insert(sweep, pose);
-  }
-  const MatchCount& count() const { return count_; }
-
- private:
-  void count_sweep(const PlacedSweep& sweep, const SweepMotion& motion) {
-    const SearchRule rule =
-        rule_for(options_, true, sweep.direction > 0 ? SweepFilter::kBackward : SweepFilter::kForward);
-    for (const PlacedFeature& feature : sweep.planes) {
-      if (!feature.sharp) continue;
-      const Eigen::Vector3d p_m = motion(feature.p_in_base_m, feature.u);
-      const auto plane = find_plane(maps_.planes, p_m, feature.range_m, rule, near_);
-      const double distance_m = plane ? std::abs((p_m - plane->centre_m).dot(plane->normal)) : 0.0;
-      count_one(plane.has_value(), distance_m, options_.plane_gate_m, options_.cost_cap_m, count_);
-    }
-    for (const PlacedFeature& feature : sweep.edges) {
-      if (!feature.sharp) continue;
-      const Eigen::Vector3d p_m = motion(feature.p_in_base_m, feature.u);
-      const auto line = find_line(maps_.edges, p_m, feature.range_m, rule, near_);
-      const double distance_m = line ? from_line(*line, p_m).norm() : 0.0;
-      count_one(line.has_value(), distance_m, options_.edge_gate_m, options_.cost_cap_m, count_);
-    }
-  }
-
-  const MappingOptions& options_;
-  std::size_t sweeps_ = 0;
-  SweepMaps maps_;
-  MatchCount count_;
-  Neighbours near_;
-};
-
-}  // namespace
 
 MatchCount count_matches(const OffsetProblem& problem, double offset_s, const std::vector<SweepPose>& poses,
                          const MappingOptions& options) {
-  MatchCounter counter(options);
+  const Eigen::Vector3d motor_axis = problem.recording->rig.mount.axis.normalized();
   SweepPlacer placer(problem, offset_s);
+  SweepMaps maps;
+  MatchCount count;
+  int in_map = 0;
+  std::size_t stretch = 0;
   auto pose = poses.begin();
   for (PlacedSweep sweep; placer.next(sweep);) {
     while (pose != poses.end() && pose->sweep < sweep.sweep) ++pose;
     // Those at either end may come or go with the offset.
-    if (pose != poses.end() && pose->sweep == sweep.sweep) counter.add(sweep, *pose);
+    if (pose == poses.end() || pose->sweep != sweep.sweep || pose->lost) continue;
+    if (pose->stretch != stretch) {
+      maps = SweepMaps();
+      in_map = 0;
+      stretch = pose->stretch;
+    }
+    const SweepFilter others = sweep.direction > 0 ? SweepFilter::kBackward : SweepFilter::kForward;
+    if (in_map++ >= options.settling_sweeps)
+      count += count_sweep(maps, sweep, *pose, search_rule(options, true, others), options, motor_axis);
+    maps.insert(sweep, *pose);
   }
-  return counter.count();
-}
-
-MatchCount count_matches(const std::vector<PlacedSweep>& sweeps, const std::vector<SweepPose>& poses,
-                         const MappingOptions& options) {
-  MatchCounter counter(options);
-  for (std::size_t k = 0; k < sweeps.size(); ++k) counter.add(sweeps[k], poses[k]);
-  return counter.count();
+  return count;
 }
 
 }  // namespace sweepscope

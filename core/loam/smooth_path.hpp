@@ -1,42 +1,46 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
-#include "core/loam/least_squares.hpp"
-#include "core/loam/mapping.hpp"
+#include "core/geometry/pose.hpp"
+#include "core/loam/sweep_pose.hpp"
 
 namespace sweepscope {
 
-/// A rig's path without jumps: poses map_from_base at equal steps of the laser's clock, interpolated between,
-/// and going on at both ends.
+/// A rig's path without jumps or kinks: a uniform cubic B-spline, cumulative in the rotation (Kim, Kim and
+/// Shin 1995), of poses map_from_base over the laser's clock. Beyond its ends it goes on linearly.
 class SmoothPath {
  public:
-  /// Along tracked sweeps, at least one: where one's end and the next one's begin lie apart, both meet half
-  /// way. Knots, at which the path can be moved, lie `knot_s` apart; the first at the first sweep's begin.
+  /// Near tracked sweeps, at least one: where one's end and the next one's begin lie apart, both meet half
+  /// way. Knots, by which the path can be moved, lie `knot_s` apart.
   SmoothPath(const std::vector<SweepPose>& sweeps, double knot_s);
 
   Pose at(double time_s) const;
 
-  std::size_t knots() const { return knots_; }
-  Pose knot(std::size_t i) const { return poses_[i * kPosesPerKnot]; }
-  /// The knot before an instant, and how far on to the next one it lies, 0 to 1.
+  std::size_t knots() const { return knots_.size(); }
+  const Pose& knot(std::size_t i) const { return knots_[i]; }
+  /// The four knots that an instant depends on, and how a step of each acts there: the weights add up to 1.
   struct Place {
-    std::size_t knot;
-    double u;
+    std::size_t first_knot;
+    std::array<double, 4> weights;
   };
   Place place(double time_s) const;
 
-  /// Moves every pose by a step, each about its own place (see `stepped`); between knots linearly.
+  /// Moves every knot by a step, about its own place (see `stepped`).
   void move(const std::vector<Vector6d>& knot_steps);
 
-  /// The path as a sweep's pose: begin, end and the bend between them.
+  /// The path as a sweep's pose, linear between many knots.
   SweepPose as_sweep(SweepPose sweep) const;
 
  private:
   static constexpr std::size_t kPosesPerKnot = 8;
-  double begin_s_, pose_s_;
-  std::size_t knots_;
-  std::vector<Pose> poses_;  // from the first knot to the last
+  void sample();
+
+  double begin_s_, knot_s_;
+  std::size_t segments_;     // segment j lies between knots j + 1 and j + 2
+  std::vector<Pose> knots_;  // the first one lies knot_s before the path's begin
+  std::vector<Pose> poses_;  // along the segments, at equal steps: linear between, to well below a millimetre
 };
 
 }  // namespace sweepscope

@@ -23,25 +23,41 @@ SweepPlacer::SweepPlacer(const OffsetProblem& problem, double offset_s)
       offset_s_(offset_s),
       kinematics_(problem.recording->rig.mount),
       motor_(problem.recording->motor),
-      sweep_of_(assign_sweeps(problem.recording->scans, problem.motor.sweeps, offset_s)) {}
+      sweep_of_(assign_sweeps(problem.recording->scans, problem.motor.sweeps, offset_s)) {
+  std::size_t last = kNoSweep;
+  for (std::size_t scan = 0; scan < sweep_of_.size(); ++scan) {
+    if (!problem.scan_used[scan]) sweep_of_[scan] = kNoSweep;
+    if (sweep_of_[scan] == kNoSweep) continue;
+    if (sweep_of_[scan] != last) scans_.push_back({scan, scan});
+    scans_.back().end = scan + 1;
+    last = sweep_of_[scan];
+  }
+}
 
-bool SweepPlacer::next(PlacedSweep& placed) {
+void SweepPlacer::place(std::size_t i, PlacedSweep& placed) {
+  const auto [first, end] = scans_[i];
+  const Sweep& sweep = problem_.motor.sweeps[sweep_of_[first]];
+  placed.sweep = sweep_of_[first];
+  placed.direction = sweep.direction;
+  placed.begin_s = sweep.begin_s - offset_s_;
+  placed.end_s = sweep.end_s - offset_s_;
+  placed.turned_rad = sweep.direction * sweep.speed_rad_s * (sweep.end_s - sweep.begin_s) *
+                      problem_.recording->rig.mount.axis.normalized();
+  placed.scans = 0;
   placed.edges.clear();
   placed.planes.clear();
-  placed.scans = 0;
-  for (; scan_ < sweep_of_.size(); ++scan_) {
-    if (sweep_of_[scan_] == kNoSweep || !problem_.scan_used[scan_]) continue;
-    const Sweep& sweep = problem_.motor.sweeps[sweep_of_[scan_]];
-    if (placed.scans > 0 && placed.sweep != sweep_of_[scan_]) return true;
-    placed.sweep = sweep_of_[scan_];
-    placed.direction = sweep.direction;
-    placed.begin_s = sweep.begin_s - offset_s_;
-    placed.end_s = sweep.end_s - offset_s_;
+  for (std::size_t scan = first; scan < end; ++scan) {
+    if (sweep_of_[scan] == kNoSweep) continue;
     ++placed.scans;
-    place(problem_.features->edges, scan_, sweep, offset_s_, kinematics_, motor_, placed.edges);
-    place(problem_.features->planes, scan_, sweep, offset_s_, kinematics_, motor_, placed.planes);
+    sweepscope::place(problem_.features->edges, scan, sweep, offset_s_, kinematics_, motor_, placed.edges);
+    sweepscope::place(problem_.features->planes, scan, sweep, offset_s_, kinematics_, motor_, placed.planes);
   }
-  return placed.scans > 0;
+}
+
+bool SweepPlacer::next(PlacedSweep& placed) {
+  if (next_ == scans_.size()) return false;
+  place(next_++, placed);
+  return true;
 }
 
 std::vector<PlacedSweep> place_sweeps(const OffsetProblem& problem, double offset_s) {

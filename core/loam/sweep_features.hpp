@@ -22,7 +22,8 @@ struct PlacedFeature {
 struct PlacedSweep {
   std::size_t sweep = 0;  // index into MotorMotion::sweeps
   int direction = 0;
-  double begin_s = 0, end_s = 0;  // laser clock
+  double begin_s = 0, end_s = 0;                         // laser clock
+  Eigen::Vector3d turned_rad = Eigen::Vector3d::Zero();  // by the motor, rotation vector in the base frame
   std::size_t scans = 0;
   std::vector<PlacedFeature> edges, planes;
 };
@@ -45,7 +46,11 @@ class SweepPlacer {
   /// The problem must outlive it.
   SweepPlacer(const OffsetProblem& problem, double offset_s);
 
-  /// The next sweep, in place of what `placed` held; false where there is none.
+  /// How many sweeps have scans.
+  std::size_t count() const { return scans_.size(); }
+  /// One of them, in place of what `placed` held.
+  void place(std::size_t i, PlacedSweep& placed);
+  /// The next one; false where there is none.
   bool next(PlacedSweep& placed);
 
  private:
@@ -54,7 +59,11 @@ class SweepPlacer {
   Kinematics kinematics_;
   MotorReader motor_;
   std::vector<std::size_t> sweep_of_;  // per scan
-  std::size_t scan_ = 0;               // the first one that was not placed
+  struct Scans {
+    std::size_t first, end;
+  };
+  std::vector<Scans> scans_;  // of each sweep: all its own are among these
+  std::size_t next_ = 0;
 };
 
 /// All sweeps at once. Of a long recording they take several times the memory of its beams.

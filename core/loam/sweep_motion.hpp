@@ -1,19 +1,20 @@
 #pragma once
 
-#include "core/loam/least_squares.hpp"
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "core/geometry/pose.hpp"
 
 namespace sweepscope {
 
-/// The poses within a sweep: between its begin and its end the translation goes linearly and the rotation at
-/// constant rate, but for a bend (rotation vector about the middle of both places in rad, translation in m;
-/// map frame), which acts as 4 u (1 - u): a walker sways within a sweep. What all points share is worked out
-/// once.
-class SweepMotion {
+/// The poses between two: the translation goes linearly, the rotation at constant rate.
+class MotionStep {
  public:
-  SweepMotion(const Pose& begin, const Pose& end, const Vector6d& bend = Vector6d::Zero())
-      : begin_(begin),
-        bend_(bend),
-        pivot_m_((begin.translation_m + end.translation_m) / 2),
+  MotionStep(const Pose& begin, const Pose& end)
+      : begin_m_(begin.translation_m),
         turn_rad_(vector_from_rotation(begin.rotation.conjugate() * end.rotation)),
         shift_m_(end.translation_m - begin.translation_m),
         rotation_(begin.rotation.toRotationMatrix()),
@@ -26,9 +27,7 @@ class SweepMotion {
     const Eigen::Vector3d across_m = turn_rad_.cross(p_in_base_m);
     const Eigen::Vector3d turned_m =
         p_in_base_m + (sine * u) * across_m + (cosine * u * u) * turn_rad_.cross(across_m);
-    const Eigen::Vector3d p_m = rotation_ * turned_m + begin_.translation_m + u * shift_m_;
-    const Eigen::Vector3d turn_rad = bend_.head<3>();  // small: to first order
-    return p_m + bend_at(u) * (turn_rad.cross(p_m - pivot_m_) + bend_.tail<3>());
+    return rotation_ * turned_m + begin_m_ + u * shift_m_;
   }
 
  private:
@@ -53,12 +52,39 @@ class SweepMotion {
             2};
   }
 
-  Pose begin_;
-  Vector6d bend_;
-  Eigen::Vector3d pivot_m_;
-  Eigen::Vector3d turn_rad_, shift_m_;
+  Eigen::Vector3d begin_m_, turn_rad_, shift_m_;
   Eigen::Matrix3d rotation_;
   double turn_rad2_;
+};
+
+/// The pose at u between knots at equal steps from 0 to 1; beyond them the motion goes on.
+inline Pose pose_between(std::span<const Pose> knots, double u) {
+  const double place = u * double(knots.size() - 1);
+  const auto i = std::size_t(std::clamp(place, 0.0, double(knots.size() - 2)));
+  return interpolate(knots[i], knots[i + 1], place - double(i));
+}
+
+/// The poses within a sweep, or its first part: knots at equal steps of u from its begin (0) to `end_u`;
+/// between two knots the translation goes linearly and the rotation at constant rate, and beyond them the
+/// motion goes on. What all points of a step share is worked out once.
+class SweepMotion {
+ public:
+  explicit SweepMotion(std::span<const Pose> knots, double end_u = 1)
+      : steps_per_u_(double(knots.size() - 1) / end_u), last_(double(knots.size() - 2)) {
+    steps_.reserve(knots.size() - 1);
+    for (std::size_t i = 0; i + 1 < knots.size(); ++i) steps_.emplace_back(knots[i], knots[i + 1]);
+  }
+
+  /// Where a point of the base frame is in the map frame at u.
+  Eigen::Vector3d operator()(const Eigen::Vector3d& p_in_base_m, double u) const {
+    const double place = u * steps_per_u_;
+    const auto i = std::size_t(std::clamp(place, 0.0, last_));
+    return steps_[i](p_in_base_m, place - double(i));
+  }
+
+ private:
+  std::vector<MotionStep> steps_;
+  double steps_per_u_, last_;
 };
 
 }  // namespace sweepscope

@@ -10,6 +10,7 @@
 #include "core/map/pose_reader.hpp"
 #include "core/offset/search_window.hpp"
 #include "core/offset/still_motion.hpp"
+#include "core/offset/walk.hpp"
 #include "core/parallel.hpp"
 
 namespace sweepscope {
@@ -116,8 +117,7 @@ MapCloud::Ptr place_beams_along(const OffsetProblem& problem, double offset_s,
     pose.begin_s = scan.first_beam_s;
     pose.end_s = scan.last_beam_s();
     if (!(pose.end_s > pose.begin_s) || !reader.covers(pose.begin_s, pose.end_s)) continue;
-    pose.begin = reader.at(pose.begin_s);
-    pose.end = reader.at(pose.end_s);
+    pose.knots = {reader.at(pose.begin_s), reader.at(pose.end_s)};
     placer.place(scan, pose, *cloud);
   }
   cloud->width = static_cast<std::uint32_t>(cloud->points.size());
@@ -135,24 +135,9 @@ OffsetMap build_along(const OffsetProblem& problem, double offset_s, const MapOp
   return map;
 }
 
-OffsetMap build_one(const OffsetProblem& problem, double offset_s, bool moving, const MapOptions& options,
-                    const Job& job) {
-  if (!options.poses.empty()) return build_along(problem, offset_s, options);
+OffsetMap build_one(const OffsetProblem& problem, double offset_s, std::vector<SweepPose> poses) {
   OffsetMap map;
   map.offset_s = offset_s;
-  map.moving = moving;
-  std::vector<SweepPose> poses;
-  if (!moving) {
-    poses = standing_poses(problem, offset_s);
-  } else {
-    const Eigen::Vector3d axis = problem.recording->rig.mount.axis.normalized();
-    const auto walk = track(problem, offset_s, options.mapping, job);
-    if (!walk) return map;
-    AlternatingRoll roll = take_out_alternating_roll(walk->sweeps, axis, options.mapping.settling_sweeps);
-    map.lost = walk->lost;
-    map.signed_rotation_rad = roll.signed_rotation_rad;
-    poses = std::move(roll.sweeps);
-  }
   map.cloud = place_beams(problem, offset_s, poses);
   for (const SweepPose& pose : poses) {
     // A sweep's end and the next one's begin are one instant: a quarter in from each keeps the times apart.
@@ -199,10 +184,21 @@ Result<std::vector<OffsetMap>> build_maps(const Recording& recording, std::span<
     if (!covered) return tl::unexpected(covered.error());
     warning = std::move(*covered);
   }
+  SolvedWalk walk;
+  if (moving && options.poses.empty()) {
+    auto solved = find_walk(*problem, (*least + *greatest) / 2, options.mapping, job);
+    if (!solved) return failure(ExitCode::kInterrupted, "interrupted while building the map");
+    walk = std::move(*solved);
+  }
   std::vector<OffsetMap> maps(offsets_s.size());
-  const Job part = Job::part_of(job);
   for_each_index(offsets_s.size(), [&](std::size_t i) {
-    maps[i] = build_one(*problem, offsets_s[i], moving, options, i == 0 ? job : part);
+    if (!options.poses.empty())
+      maps[i] = build_along(*problem, offsets_s[i], options);
+    else
+      maps[i] =
+          build_one(*problem, offsets_s[i], moving ? walk.sweeps : standing_poses(*problem, offsets_s[i]));
+    maps[i].moving = moving;
+    maps[i].lost = walk.lost;
     maps[i].warning = warning;
   });
   if (job.cancelled()) return failure(ExitCode::kInterrupted, "interrupted while building the map");

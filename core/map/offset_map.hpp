@@ -34,15 +34,15 @@ struct OffsetMap {
   std::vector<StampedPose> trajectory;  // two poses a sweep, ascending in time
   std::vector<SweepPose> sweeps;        // the poses that the beams were placed along
   bool moving = false;
-  bool lost = false;               // LOAM lost track: the map is not to be trusted
-  double signed_rotation_rad = 0;  // the alternating roll that was taken out, per sweep
-  std::string warning;             // of poses that do not cover every scan; empty where they do
+  bool lost = false;    // LOAM lost track: the map is not to be trusted
+  std::string warning;  // of poses that do not cover every scan; empty where they do
 };
 
 /// Builds the map at each of the offsets from the same scans: every beam is placed with the motor angle of
 /// its own instant at t_motor = t_laser + offset. A rig that stood still has identity poses; a moving one's
-/// are solved at that offset, with the alternating roll taken out of them, since free poses would hide a
-/// wrong offset. A motor that does not turn to and fro is ExitCode::kNotIdentifiable.
+/// trajectory is the one that fits best together with the best offset (see SolvedWalk), the same for all
+/// maps: one solved for at a wrong offset would hide it. A motor that does not turn to and fro is
+/// ExitCode::kNotIdentifiable.
 Result<std::vector<OffsetMap>> build_maps(const Recording& recording, std::span<const double> offsets_s,
                                           const MapOptions& options, const Job& job);
 

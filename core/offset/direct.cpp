@@ -110,8 +110,9 @@ void estimate_standing(const OffsetProblem& problem, double coarse_s, const std:
 }
 
 void judge_walk(const MovingDirect& found, Estimate& result) {
-  judge_convergence(found.converged, found.joint->step_s, found.joint->sigma_s, result);
-  add(result.reasons, lever_reason(found.joint->lever_m, found.joint->reach_m));
+  const JointWalk& walk = *found.walk.joint;
+  judge_convergence(found.converged, walk.step_s, walk.sigma_s, result);
+  add(result.reasons, lever_reason(walk.lever_m, walk.reach_m));
   const auto &below = found.curve.front().e_m, &here = found.curve[1].e_m, &above = found.curve.back().e_m;
   if (!here)
     result.reasons.push_back("The map holds no matches at the offset that fits the walk best.");
@@ -122,43 +123,38 @@ void judge_walk(const MovingDirect& found, Estimate& result) {
         *here * 1e3, below.value_or(0) * 1e3, above.value_or(0) * 1e3));
 }
 
-// A body that sways in step with the motor looks much like an offset: a part of it may pass for one.
-double widened_by_sway(double sigma_s, double sway_rad, double speed_rad_s, Estimate& result) {
-  constexpr double kUnseen_rad = 0.01;  // of any walk: the sweeps' own scatter
-  constexpr double kPart = 0.3;
-  const double excess_rad = std::sqrt(std::max(0.0, sway_rad * sway_rad - kUnseen_rad * kUnseen_rad));
-  if (excess_rad > kUnseen_rad)
-    result.warnings.push_back(
-        fmt::format("The rig swayed in step with the motor, by {:.1f} deg from sweep to sweep: another pace "
-                    "or another motor speed would tell more.",
-                    sway_rad * 180 / std::numbers::pi));
-  return std::hypot(sigma_s, kPart * excess_rad / (2 * speed_rad_s));
+// A body that sways in step with the motor looks much like an offset.
+void warn_of_sway(double sway_rad, Estimate& result) {
+  constexpr double kUsual_rad = 0.014;  // of any walk: the sweeps' own scatter
+  if (sway_rad < kUsual_rad) return;
+  result.warnings.push_back(fmt::format(
+      "The trajectory turns to and fro with the motor, by {:.1f} deg from sweep to sweep: the rig "
+      "swayed in step with it, or the sweeps have too little in common. Another pace or another "
+      "motor speed would make the answer surer.",
+      sway_rad * 180 / std::numbers::pi));
 }
 
 void estimate_walking(const OffsetProblem& problem, double coarse_s, const std::vector<double>& window_s,
                       const SearchScale& scale, const MappingOptions& mapping, const Job& job,
                       Estimate& result) {
-  MovingDirectOptions options;
-  options.mapping = mapping;
-  options.most_step_s = 10 * scale.unit_s;
-  options.step_tolerance_s = scale.unit_s;
-  options.side_s = 3 * scale.unit_s;
-  options.joint.mapping = mapping;
-  const MovingDirect found = solve_moving(problem, coarse_s, options, job);
-  if (job.cancelled()) return;
-  if (found.lost || !found.joint) {
-    result.reasons.push_back(found.lost ? "LOAM lost track."
-                                        : "Sweeps of opposite directions hardly see the same surfaces.");
+  const auto solved = solve_moving(problem, coarse_s, {walk_options(mapping, scale), 3 * scale.unit_s}, job);
+  if (!solved) return;
+  const MovingDirect& found = *solved;
+  result.lost = lost_times(found.walk.sweeps, *problem.recording);
+  if (found.walk.lost || !found.walk.joint) {
+    result.reasons.push_back(found.walk.lost ? lost_reason(found.walk, *problem.recording)
+                                             : "Sweeps of opposite directions hardly see the same surfaces.");
     return;
   }
-  const JointWalk& walk = *found.joint;
+  add(result.warnings, lost_warning(result.lost));
+  const JointWalk& walk = *found.walk.joint;
   sort_into(result.curve, found.curve);
   judge_walk(found, result);
   std::vector<double> parts_offset_s;
   for (const JointWalkPart& part : walk.parts) parts_offset_s.push_back(part.offset_s);
-  const double speed_rad_s = problem.motor.median_speed_rad_s;
-  std::optional<double> sigma_s = widened_by_sway(walk.sigma_s, found.sway_rad, speed_rad_s, result);
-  sigma_s = std::hypot(*sigma_s, unseen_sigma_s(*problem.recording, problem.motor, walk.offset_s));
+  warn_of_sway(found.sway_rad, result);
+  std::optional<double> sigma_s =
+      std::hypot(walk.sigma_s, unseen_sigma_s(*problem.recording, problem.motor, walk.offset_s));
   judge_drift(drift_of(walk), duration_s(problem), walk.sigma_s, result);
   sigma_s = widened_by_halves(sigma_s, parts_offset_s, result);
   add(result.warnings, few_matches_warning(walk.matches, walk.features));
@@ -200,9 +196,12 @@ void estimate_directly(const OffsetProblem& problem, const CoarseSearch& coarse,
   }
   const std::vector<double> window_s{coarse.curve.front().offset_s, coarse.curve.back().offset_s};
   add(result.reasons, beam_times_reason(*problem.recording, scale));
-  add(result.reasons, edge_reason(coarse.curve, *coarse.best));
-  add(result.reasons, flat_reason(coarse.curve, *coarse.best));
-  add(result.reasons, rival_reason(coarse.curve, *coarse.best, scale));
+  // A walk blurs the valley of the coarse search: only the least squares tells whether there is one.
+  if (!moving) {
+    add(result.reasons, edge_reason(coarse.curve, *coarse.best));
+    add(result.reasons, flat_reason(coarse.curve, *coarse.best));
+    add(result.reasons, rival_reason(coarse.curve, *coarse.best, scale));
+  }
   add(result.warnings, aliased_warning(*problem.recording, problem.motor));
   add(result.warnings, encoder_warning(problem.recording->motor));
   add(result.warnings, slow_motor_warning(problem.motor));

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "core/loam/mapping.hpp"
+
 namespace sweepscope {
 
 /// What was computed at one candidate offset. A value is absent where the method has no such criterion or
@@ -38,6 +40,7 @@ struct Estimate {
   std::optional<double> offset_s;
   std::optional<double> sigma_s;
   std::optional<double> drift_ppm;  // by how much the motor's clock runs faster than the laser's, as measured
+  std::vector<Interval> lost;  // when a moving rig's trajectory is not known: left out; since the first scan
   std::vector<std::string> warnings;
   std::vector<std::string> reasons;  // why it is not identifiable, whole sentences
   std::vector<CriterionOptimum> criteria;

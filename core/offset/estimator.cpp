@@ -19,6 +19,7 @@
 #include "core/offset/stationary.hpp"
 #include "core/offset/still_motion.hpp"
 #include "core/offset/uncertainty.hpp"
+#include "core/offset/walk.hpp"
 
 namespace sweepscope {
 namespace {
@@ -216,8 +217,9 @@ class Search {
   }
 
   CurvePoint computed(double offset_s, const Job& job) const {
-    return moving() ? moving_candidate(problem_, offset_s, options_.scoring, options_.mapping, job)
-                    : stationary_candidate(problem_, offset_s, pairs_, options_.weight_c, odometry_);
+    if (!moving()) return stationary_candidate(problem_, offset_s, pairs_, options_.weight_c, odometry_);
+    if (options_.scoring == Scoring::kLoam) return loam_candidate(problem_, offset_s, options_.mapping, job);
+    return moving_candidate(problem_, offset_s, walk_.sweeps, options_.mapping);
   }
 
   // The pairs that can be registered at all, decided once: every candidate must answer for the same ones.
@@ -227,8 +229,22 @@ class Search {
       if (motion.succeeded) pairs_.push_back(motion.sweep);
   }
 
+  // What all candidates share. False where interrupted.
+  bool prepare_candidates(double offset_s) {
+    if (!moving()) {
+      choose_pairs(offset_s);
+      return true;
+    }
+    auto walk = find_walk(problem_, offset_s, options_.mapping, job_);
+    if (!walk) return false;
+    walk_ = std::move(*walk);
+    result_.lost = lost_times(walk_.sweeps, *problem_.recording);
+    if (const auto lost = lost_warning(result_.lost)) result_.warnings.push_back(*lost);
+    return true;
+  }
+
   bool compute(Curve& curve, const std::vector<double>& offsets_s) {
-    if (!moving()) choose_pairs(coarse_offset_s(offsets_s.front(), offsets_s.back()));
+    if (!prepare_candidates(coarse_offset_s(offsets_s.front(), offsets_s.back()))) return false;
     return curve.compute(shard_ ? shard_->part_of(offsets_s) : offsets_s, job_);
   }
 
@@ -236,7 +252,7 @@ class Search {
   // ground.
   bool coarse_to_fine(Curve& curve, const std::vector<double>& window_s) {
     double centre_s = coarse_offset_s(window_s.front(), window_s.back());
-    if (!moving()) choose_pairs(centre_s);
+    if (!prepare_candidates(centre_s)) return false;
     constexpr int kMostMoves = 5;
     for (int move = 0; move < kMostMoves; ++move) {
       centre_s = rounded_to(centre_s, scale_.unit_s);
@@ -256,7 +272,7 @@ class Search {
     const std::size_t best = index_of_least(result_.curve, decisive());
     if (best == result_.curve.size()) {
       result_.reasons.push_back(
-          moving() ? "LOAM lost track at every candidate offset."
+          moving() ? lost_reason(walk_, *problem_.recording)
                    : "The sweeps could not be registered to each other at any candidate offset.");
       return;
     }
@@ -278,8 +294,11 @@ class Search {
           fmt::format("The least {} lies on the edge of the searched range, at {:.1f} ms: the offset "
                       "lies beyond it, or nowhere.",
                       moving() ? "e" : "d", least.offset_s * 1e3));
-    // Continuous poses hold the roll back: with them the slope says nothing of the scene.
-    if (!moving() || options_.scoring == Scoring::kTwoStage) judge_lever();
+    if (moving() && walk_.joint) {
+      if (const auto flat = lever_reason(walk_.joint->lever_m, walk_.joint->reach_m))
+        result_.reasons.push_back(*flat);
+    }
+    if (!moving()) judge_lever();
     if (!moving()) judge_standing(best);
     if (!result_.reasons.empty()) return;
     const Certainty certainty = moving() ? of_walk(least.offset_s) : of_standing(least.offset_s, fits);
@@ -398,20 +417,11 @@ class Search {
     return least_s;
   }
 
-  // The roll that n and e are counted without is as uncertain as its share in each sweep scatters. And how
-  // far the answer lies from that of the joint least squares, and how far that one may be off: the scatter of
-  // the sweeps' rolls alone knows nothing of a wearer's sway, which errs all sweeps alike.
+  // How far the answer lies from that of the joint least squares, and how far that one may be off.
   Certainty of_walk(double offset_s) const {
-    const MovingPass pass = moving_pass(problem_, offset_s, options_.mapping, job_);
-    const auto sigma_rad = sigma_of_roll(pass.sweep_roll_rad);
-    if (!pass.tracked || !sigma_rad) return {};
-    const double of_roll_s = *sigma_rad / (2 * problem_.motor.median_speed_rad_s);
-    JointWalkOptions options;
-    options.mapping = options_.mapping;
-    const auto joint = solve_joint_walk(problem_, pass.sweeps, offset_s, options, job_);
-    if (!joint) return {of_roll_s, {}, 0};
-    return {std::max(of_roll_s, std::hypot(joint->offset_s - offset_s, joint->sigma_s)), drift_of(*joint),
-            joint->sigma_s};
+    const auto& joint = walk_.joint;
+    if (!joint) return {};
+    return {std::hypot(joint->offset_s - offset_s, joint->sigma_s), drift_of(*joint), joint->sigma_s};
   }
 
   const EstimateOptions& options_;
@@ -424,6 +434,7 @@ class Search {
   CoarseSearch coarse_;
   Method kind_ = Method::kStationary, method_ = Method::kStationary;
   std::vector<std::size_t> pairs_;
+  SolvedWalk walk_;
   Estimate result_;
 };
 

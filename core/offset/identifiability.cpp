@@ -212,20 +212,31 @@ Remark sigma_reason(std::optional<double> sigma_s, const SearchScale& scale) {
                      *sigma_s * 1e3);
 }
 
-Remark aliased_warning(const Recording& recording, const MotorMotion& motor) {
+namespace {
+
+double scans_a_sweep(const Recording& recording, const MotorMotion& motor) {
   const std::vector<double> stamps_s = scan_stamps_s(recording);
   std::vector<double> periods_s;
   for (std::size_t i = 1; i < stamps_s.size(); ++i) periods_s.push_back(stamps_s[i] - stamps_s[i - 1]);
   const double period_s = median_of(periods_s);
-  if (!(period_s > 0) || motor.sweeps.size() < 4) return std::nullopt;
-  const double scans = motor.median_sweep_s / period_s;
-  const double sweeps = double(motor.sweeps.size());
+  return period_s > 0 ? motor.median_sweep_s / period_s : 0;
+}
+
+}  // namespace
+
+bool sees_same_angles(const Recording& recording, const MotorMotion& motor, std::size_t sweeps) {
+  const double scans = scans_a_sweep(recording, motor);
+  if (!(scans > 0) || sweeps < 4 || scans > 60) return false;
   // Over all sweeps the angles shift by less than a quarter of a line's spacing.
-  if (std::abs(scans - std::round(scans)) * sweeps > 0.25 || scans > 60) return std::nullopt;
+  return std::abs(scans - std::round(scans)) * double(sweeps) < 0.25;
+}
+
+Remark aliased_warning(const Recording& recording, const MotorMotion& motor) {
+  if (!sees_same_angles(recording, motor, motor.sweeps.size())) return std::nullopt;
   return fmt::format(
       "A sweep takes {:.0f} scans almost exactly: every sweep sees the same angles, so few surfaces are seen "
       "twice.",
-      std::round(scans));
+      std::round(scans_a_sweep(recording, motor)));
 }
 
 Remark encoder_warning(const MotorTrack& track) {

@@ -63,7 +63,8 @@ double unseen_sigma_s(const Recording& recording, const MotorMotion& motor, doub
 /// Sigma is larger than what the motor's speed should allow.
 Remark sigma_reason(std::optional<double> sigma_s, const SearchScale& scale);
 
-/// The sweep takes a whole number of scans: both directions see the same angles.
+/// Whether a sweep takes so nearly a whole number of scans that so many sweeps all see the same angles.
+bool sees_same_angles(const Recording& recording, const MotorMotion& motor, std::size_t sweeps);
 Remark aliased_warning(const Recording& recording, const MotorMotion& motor);
 /// The encoder's samples come unevenly.
 Remark encoder_warning(const MotorTrack& track);

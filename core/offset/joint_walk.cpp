@@ -4,9 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <numeric>
 
 #include "core/loam/patch_search.hpp"
+#include "core/loam/path_equations.hpp"
 #include "core/loam/smooth_path.hpp"
+#include "core/offset/identifiability.hpp"
 #include "core/parallel.hpp"
 
 namespace sweepscope {
@@ -33,7 +37,7 @@ struct ScanMotion {
   Vector3d base_in_map_m, turning_rad_s;
 };
 
-// How a distance changes with the steps of the knots that it depends on. Its own point's two, and those of
+// How a distance changes with the steps of the knots that it depends on: its own point's four, and those of
 // the neighbours that its surface was fitted to.
 class KnotRow {
  public:
@@ -50,13 +54,19 @@ class KnotRow {
     ++count_;
   }
   std::size_t size() const { return count_; }
+  double times(const Eigen::VectorXd& knot_steps) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < count_; ++i)
+      sum += rows_[i].dot(knot_steps.segment<6>(Eigen::Index(6 * knots_[i])));
+    return sum;
+  }
   std::size_t knot(std::size_t i) const { return knots_[i]; }
   const Vector6d& row(std::size_t i) const { return rows_[i]; }
 
  private:
   std::size_t count_ = 0;
-  std::array<std::size_t, 2 + 2 * Neighbours::kMax> knots_;
-  std::array<Vector6d, 2 + 2 * Neighbours::kMax> rows_;
+  std::array<std::size_t, 4 + 4 * Neighbours::kMax> knots_;
+  std::array<Vector6d, 4 + 4 * Neighbours::kMax> rows_;
 };
 
 // Normal equations of a part: six unknowns for every knot, and the offset last. Only the lower triangle.
@@ -82,17 +92,21 @@ class PartEquations {
     gradient_[last] += weight * offset_slope * residual;
   }
 
-  // The walk accelerates little: second differences of the knots are near zero.
-  void add_accelerations(const SmoothPath& path, double sigma) {
-    const double weight = 1 / (sigma * sigma), stencil[3] = {1, -2, 1};
-    for (std::size_t k = 1; k + 1 < path.knots(); ++k) {
-      const Vector6d residual = step_between(path, k) - step_between(path, k - 1);
-      for (std::size_t a = 0; a < 3; ++a) {
-        const auto row = Eigen::Index(6 * (k - 1 + a));
-        gradient_.segment<6>(row) += weight * stencil[a] * residual;
+  // The walk's acceleration changes little: third differences of the knots are near zero, to within sigma
+  // (rotation, translation).
+  void add_jerks(const SmoothPath& path, const Eigen::Vector2d& sigma) {
+    constexpr std::array<double, 4> kStencil{-1, 3, -3, 1};
+    Vector6d weights;
+    weights << Vector3d::Constant(1 / (sigma[0] * sigma[0])), Vector3d::Constant(1 / (sigma[1] * sigma[1]));
+    for (std::size_t k = 0; k + kStencil.size() <= path.knots(); ++k) {
+      const auto step = [&](std::size_t i) { return difference(path.knot(k + i + 1), path.knot(k + i)); };
+      const Vector6d residual = step(2) - 2 * step(1) + step(0);
+      for (std::size_t a = 0; a < kStencil.size(); ++a) {
+        const auto row = Eigen::Index(6 * (k + a));
+        gradient_.segment<6>(row) += kStencil[a] * weights.cwiseProduct(residual);
         for (std::size_t b = 0; b <= a; ++b)
-          for (Eigen::Index i = 0; i < 6; ++i)
-            matrix_(row + i, Eigen::Index(6 * (k - 1 + b)) + i) += weight * stencil[a] * stencil[b];
+          matrix_.block<6, 6>(row, Eigen::Index(6 * (k + b))).diagonal() +=
+              kStencil[a] * kStencil[b] * weights;
       }
     }
   }
@@ -108,29 +122,51 @@ class PartEquations {
   struct Solution {
     std::vector<Vector6d> knot_steps;
     double offset_step_s, offset_sigma_s;
+    Eigen::VectorXd influence;  // of the gradient's components on the offset
   };
   std::optional<Solution> solve() {
     const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>, Eigen::Lower> cholesky(matrix_);
     if (cholesky.info() != Eigen::Success) return std::nullopt;
     const Eigen::Index last = matrix_.rows() - 1;
     const Eigen::VectorXd x = cholesky.solve(-gradient_);
-    Solution solution{{}, x[last], 1 / matrix_(last, last)};  // now the factor's
+    Solution solution{{}, x[last], 1 / matrix_(last, last), {}};  // now the factor's
+    solution.influence = cholesky.solve(Eigen::VectorXd::Unit(matrix_.rows(), last));
     for (Eigen::Index k = 0; k < last / 6; ++k) solution.knot_steps.push_back(x.segment<6>(6 * k));
     return solution;
   }
 
  private:
-  static Vector6d step_between(const SmoothPath& path, std::size_t k) {
-    const Pose from = path.knot(k), to = path.knot(k + 1);
-    Vector6d step;
-    step << vector_from_rotation(to.rotation * from.rotation.conjugate()),
-        to.translation_m - from.translation_m;
-    return step;
-  }
-
   Eigen::MatrixXd matrix_;
   Eigen::VectorXd gradient_;
 };
+
+// How much faster the motor turns in the middle half of its sweeps than over all: 1 where it turns evenly,
+// and the square root of 2 where its angle is a sine.
+double haste_in_the_middle(const OffsetProblem& problem) {
+  std::vector<double> hastes;
+  const MotorTrack& track = problem.recording->motor;
+  for (const Sweep& sweep : problem.motor.sweeps) {
+    const auto angle_rad = [&](double u) {
+      return track.angle_at(sweep.begin_s + u * (sweep.end_s - sweep.begin_s));
+    };
+    const double whole_rad = angle_rad(1) - angle_rad(0);
+    if (std::abs(whole_rad) > problem.motor.range_rad / 2)
+      hastes.push_back(2 * (angle_rad(0.75) - angle_rad(0.25)) / whole_rad);
+  }
+  if (hastes.empty()) return 1;
+  std::sort(hastes.begin(), hastes.end());
+  return hastes[hastes.size() / 2];
+}
+
+// Standard deviation of the walk's jerk, of the rotation and of the translation.
+Eigen::Vector2d jerk_sigma(const OffsetProblem& problem, const std::vector<SweepPose>& sweeps,
+                           const JointWalkOptions& options) {
+  constexpr double kSmooth = 1.25;
+  const bool smooth = haste_in_the_middle(problem) > kSmooth;
+  const Eigen::Vector2d seen =
+      smooth ? options.jerk_factor_of_smooth_motors * jerk(sweeps, 1) : options.jerk_factor * jerk(sweeps, 2);
+  return seen.cwiseMax(options.min_jerk);
+}
 
 // One part of the walk on its way to its own offset.
 class Part {
@@ -140,27 +176,30 @@ class Part {
       : problem_(cut(problem, sweeps, offset_s)),
         options_(options),
         slices_(slices_per_scan(*problem.recording)),
-        path_(sweeps, options.knot_s) {
+        path_(sweeps, options.knot_s),
+        jerk_sigma_(jerk_sigma(problem, sweeps, options)) {
     result_.middle_s = (sweeps.front().begin_s + sweeps.back().end_s) / 2;
     result_.offset_s = offset_s;
   }
 
   void solve(const Job& job) {
-    for (int i = 0; i < options_.most_iterations && !result_.converged && !job.cancelled(); ++i) {
+    std::vector<double> offsets_s;
+    std::optional<PartEquations::Solution> solution;
+    const int iterations = options_.first_iterations + options_.averaged_iterations;
+    for (int i = 0; i < iterations && !job.cancelled(); ++i) {
       PartEquations equations(path_.knots());
       linearise(equations);
       if (result_.matches < options_.least_matches) return;
-      equations.add_accelerations(path_, options_.acceleration_sigma * options_.knot_s * options_.knot_s);
+      equations.add_jerks(path_, std::pow(options_.knot_s, 3) * jerk_sigma_);
       constexpr double kFirstSigma = 1e-4, kKnotSigma = 0.5;
       equations.hold(kFirstSigma, kKnotSigma, options_.offset_sigma_s);
-      const auto solution = equations.solve();
+      solution = equations.solve();
       if (!solution) return;
       path_.move(solution->knot_steps);
       result_.offset_s += solution->offset_step_s;
-      result_.step_s = solution->offset_step_s;
-      result_.sigma_s = solution->offset_sigma_s;
-      result_.converged = std::abs(solution->offset_step_s) < options_.step_tolerance * result_.sigma_s;
+      if (i >= options_.first_iterations) offsets_s.push_back(result_.offset_s);
     }
+    if (solution && !job.cancelled()) conclude(offsets_s, clustered_sigma_s(*solution));
   }
   const JointWalkPart& result() const { return result_; }
   const SmoothPath& path() const { return path_; }
@@ -177,6 +216,20 @@ class Part {
     return part;
   }
 
+  // The mean of the iterations, whose scatter adds to what the last one leaves open.
+  void conclude(const std::vector<double>& offsets_s, double sigma_s) {
+    const auto n = static_cast<double>(offsets_s.size());
+    const auto middle = offsets_s.begin() + std::ptrdiff_t(offsets_s.size() / 2);
+    const auto mean_s = [](auto from, auto to) { return std::accumulate(from, to, 0.0) / double(to - from); };
+    result_.offset_s = mean_s(offsets_s.begin(), offsets_s.end());
+    result_.step_s = mean_s(middle, offsets_s.end()) - mean_s(offsets_s.begin(), middle);
+    double squares_s2 = 0;
+    for (const double offset_s : offsets_s) squares_s2 += square(offset_s - result_.offset_s);
+    result_.sigma_s = std::sqrt(square(sigma_s) + squares_s2 / (n - 1) / n);
+    constexpr double kSettled = 1.5;  // sigmas
+    result_.converged = std::abs(result_.step_s) < kSettled * result_.sigma_s;
+  }
+
   static double time_s(const PlacedSweep& sweep, const PlacedFeature& feature) {
     return sweep.begin_s + feature.u * (sweep.end_s - sweep.begin_s);
   }
@@ -185,6 +238,36 @@ class Part {
   }
 
   void linearise(PartEquations& equations) {
+    for_each_match([&](const KnotRow& row, double slope, double distance_m, double weight, const Vector3d&) {
+      equations.add(row, slope, distance_m, weight);
+    });
+  }
+
+  // Of the offset, where what the surfaces err by is not taken from the matches' standard deviation, but from
+  // their residuals, summed up cell by cell: the matches of one surface err together, and over and over where
+  // the same lines see it again and again (White 1980, with clusters). What the smoothness leaves open stays.
+  double clustered_sigma_s(const PartEquations::Solution& solution) {
+    std::map<std::array<int, 3>, double> pulls_s;
+    double formal_s2 = 0;
+    constexpr double kCell_m = 1;
+    for_each_match(
+        [&](const KnotRow& row, double slope, double distance_m, double weight, const Vector3d& p_m) {
+          const double influence =
+              row.times(solution.influence) + slope * solution.influence[solution.influence.size() - 1];
+          std::array<int, 3> cell;
+          for (int i = 0; i < 3; ++i) cell[std::size_t(i)] = int(std::floor(p_m[i] / kCell_m));
+          pulls_s[cell] += weight * distance_m * influence;
+          formal_s2 += weight * square(influence);
+        });
+    double clustered_s2 = 0;
+    for (const auto& [cell, pull_s] : pulls_s) clustered_s2 += square(pull_s);
+    if (!(formal_s2 > 0)) return solution.offset_sigma_s;
+    const double total_s2 = square(solution.offset_sigma_s), of_matches_s2 = std::min(formal_s2, total_s2);
+    return std::sqrt(total_s2 - of_matches_s2 + of_matches_s2 * clustered_s2 / formal_s2);
+  }
+
+  template <typename Use>
+  void for_each_match(const Use& use) {
     const std::vector<PlacedSweep> sweeps = place_sweeps(problem_, result_.offset_s);
     FeatureMap edges, planes;
     scans_.resize(problem_.recording->scans.size() * slices_);
@@ -205,8 +288,7 @@ class Part {
         const Vector3d p_m = in_map_m(sweep, feature);
         const auto plane = find_plane(planes, p_m, feature.range_m, rule, near_);
         if (plane)
-          add(line_of(sweep, feature), p_m, plane->normal, (p_m - plane->centre_m).dot(plane->normal),
-              equations);
+          add(line_of(sweep, feature), p_m, plane->normal, (p_m - plane->centre_m).dot(plane->normal), use);
       }
       for (const PlacedFeature& feature : sweep.edges) {
         if (!feature.sharp) continue;
@@ -215,7 +297,7 @@ class Part {
         const auto line = find_line(edges, p_m, feature.range_m, rule, near_);
         const Vector3d away_m = line ? from_line(*line, p_m) : Vector3d::Zero();
         const double distance_m = away_m.norm();
-        if (distance_m > 1e-9) add(line_of(sweep, feature), p_m, away_m / distance_m, distance_m, equations);
+        if (distance_m > 1e-9) add(line_of(sweep, feature), p_m, away_m / distance_m, distance_m, use);
       }
     }
   }
@@ -255,8 +337,9 @@ class Part {
   }
 
   // One match: a point of one direction, its surface from points of the other.
+  template <typename Use>
   void add(std::uint32_t line, const Vector3d& p_m, const Vector3d& normal, double distance_m,
-           PartEquations& equations) {
+           const Use& use) {
     row_.clear();
     double slope = add_point(line, p_m, normal, 1);
     result_.lever_m2 += square(normal.dot(arm_m(line, p_m)));
@@ -266,7 +349,7 @@ class Part {
       slope += add_point(near_.line[at], near_.p_m[at].cast<double>(), normal, -1.0 / near_.count);
     }
     const double weight = cauchy_weight(distance_m, options_.loss_width_m) / square(options_.match_sigma_m);
-    equations.add(row_, slope, distance_m, weight);
+    use(row_, slope, distance_m, weight, p_m);
     ++result_.matches;
   }
 
@@ -274,8 +357,7 @@ class Part {
   double add_point(std::uint32_t line, const Vector3d& p_m, const Vector3d& normal, double share) {
     const ScanMotion& scan = scans_[line];
     const Vector6d row = share * distance_jacobian(p_m, normal, scan.base_in_map_m);
-    row_.add(scan.place.knot, (1 - scan.place.u) * row);
-    row_.add(scan.place.knot + 1, scan.place.u * row);
+    for (std::size_t i = 0; i < 4; ++i) row_.add(scan.place.first_knot + i, scan.place.weights[i] * row);
     return share * normal.dot(scan.turning_rad_s.cross(p_m - scan.base_in_map_m));
   }
 
@@ -289,6 +371,7 @@ class Part {
   const JointWalkOptions& options_;
   std::uint32_t slices_;  // of every scan
   SmoothPath path_;
+  Eigen::Vector2d jerk_sigma_;  // rad/s^3 and m/s^3
   JointWalkPart result_;
   std::vector<ScanMotion> scans_;
   static constexpr std::uint32_t kNoLine = 0xffffffffu;
@@ -297,15 +380,43 @@ class Part {
   KnotRow row_;
 };
 
-// Runs of neighbouring sweeps, about equally long.
-std::vector<std::vector<SweepPose>> parts_of(const std::vector<SweepPose>& sweeps, double part_s) {
-  const double duration_s = sweeps.back().end_s - sweeps.front().begin_s;
-  const std::size_t least_sweeps = 8;
+using Sweeps = std::vector<SweepPose>;
+
+// A part shorter than this has little to say, and may say it wrongly.
+constexpr std::size_t kMinSweeps = 8;
+
+// The sweeps of one stretch cut into parts that are about equally long.
+void cut(const Sweeps& run, double part_s, std::vector<Sweeps>& parts) {
+  if (run.size() < kMinSweeps) return;
+  const double duration_s = run.back().end_s - run.front().begin_s;
   const std::size_t count = std::clamp<std::size_t>(std::size_t(duration_s / part_s + 0.5), 1,
-                                                    std::max<std::size_t>(1, sweeps.size() / least_sweeps));
-  std::vector<std::vector<SweepPose>> parts(count);
-  for (std::size_t k = 0; k < sweeps.size(); ++k) parts[k * count / sweeps.size()].push_back(sweeps[k]);
+                                                    std::max<std::size_t>(1, run.size() / kMinSweeps));
+  const std::size_t first = parts.size();
+  parts.resize(first + count);
+  for (std::size_t k = 0; k < run.size(); ++k) parts[first + k * count / run.size()].push_back(run[k]);
+}
+
+// No part holds sweeps that are lost, nor sweeps of two stretches.
+std::vector<Sweeps> parts_of(const Sweeps& sweeps, double part_s) {
+  std::vector<Sweeps> parts;
+  Sweeps run;
+  for (const SweepPose& sweep : sweeps) {
+    if (!run.empty() && (sweep.lost || sweep.stretch != run.back().stretch)) {
+      cut(run, part_s, parts);
+      run.clear();
+    }
+    if (!sweep.lost) run.push_back(sweep);
+  }
+  cut(run, part_s, parts);
   return parts;
+}
+
+// What each part errs by beside its own sigma, as the parts of walks in tuning/ scatter. Where all its sweeps
+// see the same few angles, a path that is bent alike in each of them fits nearly as well as the true one.
+double scatter_of_parts_s(const OffsetProblem& problem, const Sweeps& sweeps) {
+  constexpr double kUnseen_rad = 0.6e-3, kUnseenOfSameAngles_rad = 2e-3;
+  const bool same = sees_same_angles(*problem.recording, problem.motor, sweeps.size());
+  return (same ? kUnseenOfSameAngles_rad : kUnseen_rad) / problem.motor.median_speed_rad_s;
 }
 
 void summarise(JointWalk& walk) {
@@ -341,10 +452,9 @@ void summarise(JointWalk& walk) {
 
 std::optional<JointWalk> solve_joint_walk(const OffsetProblem& problem, const std::vector<SweepPose>& tracked,
                                           double offset_s, const JointWalkOptions& options, const Job& job) {
-  if (tracked.empty()) return std::nullopt;
-  const std::vector<std::vector<SweepPose>> cuts = parts_of(tracked, options.part_s);
+  const std::vector<Sweeps> cuts = parts_of(tracked, options.part_s);
   std::vector<JointWalkPart> parts(cuts.size());
-  std::vector<std::vector<SweepPose>> sweeps = cuts;
+  std::vector<Sweeps> sweeps = cuts;
   for_each_index(cuts.size(), [&](std::size_t i) {
     Part part(problem, cuts[i], offset_s, options);
     part.solve(job);
@@ -355,7 +465,10 @@ std::optional<JointWalk> solve_joint_walk(const OffsetProblem& problem, const st
   if (job.cancelled()) return std::nullopt;
   JointWalk walk;
   for (std::size_t i = 0; i < cuts.size(); ++i) {
-    if (parts[i].matches >= options.least_matches && parts[i].sigma_s > 0) walk.parts.push_back(parts[i]);
+    if (parts[i].matches >= options.least_matches && parts[i].sigma_s > 0) {
+      parts[i].sigma_s = std::hypot(parts[i].sigma_s, scatter_of_parts_s(problem, cuts[i]));
+      walk.parts.push_back(parts[i]);
+    }
     walk.sweeps.insert(walk.sweeps.end(), sweeps[i].begin(), sweeps[i].end());
   }
   if (walk.parts.empty()) return std::nullopt;
@@ -364,13 +477,18 @@ std::optional<JointWalk> solve_joint_walk(const OffsetProblem& problem, const st
 }
 
 std::optional<Trend> drift_of(const JointWalk& walk) {
+  constexpr double kUnseen_s = 0.2e-3;  // by which parts of hand-held walks scatter, whatever they say
   std::vector<double> middles_s, offsets_s, sigmas_s;
   for (const JointWalkPart& part : walk.parts) {
     middles_s.push_back(part.middle_s);
     offsets_s.push_back(part.offset_s);
-    sigmas_s.push_back(part.sigma_s);
+    sigmas_s.push_back(std::hypot(part.sigma_s, kUnseen_s));
   }
-  return trend_of(middles_s, offsets_s, sigmas_s);
+  auto trend = trend_of(middles_s, offsets_s, sigmas_s);
+  // Of a few parts that scatter by chance, some lie in a row.
+  constexpr double kFewParts = 1.5;
+  if (trend) trend->sigma *= kFewParts;
+  return trend;
 }
 
 }  // namespace sweepscope

@@ -10,29 +10,35 @@
 namespace sweepscope {
 
 /// The offset of a walk and the walk itself as the unknowns of one least squares. Every point is held against
-/// surfaces that sweeps of the other direction saw, and both sides move: the walk, which is continuous,
-/// linear between knots and accelerates little, and the motor's angle under both. A wrong offset turns the
-/// two directions against each other all along a sweep, whatever the walk does; a body that sways in step
-/// with the motor does so at most between the reversals, where the walk cannot jump. The walk is cut into
-/// parts that are solved each by itself, with a map of its own: cost and memory grow with the length alone,
-/// and the parts tell how far to trust their mean.
+/// surfaces that sweeps of the other direction saw, and both sides move: the walk, a cubic B-spline whose
+/// acceleration changes little, and the motor's angle under both. A wrong offset turns the two directions
+/// against each other all along a sweep, whatever the walk does; a body that sways in step with the motor
+/// does so at most between the reversals, where the walk cannot jump. The walk is cut into parts that are
+/// solved each by itself, with a map of its own: cost and memory grow with the length alone, and the parts
+/// tell how far to trust their mean. Tuned on the walks of tuning/ in tests/benchmark/walks.
 struct JointWalkOptions {
-  MappingOptions mapping;           // how the maps are searched
-  double part_s = 20;               // about how long a part is
-  double knot_s = 0.09;             // between knots of the walk
-  double acceleration_sigma = 0.6;  // rad/s^2 and m/s^2 of a walking body, alike
-  double match_sigma_m = 0.03;      // of a match: neighbours err together
-  double loss_width_m = 0.05;       // Cauchy
-  double offset_sigma_s = 0.01;     // of the offset that it starts from
-  int most_iterations = 6;
-  double step_tolerance = 0.25;     // of the part's sigma: matches come and go with every step
+  MappingOptions mapping;  // how the maps are searched
+  double part_s = 10;      // about how long a part is
+  double knot_s = 0.06;    // between knots of the walk
+  // How freely the acceleration changes: this times what is seen over half sweeps. A wrong offset of a motor
+  // that turns back at once shows in jumps, which no body can imitate: the walk may be as free as that.
+  double jerk_factor = 10;
+  // That of a motor that slows down before shows in a roll as smooth as a body's sway: this times what is
+  // seen over whole sweeps, which tracking errs less in.
+  double jerk_factor_of_smooth_motors = 10;
+  double min_jerk = 0.6;  // rad/s^3 and m/s^3
+  double match_sigma_m = 0.012;
+  double loss_width_m = 0.03;    // Cauchy
+  double offset_sigma_s = 0.01;  // of the offset that it starts from
+  // Every iteration matches anew, and other matches make another answer: the mean of several errs less.
+  int first_iterations = 3, averaged_iterations = 6;
   std::size_t least_matches = 200;  // of a part
 };
 
 struct JointWalkPart {
   double middle_s = 0;  // laser clock
   double offset_s = 0, sigma_s = 0;
-  double step_s = 0;  // the last one
+  double step_s = 0;  // between the means of the first and the last averaged iterations
   std::size_t features = 0, matches = 0;
   double lever_m2 = 0, reach_m2 = 0;  // sums over the matches of (n . (a x p))^2 and of |a x p|^2
   bool converged = false;
@@ -55,7 +61,7 @@ struct JointWalk {
 std::optional<JointWalk> solve_joint_walk(const OffsetProblem& problem, const std::vector<SweepPose>& tracked,
                                           double offset_s, const JointWalkOptions& options, const Job& job);
 
-/// How the offset changes over the walk, from its parts.
+/// How the offset changes over the walk, from its parts. Its sigma allows for how few they are.
 std::optional<Trend> drift_of(const JointWalk& walk);
 
 }  // namespace sweepscope

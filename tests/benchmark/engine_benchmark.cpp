@@ -150,22 +150,20 @@ void stationary_candidate_of_a_room(State& state) {
 }
 
 void track_a_walk(State& state) {
-  for (auto _ : state)
-    benchmark::DoNotOptimize(track(walk().sweeps, Eigen::Vector3d::UnitX(), MappingOptions(), Job()).value());
+  for (auto _ : state) benchmark::DoNotOptimize(track(walk().sweeps, MappingOptions(), Job()).value());
   count_cost(state, walk());
 }
 
 void count_along_a_walk(State& state) {
-  const TrackedWalk tracked = track(walk().sweeps, Eigen::Vector3d::UnitX(), MappingOptions(), Job()).value();
+  const TrackedWalk tracked = track(walk().sweeps, MappingOptions(), Job()).value();
   for (auto _ : state)
-    benchmark::DoNotOptimize(count_matches(walk().sweeps, tracked.sweeps, MappingOptions()));
+    benchmark::DoNotOptimize(count_matches(walk().problem, kTruth_s, tracked.sweeps, MappingOptions()));
   count_cost(state, walk());
 }
 
-void moving_candidate_of_a_walk(State& state) {
+void loam_candidate_of_a_walk(State& state) {
   for (auto _ : state)
-    benchmark::DoNotOptimize(
-        moving_candidate(walk().problem, kTruth_s, Scoring::kTwoStage, MappingOptions(), Job()));
+    benchmark::DoNotOptimize(loam_candidate(walk().problem, kTruth_s, MappingOptions(), Job()));
   count_cost(state, walk());
 }
 
@@ -184,8 +182,7 @@ void growth_with_length(State& state) {
   const Subject& subject = walk_of(int(state.range(0)));
   PeakMemory::forget();
   for (auto _ : state)
-    benchmark::DoNotOptimize(
-        moving_candidate(subject.problem, kTruth_s, Scoring::kTwoStage, MappingOptions(), Job()));
+    benchmark::DoNotOptimize(track(subject.problem, kTruth_s, MappingOptions(), Job()).value());
   count_cost(state, subject);
   state.counters["peak_mb"] = PeakMemory::mb();
 }
@@ -244,7 +241,7 @@ BENCHMARK(odometry_of_a_pair)->Unit(benchmark::kMillisecond);
 BENCHMARK(stationary_candidate_of_a_room)->Unit(benchmark::kMillisecond);
 BENCHMARK(track_a_walk)->Unit(benchmark::kMillisecond);
 BENCHMARK(count_along_a_walk)->Unit(benchmark::kMillisecond);
-BENCHMARK(moving_candidate_of_a_walk)->Unit(benchmark::kMillisecond);
+BENCHMARK(loam_candidate_of_a_walk)->Unit(benchmark::kMillisecond);
 BENCHMARK(growth_with_length)->Arg(20)->Arg(40)->Arg(80)->Unit(benchmark::kMillisecond);
 BENCHMARK(direct_growth_with_length)->Arg(20)->Arg(40)->Arg(80)->Unit(benchmark::kMillisecond);
 BENCHMARK(growth_with_candidates)->Arg(5)->Arg(10)->Arg(20)->Unit(benchmark::kMillisecond);

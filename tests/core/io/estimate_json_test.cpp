@@ -43,6 +43,7 @@ TEST(EstimateJson, HasTheDocumentedKeysInTheDocumentedOrder) {
   "drift_ppm": null,
   "kind": "stationary",
   "kind_reason": "As assumed.",
+  "lost_s": [],
   "warnings": [],
   "reasons": [],
   "criteria": {

@@ -65,21 +65,5 @@ TEST(LeastSquares, AWideResidualWeighsLess) {
   EXPECT_NEAR(cauchy_weight(10, 0.1), 1e-4, 1e-6);
 }
 
-TEST(LeastSquares, ASweepsEquationsShareAPointBetweenItsBeginItsEndAndItsBend) {
-  SweepEquations equations;
-  Matrix18d expected = Matrix18d::Zero();
-  Vector18d gradient = Vector18d::Zero();
-  for (const double u : {0.0, 0.25, 0.9}) {
-    const Vector6d row = distance_jacobian(kPoint + u * Vector3d::UnitY(), kNormal, kPivot);
-    equations.add(row, 0.3 - u, 2.0, u);
-    Vector18d shared;
-    shared << (1 - u) * row, u * row, 4 * u * (1 - u) * row;
-    expected += 2.0 * shared * shared.transpose();
-    gradient += 2.0 * (0.3 - u) * shared;
-  }
-  EXPECT_NEAR((equations.matrix() - expected).norm(), 0, 1e-12);
-  EXPECT_NEAR((equations.gradient() - gradient).norm(), 0, 1e-12);
-}
-
 }  // namespace
 }  // namespace sweepscope

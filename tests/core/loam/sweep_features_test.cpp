@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "core/loam/mapping.hpp"
 #include "tests/core/engine_fixtures.hpp"
 
@@ -72,23 +74,47 @@ TEST_F(PlaceSweeps, ScansThatAreNotUsedAreLeftOut) {
 TEST(SweepMotion, IsTheInterpolatedPose) {
   const Pose begin{rotation_from_vector({0.3, -0.8, 0.2}), {1, 2, 3}},
       end{rotation_from_vector({0.5, -0.6, 0.9}), {2, 2, 1}};
-  const SweepMotion motion(begin, end);
+  const SweepMotion motion(std::array{begin, end});
   const Vector3d p_m(4, -1, 0.5);
   for (const double u : {-0.1, 0.0, 0.4, 1.0})
     EXPECT_NEAR((motion(p_m, u) - interpolate(begin, end, u) * p_m).norm(), 0, 1e-12) << u;
-  EXPECT_NEAR((SweepMotion(begin, begin)(p_m, 0.7) - begin * p_m).norm(), 0, 1e-12);
+  EXPECT_NEAR((SweepMotion(std::array{begin, begin})(p_m, 0.7) - begin * p_m).norm(), 0, 1e-12);
 }
 
-TEST(SweepMotion, BendsInTheMiddleAndNotAtTheEnds) {
+TEST(SweepMotion, TurnsAtItsKnots) {
   SweepPose pose;
-  pose.end.translation_m = {2, 0, 0};
-  pose.bend << 0.01, 0, 0, 0, 0, 0.02;  // rolls 0.01 rad about the way's middle and rises 2 cm
+  pose.knots = {
+      {}, {rotation_from_vector({0.1, 0, 0}), {1, 0, 0}}, {rotation_from_vector({0, 0.2, 0}), {1, 3, 0}}};
   const Vector3d p_m(0, 5, 0);
-  EXPECT_NEAR((pose.motion()(p_m, 0) - p_m).norm(), 0, 1e-12);
-  EXPECT_NEAR((pose.motion()(p_m, 1) - Vector3d(2, 5, 0)).norm(), 0, 1e-12);
-  EXPECT_NEAR((pose.motion()(p_m, 0.5) - Vector3d(1, 5, 0.05 + 0.02)).norm(), 0, 1e-12);
-  for (const double u : {0.0, 0.3, 0.5, 1.0})
-    EXPECT_NEAR((pose.at(u) * p_m - pose.motion()(p_m, u)).norm(), 0, 3e-4) << u;
+  for (const double u : {0.0, 0.2, 0.5, 0.8, 1.0, 1.1})
+    EXPECT_NEAR((pose.motion()(p_m, u) - pose.at(u) * p_m).norm(), 0, 1e-12) << u;
+  EXPECT_NEAR((pose.at(0.5) * p_m - pose.knots[1] * p_m).norm(), 0, 1e-12);
+  EXPECT_NEAR(pose.at(0.75).translation_m.y(), 1.5, 1e-12);
+}
+
+TEST(SweepMotion, OfASweepsFirstPartEndsWhereThatDoes) {
+  const std::array knots{Pose{}, Pose{rotation_from_vector({0, 0, 0.3}), {1, 0, 0}}};
+  const SweepMotion first_half(knots, 0.5);
+  const Vector3d p_m(1, 2, 3);
+  EXPECT_NEAR((first_half(p_m, 0.5) - knots[1] * p_m).norm(), 0, 1e-12);
+}
+
+TEST_F(PlaceSweeps, AnyOfThemCanBePlacedByItself) {
+  SweepPlacer placer(problem_, 0.0);
+  const std::vector<PlacedSweep> all = place_sweeps(problem_, 0.0);
+  ASSERT_EQ(placer.count(), all.size());
+  PlacedSweep last;
+  placer.place(all.size() - 1, last);
+  EXPECT_EQ(last.sweep, all.back().sweep);
+  EXPECT_EQ(last.planes.size(), all.back().planes.size());
+}
+
+TEST_F(PlaceSweeps, ASweepKnowsHowFarTheMotorTurned) {
+  for (const PlacedSweep& sweep : place_sweeps(problem_, 0.0)) {
+    const Sweep& motor = problem_.motor.sweeps[sweep.sweep];
+    EXPECT_GT(sweep.turned_rad.x() * sweep.direction, 0.8 * problem_.motor.range_rad);
+    EXPECT_LT(sweep.turned_rad.x() * motor.direction, 1.2 * problem_.motor.range_rad);
+  }
 }
 
 }  // namespace

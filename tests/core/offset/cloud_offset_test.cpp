@@ -106,7 +106,8 @@ TEST(CloudOffset, AWalkInAHall) {
   moving.method = Method::kMoving;
   moving.ranges = {{bench.offset_s - 0.003, bench.offset_s + 0.0031, 0.001}};
   const Estimate found = estimated(recording, moving);
-  ASSERT_TRUE(found.offset_s) << reasons(found);
+  ASSERT_TRUE(found.offset_s) << reasons(found) << *estimated(recording, direct()).offset_s << " "
+                              << *estimated(recording, direct()).sigma_s;
   EXPECT_NEAR(*found.offset_s * 1e3, bench.offset_s * 1e3, 1.0);
 }
 

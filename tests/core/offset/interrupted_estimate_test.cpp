@@ -70,7 +70,7 @@ TEST(InterruptedWork, MapsOfAWalk) {
     }
     std::string text;
     for (const OffsetMap& map : *maps) {
-      text += fmt::format("{} {} {}\n", map.cloud->size(), map.signed_rotation_rad, map.lost);
+      text += fmt::format("{} {}\n", map.cloud->size(), map.lost);
       for (const StampedPose& pose : map.trajectory)
         text += fmt::format("{} {} {}\n", pose.position_m.x(), pose.position_m.y(), pose.position_m.z());
     }

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "core/loam/matching.hpp"
+
+namespace sweepscope {
+
+/// How sweeps are tracked on the map and how matches are counted. Tuned on the walks of tuning/ in
+/// tests/benchmark/walks.
+struct MappingOptions {
+  PatchOptions patch;
+  double search_radius_m = 0.5;
+  double search_radius_slope = 0.12;  // of the range
+  double loss_width_m = 0.08;         // Cauchy
+  double match_sigma_m = 0.05;        // of a match, against the priors below: its neighbours err together
+
+  double knot_s = 0.033;    // between two knots of the trajectory, about
+  double tie_sigma = 0.01;  // rad and m: how far a sweep may correct the end of the one before
+  // How much the velocity changes: this times what was seen over half sweeps, between these bounds.
+  double acceleration_factor = 1.5;
+  double min_acceleration = 0.5, max_acceleration = 8;  // rad/s^2 and m/s^2
+  double first_acceleration = 1;                        // until there is something to learn from
+  double velocity_sigma = 2;                            // rad/s and m/s
+
+  int max_iterations = 6;
+  int rough_iterations = 2;      // while only a part of the sweep is there ...
+  int rough_stride = 2;          // ... with one feature in so many
+  double step_tolerance = 5e-4;  // m and rad
+  double reuse_within_m = 0.03;  // a match is searched anew once its point moved by more
+
+  double doubtful_below = 0.85;  // part of the usual share of matches: the sweep is tried in other ways
+  double lost_below = 0.5;       // likewise: the sweep does not enter the map
+  int give_up_after = 4;         // lost sweeps in a row: a new map is begun
+  int settling_sweeps = 8;       // not counted: the map is still being begun
+
+  int first_sweeps = 4;        // from which the first pose is found ...
+  int velocity_rounds = 6;     // ... by velocities that are tried in turn ...
+  int first_pose_rounds = 3;   // ... and by matching them to each other, as long as less than this part ...
+  double well_followed = 0.5;  // ... of their features matches
+  std::optional<std::size_t>
+      start;                  // the sweep to begin with, by its place among those that have scans; else ...
+  int max_starts = 6;         // ... sweeps to begin with that are tried, as long as less than this part ...
+  double well_tracked = 0.8;  // ... of all features matches, or the sweeps alternate by more than this:
+  double most_alternation_rad = 0.07;  // sweeps of one direction lie beside those of the other, on a map each
+
+  // Instead of the above, for criteria that are counted at LOAM's own poses.
+  double loam_knot_s = 0.25, loam_acceleration = 0.6, loam_tie_sigma = 0.005;
+
+  double edge_gate_m = 0.1;   // delta_E of equation 4
+  double plane_gate_m = 0.1;  // delta_H of equation 5
+  double cost_cap_m = 0.3;    // what a feature without a match pays in the capped cost
+};
+
+}  // namespace sweepscope

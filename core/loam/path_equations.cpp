@@ -1,0 +1,139 @@
+#include "core/loam/path_equations.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+
+namespace sweepscope {
+namespace {
+
+// How a pose's step about the pivot moves the pose itself.
+Matrix6d own_step(const Pose& pose, const Eigen::Vector3d& pivot_m) {
+  const Eigen::Vector3d d = pose.translation_m - pivot_m;
+  Matrix6d m = Matrix6d::Identity();
+  m.block<3, 3>(3, 0) << 0, d.z(), -d.y(), -d.z(), 0, d.x(), d.y(), -d.x(), 0;  // step x d = -[d]x step
+  return m;
+}
+
+Vector6d weights_of(const Eigen::Vector2d& sigma) {
+  Vector6d weights;
+  weights << Eigen::Vector3d::Constant(1 / (sigma[0] * sigma[0])),
+      Eigen::Vector3d::Constant(1 / (sigma[1] * sigma[1]));
+  return weights;
+}
+
+}  // namespace
+
+Vector6d difference(const Pose& to, const Pose& from) {
+  Vector6d d;
+  d << vector_from_rotation(to.rotation * from.rotation.conjugate()), to.translation_m - from.translation_m;
+  return d;
+}
+
+PathEquations::PathEquations(std::size_t knots, double end_u)
+    : steps_per_u_(double(knots - 1) / end_u),
+      moments_(knots - 1, Moments{}),
+      prior_matrix_(Eigen::MatrixXd::Zero(Eigen::Index(6 * knots), Eigen::Index(6 * knots))),
+      prior_gradient_(Eigen::VectorXd::Zero(Eigen::Index(6 * knots))) {}
+
+void PathEquations::add(double u, const Vector6d& row, double residual, double weight) {
+  std::array<double, kTerms> terms{};
+  std::size_t term = 0;
+  for (int i = 0; i < 6; ++i) {
+    const double weighted = weight * row[i];
+    for (int j = 0; j <= i; ++j) terms[term++] = weighted * row[j];
+    terms[kTriangle + std::size_t(i)] = weighted * residual;
+  }
+  const double place = u * steps_per_u_;
+  const auto step = std::size_t(std::clamp(place, 0.0, double(moments_.size() - 1)));
+  const double f = place - double(step), f2 = f * f;
+  Moments& to = moments_[step];
+  for (std::size_t k = 0; k < kTerms; ++k) {
+    to[0][k] += terms[k];
+    to[1][k] += f * terms[k];
+    to[2][k] += f2 * terms[k];
+  }
+}
+
+Eigen::MatrixXd PathEquations::point_matrix() const {
+  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(prior_matrix_.rows(), prior_matrix_.cols());
+  for (std::size_t s = 0; s < moments_.size(); ++s) {
+    const Moments& m = moments_[s];
+    const auto at = Eigen::Index(6 * s);
+    std::size_t term = 0;
+    for (int i = 0; i < 6; ++i)
+      for (int j = 0; j <= i; ++j, ++term) {
+        const double first = m[0][term] - 2 * m[1][term] + m[2][term], both = m[1][term] - m[2][term];
+        const auto put = [&](int r, int c) {
+          a(at + r, at + c) += first;
+          a(at + r + 6, at + c + 6) += m[2][term];
+          a(at + r + 6, at + c) += both;
+          a(at + r, at + c + 6) += both;
+        };
+        put(i, j);
+        if (i != j) put(j, i);
+      }
+  }
+  return a;
+}
+
+Eigen::VectorXd PathEquations::point_gradient() const {
+  Eigen::VectorXd g = Eigen::VectorXd::Zero(prior_gradient_.rows());
+  for (std::size_t s = 0; s < moments_.size(); ++s)
+    for (std::size_t i = 0; i < 6; ++i) {
+      const Moments& m = moments_[s];
+      g[Eigen::Index(6 * s + i)] += m[0][kTriangle + i] - m[1][kTriangle + i];
+      g[Eigen::Index(6 * s + i + 6)] += m[1][kTriangle + i];
+    }
+  return g;
+}
+
+// Of knots from `first` on, each of which moves the residual by its matrix.
+void PathEquations::add_difference(std::size_t first, std::span<const Matrix6d> moves,
+                                   const Vector6d& residual, const Vector6d& weights) {
+  for (std::size_t k = 0; k < moves.size(); ++k) {
+    const auto row = Eigen::Index(6 * (first + k));
+    const Matrix6d weighted = moves[k].transpose() * weights.asDiagonal();
+    prior_gradient_.segment<6>(row) += weighted * residual;
+    for (std::size_t l = 0; l < moves.size(); ++l)
+      prior_matrix_.block<6, 6>(row, Eigen::Index(6 * (first + l))) += weighted * moves[l];
+  }
+}
+
+void PathEquations::add_accelerations(std::span<const Pose> knots, const Pose& before,
+                                      const Eigen::Vector2d& sigma, const Eigen::Vector3d& pivot_m) {
+  const Vector6d weights = weights_of(sigma);
+  for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
+    const Pose& last = i == 0 ? before : knots[i - 1];
+    const Vector6d residual = difference(knots[i + 1], knots[i]) - difference(knots[i], last);
+    const std::array<Matrix6d, 3> moves{own_step(last, pivot_m), -2 * own_step(knots[i], pivot_m),
+                                        own_step(knots[i + 1], pivot_m)};
+    if (i == 0)
+      add_difference(0, std::span(moves).last(2), residual, weights);
+    else
+      add_difference(i - 1, moves, residual, weights);
+  }
+}
+
+void PathEquations::add_velocities(std::span<const Pose> knots, double sigma,
+                                   const Eigen::Vector3d& pivot_m) {
+  const Vector6d weights = weights_of({sigma, sigma});
+  for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
+    const std::array<Matrix6d, 2> moves{-own_step(knots[i], pivot_m), own_step(knots[i + 1], pivot_m)};
+    add_difference(i, moves, difference(knots[i + 1], knots[i]), weights);
+  }
+}
+
+void PathEquations::add_tie(const Pose& first_knot, const Pose& given, double sigma,
+                            const Eigen::Vector3d& pivot_m) {
+  const std::array<Matrix6d, 1> moves{own_step(first_knot, pivot_m)};
+  add_difference(0, moves, difference(first_knot, given), weights_of({sigma, sigma}));
+}
+
+std::vector<Vector6d> PathEquations::solve() const {
+  const Eigen::VectorXd x = -matrix().ldlt().solve(gradient());
+  std::vector<Vector6d> steps;
+  for (Eigen::Index k = 0; k < x.size() / 6; ++k) steps.push_back(x.segment<6>(6 * k));
+  return steps;
+}
+
+}  // namespace sweepscope

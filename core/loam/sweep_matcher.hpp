@@ -1,0 +1,89 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/loam/feature_map.hpp"
+#include "core/loam/mapping_options.hpp"
+#include "core/loam/patch_search.hpp"
+#include "core/loam/path_equations.hpp"
+#include "core/loam/sweep_features.hpp"
+#include "core/loam/sweep_pose.hpp"
+
+namespace sweepscope {
+
+/// The counts behind equations 6 and 7, a cost over all sharp features in which a miss pays the cap, and the
+/// turn about the motor's axis that the matches ask for.
+struct MatchCount {
+  std::size_t features = 0, matches = 0;
+  double distance_sum_m = 0;
+  double capped_sum_m = 0;
+  double roll_moment_m2 = 0, roll_inertia_m2 = 0;  // sums over all patches found
+
+  double mean_distance_m() const { return matches == 0 ? 0.0 : distance_sum_m / double(matches); }
+  double capped_cost_m() const { return features == 0 ? 0.0 : capped_sum_m / double(features); }
+  double matched_part() const { return features == 0 ? 0.0 : double(matches) / double(features); }
+  /// Of the sweeps against those of the other direction, in their direction of turning.
+  double roll_rad() const { return roll_inertia_m2 > 0 ? roll_moment_m2 / roll_inertia_m2 : 0.0; }
+  /// Adds one feature; `distance_m` counts where it was `found`.
+  void add(bool found, double distance_m, double gate_m, double cap_m);
+  MatchCount& operator+=(const MatchCount& other);
+};
+
+/// The map that LOAM keeps of the edges and the planes seen so far.
+struct SweepMaps {
+  FeatureMap edges, planes;
+
+  void insert(const PlacedSweep& sweep, const SweepPose& pose);
+};
+
+/// How a map is searched; `grown`: after it holds several sweeps, it is searched less widely.
+SearchRule search_rule(const MappingOptions& options, bool grown, SweepFilter filter);
+
+/// One sweep's matches with the map, kept from iteration to iteration while their points hardly move.
+class SweepMatcher {
+ public:
+  /// All must outlive it.
+  SweepMatcher(const SweepMaps& maps, const PlacedSweep& sweep, const SearchRule& rule,
+               const MappingOptions& options);
+
+  /// Which features are matched: those up to `end_u`, one in `stride`.
+  struct Share {
+    double end_u;
+    std::size_t stride;
+  };
+  /// Adds the matches at the given motion to the equations, the knots' steps taken about `pivot_m`; counts
+  /// them too.
+  MatchCount linearise(const SweepMotion& motion, Share share, const Eigen::Vector3d& pivot_m,
+                       PathEquations& equations);
+
+ private:
+  // A feature to be matched, and the patch that it was matched to last.
+  template <typename Patch>
+  struct Matched {
+    Eigen::Vector3d p_in_base_m;
+    double u;
+    float range_m;
+    std::optional<Patch> patch = std::nullopt;
+    Eigen::Vector3d searched_at_m = Eigen::Vector3d::Constant(1e30);
+  };
+  template <typename Patch>
+  static std::vector<Matched<Patch>> to_match(const std::vector<PlacedFeature>& features);
+  template <typename Patch, typename Search>
+  void refresh(Matched<Patch>& feature, const Eigen::Vector3d& p_m, const Search& search) const;
+  double weight_of(double distance_m) const;
+
+  const SweepMaps& maps_;
+  SearchRule rule_;
+  const MappingOptions& options_;
+  std::vector<Matched<PlanePatch>> planes_;
+  std::vector<Matched<LinePatch>> edges_;
+  Neighbours near_;
+};
+
+/// A sweep's matches at a pose, nothing solved for; `motor_axis` in the base frame.
+MatchCount count_sweep(const SweepMaps& maps, const PlacedSweep& sweep, const SweepPose& pose,
+                       const SearchRule& rule, const MappingOptions& options,
+                       const Eigen::Vector3d& motor_axis);
+
+}  // namespace sweepscope

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <vector>
+
+#include "core/loam/mapping_options.hpp"
+#include "core/loam/sweep_matcher.hpp"
+
+namespace sweepscope {
+
+/// Follows a rig sweep by sweep on the map that it builds. A sweep's trajectory is solved for while its scan
+/// lines arrive, a knot at a time (constant velocity first), then as a whole: the sum over its matches of the
+/// squared distances from the map's planes and lines, the changes of velocity and, weakly, the velocities.
+/// Where few features match, the sweep is tried with other motions, and the one that matches best is taken.
+class Tracker {
+ public:
+  /// `first`: where the rig was during the first sweep, which no map is there for.
+  Tracker(const MappingOptions& options, SweepPose first);
+
+  /// The pose of the next sweep; those that are not lost go into the map.
+  SweepPose add(const PlacedSweep& sweep);
+
+  /// From now on the sweeps before `first`, the latest one first, each as `reversed` gives it.
+  void turn_back(const SweepPose& first);
+
+  int lost_in_a_row() const { return lost_in_a_row_; }
+  /// Of the latest sweep, at its own pose, before it entered the map.
+  const MatchCount& last_count() const { return last_count_; }
+  /// Whether the map held several sweeps before the latest one.
+  bool settled() const { return sweeps_ > options_.settling_sweeps; }
+
+ private:
+  // One way to begin the search for a sweep's motion.
+  struct Attempt {
+    double acceleration_factor;  // how far the motion may change, against what is usual
+    double carried;              // part of the velocity that goes on
+  };
+  struct Solved {
+    std::vector<Pose> path;
+    MatchCount count;
+  };
+
+  void begin_path(const PlacedSweep& sweep, std::size_t steps);
+  Solved solved(const PlacedSweep& sweep, std::size_t steps) const;
+  Solved attempt(const PlacedSweep& sweep, std::size_t steps, const SearchRule& rule,
+                 const Attempt& attempt) const;
+  double improve(std::vector<Pose>& path, PathEquations& equations, double acceleration_factor,
+                 const Eigen::Vector3d& pivot_m) const;
+  std::vector<Pose> extrapolated(std::vector<Pose> path, double carried) const;
+  void judge(const MatchCount& count);
+  void learn_acceleration(const SweepPose& pose);
+  bool grown() const { return sweeps_ >= options_.settling_sweeps; }
+
+  const MappingOptions& options_;
+  SweepPose first_;
+  std::vector<Pose> path_;  // the present sweep's knots
+  Pose before_;             // a step before them
+  double step_s_ = 0, end_s_ = 0;
+  Eigen::Vector2d acceleration2_;  // mean square of a component: of the rotation, of the translation
+  Vector6d last_twist_per_s_ = Vector6d::Zero();  // of the last sweep's second half
+  int learned_ = 0;
+  double usual_part_ = 0.8;  // of the features that find a match
+  int sweeps_ = 0, lost_in_a_row_ = 0;
+  MatchCount last_count_;
+  SweepMaps maps_;
+};
+
+/// The sweep, or its pose, as if time ran backwards from 0.
+PlacedSweep reversed(PlacedSweep sweep);
+SweepPose reversed(SweepPose pose);
+
+/// The pose of the first of these sweeps. No map is there to match it to, so that its velocity is guessed,
+/// tried and averaged (taken at its word the new estimate would swing to and fro for ever); then it is
+/// matched to the map of the others, and they to its, in turn.
+SweepPose find_first_pose(const std::vector<PlacedSweep>& sweeps, const MappingOptions& options);
+
+}  // namespace sweepscope

@@ -1,0 +1,105 @@
+#include "core/offset/walk.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/offset/direct.hpp"
+
+namespace sweepscope {
+
+WalkOptions walk_options(const MappingOptions& mapping, const SearchScale& scale) {
+  WalkOptions options;
+  options.mapping = options.joint.mapping = mapping;
+  options.step_tolerance_s = scale.unit_s / 2;
+  options.max_step_s = 10 * scale.unit_s;
+  options.max_sigma_s = scale.unit_s;
+  return options;
+}
+
+std::optional<SolvedWalk> solve_walk(const OffsetProblem& problem, double first_offset_s,
+                                     const WalkOptions& options, const Job& job) {
+  SolvedWalk walk;
+  double offset_s = first_offset_s;
+  MappingOptions mapping = options.mapping;
+  for (int pass = 0; pass < options.max_passes && !walk.near; ++pass) {
+    auto tracked = track(problem, offset_s, mapping, job);
+    if (!tracked) return std::nullopt;
+    if (tracked->well) mapping.start = tracked->start;
+    walk.tracked_at_s = offset_s;
+    walk.lost = tracked->tracked() < options.min_sweeps;
+    walk.sweeps = std::move(tracked->sweeps);
+    if (walk.lost) return walk;
+    walk.joint = solve_joint_walk(problem, walk.sweeps, offset_s, options.joint, job);
+    if (job.cancelled()) return std::nullopt;
+    if (!walk.joint) return walk;
+    const double step_s = walk.joint->offset_s - offset_s;
+    if (walk.joint->sigma_s > options.max_sigma_s) return walk;
+    walk.near = std::abs(step_s) < options.step_tolerance_s;
+    offset_s += std::clamp(step_s, -options.max_step_s, options.max_step_s);
+  }
+  return walk;
+}
+
+std::optional<SolvedWalk> find_walk(const OffsetProblem& problem, double middle_s,
+                                    const MappingOptions& mapping, const Job& job) {
+  const SearchScale scale = search_scale(problem.motor);
+  const std::vector<double> window_s{middle_s - scale.half_width_s, middle_s + scale.half_width_s};
+  const CoarseSearch coarse = search_coarsely(problem, window_s, scale, job);
+  if (job.cancelled()) return std::nullopt;
+  return solve_walk(problem, coarse.best ? coarse.offset_s() : middle_s, walk_options(mapping, scale), job);
+}
+
+namespace {
+
+double length_s(const std::vector<Interval>& intervals) {
+  double sum_s = 0;
+  for (const Interval& interval : intervals) sum_s += interval.end_s - interval.begin_s;
+  return sum_s;
+}
+
+// The fastest that the rig turned while it was followed.
+double followed_rad_s(const std::vector<SweepPose>& sweeps) {
+  double fastest_rad_s = 0;
+  for (const SweepPose& sweep : sweeps)
+    if (!sweep.lost)
+      for (const Vector6d& twist_per_s : twists_per_s(sweep, 2))
+        fastest_rad_s = std::max(fastest_rad_s, twist_per_s.head<3>().norm());
+  return fastest_rad_s;
+}
+
+}  // namespace
+
+std::vector<Interval> lost_times(const std::vector<SweepPose>& sweeps, const Recording& recording) {
+  std::vector<Interval> lost = lost_intervals(sweeps);
+  const double first_s = recording.scans.front().first_beam_s;
+  for (Interval& interval : lost) {
+    interval.begin_s = std::max(0.0, interval.begin_s - first_s);
+    interval.end_s -= first_s;
+  }
+  return lost;
+}
+
+std::optional<std::string> lost_warning(const std::vector<Interval>& lost) {
+  if (lost.empty()) return std::nullopt;
+  std::string when;
+  constexpr std::size_t kMost = 5;
+  for (std::size_t i = 0; i < std::min(kMost, lost.size()); ++i)
+    when += fmt::format("{}{:.1f} to {:.1f} s", i == 0 ? "" : ", ", lost[i].begin_s, lost[i].end_s);
+  if (lost.size() > kMost) when += fmt::format(" and {} more times", lost.size() - kMost);
+  return fmt::format("Track was lost for {:.1f} s, which are left out: {}.", length_s(lost), when);
+}
+
+std::string lost_reason(const SolvedWalk& walk, const Recording& recording) {
+  const std::vector<Interval> lost = lost_times(walk.sweeps, recording);
+  std::string text = fmt::format("LOAM lost track for {:.1f} s", length_s(lost));
+  if (!lost.empty()) text += fmt::format(", first at {:.1f} s", lost.front().begin_s);
+  constexpr double kDegree = std::numbers::pi / 180;
+  const double followed_deg_s = followed_rad_s(walk.sweeps) / kDegree;
+  if (followed_deg_s > 1) text += fmt::format("; it followed turns of up to {:.0f} deg/s", followed_deg_s);
+  return text + ". Turn more slowly, at most by 40 deg/s, above all in the first 5 s.";
+}
+
+}  // namespace sweepscope

@@ -1,0 +1,69 @@
+// The odometry of others on the sweeps of a walk, at its true offset:
+//
+//   peer_odometry kiss-icp VOXEL_M STEM OUT.tum          kiss-icp-skewed: without its deskewing
+//   peer_odometry loam_velodyne SCALE STEM OUT.tum
+//
+// STEM.bag and STEM.truth.json are the walk. Prints the seconds that a processor worked for a second of
+// recording.
+#include <fmt/format.h>
+
+#include <ctime>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "core/io/trajectory_file.hpp"
+#include "core/recording/read_recording.hpp"
+#include "peers.hpp"
+
+namespace sweepscope {
+namespace {
+
+template <typename T>
+T must(Result<T> result) {
+  if (!result) throw std::runtime_error(result.error().message);
+  if constexpr (!std::is_void_v<T>) return std::move(*result);
+}
+
+std::vector<StampedPose> poses_of(const std::string& peer, const std::vector<SweepCloud>& clouds,
+                                  double setting) {
+  if (peer == "kiss-icp") return kiss_icp_poses(clouds, setting, true);
+  if (peer == "kiss-icp-skewed") return kiss_icp_poses(clouds, setting, false);
+  if (peer == "loam_velodyne") return loam_velodyne_poses(clouds, setting);
+  throw std::runtime_error("there is no peer " + peer);
+}
+
+int run(const std::vector<std::string>& words) {
+  if (words.size() != 4) {
+    fmt::print(stderr,
+               "peer_odometry kiss-icp VOXEL_M STEM OUT.tum | kiss-icp-skewed VOXEL_M STEM OUT.tum | "
+               "loam_velodyne SCALE STEM OUT.tum\n");
+    return 2;
+  }
+  const double setting = std::stod(words[1]);
+  const std::string& stem = words[2];
+  const Recording recording = must(read_recording(stem + ".bag", {}, Job()));
+  const double offset_ms = nlohmann::json::parse(std::ifstream(stem + ".truth.json"))["offset_ms"];
+  const std::vector<SweepCloud> clouds = sweep_clouds(recording, offset_ms / 1e3);
+  if (clouds.empty()) throw std::runtime_error(stem + " has no whole sweep");
+  const std::clock_t begin = std::clock();
+  const std::vector<StampedPose> poses = poses_of(words[0], clouds, setting);
+  const double worked_s = double(std::clock() - begin) / CLOCKS_PER_SEC;
+  must(write_tum(words[3], poses, recording.epoch_ns));
+  fmt::print("{:.4f}\n", worked_s / (clouds.back().end_s - clouds.front().begin_s));
+  return 0;
+}
+
+}  // namespace
+}  // namespace sweepscope
+
+int main(int argc, char** argv) {
+  try {
+    return sweepscope::run({argv + 1, argv + argc});
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "peer_odometry: {}\n", error.what());
+    return 1;
+  }
+}
