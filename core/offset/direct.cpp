@@ -10,7 +10,6 @@
 #include "core/offset/direct_moving.hpp"
 #include "core/offset/direct_stationary.hpp"
 #include "core/offset/identifiability.hpp"
-#include "core/offset/still_motion.hpp"
 #include "core/offset/uncertainty.hpp"
 
 namespace sweepscope {
@@ -84,8 +83,25 @@ void judge_convergence(bool converged, double last_step_s, double sigma_s, Estim
   (small ? result.warnings : result.reasons).push_back("The least squares did not converge.");
 }
 
+// What the motion of a rig that is treated as stationary leaves uncertain. From one sweep to the next it
+// moves half as far as to the next but one, and an error of the offset turns the two against each other by
+// twice the motor's speed times it; motion one way and the other averages out over the pairs.
+double motion_sigma_s(const MotionTest& motion, double lever_m, double speed_rad_s) {
+  if (!motion.moving()) return 0;
+  return motion.median_apart_m / 2 / (2 * speed_rad_s * lever_m) /
+         std::sqrt(double(std::max<std::size_t>(1, motion.pairs)));
+}
+
+Remark motion_reason(double sigma_s, const SearchScale& scale) {
+  if (sigma_s < scale.unit_s) return std::nullopt;
+  return fmt::format(
+      "The rig moved too far from sweep to sweep to be treated as stationary: that alone leaves the offset "
+      "uncertain by +- {:.1f} ms.",
+      sigma_s * 1e3);
+}
+
 void estimate_standing(const OffsetProblem& problem, double coarse_s, const std::vector<double>& window_s,
-                       const SearchScale& scale, const Job& job, Estimate& result) {
+                       const SearchScale& scale, const MotionTest& motion, const Job& job, Estimate& result) {
   const StillGrid grid = still_grid(problem);
   const StationaryDirect found = solve_stationary(grid, coarse_s, {}, job);
   if (job.cancelled()) return;
@@ -100,11 +116,12 @@ void estimate_standing(const OffsetProblem& problem, double coarse_s, const std:
   judge_convergence(found.converged, found.step_s, sigma_s.value_or(0), result);
   if (sigma_s)
     sigma_s = std::hypot(*sigma_s, unseen_sigma_s(*problem.recording, problem.motor, found.offset_s));
+  const double of_motion_s = motion_sigma_s(motion, found.lever_m, problem.motor.median_speed_rad_s);
+  if (const auto moved_far = motion_reason(of_motion_s, scale))
+    result.reasons.push_back(*moved_far);
+  else if (sigma_s)
+    sigma_s = std::hypot(*sigma_s, of_motion_s);
   judge_drift(trend_of(found.block_s, found.block_offset_s), duration_s(problem), sigma_s, result);
-  // Clocks that drift apart turn the last sweep against the first, too.
-  if (result.reasons.empty())
-    add(result.reasons,
-        standing_reason(shift_from_first_to_last(grid, found.offset_s), problem.features->range_noise_m));
   sigma_s = widened_by_halves(sigma_s, found.block_offset_s, result);
   answer(found.offset_s, sigma_s, found.residual_m, scale, window_s, result);
 }
@@ -128,8 +145,8 @@ void warn_of_sway(double sway_rad, Estimate& result) {
   constexpr double kUsual_rad = 0.014;  // of any walk: the sweeps' own scatter
   if (sway_rad < kUsual_rad) return;
   result.warnings.push_back(fmt::format(
-      "The trajectory turns to and fro with the motor, by {:.1f} deg from sweep to sweep: the rig "
-      "swayed in step with it, or the sweeps have too little in common. Another pace or another "
+      "The trajectory turns to and fro in step with the motor, by {:.1f} deg from sweep to sweep: the rig "
+      "swayed like that, or the sweeps have too little in common. Another pace or another "
       "motor speed would make the answer surer.",
       sway_rad * 180 / std::numbers::pi));
 }
@@ -186,7 +203,8 @@ CoarseSearch search_coarsely(const OffsetProblem& problem, const std::vector<dou
 }
 
 void estimate_directly(const OffsetProblem& problem, const CoarseSearch& coarse, bool moving,
-                       const MappingOptions& mapping, const Job& job, Estimate& result) {
+                       const MotionTest& motion, const MappingOptions& mapping, const Job& job,
+                       Estimate& result) {
   const SearchScale scale = search_scale(problem.motor);
   result.curve = coarse.curve;
   if (!coarse.best) {
@@ -209,7 +227,7 @@ void estimate_directly(const OffsetProblem& problem, const CoarseSearch& coarse,
   if (moving)
     estimate_walking(problem, coarse.offset_s(), window_s, scale, mapping, job, result);
   else
-    estimate_standing(problem, coarse.offset_s(), window_s, scale, job, result);
+    estimate_standing(problem, coarse.offset_s(), window_s, scale, motion, job, result);
 }
 
 }  // namespace sweepscope

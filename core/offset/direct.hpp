@@ -24,8 +24,9 @@ CoarseSearch search_coarsely(const OffsetProblem& problem, const std::vector<dou
                              const SearchScale& scale, const Job& job);
 
 /// The direct method: writes answer, evidence, warnings and reasons into `result`, which knows its recording,
-/// sweeps and scans already.
+/// sweeps and scans already. `motion` is what the motion test found, however the rig is treated.
 void estimate_directly(const OffsetProblem& problem, const CoarseSearch& coarse, bool moving,
-                       const MappingOptions& mapping, const Job& job, Estimate& result);
+                       const MotionTest& motion, const MappingOptions& mapping, const Job& job,
+                       Estimate& result);
 
 }  // namespace sweepscope

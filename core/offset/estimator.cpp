@@ -44,6 +44,15 @@ double rounded_to(double value, double step) {
   return std::round(value / step) * step;
 }
 
+// Why a rig is taken to have moved.
+std::string moved_text(const MotionTest& test) {
+  if (4 * test.moved <= test.pairs && test.moved_slowly())
+    return "The rig moved: its last sweeps do not fall on its first ones.";
+  return fmt::format(
+      "The rig moved: {} of {} pairs of sweeps of the same direction do not fall on each other.", test.moved,
+      test.pairs);
+}
+
 // One estimate on its way: what it works on and what it has found so far.
 class Search {
  public:
@@ -100,7 +109,7 @@ class Search {
   CurveValue decisive() const { return moving() ? &CurvePoint::e_m : &CurvePoint::d; }
 
   Result<Estimate> directly() {
-    estimate_directly(problem_, coarse_, moving(), options_.mapping, job_, result_);
+    estimate_directly(problem_, coarse_, moving(), motion_, options_.mapping, job_, result_);
     return std::move(result_);
   }
 
@@ -151,7 +160,8 @@ class Search {
     }
     coarse_ = search_coarsely(problem_, {least_s, greatest_s}, scale_, job_);
     if (job_.cancelled()) return false;
-    judge_kind(test_motion(still_grid(problem_), coarse_offset_s(least_s, greatest_s)));
+    motion_ = test_motion(still_grid(problem_), coarse_offset_s(least_s, greatest_s));
+    judge_kind(motion_);
     return true;
   }
 
@@ -164,6 +174,8 @@ class Search {
     if (options_.assume) {
       kind_ = *options_.assume;
       result_.kind_reason = "As assumed.";
+      if (kind_ == Method::kStationary && test.moving())
+        result_.warnings.push_back(moved_text(test) + " It is treated as stationary, as assumed.");
     } else if (test.answered()) {
       kind_ = test.moving() ? Method::kMoving : Method::kStationary;
       result_.kind_reason = fmt::format(
@@ -179,16 +191,14 @@ class Search {
     method_ = options_.method.value_or(kind_);
     result_.method = name_of(method_);
     if (method_ == Method::kStationary && kind_ == Method::kMoving)
-      result_.reasons.push_back(fmt::format(
-          "The rig moved: {} of {} pairs of sweeps of the same direction do not fall on each other. Use "
-          "--method moving, or --assume stationary if it did stand still.",
-          test.moved, test.pairs));
+      result_.reasons.push_back(moved_text(test) +
+                                " Use --method moving, or --assume stationary if it was stationary.");
     const std::size_t least_sweeps = std::size_t(options_.mapping.settling_sweeps) + 12;
     if (moving() && result_.sweeps < least_sweeps)
-      result_.reasons.push_back(
-          fmt::format("The recording is too short for a moving rig: {} sweeps, at least {} are "
-                      "needed, and 40 s of walking for a good answer.",
-                      result_.sweeps, least_sweeps));
+      result_.reasons.push_back(fmt::format(
+          "{}The recording is too short for a moving rig: {} sweeps, at least {} are "
+          "needed, and 40 s of walking for a good answer.",
+          test.moving() && !options_.assume ? moved_text(test) + " " : "", result_.sweeps, least_sweeps));
   }
 
   std::optional<Error> refuse_shard(bool by_default) const {
@@ -432,6 +442,7 @@ class Search {
   OdometryOptions odometry_;
   SearchScale scale_;
   CoarseSearch coarse_;
+  MotionTest motion_;
   Method kind_ = Method::kStationary, method_ = Method::kStationary;
   std::vector<std::size_t> pairs_;
   SolvedWalk walk_;

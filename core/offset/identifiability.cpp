@@ -119,14 +119,6 @@ Remark lever_reason(double lever_m, double reach_m) {
       lever_m * kDegree * 1e3);
 }
 
-Remark standing_reason(const std::optional<SweepShift>& shift, double range_noise_m) {
-  if (!shift) return std::nullopt;
-  const double most_m = 0.02 + 0.6 * range_noise_m, most_rad = 0.01 + 0.2 * range_noise_m;
-  if (shift->translation_m < most_m && shift->tilt_rad < most_rad) return std::nullopt;
-  return fmt::format("The rig moved: its last sweep lies {:.0f} mm and {:.1f} deg from its first.",
-                     shift->translation_m * 1e3, shift->tilt_rad / kDegree);
-}
-
 double samples_per_sweep(const MotorTrack& track, const MotorMotion& motor) {
   const double spacing_s = spacing(track.time_s, 1).median_s;
   return spacing_s > 0 ? motor.median_sweep_s / spacing_s : 0;

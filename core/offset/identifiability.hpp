@@ -6,7 +6,6 @@
 
 #include "core/offset/estimate.hpp"
 #include "core/offset/search_window.hpp"
-#include "core/offset/still_motion.hpp"
 #include "core/offset/uncertainty.hpp"
 
 namespace sweepscope {
@@ -39,8 +38,6 @@ Remark lines_reason(double distinct_lines);
 Remark drift_reason(const Trend& trend, double duration_s, double sigma_s);
 /// The scene's surfaces hardly move when the motor's angle is turned: n . (a x p) is small against |a x p|.
 Remark lever_reason(double lever_m, double reach_m);
-/// A rig taken to stand still whose last sweep does not lie where its first one did.
-Remark standing_reason(const std::optional<SweepShift>& shift, double range_noise_m);
 /// How often the encoder samples a sweep; 0 of fewer than two samples.
 double samples_per_sweep(const MotorTrack& track, const MotorMotion& motor);
 /// What the encoder leaves uncertain, whatever the scatter of the sweeps says, since each repeats it: the

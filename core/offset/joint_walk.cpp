@@ -414,7 +414,7 @@ std::vector<Sweeps> parts_of(const Sweeps& sweeps, double part_s) {
 // What each part errs by beside its own sigma, as the parts of walks in tuning/ scatter. Where all its sweeps
 // see the same few angles, a path that is bent alike in each of them fits nearly as well as the true one.
 double scatter_of_parts_s(const OffsetProblem& problem, const Sweeps& sweeps) {
-  constexpr double kUnseen_rad = 0.6e-3, kUnseenOfSameAngles_rad = 2e-3;
+  constexpr double kUnseen_rad = 0.6e-3, kUnseenOfSameAngles_rad = 1.7e-3;
   const bool same = sees_same_angles(*problem.recording, problem.motor, sweeps.size());
   return (same ? kUnseenOfSameAngles_rad : kUnseen_rad) / problem.motor.median_speed_rad_s;
 }

@@ -8,20 +8,25 @@
 
 namespace sweepscope {
 
-/// Whether the rig stood still. A wrong offset turns all sweeps of one direction alike, so sweeps of the same
-/// direction (k and k + 2) fall on each other wherever nothing moved, whatever the offset.
+/// Whether the rig was stationary. A wrong offset turns all sweeps of one direction alike, so sweeps of the
+/// same direction fall on each other wherever nothing moved, whatever the offset.
 struct MotionTest {
-  std::size_t pairs = 0;  // compared; 0: the recording has no two whole sweeps of one direction
-  std::size_t moved = 0;  // pairs that moved, or that could not be registered at all
-  double median_translation_m = 0;
+  std::size_t pairs = 0;  // compared, k and k + 2; 0: the recording has no two whole sweeps of one direction
+  std::size_t moved = 0;  // of these
+  std::size_t far_pairs = 0;        // compared, from the recording's beginning and its end
+  std::size_t far_moved = 0;        // of these: a slow rig hardly moves from one sweep to the next
+  double median_translation_m = 0;  // of the pairs k and k + 2
   double median_rotation_rad = 0;
+  double median_apart_m = 0;  // by how much the shift takes the points along their surfaces' normals, rms
 
   bool answered() const { return pairs > 0; }
-  bool moving() const { return 4 * moved > pairs; }
+  bool moving() const { return 4 * moved > pairs || moved_slowly(); }
+  /// One pair alone may be misled by people who stand near where others stood.
+  bool moved_slowly() const { return far_pairs >= 2 && 5 * far_moved > 3 * far_pairs; }
 };
 
-/// Compares up to 16 pairs spread over the recording, with default options. Fails only where the job is
-/// cancelled.
+/// Compares up to 16 pairs spread over the recording, and up to 4 of its ends, with default options. Fails
+/// only where the job is cancelled.
 Result<MotionTest> test_motion(const Recording& recording, const Job& job);
 
 }  // namespace sweepscope

@@ -1,45 +1,16 @@
 #include "core/offset/still_motion.hpp"
 
 #include <algorithm>
+#include <utility>
 
-#include "core/loam/least_squares.hpp"
+#include "core/offset/sweep_shift.hpp"
 
 namespace sweepscope {
 namespace {
 
-constexpr std::size_t kMostPairs = 16;
-constexpr std::size_t kLeastMatches = 60;
-constexpr double kStillTranslation_m = 0.04;  // what noise of 30 mm leaves of a rig that stands still is less
-constexpr double kStillRotation_rad = 0.02;
+constexpr std::size_t kMaxPairs = 16, kMaxFarPairs = 4;
 
-struct PointOnPlane {
-  Eigen::Vector3d p_m;
-  StillPatch patch;
-};
-
-Pose registered(const std::vector<PointOnPlane>& matches) {
-  constexpr double kLeastEigenvalue = 0.015;  // per match: below, the scene does not tell
-  Pose pose;
-  double loss_width_m = 0.5;
-  for (int iteration = 0; iteration < 12; ++iteration) {
-    Matrix6d a = Matrix6d::Zero();
-    Vector6d g = Vector6d::Zero();
-    for (const auto& [p_m, patch] : matches) {
-      const Eigen::Vector3d moved_m = pose * p_m;
-      const double distance_m = patch.normal.dot(moved_m - patch.centre_m);
-      const double weight = cauchy_weight(distance_m, loss_width_m);
-      const Vector6d row = distance_jacobian(moved_m, patch.normal, Eigen::Vector3d::Zero());
-      a.noalias() += weight * row * row.transpose();
-      g += weight * distance_m * row;
-    }
-    int free_directions = 0;
-    const Vector6d step = solve_determined(a, g, kLeastEigenvalue * double(matches.size()), free_directions);
-    pose = stepped(pose, step, Eigen::Vector3d::Zero());
-    loss_width_m = std::max(0.05, 0.6 * loss_width_m);
-    if (loss_width_m == 0.05 && step.cwiseAbs().maxCoeff() < 1e-5) break;
-  }
-  return pose;
-}
+using SweepPair = std::pair<std::size_t, std::size_t>;
 
 double median(std::vector<double> values) {
   if (values.empty()) return 0.0;
@@ -94,76 +65,107 @@ std::vector<std::size_t> whole_sweeps(const StillGrid& grid, const std::vector<s
   return whole;
 }
 
-}  // namespace
-
-std::optional<SweepShift> shift_between(const StillPoints& points, const LinePool& target,
-                                        const LinePool& source, const StillGrid& grid) {
-  StillPatchOptions patches = still_patch_options(*grid.problem);
-  patches.thickness_m *= 2;
-  std::vector<PointOnPlane> matches;
-  SweepShift shift;
-  for (const std::uint32_t line : source) {
-    StillNeighbours neighbours(points, target, line, patches);
-    for (std::size_t bin = 0; bin < points.bins; ++bin) {
-      const std::size_t cell = line * points.bins + bin;
-      if (!points.placed[cell]) continue;
-      ++shift.features;
-      const StillPatch patch = neighbours.patch(points.angle_rad[cell], bin, grid.range_m[cell]);
-      if (patch.found) matches.push_back({points.p_m[cell], patch});
-    }
-  }
-  shift.matches = matches.size();
-  if (matches.size() < kLeastMatches) return std::nullopt;
-  const Pose pose = registered(matches);
-  shift.translation_m = pose.translation_m.norm();
-  const Eigen::Vector3d rotation_rad = vector_from_rotation(pose.rotation);
-  const Eigen::Vector3d axis = grid.problem->recording->rig.mount.axis.normalized();
-  shift.rotation_rad = rotation_rad.norm();
-  shift.tilt_rad = (rotation_rad - axis.dot(rotation_rad) * axis).norm();
-  return shift;
+// Of the same direction, one after the other, spread over the recording.
+std::vector<SweepPair> near_pairs(const std::vector<std::size_t>& whole) {
+  std::vector<SweepPair> all, chosen;
+  for (const std::size_t sweep : whole)
+    if (std::binary_search(whole.begin(), whole.end(), sweep + 2)) all.push_back({sweep, sweep + 2});
+  const std::size_t stride = std::max<std::size_t>(1, all.size() / kMaxPairs);
+  for (std::size_t i = 0; i < all.size(); i += stride) chosen.push_back(all[i]);
+  return chosen;
 }
+
+// Of the same direction, the first with the last, the second with the last but one, and so on.
+std::vector<SweepPair> far_pairs(const std::vector<std::size_t>& whole) {
+  constexpr std::size_t kMinSweepsApart = 4;
+  std::vector<SweepPair> chosen;
+  std::size_t first = 0, end = whole.size();
+  for (; chosen.size() < kMaxFarPairs && first + 1 < end; ++first) {
+    std::size_t last = end - 1;
+    while (last > first && (whole[last] - whole[first]) % 2 != 0) --last;
+    if (whole[last] - whole[first] < kMinSweepsApart) break;
+    chosen.push_back({whole[first], whole[last]});
+    end = last;
+  }
+  return chosen;
+}
+
+// Found by simulation of stationary rigs among trees and people, and of walks.
+bool moved(const SweepShift& shift) {
+  constexpr double kMinGainedMatches = 12, kMinApart_m = 0.006;
+  return shift.gained_matches > kMinGainedMatches && shift.apart_m > kMinApart_m;
+}
+
+// Whether two pairs, one after the other, show the same long shift, and fit about as well there as at rest.
+bool same_long_shift(const SweepShift& one, const SweepShift& next) {
+  constexpr double kMin_m = 0.15, kMaxDifference = 0.3, kMaxLostMatches = 0.05;
+  const auto fits = [](const SweepShift& shift) {
+    return shift.far_gained_matches > -kMaxLostMatches * double(shift.matches);
+  };
+  const double one_m = one.far_translation_m.norm(), next_m = next.far_translation_m.norm();
+  return std::min(one_m, next_m) > kMin_m && fits(one) && fits(next) &&
+         (one.far_translation_m - next.far_translation_m).norm() < kMaxDifference * std::max(one_m, next_m);
+}
+
+// The shifts of the pairs; those with too few matches are left out.
+class Shifts {
+ public:
+  Shifts(const StillGrid& grid, const std::vector<std::size_t>& sweep_of, const std::vector<SweepPair>& near,
+         const std::vector<SweepPair>& far, double offset_s)
+      : part_(lines_of(grid, sweep_of, sweeps_of(near, far))),
+        points_(place_still(part_, offset_s, StillDetail::kPoints)),
+        pools_(pools_by_sweep(points_)) {}
+
+  std::vector<SweepShift> of(const std::vector<SweepPair>& pairs) const {
+    std::vector<SweepShift> shifts;
+    for (const auto& [target, source] : pairs)
+      if (const auto shift = shift_between(points_, pools_[target], pools_[source], part_))
+        shifts.push_back(*shift);
+    return shifts;
+  }
+
+ private:
+  static std::vector<std::size_t> sweeps_of(const std::vector<SweepPair>& near,
+                                            const std::vector<SweepPair>& far) {
+    std::vector<std::size_t> sweeps;
+    for (const auto* pairs : {&near, &far})
+      for (const auto& [target, source] : *pairs) sweeps.insert(sweeps.end(), {target, source});
+    std::sort(sweeps.begin(), sweeps.end());
+    return sweeps;
+  }
+
+  StillGrid part_;
+  StillPoints points_;
+  std::vector<LinePool> pools_;
+};
+
+}  // namespace
 
 MotionTest test_motion(const StillGrid& grid, double offset_s) {
   const std::vector<std::size_t> sweep_of = sweep_of_lines(grid, offset_s);
   const std::vector<std::size_t> whole = whole_sweeps(grid, sweep_of);
-  std::vector<std::size_t> firsts, chosen, needed;
-  for (const std::size_t sweep : whole)
-    if (std::binary_search(whole.begin(), whole.end(), sweep + 2)) firsts.push_back(sweep);
-  const std::size_t stride = std::max<std::size_t>(1, firsts.size() / kMostPairs);
-  for (std::size_t i = 0; i < firsts.size(); i += stride) {
-    chosen.push_back(firsts[i]);
-    needed.insert(needed.end(), {firsts[i], firsts[i] + 2});
-  }
-  std::sort(needed.begin(), needed.end());
-  const StillGrid part = lines_of(grid, sweep_of, needed);
-  const StillPoints points = place_still(part, offset_s, StillDetail::kPoints);
-  const std::vector<LinePool> pools = pools_by_sweep(points);
+  const std::vector<SweepPair> near = near_pairs(whole), far = far_pairs(whole);
+  const Shifts shifts(grid, sweep_of, near, far, offset_s);
   MotionTest test;
-  std::vector<double> translations_m, rotations_rad;
-  for (const std::size_t first : chosen) {
-    const auto shift = shift_between(points, pools[first], pools[first + 2], part);
-    if (!shift) continue;  // too little to see for either answer
-    ++test.pairs;
-    if (shift->translation_m > kStillTranslation_m || shift->rotation_rad > kStillRotation_rad) ++test.moved;
-    translations_m.push_back(shift->translation_m);
-    rotations_rad.push_back(shift->rotation_rad);
+  const std::vector<SweepShift> of_near = shifts.of(near), of_far = shifts.of(far);
+  std::vector<double> translations_m, rotations_rad, apart_m;
+  for (std::size_t i = 0; i < of_near.size(); ++i) {
+    const bool as_before = i > 0 && same_long_shift(of_near[i - 1], of_near[i]);
+    const bool as_after = i + 1 < of_near.size() && same_long_shift(of_near[i], of_near[i + 1]);
+    const bool long_shift = as_before || as_after;
+    if (long_shift || moved(of_near[i])) ++test.moved;
+    const SweepShift& shift = of_near[i];
+    translations_m.push_back((long_shift ? shift.far_translation_m : shift.translation_m).norm());
+    rotations_rad.push_back(long_shift ? shift.far_rotation_rad : shift.rotation_rad);
+    apart_m.push_back(of_near[i].apart_in_all_m);
   }
+  test.pairs = of_near.size();
+  test.far_pairs = of_far.size();
+  test.far_moved = std::size_t(std::count_if(of_far.begin(), of_far.end(), moved));
   test.median_translation_m = median(translations_m);
   test.median_rotation_rad = median(rotations_rad);
+  test.median_apart_m = median(apart_m);
   return test;
-}
-
-std::optional<SweepShift> shift_from_first_to_last(const StillGrid& grid, double offset_s) {
-  const std::vector<std::size_t> sweep_of = sweep_of_lines(grid, offset_s);
-  const std::vector<std::size_t> whole = whole_sweeps(grid, sweep_of);
-  for (std::size_t back = whole.size(); back-- > 1;) {
-    if ((whole[back] - whole.front()) % 2 != 0) continue;
-    const StillGrid part = lines_of(grid, sweep_of, {whole.front(), whole[back]});
-    const StillPoints points = place_still(part, offset_s, StillDetail::kPoints);
-    const std::vector<LinePool> pools = pools_by_sweep(points);
-    return shift_between(points, pools[whole.front()], pools[whole[back]], part);
-  }
-  return std::nullopt;
 }
 
 }  // namespace sweepscope

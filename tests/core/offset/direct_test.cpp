@@ -188,6 +188,26 @@ TEST(DirectRefuses, ARigThatWasNudged) {
   expect_refused(directly(made(options)), "The rig moved");
 }
 
+TEST(Direct, AnswersForARigThatWasNudgedAndIsTreatedAsStationary) {
+  SimulationOptions options;
+  options.duration_s = 9;
+  options.nudge_m = 0.03;
+  EstimateOptions assumed;
+  assumed.assume = Method::kStationary;
+  const Estimate found = directly(made(options), assumed);
+  ASSERT_TRUE(found.identifiable) << testing::PrintToString(found.reasons);
+  EXPECT_NEAR(*found.offset_s, options.offset_s, 3 * *found.sigma_s);
+  ASSERT_FALSE(found.warnings.empty());
+  EXPECT_NE(found.warnings.front().find("The rig moved"), std::string::npos);
+}
+
+TEST(DirectRefuses, AWalkThatIsTreatedAsStationary) {
+  EstimateOptions assumed;
+  assumed.assume = Method::kStationary;
+  expect_refused(directly(test::simulated("lecture-room", 0.024, 6).recording, assumed),
+                 "too far from sweep to sweep");
+}
+
 TEST(DirectRefuses, ClocksThatDriftApartAndSaysByHowMuch) {
   SimulationOptions options;
   options.duration_s = 10;
