@@ -10,6 +10,7 @@
 #include "app/offset_texts.hpp"
 #include "app/progress.hpp"
 #include "app/say.hpp"
+#include "core/io/trajectory_file.hpp"
 
 namespace sweepscope::app {
 namespace {
@@ -17,6 +18,8 @@ namespace {
 struct Options {
   EstimateInput input;
   EstimateOutput output;
+  std::string poses;  // a trajectory from elsewhere; empty: none
+  bool trust_poses = false;
   std::string resume;  // empty: candidates are not kept
   std::optional<Shard> shard;
 };
@@ -74,10 +77,14 @@ ExitCode conclude_search(const Options& options, const Estimate& found, Candidat
   return ordered ? code : fail(ordered.error());
 }
 
-/// What has no candidates to keep is refused before a file for them is begun.
-Result<void> check_candidates(const Options& options) {
+/// What makes no sense together is refused before a file for candidates is begun.
+Result<void> check_options(const Options& options) {
   const EstimateOptions& search = options.input.estimate;
   const auto refuse = [](const char* why) { return failure(ExitCode::kWrongUsage, why); };
+  if (options.trust_poses && options.poses.empty()) return refuse("--trust-poses needs --poses T.tum");
+  if (!options.poses.empty() && search.method != Method::kDirect)
+    return refuse(
+        "--poses is used by the direct method alone: leave out --method and the options of candidates");
   if (options.shard && (!options.output.json.empty() || !options.output.csv.empty()))
     return refuse("--shard computes candidates; merge takes --json and --csv");
   if (options.shard && search.ranges.empty() && !search.around)
@@ -87,11 +94,24 @@ Result<void> check_candidates(const Options& options) {
   return {};
 }
 
+Result<std::optional<GivenPoses>> read_poses(const Options& options, const Recording& recording) {
+  if (options.poses.empty()) return std::nullopt;
+  auto poses = read_tum(options.poses, recording.epoch_ns);
+  if (!poses) return tl::unexpected(poses.error());
+  return GivenPoses{options.poses, std::move(*poses), options.trust_poses};
+}
+
+std::vector<std::filesystem::path> input_files(const Options& options) {
+  std::vector<std::filesystem::path> files = options.input.recording.input_files();
+  if (!options.poses.empty()) files.emplace_back(options.poses);
+  return files;
+}
+
 ExitCode run(const Options& options, std::vector<std::string> deciding) {
   const auto threads = options.input.recording.limit_threads();
   const std::string path = options.resume.empty() && options.shard ? shard_file(options) : options.resume;
-  const auto checked = check_candidates(options).and_then(
-      [&] { return options.output.check(options.input.recording.input_files(), {path}); });
+  const auto checked =
+      check_options(options).and_then([&] { return options.output.check(input_files(options), {path}); });
   if (!checked) return fail(checked.error());
   std::unique_ptr<CandidateFile> candidates;
   Result<Estimate> found;
@@ -101,6 +121,9 @@ ExitCode run(const Options& options, std::vector<std::string> deciding) {
     if (!recording) return fail(recording.error());
     EstimateOptions estimate_options = options.input.estimate;
     estimate_options.assume = parse_method(options.input.recording.assume);
+    auto poses = read_poses(options, *recording);
+    if (!poses) return fail(poses.error());
+    estimate_options.poses = std::move(*poses);
     if (!path.empty()) {
       auto opened = open_candidates(options, path, std::move(deciding));
       if (!opened) return fail(opened.error());
@@ -112,6 +135,17 @@ ExitCode run(const Options& options, std::vector<std::string> deciding) {
   }
   if (!found) return fail(found.error());
   return conclude_search(options, *found, candidates.get(), path);
+}
+
+void declare_poses(CLI::App& command, Options& options) {
+  command
+      .add_option("--poses", options.poses,
+                  "A moving rig's trajectory from elsewhere (TUM, the base frame's poses), which the walk is "
+                  "expected to be near. Its clock's time shift is found and reported: added to its stamps it "
+                  "gives the laser's clock")
+      ->type_name("T.tum");
+  command.add_flag("--trust-poses", options.trust_poses,
+                   "Take --poses as the truth: the offset and the time shift are the only unknowns");
 }
 
 void declare_candidates(CLI::App& command, Options& options) {
@@ -146,6 +180,7 @@ void add_estimate(CLI::App& app, ExitCode& exit_code) {
   options->input.recording.keep_intensities = false;
   options->input.declare(*command);
   options->output.declare(*command);
+  declare_poses(*command, *options);
   declare_candidates(*command, *options);
   command->callback([options, command, &exit_code] {
     auto& method = options->input.estimate.method;

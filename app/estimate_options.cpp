@@ -24,6 +24,18 @@ std::string criterion_line(const CriterionOptimum& criterion) {
   return fmt::format("  {:<10} {:>9.3f} ms   ({})", where, criterion.offset_s * 1e3, value);
 }
 
+std::string motion_line(const UsedMotion& motion) {
+  const char* kind = motion.kind == UsedMotion::Kind::kPoses      ? "poses"
+                     : motion.kind == UsedMotion::Kind::kOdometry ? "odometry"
+                                                                  : "imu";
+  std::string line =
+      fmt::format("{:<8} {} as {}", kind, motion.name, motion.trusted ? "the truth" : "a prior");
+  if (!motion.time_shift_s) return line;
+  line += fmt::format("; time shift {:.3f} ms", *motion.time_shift_s * 1e3);
+  if (motion.time_shift_sigma_s) line += fmt::format(" +- {:.3f} ms", *motion.time_shift_sigma_s * 1e3);
+  return line + "      t_laser = t_" + kind + " + time shift";
+}
+
 void print_answer(const Estimate& estimate) {
   if (estimate.identifiable) {
     const std::string sigma =
@@ -36,6 +48,7 @@ void print_answer(const Estimate& estimate) {
   print("method   {}, {} sweeps, {} scans, {} candidates\n", estimate.method, estimate.sweeps, estimate.scans,
         estimate.curve.size());
   if (!estimate.kind.empty()) print("kind     {}: {}\n", estimate.kind, estimate.kind_reason);
+  if (estimate.motion) print("{}\n", motion_line(*estimate.motion));
   for (const CriterionOptimum& criterion : estimate.criteria) print("{}\n", criterion_line(criterion));
   for (const std::string& warning : estimate.warnings) say("warning: {}\n", warning);
 }

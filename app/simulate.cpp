@@ -30,7 +30,7 @@ struct Typed {
   SimulationOptions options;
   double offset_ms = 24, noise_mm = 10, encoder_jitter_ms = 0.5;
   double grazing_bias_mm = 0, stamp_jitter_ms = 0, nudge_mm = 0;
-  double noise_per_m_mm = 0, smoothing_ms = 50;
+  double noise_per_m_mm = 0, smoothing_ms = 50, imu_shift_ms = 0;
   std::string mount_error_deg{"0,0,0"}, mount_error_mm{"0,0,0"}, at_m;
 };
 
@@ -106,6 +106,7 @@ Result<SimulationOptions> options_of(const Typed& typed) {
   options.stamp_jitter_s = typed.stamp_jitter_ms / 1e3;
   options.nudge_m = typed.nudge_mm / 1e3;
   options.noise_per_m = typed.noise_per_m_mm / 1e3;
+  options.imu_shift_s = typed.imu_shift_ms / 1e3;
   options.own.placement.smoothing_s = typed.smoothing_ms / 1e3;
   const auto error_deg = triple(typed.mount_error_deg), error_mm = triple(typed.mount_error_mm);
   if (!error_deg) return not_a_triple("--mount-error-deg", typed.mount_error_deg);
@@ -224,6 +225,9 @@ void add_simulate(CLI::App& app, ExitCode& exit_code) {
   option("--encoder-step-deg", options.encoder_step_deg, "The encoder's resolution");
   option("--encoder-hz", options.encoder_hz, "Motor samples per second");
   option("--encoder-jitter-ms", typed->encoder_jitter_ms, "Standard deviation of the sampling instants");
+  CLI::Option* imu = simulate->add_flag("--imu", options.imu,
+                                        "Record a gyroscope on the base besides, as sensor_msgs/Imu on /imu");
+  option("--imu-shift-ms", typed->imu_shift_ms, "t_laser = t_imu + time shift")->needs(imu);
   declare_own_scene(*simulate, scene, *typed);
   declare_faults(*simulate, *typed);
   simulate->callback([typed, &exit_code] { exit_code = run(*typed); });

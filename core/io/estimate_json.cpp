@@ -121,6 +121,43 @@ std::vector<CurvePoint> curve_from_json(const Json& curve) {
   return points;
 }
 
+/// To a nanosecond.
+Json seconds_or_null(const std::optional<double>& seconds) {
+  return seconds ? Json(std::round(*seconds * 1e9) / 1e9) : Json(nullptr);
+}
+
+/// "poses": a file, or a topic of odometry or of an IMU.
+Json motion_to_json(const UsedMotion& motion) {
+  Json object;
+  if (motion.kind == UsedMotion::Kind::kPoses) {
+    object["file"] = motion.name;
+  } else {
+    object["topic"] = motion.name;
+    object["type"] = motion.kind == UsedMotion::Kind::kOdometry ? "odometry" : "imu";
+  }
+  object["as"] = motion.trusted ? "truth" : "prior";
+  object["time_shift_s"] = seconds_or_null(motion.time_shift_s);
+  object["time_shift_sigma_s"] = seconds_or_null(motion.time_shift_sigma_s);
+  return object;
+}
+
+std::optional<UsedMotion> motion_from_json(const Json& document) {
+  const auto found = document.find("poses");
+  if (found == document.end() || found->is_null()) return std::nullopt;
+  if (!found->is_object()) throw BadValue("poses is not an object");
+  UsedMotion motion;
+  const std::string type = optional_text(*found, "type");
+  if (found->contains("file"))
+    motion.name = required<std::string>(*found, "file", "poses.");
+  else
+    motion.name = required<std::string>(*found, "topic", "poses.");
+  if (!type.empty()) motion.kind = type == "imu" ? UsedMotion::Kind::kImu : UsedMotion::Kind::kOdometry;
+  motion.trusted = required<std::string>(*found, "as", "poses.") == "truth";
+  motion.time_shift_s = optional_number(*found, "time_shift_s", "poses.");
+  motion.time_shift_sigma_s = optional_number(*found, "time_shift_sigma_s", "poses.");
+  return motion;
+}
+
 std::vector<CriterionOptimum> criteria_from_json(const Json& criteria) {
   if (!criteria.is_object()) throw BadValue("criteria is not an object");
   std::vector<CriterionOptimum> optima;
@@ -157,6 +194,7 @@ Estimate estimate_from_json(const Json& document) {
   estimate.kind = optional_text(document, "kind");
   estimate.kind_reason = optional_text(document, "kind_reason");
   estimate.lost = intervals_from_json(document, "lost_s");
+  estimate.motion = motion_from_json(document);
   estimate.warnings = required<std::vector<std::string>>(document, "warnings");
   estimate.reasons = required<std::vector<std::string>>(document, "reasons");
   estimate.criteria = criteria_from_json(member(document, "criteria", ""));
@@ -186,6 +224,7 @@ std::string estimate_to_json(const Estimate& estimate, Timing timing) {
   document["lost_s"] = Json::array();
   for (const Interval& lost : estimate.lost)
     document["lost_s"].push_back({to_millisecond(lost.begin_s), to_millisecond(lost.end_s)});
+  if (estimate.motion) document["poses"] = motion_to_json(*estimate.motion);
   document["warnings"] = estimate.warnings;
   document["reasons"] = estimate.reasons;
   document["criteria"] = Json::object();

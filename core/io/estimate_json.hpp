@@ -13,8 +13,8 @@ namespace sweepscope {
 enum class Timing { kWritten, kNull };
 
 /// The estimate as a JSON object (schema "sweepscope.estimate/1"), keys in a fixed order, offsets in
-/// milliseconds, null where a value is absent, with a line end. Offsets keep 1e-9 ms. An estimate that is not
-/// identifiable has offset_ms and sigma_ms null.
+/// milliseconds, null where a value is absent, with a line end; "poses" only where a motion from elsewhere
+/// was used. Offsets keep 1e-9 ms. An estimate that is not identifiable has offset_ms and sigma_ms null.
 std::string estimate_to_json(const Estimate& estimate, Timing timing = Timing::kWritten);
 
 /// Reads what estimate_to_json wrote; keys that it does not know are passed over. `name` stands for the file

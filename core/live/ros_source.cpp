@@ -60,7 +60,9 @@ class RosSource : public LiveSource {
     constexpr std::uint32_t kClouds = 50, kOthers = 2000;  // clouds are of megabytes each
     for (const RosTopic& topic : link_->topics()) {
       const auto* const type = find_message_type(topic.type);
-      if (type != nullptr && subscribed_.insert(topic.name).second)
+      if (type == nullptr || type->kind == MessageKind::kImu || type->kind == MessageKind::kOdometry)
+        continue;
+      if (subscribed_.insert(topic.name).second)
         link_->subscribe(topic.name, type->kind == MessageKind::kCloud ? kClouds : kOthers);
     }
   }

@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 
+#include "core/loam/given_motion.hpp"
 #include "core/loam/tracker.hpp"
 
 namespace sweepscope {
@@ -20,12 +21,25 @@ struct Range {
   std::size_t size() const { return end - first; }
 };
 
-// How far a sweep's features lie from where the last sweep saw them, were the rig at rest.
+SweepPose pose_of(const PlacedSweep& sweep) {
+  SweepPose pose;
+  pose.sweep = sweep.sweep;
+  pose.direction = sweep.direction;
+  pose.begin_s = sweep.begin_s;
+  pose.end_s = sweep.end_s;
+  return pose;
+}
+
+// How far a sweep's features lie from where the last sweep saw them, were the rig at rest or moved as given.
 double cost_at_rest_m(const PlacedSweep& from, const PlacedSweep& to, const MappingOptions& options) {
   SweepMaps maps;
-  maps.insert(from, SweepPose{});
   const SearchRule rule = search_rule(options, false, SweepFilter::kAny);
-  return count_sweep(maps, to, SweepPose{}, rule, options, Eigen::Vector3d::Zero()).capped_cost_m();
+  const auto pose = [&](const PlacedSweep& sweep) {
+    const bool given = options.given && options.given->covers(from.begin_s, to.end_s);
+    return given ? along(*options.given, pose_of(sweep), Pose{}, from.begin_s, options.knot_s) : SweepPose{};
+  };
+  maps.insert(from, pose(from));
+  return count_sweep(maps, to, pose(to), rule, options, Eigen::Vector3d::Zero()).capped_cost_m();
 }
 
 // A recording mostly begins within a sweep. What is left of that one may see too little to be matched to.
@@ -187,11 +201,7 @@ class Walk {
       const SweepPose* last = i > 0 ? &poses_[i - 1] : nullptr;
       const bool tracked = pose.stretch > 0;
       if (!tracked) {
-        const PlacedSweep sweep = source_.place(i);
-        pose.sweep = sweep.sweep;
-        pose.direction = sweep.direction;
-        pose.begin_s = sweep.begin_s;
-        pose.end_s = sweep.end_s;
+        pose = pose_of(source_.place(i));
         pose.lost = true;
         if (last != nullptr) pose.knots = {last->end(), last->at(2)};
         continue;
@@ -213,7 +223,22 @@ class Walk {
   MatchCount count_;
 };
 
+// Along a given motion that is the truth; sweeps that it does not cover are lost.
+TrackedWalk follow_given(const SweepSource& source, const MappingOptions& options) {
+  TrackedWalk walk;
+  const GivenMotion& given = *options.given;
+  for (std::size_t i = 0; i < source.count; ++i) {
+    SweepPose pose = pose_of(source.place(i));
+    pose = along(given, pose, given.at(given.begin_s()), given.begin_s(), options.knot_s);
+    pose.lost = !given.covers(pose.begin_s, pose.end_s);
+    pose.stretch = 1;
+    walk.sweeps.push_back(std::move(pose));
+  }
+  return walk;
+}
+
 Result<TrackedWalk> track(const SweepSource& source, const MappingOptions& options, const Job& job) {
+  if (options.given && options.given->is_truth()) return follow_given(source, options);
   Walk walk(source, options, job);
   if (job.cancelled() || !walk.track({0, source.count}))
     return failure(ExitCode::kInterrupted, "interrupted while tracking");

@@ -1,11 +1,14 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 
 #include "core/loam/matching.hpp"
 
 namespace sweepscope {
+
+class GivenMotion;
 
 /// How sweeps are tracked on the map and how matches are counted. Tuned on the walks of tuning/ in
 /// tests/benchmark/walks.
@@ -47,6 +50,9 @@ struct MappingOptions {
 
   // Instead of the above, for criteria that are counted at LOAM's own poses.
   double loam_knot_s = 0.25, loam_acceleration = 0.6, loam_tie_sigma = 0.005;
+
+  /// What the rig's motion is expected to be near, or, as the truth, what is followed instead of tracking.
+  std::shared_ptr<const GivenMotion> given;
 
   double edge_gate_m = 0.1;   // delta_E of equation 4
   double plane_gate_m = 0.1;  // delta_H of equation 5

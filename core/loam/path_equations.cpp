@@ -14,6 +14,11 @@ Matrix6d own_step(const Pose& pose, const Eigen::Vector3d& pivot_m) {
   return m;
 }
 
+// Where a given motion leads to knot i from the one before it; without one a pose stays.
+Pose moved(const Pose& from, std::span<const Pose> moves, std::size_t i) {
+  return moves.empty() ? from : from * moves[i];
+}
+
 Vector6d weights_of(const Eigen::Vector2d& sigma) {
   Vector6d weights;
   weights << Eigen::Vector3d::Constant(1 / (sigma[0] * sigma[0])),
@@ -100,26 +105,29 @@ void PathEquations::add_difference(std::size_t first, std::span<const Matrix6d> 
 }
 
 void PathEquations::add_accelerations(std::span<const Pose> knots, const Pose& before,
-                                      const Eigen::Vector2d& sigma, const Eigen::Vector3d& pivot_m) {
+                                      const Eigen::Vector2d& sigma, const Eigen::Vector3d& pivot_m,
+                                      std::span<const Pose> moves) {
   const Vector6d weights = weights_of(sigma);
   for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
-    const Pose& last = i == 0 ? before : knots[i - 1];
-    const Vector6d residual = difference(knots[i + 1], knots[i]) - difference(knots[i], last);
-    const std::array<Matrix6d, 3> moves{own_step(last, pivot_m), -2 * own_step(knots[i], pivot_m),
+    const Pose last = moved(i == 0 ? before : knots[i - 1], moves, i), here = moved(knots[i], moves, i + 1);
+    const Vector6d residual = difference(knots[i + 1], here) - difference(knots[i], last);
+    const std::array<Matrix6d, 3> steps{own_step(last, pivot_m),
+                                        -(own_step(knots[i], pivot_m) + own_step(here, pivot_m)),
                                         own_step(knots[i + 1], pivot_m)};
     if (i == 0)
-      add_difference(0, std::span(moves).last(2), residual, weights);
+      add_difference(0, std::span(steps).last(2), residual, weights);
     else
-      add_difference(i - 1, moves, residual, weights);
+      add_difference(i - 1, steps, residual, weights);
   }
 }
 
-void PathEquations::add_velocities(std::span<const Pose> knots, double sigma,
-                                   const Eigen::Vector3d& pivot_m) {
+void PathEquations::add_velocities(std::span<const Pose> knots, double sigma, const Eigen::Vector3d& pivot_m,
+                                   std::span<const Pose> moves) {
   const Vector6d weights = weights_of({sigma, sigma});
   for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
-    const std::array<Matrix6d, 2> moves{-own_step(knots[i], pivot_m), own_step(knots[i + 1], pivot_m)};
-    add_difference(i, moves, difference(knots[i + 1], knots[i]), weights);
+    const Pose here = moved(knots[i], moves, i + 1);
+    const std::array<Matrix6d, 2> steps{-own_step(here, pivot_m), own_step(knots[i + 1], pivot_m)};
+    add_difference(i, steps, difference(knots[i + 1], here), weights);
   }
 }
 

@@ -24,11 +24,14 @@ class PathEquations {
   void add(double u, const Vector6d& row, double residual, double weight);
 
   /// The path changes its velocity little: second differences of the knots, of standard deviation `sigma`
-  /// (rotation, translation). `before` is the knot before the first one, which stays.
+  /// (rotation, translation). `before` is the knot before the first one, which stays. With `moves` it is the
+  /// velocity's deviation from a given motion that changes little: moves[i] leads to knot i from the one
+  /// before it (pose * move), and each difference is taken from there.
   void add_accelerations(std::span<const Pose> knots, const Pose& before, const Eigen::Vector2d& sigma,
-                         const Eigen::Vector3d& pivot_m);
-  /// First differences of the knots are small.
-  void add_velocities(std::span<const Pose> knots, double sigma, const Eigen::Vector3d& pivot_m);
+                         const Eigen::Vector3d& pivot_m, std::span<const Pose> moves = {});
+  /// First differences of the knots are small, with `moves` those from where the given motion leads.
+  void add_velocities(std::span<const Pose> knots, double sigma, const Eigen::Vector3d& pivot_m,
+                      std::span<const Pose> moves = {});
   /// The first knot is near a given pose.
   void add_tie(const Pose& first_knot, const Pose& given, double sigma, const Eigen::Vector3d& pivot_m);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/loam/given_motion.hpp"
 #include "core/loam/least_squares.hpp"
 #include "core/loam/path_equations.hpp"
 
@@ -19,8 +20,22 @@ std::size_t steps_of(const PlacedSweep& sweep, const MappingOptions& options) {
   return std::max<std::size_t>(1, std::size_t(std::lround((sweep.end_s - sweep.begin_s) / options.knot_s)));
 }
 
-// At a constant velocity, from the map's origin on.
+bool is_given(const MappingOptions& options, double from_s, double to_s) {
+  return options.given && options.given->covers(std::min(from_s, to_s), std::max(from_s, to_s));
+}
+
+// At a constant velocity, or deviation from a given motion, from the map's origin on.
 SweepPose steady_pose(const PlacedSweep& sweep, const Vector6d& twist_per_s, const MappingOptions& options) {
+  if (is_given(options, sweep.begin_s, sweep.end_s)) {
+    SweepPose pose;
+    pose.begin_s = sweep.begin_s;
+    pose.end_s = sweep.end_s;
+    pose = along(*options.given, pose, Pose{}, sweep.begin_s, options.knot_s);
+    const double step_s = (sweep.end_s - sweep.begin_s) / double(pose.knots.size() - 1);
+    for (std::size_t i = 0; i < pose.knots.size(); ++i)
+      pose.knots[i] = stepped(pose.knots[i], double(i) * step_s * twist_per_s, pose.knots[i].translation_m);
+    return pose;
+  }
   const Vector6d gone = (sweep.end_s - sweep.begin_s) * twist_per_s;
   const Pose end{rotation_from_vector(gone.head<3>()), gone.tail<3>()};
   const std::size_t steps = steps_of(sweep, options);
@@ -32,9 +47,10 @@ SweepPose steady_pose(const PlacedSweep& sweep, const Vector6d& twist_per_s, con
 }
 
 // Scan lines that a body turns back as fast as the motor turns them lie on each other, and match well.
-bool undoes_motor(const std::vector<Pose>& path, const PlacedSweep& sweep) {
-  const Eigen::Vector3d turned_rad =
-      vector_from_rotation(path.front().rotation.conjugate() * path.back().rotation);
+bool undoes_motor(const std::vector<Pose>& path, const std::vector<Pose>& moves, const PlacedSweep& sweep) {
+  Eigen::Quaterniond turn = path.front().rotation.conjugate() * path.back().rotation;
+  for (std::size_t i = moves.size(); i-- > 1;) turn = turn * moves[i].rotation.conjugate();
+  const Eigen::Vector3d turned_rad = vector_from_rotation(turn);
   return turned_rad.dot(sweep.turned_rad) < -0.4 * sweep.turned_rad.squaredNorm();
 }
 
@@ -44,9 +60,10 @@ Pose carried_on(const Pose& from, const Pose& to, double steps) {
 
 }  // namespace
 
-Tracker::Tracker(const MappingOptions& options, SweepPose first)
+Tracker::Tracker(const MappingOptions& options, SweepPose first, double time_sign)
     : options_(options),
       first_(std::move(first)),
+      time_sign_(time_sign),
       acceleration2_(
           Eigen::Vector2d::Constant(std::pow(options.first_acceleration / options.acceleration_factor, 2))) {}
 
@@ -62,7 +79,7 @@ SweepPose Tracker::add(const PlacedSweep& sweep) {
     path_ = first_.knots;
     step_s_ = duration_s / double(path_.size() - 1);
   } else {
-    begin_path(sweep, steps);
+    if (!begin_along_given(sweep, steps)) begin_path(sweep, steps);
     Solved best = solved(sweep, steps);
     path_ = std::move(best.path);
     pose.features = best.count.features;
@@ -86,8 +103,13 @@ void Tracker::turn_back(const SweepPose& first) {
   path_ = back.knots;
   end_s_ = back.end_s;
   step_s_ = (back.end_s - back.begin_s) / double(path_.size() - 1);
-  last_twist_per_s_ = twists_per_s(back, 2).back();
+  time_sign_ = -time_sign_;
+  last_twist_per_s_ = deviation_twists_per_s(back, 2, options_.given.get(), time_sign_).back();
   lost_in_a_row_ = 0;
+}
+
+Pose Tracker::given_move(double from_s, double to_s) const {
+  return options_.given->move(time_sign_ * from_s, time_sign_ * to_s);
 }
 
 // A sweep's path begins where the last one's ended.
@@ -101,10 +123,41 @@ void Tracker::begin_path(const PlacedSweep& sweep, std::size_t steps) {
   step_s_ = step_s;
 }
 
+// The same where a motion is given; false where it does not cover the sweep and the step before it.
+bool Tracker::begin_along_given(const PlacedSweep& sweep, std::size_t steps) {
+  moves_.clear();
+  const double step_s = (sweep.end_s - sweep.begin_s) / double(steps), gap_s = sweep.begin_s - end_s_;
+  const double first_s = std::min(sweep.begin_s - step_s, end_s_ - step_s_);
+  if (!is_given(options_, time_sign_ * first_s, time_sign_ * sweep.end_s)) return false;
+  const Pose expected = path_[path_.size() - 2] * given_move(end_s_ - step_s_, end_s_);
+  const Vector6d deviation_per_s = difference(path_.back(), expected) / step_s_;
+  const Pose carried = path_.back() * given_move(end_s_, sweep.begin_s);
+  const auto at = [&](double after_s) {
+    return stepped(carried, after_s * deviation_per_s, carried.translation_m);
+  };
+  const double carried_s = std::min(gap_s, kLongestGap_s);
+  path_ = {at(carried_s)};
+  before_ = at(carried_s - step_s) * given_move(sweep.begin_s, sweep.begin_s - step_s);
+  step_s_ = step_s;
+  for (std::size_t i = 0; i <= steps; ++i) {
+    const double to_s = sweep.begin_s + double(i) * step_s;
+    moves_.push_back(given_move(to_s - step_s, to_s));
+  }
+  return true;
+}
+
 // One more knot, at the velocity of the last ones.
 std::vector<Pose> Tracker::extrapolated(std::vector<Pose> path, double carried) const {
   const std::size_t back = std::min<std::size_t>(path.size(), 2);
   const Pose& from = back == path.size() ? before_ : path[path.size() - 1 - back];
+  if (!moves_.empty()) {
+    Pose expected = from;
+    for (std::size_t i = path.size() - back; i < path.size(); ++i) expected = expected * moves_[i];
+    const Vector6d deviation = difference(path.back(), expected) / double(back);
+    const Pose next = path.back() * moves_[path.size()];
+    path.push_back(stepped(next, carried * deviation, next.translation_m));
+    return path;
+  }
   path.push_back(carried_on(from, path.back(), carried / double(back)));
   return path;
 }
@@ -141,7 +194,7 @@ Tracker::Solved Tracker::attempt(const PlacedSweep& sweep, std::size_t steps, co
       if (moved < options_.step_tolerance * (whole ? 1 : 4)) break;
     }
   }
-  if (undoes_motor(solved.path, sweep)) solved.count.matches = 0;
+  if (undoes_motor(solved.path, moves_, sweep)) solved.count.matches = 0;
   return solved;
 }
 
@@ -151,8 +204,9 @@ double Tracker::improve(std::vector<Pose>& path, PathEquations& equations, doubl
   const Eigen::Vector2d acceleration = (options_.acceleration_factor * acceleration2_.cwiseSqrt())
                                            .cwiseMax(options_.min_acceleration)
                                            .cwiseMin(options_.max_acceleration);
-  equations.add_accelerations(path, before_, acceleration_factor * step_s_ * step_s_ * acceleration, pivot_m);
-  equations.add_velocities(path, step_s_ * options_.velocity_sigma, pivot_m);
+  equations.add_accelerations(path, before_, acceleration_factor * step_s_ * step_s_ * acceleration, pivot_m,
+                              moves_);
+  equations.add_velocities(path, step_s_ * options_.velocity_sigma, pivot_m, moves_);
   equations.add_tie(path.front(), path_.front(), options_.tie_sigma, pivot_m);
   const std::vector<Vector6d> steps = equations.solve();
   double moved = 0;
@@ -173,7 +227,7 @@ void Tracker::judge(const MatchCount& count) {
 // From the velocities of half sweeps: the map tells those, whatever was expected of them.
 void Tracker::learn_acceleration(const SweepPose& pose) {
   const double half_s = (pose.end_s - pose.begin_s) / 2;
-  for (const Vector6d& twist_per_s : twists_per_s(pose, 2)) {
+  for (const Vector6d& twist_per_s : deviation_twists_per_s(pose, 2, options_.given.get(), time_sign_)) {
     const Vector6d change = (twist_per_s - last_twist_per_s_) / half_s;
     last_twist_per_s_ = twist_per_s;
     constexpr int kFirst = 4;  // which a guessed velocity is in
@@ -216,7 +270,8 @@ Vector6d find_first_twist_per_s(const std::vector<PlacedSweep>& sweeps, const Ma
     Vector6d found = Vector6d::Zero();
     for (std::size_t i = 1; i < sweeps.size(); ++i) {
       const SweepPose pose = tracker.add(sweeps[i]);
-      found += difference(pose.end(), pose.begin()) / (pose.end_s - pose.begin_s);
+      found += options.given ? deviation_twists_per_s(pose, 1, options.given.get(), 1).front()
+                             : difference(pose.end(), pose.begin()) / (pose.end_s - pose.begin_s);
     }
     const Vector6d next = (twist_per_s + found / double(sweeps.size() - 1)) / 2;
     const bool settled = (next - twist_per_s).cwiseAbs().maxCoeff() < 0.01;
@@ -231,8 +286,8 @@ struct LastPose {
   double matched_part;  // the least of the sweeps
 };
 LastPose track_once(const std::vector<PlacedSweep>& sweeps, const SweepPose& first,
-                    const MappingOptions& options) {
-  Tracker tracker(options, first);
+                    const MappingOptions& options, double time_sign) {
+  Tracker tracker(options, first, time_sign);
   LastPose last{tracker.add(sweeps[0]), 1};
   for (std::size_t i = 1; i < sweeps.size(); ++i) {
     last.pose = tracker.add(sweeps[i]);
@@ -250,10 +305,10 @@ SweepPose find_first_pose(const std::vector<PlacedSweep>& sweeps, const MappingO
   SweepPose first = steady_pose(sweeps[0], find_first_twist_per_s(sweeps, options), options), best = first;
   double best_part = 0;
   for (int round = 0; round <= options.first_pose_rounds; ++round) {
-    const LastPose there = track_once(sweeps, first, options);
+    const LastPose there = track_once(sweeps, first, options, 1);
     if (there.matched_part > best_part) best = first, best_part = there.matched_part;
     if (best_part >= options.well_followed) break;
-    first = reversed(track_once(backwards, reversed(there.pose), options).pose);
+    first = reversed(track_once(backwards, reversed(there.pose), options, -1).pose);
   }
   return best;
 }

@@ -11,10 +11,12 @@ namespace sweepscope {
 /// lines arrive, a knot at a time (constant velocity first), then as a whole: the sum over its matches of the
 /// squared distances from the map's planes and lines, the changes of velocity and, weakly, the velocities.
 /// Where few features match, the sweep is tried with other motions, and the one that matches best is taken.
+/// With MappingOptions::given, in sweeps that it covers, motion and velocity mean the deviation from it.
 class Tracker {
  public:
-  /// `first`: where the rig was during the first sweep, which no map is there for.
-  Tracker(const MappingOptions& options, SweepPose first);
+  /// `first`: where the rig was during the first sweep, which no map is there for. `time_sign` is -1 for
+  /// sweeps whose time runs backwards.
+  Tracker(const MappingOptions& options, SweepPose first, double time_sign = 1);
 
   /// The pose of the next sweep; those that are not lost go into the map.
   SweepPose add(const PlacedSweep& sweep);
@@ -40,6 +42,8 @@ class Tracker {
   };
 
   void begin_path(const PlacedSweep& sweep, std::size_t steps);
+  bool begin_along_given(const PlacedSweep& sweep, std::size_t steps);
+  Pose given_move(double from_s, double to_s) const;
   Solved solved(const PlacedSweep& sweep, std::size_t steps) const;
   Solved attempt(const PlacedSweep& sweep, std::size_t steps, const SearchRule& rule,
                  const Attempt& attempt) const;
@@ -52,8 +56,10 @@ class Tracker {
 
   const MappingOptions& options_;
   SweepPose first_;
-  std::vector<Pose> path_;  // the present sweep's knots
-  Pose before_;             // a step before them
+  double time_sign_;
+  std::vector<Pose> path_;   // the present sweep's knots
+  Pose before_;              // a step before them
+  std::vector<Pose> moves_;  // the given motion's to each knot from the one before it; empty without one
   double step_s_ = 0, end_s_ = 0;
   Eigen::Vector2d acceleration2_;  // mean square of a component: of the rotation, of the translation
   Vector6d last_twist_per_s_ = Vector6d::Zero();  // of the last sweep's second half

@@ -151,25 +151,46 @@ void warn_of_sway(double sway_rad, Estimate& result) {
       sway_rad * 180 / std::numbers::pi));
 }
 
+// Why nothing can be said of a walk.
+std::string missing_reason(const OffsetProblem& problem, const SolvedWalk& walk,
+                           const std::optional<MotionSource>& source) {
+  if (!walk.lost) return "Sweeps of opposite directions hardly see the same surfaces.";
+  if (source && source->motion.is_truth())
+    return fmt::format("{} covers too few sweeps of the recording.", source->name);
+  return lost_reason(walk, *problem.recording);
+}
+
+Remark left_out_warning(const std::vector<Interval>& lost, const std::optional<MotionSource>& source) {
+  const Remark warning = lost_warning(lost);
+  if (!warning || !source || !source->motion.is_truth()) return warning;
+  return fmt::format(
+      "{} does not cover all scans: {} intervals are left out, the first from {:.1f} to {:.1f} s.",
+      source->name, lost.size(), lost.front().begin_s, lost.front().end_s);
+}
+
 void estimate_walking(const OffsetProblem& problem, double coarse_s, const std::vector<double>& window_s,
-                      const SearchScale& scale, const MappingOptions& mapping, const Job& job,
-                      Estimate& result) {
+                      const SearchScale& scale, const MappingOptions& mapping,
+                      const std::optional<MotionSource>& source, const Job& job, Estimate& result) {
   const auto solved = solve_moving(problem, coarse_s, {walk_options(mapping, scale), 3 * scale.unit_s}, job);
   if (!solved) return;
   const MovingDirect& found = *solved;
   result.lost = lost_times(found.walk.sweeps, *problem.recording);
   if (found.walk.lost || !found.walk.joint) {
-    result.reasons.push_back(found.walk.lost ? lost_reason(found.walk, *problem.recording)
-                                             : "Sweeps of opposite directions hardly see the same surfaces.");
+    result.reasons.push_back(missing_reason(problem, found.walk, source));
     return;
   }
-  add(result.warnings, lost_warning(result.lost));
+  add(result.warnings, left_out_warning(result.lost, source));
   const JointWalk& walk = *found.walk.joint;
+  if (source && walk.time_shift)
+    result.motion = source->used(walk.time_shift);
+  else if (source && mapping.given)
+    result.warnings.push_back(
+        fmt::format("{} is not used: the rig deviates from it less smoothly than it moves.", source->name));
   sort_into(result.curve, found.curve);
   judge_walk(found, result);
   std::vector<double> parts_offset_s;
   for (const JointWalkPart& part : walk.parts) parts_offset_s.push_back(part.offset_s);
-  warn_of_sway(found.sway_rad, result);
+  if (!source || !source->motion.is_truth()) warn_of_sway(found.sway_rad, result);
   std::optional<double> sigma_s =
       std::hypot(walk.sigma_s, unseen_sigma_s(*problem.recording, problem.motor, walk.offset_s));
   judge_drift(drift_of(walk), duration_s(problem), walk.sigma_s, result);
@@ -202,15 +223,15 @@ CoarseSearch search_coarsely(const OffsetProblem& problem, const std::vector<dou
   return search;
 }
 
-void estimate_directly(const OffsetProblem& problem, const CoarseSearch& coarse, bool moving,
-                       const MotionTest& motion, const MappingOptions& mapping, const Job& job,
-                       Estimate& result) {
+Result<void> estimate_directly(const OffsetProblem& problem, const CoarseSearch& coarse, bool moving,
+                               const MotionTest& motion, const MappingOptions& mapping,
+                               const std::optional<MotionSource>& source, const Job& job, Estimate& result) {
   const SearchScale scale = search_scale(problem.motor);
   result.curve = coarse.curve;
   if (!coarse.best) {
     result.reasons.push_back(
         "Sweeps of opposite directions hardly see the same surfaces at any candidate offset.");
-    return;
+    return {};
   }
   const std::vector<double> window_s{coarse.curve.front().offset_s, coarse.curve.back().offset_s};
   add(result.reasons, beam_times_reason(*problem.recording, scale));
@@ -223,11 +244,21 @@ void estimate_directly(const OffsetProblem& problem, const CoarseSearch& coarse,
   add(result.warnings, aliased_warning(*problem.recording, problem.motor));
   add(result.warnings, encoder_warning(problem.recording->motor));
   add(result.warnings, slow_motor_warning(problem.motor));
-  if (!result.reasons.empty()) return;
-  if (moving)
-    estimate_walking(problem, coarse.offset_s(), window_s, scale, mapping, job, result);
-  else
+  if (!result.reasons.empty()) return {};
+  if (!moving) {
     estimate_standing(problem, coarse.offset_s(), window_s, scale, motion, job, result);
+    return {};
+  }
+  MappingOptions guided = mapping;
+  if (source) {
+    auto aligned = align_motion(problem, coarse.offset_s(), mapping, *source, job);
+    if (!aligned) return tl::unexpected(aligned.error());
+    guided.given = aligned->motion;
+    for (std::string& warning : aligned->warnings) result.warnings.push_back(std::move(warning));
+    result.motion = source->used(aligned->shift);
+  }
+  estimate_walking(problem, coarse.offset_s(), window_s, scale, guided, source, job, result);
+  return {};
 }
 
 }  // namespace sweepscope

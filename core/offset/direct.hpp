@@ -5,6 +5,7 @@
 #include "core/job.hpp"
 #include "core/loam/mapping.hpp"
 #include "core/offset/estimate.hpp"
+#include "core/offset/motion_source.hpp"
 #include "core/offset/motion_test.hpp"
 #include "core/offset/search_window.hpp"
 #include "core/offset/still_points.hpp"
@@ -24,9 +25,10 @@ CoarseSearch search_coarsely(const OffsetProblem& problem, const std::vector<dou
                              const SearchScale& scale, const Job& job);
 
 /// The direct method: writes answer, evidence, warnings and reasons into `result`, which knows its recording,
-/// sweeps and scans already. `motion` is what the motion test found, however the rig is treated.
-void estimate_directly(const OffsetProblem& problem, const CoarseSearch& coarse, bool moving,
-                       const MotionTest& motion, const MappingOptions& mapping, const Job& job,
-                       Estimate& result);
+/// sweeps and scans already. `motion` is what the motion test found, however the rig is treated. A moving
+/// rig's trajectory goes by `source`, where there is one; for its errors see align_motion.
+Result<void> estimate_directly(const OffsetProblem& problem, const CoarseSearch& coarse, bool moving,
+                               const MotionTest& motion, const MappingOptions& mapping,
+                               const std::optional<MotionSource>& source, const Job& job, Estimate& result);
 
 }  // namespace sweepscope

@@ -30,6 +30,16 @@ struct CriterionOptimum {
   double value = 0;
 };
 
+/// A motion from elsewhere that an estimate went by.
+struct UsedMotion {
+  enum class Kind { kPoses, kOdometry, kImu };
+  Kind kind = Kind::kPoses;
+  std::string name;      // the file, or the topic
+  bool trusted = false;  // as the truth; else as a prior
+  /// Added to its stamps it gives the laser's clock. Absent where it could not be determined.
+  std::optional<double> time_shift_s, time_shift_sigma_s;
+};
+
 /// The answer to "what is the offset?", with its evidence. t_motor = t_laser + offset.
 struct Estimate {
   std::string recording;
@@ -49,7 +59,8 @@ struct Estimate {
   std::size_t scans = 0;
   double cpu_s = 0;
   double wall_s = 0;
-  bool interrupted = false;  // the curve holds what was finished until then
+  std::optional<UsedMotion> motion;  // what a moving rig's trajectory went by, besides the scans
+  bool interrupted = false;          // the curve holds what was finished until then
 };
 
 }  // namespace sweepscope

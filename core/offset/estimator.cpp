@@ -13,6 +13,7 @@
 #include "core/offset/direct_stationary.hpp"
 #include "core/offset/identifiability.hpp"
 #include "core/offset/kept_candidates.hpp"
+#include "core/offset/motion_source.hpp"
 #include "core/offset/motion_test.hpp"
 #include "core/offset/moving.hpp"
 #include "core/offset/search_window.hpp"
@@ -87,11 +88,20 @@ class Search {
     if (options_.around) ranges.push_back(range_around(*options_.around));
     const bool by_default = ranges.empty();
     if (const auto refused = refuse_shard(by_default)) return tl::unexpected(*refused);
+    if (options_.poses && options_.method != Method::kDirect)
+      return failure(ExitCode::kWrongUsage, "Poses are used by the direct method alone.");
     if (by_default) ranges.push_back({-scale_.half_width_s, scale_.half_width_s, scale_.unit_s});
     const auto offsets_s = checked_offsets(ranges, scale_);
     if (!offsets_s) return tl::unexpected(offsets_s.error());
     if (!prepare(offsets_s->front(), offsets_s->back())) return interrupted();
     if (!result_.reasons.empty()) return std::move(result_);
+    if (options_.poses && options_.poses->poses.size() < 2)
+      return failure(ExitCode::kUnreadableInput,
+                     fmt::format("{}: a trajectory needs at least two poses", options_.poses->file));
+    if (options_.poses && !moving())
+      return failure(ExitCode::kWrongUsage,
+                     fmt::format("{}: the rig stood still, where poses are of no use: leave out {}. {}",
+                                 result_.recording, options_.poses->file, result_.kind_reason));
     if (options_.method == Method::kDirect) return directly();
 
     Curve curve([this](double offset_s, const Job& job) { return candidate(offset_s, job); });
@@ -109,7 +119,10 @@ class Search {
   CurveValue decisive() const { return moving() ? &CurvePoint::e_m : &CurvePoint::d; }
 
   Result<Estimate> directly() {
-    estimate_directly(problem_, coarse_, moving(), motion_, options_.mapping, job_, result_);
+    const auto source = motion_source(*problem_.recording, options_.poses);
+    const auto done =
+        estimate_directly(problem_, coarse_, moving(), motion_, options_.mapping, source, job_, result_);
+    if (!done && done.error().code != ExitCode::kInterrupted) return tl::unexpected(done.error());
     return std::move(result_);
   }
 

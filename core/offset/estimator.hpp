@@ -9,6 +9,7 @@
 #include "core/loam/odometry.hpp"
 #include "core/offset/candidates.hpp"
 #include "core/offset/estimate.hpp"
+#include "core/offset/given_poses.hpp"
 #include "core/recording/recording.hpp"
 
 namespace sweepscope {
@@ -29,13 +30,18 @@ struct EstimateOptions {
   FeatureOptions features;
   OdometryOptions odometry;
   MappingOptions mapping;
+  std::optional<GivenPoses> poses;  // of a moving rig, for the direct method
 };
 
 /// Finds the offset between laser and motor, t_motor = t_laser + offset, by the paper's methods, `stationary`
 /// (section 3.2) or `moving` (section 3.3), or directly, as an unknown of the least squares itself (`direct`,
 /// for rigs that stood still and for walks). A recording that cannot answer gives an Estimate with
 /// identifiable false and the reasons. Errors: ExitCode::kWrongUsage for a range wider than the motor allows
-/// or without a candidate.
+/// or without a candidate, and for poses of a rig that stood still or for another method than the direct one;
+/// ExitCode::kUnreadableInput for poses that do not overlap the recording.
+///
+/// The direct method goes by the poses given, or by the odometry or the IMU that the recording's rig names,
+/// in this order: see MotionSource.
 ///
 /// On interruption the Estimate says so in `interrupted` and holds the candidates that were finished.
 Result<Estimate> estimate(const Recording& recording, const EstimateOptions& options, const Job& job);

@@ -231,6 +231,12 @@ Remark aliased_warning(const Recording& recording, const MotorMotion& motor) {
       std::round(scans_a_sweep(recording, motor)));
 }
 
+double unseen_of_part_s(const Recording& recording, const MotorMotion& motor, std::size_t sweeps) {
+  constexpr double kUnseen_rad = 0.6e-3, kUnseenOfSameAngles_rad = 1.7e-3;
+  return (sees_same_angles(recording, motor, sweeps) ? kUnseenOfSameAngles_rad : kUnseen_rad) /
+         motor.median_speed_rad_s;
+}
+
 Remark encoder_warning(const MotorTrack& track) {
   std::vector<double> spacings_s;
   for (std::size_t i = 1; i < track.time_s.size(); ++i)

@@ -60,6 +60,10 @@ double unseen_sigma_s(const Recording& recording, const MotorMotion& motor, doub
 /// Sigma is larger than what the motor's speed should allow.
 Remark sigma_reason(std::optional<double> sigma_s, const SearchScale& scale);
 
+/// What a part of a walk errs by beside its own sigma, as the parts of the walks of tuning/ in
+/// tests/benchmark/walks scatter. Where all its sweeps see the same few angles, a path that is bent alike in
+/// each of them fits nearly as well as the true one.
+double unseen_of_part_s(const Recording& recording, const MotorMotion& motor, std::size_t sweeps);
 /// Whether a sweep takes so nearly a whole number of scans that so many sweeps all see the same angles.
 bool sees_same_angles(const Recording& recording, const MotorMotion& motor, std::size_t sweeps);
 Remark aliased_warning(const Recording& recording, const MotorMotion& motor);

@@ -9,8 +9,8 @@
 
 #include "core/loam/patch_search.hpp"
 #include "core/loam/path_equations.hpp"
-#include "core/loam/smooth_path.hpp"
 #include "core/offset/identifiability.hpp"
+#include "core/offset/jerk_prior.hpp"
 #include "core/parallel.hpp"
 
 namespace sweepscope {
@@ -33,12 +33,12 @@ std::uint32_t slices_per_scan(const Recording& recording) {
 // What the points of a scan, or of a slice of one, share: where the motor's axis was, how fast it turned, and
 // between which knots.
 struct ScanMotion {
-  SmoothPath::Place place;
+  GuidedPath::Place place;
   Vector3d base_in_map_m, turning_rad_s;
 };
 
 // How a distance changes with the steps of the knots that it depends on: its own point's four, and those of
-// the neighbours that its surface was fitted to.
+// the neighbours that its surface was fitted to; and with that of a given motion's time shift.
 class KnotRow {
  public:
   void clear() { count_ = 0; }
@@ -64,16 +64,18 @@ class KnotRow {
   const Vector6d& row(std::size_t i) const { return rows_[i]; }
 
  private:
+  static constexpr std::size_t kMax = 5 + 4 * Neighbours::kMax;
   std::size_t count_ = 0;
-  std::array<std::size_t, 4 + 4 * Neighbours::kMax> knots_;
-  std::array<Vector6d, 4 + 4 * Neighbours::kMax> rows_;
+  std::array<std::size_t, kMax> knots_;
+  std::array<Vector6d, kMax> rows_;
 };
 
-// Normal equations of a part: six unknowns for every knot, and the offset last. Only the lower triangle.
+// Normal equations of a part: the path's blocks of six unknowns, and the offset last. Only the lower
+// triangle.
 class PartEquations {
  public:
-  explicit PartEquations(std::size_t knots)
-      : matrix_(Eigen::MatrixXd::Zero(Eigen::Index(6 * knots + 1), Eigen::Index(6 * knots + 1))),
+  explicit PartEquations(std::size_t blocks)
+      : matrix_(Eigen::MatrixXd::Zero(Eigen::Index(6 * blocks + 1), Eigen::Index(6 * blocks + 1))),
         gradient_(Eigen::VectorXd::Zero(matrix_.rows())) {}
 
   void add(const KnotRow& row, double offset_slope, double residual, double weight) {
@@ -92,9 +94,9 @@ class PartEquations {
     gradient_[last] += weight * offset_slope * residual;
   }
 
-  // The walk's acceleration changes little: third differences of the knots are near zero, to within sigma
-  // (rotation, translation).
-  void add_jerks(const SmoothPath& path, const Eigen::Vector2d& sigma) {
+  // The acceleration of the walk, or of its deviation from a given motion, changes little: third differences
+  // of the knots are near zero, to within sigma (rotation, translation).
+  void add_jerks(const GuidedPath& path, const Eigen::Vector2d& sigma) {
     constexpr std::array<double, 4> kStencil{-1, 3, -3, 1};
     Vector6d weights;
     weights << Vector3d::Constant(1 / (sigma[0] * sigma[0])), Vector3d::Constant(1 / (sigma[1] * sigma[1]));
@@ -111,27 +113,32 @@ class PartEquations {
     }
   }
 
-  // A map can be moved as a whole, and a knot that sees little stays where it is.
-  void hold(double first_sigma, double knot_sigma, double offset_sigma_s) {
+  // A map can be moved as a whole where there are knots, and a knot that sees little stays where it is.
+  void hold(std::size_t knots, double first_sigma, double knot_sigma, double offset_sigma_s) {
     const Eigen::Index last = matrix_.rows() - 1;
     matrix_.diagonal().head(last).array() += 1 / (knot_sigma * knot_sigma);
-    matrix_.diagonal().head<6>().array() += 1 / (first_sigma * first_sigma);
+    if (knots > 0) matrix_.diagonal().head<6>().array() += 1 / (first_sigma * first_sigma);
     matrix_(last, last) += 1 / (offset_sigma_s * offset_sigma_s);
   }
 
   struct Solution {
-    std::vector<Vector6d> knot_steps;
+    std::vector<Vector6d> block_steps;
     double offset_step_s, offset_sigma_s;
-    Eigen::VectorXd influence;  // of the gradient's components on the offset
+    Eigen::VectorXd influence, shift_influence;  // of the gradient on the offset, and on a time shift
+    Eigen::MatrixXd solved_probes;
   };
-  std::optional<Solution> solve() {
+  std::optional<Solution> solve(std::optional<std::size_t> shift_block, const Eigen::MatrixXd& probes) {
     const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>, Eigen::Lower> cholesky(matrix_);
     if (cholesky.info() != Eigen::Success) return std::nullopt;
     const Eigen::Index last = matrix_.rows() - 1;
     const Eigen::VectorXd x = cholesky.solve(-gradient_);
-    Solution solution{{}, x[last], 1 / matrix_(last, last), {}};  // now the factor's
+    Solution solution{{}, x[last], 1 / matrix_(last, last),
+                      {}, {},      cholesky.solve(probes)};  // now the factor's
     solution.influence = cholesky.solve(Eigen::VectorXd::Unit(matrix_.rows(), last));
-    for (Eigen::Index k = 0; k < last / 6; ++k) solution.knot_steps.push_back(x.segment<6>(6 * k));
+    if (shift_block)
+      solution.shift_influence =
+          cholesky.solve(Eigen::VectorXd::Unit(matrix_.rows(), Eigen::Index(6 * *shift_block)));
+    for (Eigen::Index k = 0; k < last / 6; ++k) solution.block_steps.push_back(x.segment<6>(6 * k));
     return solution;
   }
 
@@ -139,34 +146,6 @@ class PartEquations {
   Eigen::MatrixXd matrix_;
   Eigen::VectorXd gradient_;
 };
-
-// How much faster the motor turns in the middle half of its sweeps than over all: 1 where it turns evenly,
-// and the square root of 2 where its angle is a sine.
-double haste_in_the_middle(const OffsetProblem& problem) {
-  std::vector<double> hastes;
-  const MotorTrack& track = problem.recording->motor;
-  for (const Sweep& sweep : problem.motor.sweeps) {
-    const auto angle_rad = [&](double u) {
-      return track.angle_at(sweep.begin_s + u * (sweep.end_s - sweep.begin_s));
-    };
-    const double whole_rad = angle_rad(1) - angle_rad(0);
-    if (std::abs(whole_rad) > problem.motor.range_rad / 2)
-      hastes.push_back(2 * (angle_rad(0.75) - angle_rad(0.25)) / whole_rad);
-  }
-  if (hastes.empty()) return 1;
-  std::sort(hastes.begin(), hastes.end());
-  return hastes[hastes.size() / 2];
-}
-
-// Standard deviation of the walk's jerk, of the rotation and of the translation.
-Eigen::Vector2d jerk_sigma(const OffsetProblem& problem, const std::vector<SweepPose>& sweeps,
-                           const JointWalkOptions& options) {
-  constexpr double kSmooth = 1.25;
-  const bool smooth = haste_in_the_middle(problem) > kSmooth;
-  const Eigen::Vector2d seen =
-      smooth ? options.jerk_factor_of_smooth_motors * jerk(sweeps, 1) : options.jerk_factor * jerk(sweeps, 2);
-  return seen.cwiseMax(options.min_jerk);
-}
 
 // One part of the walk on its way to its own offset.
 class Part {
@@ -176,33 +155,50 @@ class Part {
       : problem_(cut(problem, sweeps, offset_s)),
         options_(options),
         slices_(slices_per_scan(*problem.recording)),
-        path_(sweeps, options.knot_s),
-        jerk_sigma_(jerk_sigma(problem, sweeps, options)) {
+        path_(sweeps, options.knot_s, options.mapping.given.get()),
+        jerk_sigma_(jerk_sigma(problem, path_.deviations(sweeps), options)) {
     result_.middle_s = (sweeps.front().begin_s + sweeps.back().end_s) / 2;
     result_.offset_s = offset_s;
   }
 
   void solve(const Job& job) {
-    std::vector<double> offsets_s;
+    std::vector<double> offsets_s, shifts_s;
     std::optional<PartEquations::Solution> solution;
     const int iterations = options_.first_iterations + options_.averaged_iterations;
+    const auto rows = Eigen::Index(6 * path_.blocks() + 1);
+    std::optional<JerkEvidence> evidence;
+    if (path_.shift_block() && path_.knots() > 0) evidence.emplace(path_.knots(), rows);
     for (int i = 0; i < iterations && !job.cancelled(); ++i) {
-      PartEquations equations(path_.knots());
+      PartEquations equations(path_.blocks());
       linearise(equations);
       if (result_.matches < options_.least_matches) return;
       equations.add_jerks(path_, std::pow(options_.knot_s, 3) * jerk_sigma_);
       constexpr double kFirstSigma = 1e-4, kKnotSigma = 0.5;
-      equations.hold(kFirstSigma, kKnotSigma, options_.offset_sigma_s);
-      solution = equations.solve();
+      equations.hold(path_.knots(), kFirstSigma, kKnotSigma, options_.offset_sigma_s);
+      solution =
+          equations.solve(path_.shift_block(), evidence ? evidence->probes() : Eigen::MatrixXd(rows, 0));
       if (!solution) return;
-      path_.move(solution->knot_steps);
+      path_.move(solution->block_steps);
+      if (evidence && i < options_.first_iterations)
+        jerk_sigma_ = evidence->sigma(path_, options_.knot_s, jerk_sigma_, solution->solved_probes)
+                          .cwiseMax(options_.min_jerk)
+                          .cwiseMin(jerk_sigma_);
       result_.offset_s += solution->offset_step_s;
-      if (i >= options_.first_iterations) offsets_s.push_back(result_.offset_s);
+      if (i < options_.first_iterations) continue;
+      offsets_s.push_back(result_.offset_s);
+      shifts_s.push_back(path_.time_shift_s());
     }
-    if (solution && !job.cancelled()) conclude(offsets_s, clustered_sigma_s(*solution));
+    if (!solution || job.cancelled()) return;
+    conclude(offsets_s, clustered_sigma_s(solution->influence, solution->offset_sigma_s));
+    if (const auto block = path_.shift_block()) {
+      const Eigen::VectorXd& influence = solution->shift_influence;
+      const double sigma_s = std::sqrt(influence[Eigen::Index(6 * *block)]);
+      const double mean_s = std::accumulate(shifts_s.begin(), shifts_s.end(), 0.0) / double(shifts_s.size());
+      result_.time_shift = TimeShift{mean_s, clustered_sigma_s(influence, sigma_s)};
+    }
   }
   const JointWalkPart& result() const { return result_; }
-  const SmoothPath& path() const { return path_; }
+  const GuidedPath& path() const { return path_; }
 
  private:
   // The problem with these sweeps alone.
@@ -243,17 +239,17 @@ class Part {
     });
   }
 
-  // Of the offset, where what the surfaces err by is not taken from the matches' standard deviation, but from
-  // their residuals, summed up cell by cell: the matches of one surface err together, and over and over where
-  // the same lines see it again and again (White 1980, with clusters). What the smoothness leaves open stays.
-  double clustered_sigma_s(const PartEquations::Solution& solution) {
+  // Of the offset or a time shift, where what the surfaces err by is not taken from the matches' standard
+  // deviation, but from their residuals, summed up cell by cell: the matches of one surface err together, and
+  // over and over where the same lines see it again and again (White 1980, with clusters). What the
+  // smoothness leaves open stays.
+  double clustered_sigma_s(const Eigen::VectorXd& influences, double sigma_s) {
     std::map<std::array<int, 3>, double> pulls_s;
     double formal_s2 = 0;
     constexpr double kCell_m = 1;
     for_each_match(
         [&](const KnotRow& row, double slope, double distance_m, double weight, const Vector3d& p_m) {
-          const double influence =
-              row.times(solution.influence) + slope * solution.influence[solution.influence.size() - 1];
+          const double influence = row.times(influences) + slope * influences[influences.size() - 1];
           std::array<int, 3> cell;
           for (int i = 0; i < 3; ++i) cell[std::size_t(i)] = int(std::floor(p_m[i] / kCell_m));
           pulls_s[cell] += weight * distance_m * influence;
@@ -261,8 +257,8 @@ class Part {
         });
     double clustered_s2 = 0;
     for (const auto& [cell, pull_s] : pulls_s) clustered_s2 += square(pull_s);
-    if (!(formal_s2 > 0)) return solution.offset_sigma_s;
-    const double total_s2 = square(solution.offset_sigma_s), of_matches_s2 = std::min(formal_s2, total_s2);
+    if (!(formal_s2 > 0)) return sigma_s;
+    const double total_s2 = square(sigma_s), of_matches_s2 = std::min(formal_s2, total_s2);
     return std::sqrt(total_s2 - of_matches_s2 + of_matches_s2 * clustered_s2 / formal_s2);
   }
 
@@ -357,7 +353,10 @@ class Part {
   double add_point(std::uint32_t line, const Vector3d& p_m, const Vector3d& normal, double share) {
     const ScanMotion& scan = scans_[line];
     const Vector6d row = share * distance_jacobian(p_m, normal, scan.base_in_map_m);
-    for (std::size_t i = 0; i < 4; ++i) row_.add(scan.place.first_knot + i, scan.place.weights[i] * row);
+    const auto& [first_knot, weights] = scan.place.knots;
+    for (std::size_t i = 0; i < 4 && path_.knots() > 0; ++i) row_.add(first_knot + i, weights[i] * row);
+    if (const auto block = path_.shift_block())
+      row_.add(*block, row.dot(scan.place.per_shift_second) * Vector6d::Unit(0));
     return share * normal.dot(scan.turning_rad_s.cross(p_m - scan.base_in_map_m));
   }
 
@@ -370,7 +369,7 @@ class Part {
   OffsetProblem problem_;
   const JointWalkOptions& options_;
   std::uint32_t slices_;  // of every scan
-  SmoothPath path_;
+  GuidedPath path_;
   Eigen::Vector2d jerk_sigma_;  // rad/s^3 and m/s^3
   JointWalkPart result_;
   std::vector<ScanMotion> scans_;
@@ -396,12 +395,16 @@ void cut(const Sweeps& run, double part_s, std::vector<Sweeps>& parts) {
   for (std::size_t k = 0; k < run.size(); ++k) parts[first + k * count / run.size()].push_back(run[k]);
 }
 
-// No part holds sweeps that are lost, nor sweeps of two stretches.
-std::vector<Sweeps> parts_of(const Sweeps& sweeps, double part_s) {
+// No part holds sweeps that are lost, nor sweeps of two stretches, nor an end of a given motion.
+std::vector<Sweeps> parts_of(const Sweeps& sweeps, double part_s, const GivenMotion* given) {
+  const auto covered = [&](const SweepPose& sweep) {
+    return given != nullptr && given->covers(sweep.begin_s, sweep.end_s);
+  };
   std::vector<Sweeps> parts;
   Sweeps run;
   for (const SweepPose& sweep : sweeps) {
-    if (!run.empty() && (sweep.lost || sweep.stretch != run.back().stretch)) {
+    if (!run.empty() &&
+        (sweep.lost || sweep.stretch != run.back().stretch || covered(sweep) != covered(run.back()))) {
       cut(run, part_s, parts);
       run.clear();
     }
@@ -409,14 +412,6 @@ std::vector<Sweeps> parts_of(const Sweeps& sweeps, double part_s) {
   }
   cut(run, part_s, parts);
   return parts;
-}
-
-// What each part errs by beside its own sigma, as the parts of walks in tuning/ scatter. Where all its sweeps
-// see the same few angles, a path that is bent alike in each of them fits nearly as well as the true one.
-double scatter_of_parts_s(const OffsetProblem& problem, const Sweeps& sweeps) {
-  constexpr double kUnseen_rad = 0.6e-3, kUnseenOfSameAngles_rad = 1.7e-3;
-  const bool same = sees_same_angles(*problem.recording, problem.motor, sweeps.size());
-  return (same ? kUnseenOfSameAngles_rad : kUnseen_rad) / problem.motor.median_speed_rad_s;
 }
 
 void summarise(JointWalk& walk) {
@@ -445,6 +440,10 @@ void summarise(JointWalk& walk) {
   for (const JointWalkPart& part : walk.parts)
     scatter2 +=
         (part.offset_s - walk.offset_s) * (part.offset_s - walk.offset_s) / part.sigma_s / part.sigma_s;
+  std::vector<TimeShift> time_shifts;
+  for (const JointWalkPart& part : walk.parts)
+    if (part.time_shift) time_shifts.push_back(*part.time_shift);
+  if (!time_shifts.empty()) walk.time_shift = mean_of(time_shifts);
   walk.sigma_s *= std::sqrt(std::max(1.0, scatter2 / (double(walk.parts.size() - 1) + kPriorParts)));
 }
 
@@ -452,7 +451,7 @@ void summarise(JointWalk& walk) {
 
 std::optional<JointWalk> solve_joint_walk(const OffsetProblem& problem, const std::vector<SweepPose>& tracked,
                                           double offset_s, const JointWalkOptions& options, const Job& job) {
-  const std::vector<Sweeps> cuts = parts_of(tracked, options.part_s);
+  const std::vector<Sweeps> cuts = parts_of(tracked, options.part_s, options.mapping.given.get());
   std::vector<JointWalkPart> parts(cuts.size());
   std::vector<Sweeps> sweeps = cuts;
   for_each_index(cuts.size(), [&](std::size_t i) {
@@ -464,9 +463,12 @@ std::optional<JointWalk> solve_joint_walk(const OffsetProblem& problem, const st
   });
   if (job.cancelled()) return std::nullopt;
   JointWalk walk;
+  const bool held = options.mapping.given && options.mapping.given->is_truth();
   for (std::size_t i = 0; i < cuts.size(); ++i) {
     if (parts[i].matches >= options.least_matches && parts[i].sigma_s > 0) {
-      parts[i].sigma_s = std::hypot(parts[i].sigma_s, scatter_of_parts_s(problem, cuts[i]));
+      if (!held)
+        parts[i].sigma_s =
+            std::hypot(parts[i].sigma_s, unseen_of_part_s(*problem.recording, problem.motor, cuts[i].size()));
       walk.parts.push_back(parts[i]);
     }
     walk.sweeps.insert(walk.sweeps.end(), sweeps[i].begin(), sweeps[i].end());

@@ -5,6 +5,7 @@
 
 #include "core/job.hpp"
 #include "core/loam/mapping.hpp"
+#include "core/offset/time_shift.hpp"
 #include "core/offset/uncertainty.hpp"
 
 namespace sweepscope {
@@ -42,6 +43,7 @@ struct JointWalkPart {
   std::size_t features = 0, matches = 0;
   double lever_m2 = 0, reach_m2 = 0;  // sums over the matches of (n . (a x p))^2 and of |a x p|^2
   bool converged = false;
+  std::optional<TimeShift> time_shift;  // where the part followed a given motion
 };
 
 struct JointWalk {
@@ -51,8 +53,9 @@ struct JointWalk {
   std::vector<JointWalkPart> parts;  // those with enough matches
   std::vector<SweepPose> sweeps;     // along the smooth walk; those of parts left out as they were given
   std::size_t features = 0, matches = 0;
-  double lever_m = 0, reach_m = 0;  // root mean squares over all matches
-  bool converged = false;           // every part did
+  double lever_m = 0, reach_m = 0;      // root mean squares over all matches
+  bool converged = false;               // every part did
+  std::optional<TimeShift> time_shift;  // of the parts that followed a given motion, as the offset
 };
 
 /// `tracked` are the poses of the problem's sweeps as `track` gives them at `offset_s`, their alternating

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/loam/given_motion.hpp"
 #include "core/offset/direct.hpp"
 
 namespace sweepscope {
@@ -24,6 +25,7 @@ std::optional<SolvedWalk> solve_walk(const OffsetProblem& problem, double first_
   SolvedWalk walk;
   double offset_s = first_offset_s;
   MappingOptions mapping = options.mapping;
+  JointWalkOptions joint = options.joint;
   for (int pass = 0; pass < options.max_passes && !walk.near; ++pass) {
     auto tracked = track(problem, offset_s, mapping, job);
     if (!tracked) return std::nullopt;
@@ -32,12 +34,18 @@ std::optional<SolvedWalk> solve_walk(const OffsetProblem& problem, double first_
     walk.lost = tracked->tracked() < options.min_sweeps;
     walk.sweeps = std::move(tracked->sweeps);
     if (walk.lost) return walk;
-    walk.joint = solve_joint_walk(problem, walk.sweeps, offset_s, options.joint, job);
+    walk.joint = solve_joint_walk(problem, walk.sweeps, offset_s, joint, job);
     if (job.cancelled()) return std::nullopt;
     if (!walk.joint) return walk;
     const double step_s = walk.joint->offset_s - offset_s;
     if (walk.joint->sigma_s > options.max_sigma_s) return walk;
     walk.near = std::abs(step_s) < options.step_tolerance_s;
+    if (walk.joint->time_shift && mapping.given) {
+      const double shift_s = walk.joint->time_shift->time_s;
+      walk.near = walk.near && std::abs(shift_s - mapping.given->time_shift_s()) < options.shift_tolerance_s;
+      mapping.given = std::make_shared<const GivenMotion>(mapping.given->with_time_shift(shift_s));
+      joint.mapping.given = mapping.given;
+    }
     offset_s += std::clamp(step_s, -options.max_step_s, options.max_step_s);
   }
   return walk;

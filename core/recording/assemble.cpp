@@ -8,6 +8,7 @@
 #include <map>
 #include <numbers>
 
+#include "core/recording/assemble_motion.hpp"
 #include "core/recording/beam_times.hpp"
 #include "core/recording/choose_streams.hpp"
 #include "core/recording/stream_stamps.hpp"
@@ -426,6 +427,7 @@ Result<Recording> assemble(RawRecording raw, const Rig& rig, std::optional<Stamp
                                   raw_joint.joint, raw_joint.topic, recording.motor.time_s.size()));
   }
   compare_streams(recording);
+  assemble_motion(raw, recording);
   return recording;
 }
 

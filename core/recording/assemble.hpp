@@ -14,7 +14,8 @@ namespace sweepscope {
 ///
 /// Scans: stamp_at last_beam and arrival both take the stamp as the last beam's instant. A scan cannot arrive
 /// earlier than that; how much later it does is unknown, and becomes part of the offset. Motor: an angle that
-/// jumps by more than 3/4 of a turn between two neighbouring samples has wrapped, and is unwrapped.
+/// jumps by more than 3/4 of a turn between two neighbouring samples has wrapped, and is unwrapped. The IMU
+/// and the odometry that the rig names go by the kind of stamps that the laser goes by.
 Result<Recording> assemble(RawRecording raw, const Rig& rig, std::optional<StampSource> stamps);
 
 }  // namespace sweepscope

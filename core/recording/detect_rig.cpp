@@ -174,6 +174,9 @@ Result<DetectedRig> detect_rig(const std::filesystem::path& path, const ReadOpti
   DetectedRig detected;
   detected.rig = recording->rig;
   detected.recording = recording->name;
+  for (const RecordedTopic& topic : recording->report.topics)
+    if (topic.type.ends_with("/Imu") || topic.type.ends_with("/Odometry"))
+      detected.motion_topics.push_back(topic);
   detected.laser_note = fmt::format("{} scans of {} beams, {:.2f} Hz{}", summary.laser.used,
                                     summary.laser.most_beams, summary.laser.rate_hz(),
                                     evidence->laser_frame.empty() ? "" : ", frame " + evidence->laser_frame);

@@ -16,7 +16,8 @@ struct DetectedRig {
   Rig rig;
   std::string recording;
   std::string laser_note, stamp_at_note, increment_note, motor_note, scale_note, mount_note;
-  bool mount_found = false;  // in the recording's transforms
+  bool mount_found = false;                  // in the recording's transforms
+  std::vector<RecordedTopic> motion_topics;  // of sensor_msgs/Imu and nav_msgs/Odometry
 };
 
 /// Reads a recording and gives the rig that it is read with: what `options.rig` says, completed by what the

@@ -14,6 +14,10 @@ bool is_laser(MessageKind kind) {
   return kind == MessageKind::kLaserScan || kind == MessageKind::kCloud;
 }
 
+bool is_motion(MessageKind kind) {
+  return kind == MessageKind::kImu || kind == MessageKind::kOdometry;
+}
+
 JointSource source_of(MessageKind kind) {
   switch (kind) {
     case MessageKind::kFloat64:
@@ -49,6 +53,10 @@ const MessageType* MessageCollector::type_of(const Topic& topic) {
     return nullptr;
   }
   if (type->kind == MessageKind::kTransforms) return type;
+  if (is_motion(type->kind)) {
+    const auto& named = type->kind == MessageKind::kImu ? rig_.imu.topic : rig_.odometry.topic;
+    return named == topic.name ? type : nullptr;
+  }
   const bool laser = is_laser(type->kind);
   const auto& wanted = laser ? rig_.laser.topic : rig_.motor.topic;
   return wanted && *wanted != topic.name ? nullptr : type;
@@ -98,6 +106,7 @@ std::optional<Error> MessageCollector::add(std::size_t topic, std::int64_t recei
   }
   const bool whole = entry.type->kind == MessageKind::kLaserScan ? add_scan(entry, receive_ns, message)
                      : entry.type->kind == MessageKind::kCloud   ? add_cloud(entry, receive_ns, message)
+                     : is_motion(entry.type->kind)               ? add_motion(entry, receive_ns, message)
                                                                  : add_joints(entry, receive_ns, message);
   if (!whole && counts.malformed++ == 0) entry.first_malformed = place();
   if (cloud_bytes_ > kMostCloudBytes)
@@ -177,6 +186,24 @@ bool MessageCollector::add_joints(Entry& entry, std::int64_t receive_ns, std::sp
     joint.positions.push_back(decoded.position);
     ++joint_samples_;
   }
+  return true;
+}
+
+bool MessageCollector::add_motion(const Entry& entry, std::int64_t receive_ns,
+                                  std::span<const std::byte> message) {
+  ++joint_samples_;  // as large as those
+  if (entry.type->kind == MessageKind::kImu) {
+    const auto imu = decode_imu(entry.topic.encoding, message);
+    if (!imu) return false;
+    raw_.turn_rates.stamps.push_back({imu->header_ns, receive_ns});
+    raw_.turn_rates.rates_rad_s.push_back(imu->rate_rad_s);
+    return true;
+  }
+  const auto odometry = decode_odometry(entry.topic.encoding, message);
+  if (!odometry) return false;
+  raw_.odometry.stamps.push_back({odometry->header_ns, receive_ns});
+  raw_.odometry.positions_m.push_back(odometry->position_m);
+  raw_.odometry.orientations.push_back(odometry->orientation);
   return true;
 }
 

@@ -74,6 +74,7 @@ class MessageCollector {
   void keep_cloud(const Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message,
                   RawLaser& laser);
   bool add_joints(Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message);
+  bool add_motion(const Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message);
   bool add_frames(const Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message);
   RawJoint& joint_of(Entry& entry, std::string_view joint);
 

@@ -23,6 +23,8 @@ constexpr MessageType kTypes[] = {
     {"std_msgs/Int32", "da5909fbe378aeaf85e547e830cc1bb7", MessageKind::kInt32},
     {"tf/tfMessage", "94810edda583a504dfda3829e70d7eec", MessageKind::kTransforms},
     {"tf2_msgs/TFMessage", "94810edda583a504dfda3829e70d7eec", MessageKind::kTransforms},
+    {"sensor_msgs/Imu", "6a62c6daae103f4ff57a132d6f95cec2", MessageKind::kImu},
+    {"nav_msgs/Odometry", "cd5e73d190d741a2f92e81eda573aca7", MessageKind::kOdometry},
 };
 
 constexpr std::string_view kOnlyJoint = "data";
@@ -53,6 +55,10 @@ class Cursor {
     align(sizeof(T));
     const auto bytes = take(sizeof(T));
     return bytes.empty() ? T{} : loaded<T>(bytes.data(), swapped_);
+  }
+  /// Passes over so many doubles.
+  void numbers(std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) number<double>();
   }
   std::string_view text() {
     const auto bytes = take(number<std::uint32_t>());
@@ -281,9 +287,35 @@ bool decode_joints(MessageKind kind, Encoding encoding, std::span<const std::byt
       return decode_turned_frames(cursor, axis, joints);
     case MessageKind::kLaserScan:
     case MessageKind::kCloud:
+    case MessageKind::kImu:
+    case MessageKind::kOdometry:
       break;
   }
   return false;
+}
+
+std::optional<DecodedTurnRate> decode_imu(Encoding encoding, std::span<const std::byte> message) {
+  Cursor cursor(encoding, message);
+  DecodedTurnRate imu;
+  imu.header_ns = cursor.header_ns();
+  cursor.numbers(4 + 9);  // orientation and its covariance
+  for (double& part : imu.rate_rad_s) part = cursor.number<double>();
+  const auto rate_variance = cursor.number<double>();
+  cursor.numbers(8 + 3 + 9);  // the other covariances of the rate; acceleration and its covariance
+  if (!cursor.at_end() || rate_variance == -1) return std::nullopt;
+  return imu;
+}
+
+std::optional<DecodedOdometry> decode_odometry(Encoding encoding, std::span<const std::byte> message) {
+  Cursor cursor(encoding, message);
+  DecodedOdometry odometry;
+  odometry.header_ns = cursor.header_ns();
+  cursor.text();  // child_frame_id
+  for (double& part : odometry.position_m) part = cursor.number<double>();
+  for (double& part : odometry.orientation.coeffs()) part = cursor.number<double>();  // x, y, z, w
+  cursor.numbers(36 + 6 + 36);  // the pose's covariance; the velocity and its covariance
+  if (!cursor.at_end()) return std::nullopt;
+  return odometry;
 }
 
 bool decode_transforms(Encoding encoding, std::span<const std::byte> message,

@@ -25,7 +25,9 @@ enum class MessageKind {
   kFloat64,
   kFloat32,
   kInt32,
-  kTransforms
+  kTransforms,
+  kImu,
+  kOdometry
 };
 
 struct MessageType {
@@ -97,6 +99,19 @@ struct DecodedTransform {
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
 };
 
+/// An IMU's angular velocity, in its own frame.
+struct DecodedTurnRate {
+  std::int64_t header_ns = 0;
+  Eigen::Vector3d rate_rad_s = Eigen::Vector3d::Zero();
+};
+
+/// Where odometry has the base frame, in its own fixed frame.
+struct DecodedOdometry {
+  std::int64_t header_ns = 0;
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
+};
+
 /// Empty where the message is malformed.
 std::optional<DecodedScan> decode_laser_scan(Encoding encoding, std::span<const std::byte> message);
 
@@ -108,6 +123,10 @@ std::optional<DecodedCloud> decode_cloud(Encoding encoding, std::span<const std:
 /// parent frame), -pi to pi. A joint state without positions has no joints.
 bool decode_joints(MessageKind kind, Encoding encoding, std::span<const std::byte> message,
                    const Eigen::Vector3d& axis, std::vector<DecodedJoint>& joints);
+
+/// Also empty where an IMU says that it has no gyroscope: -1 as the first covariance of its angular velocity.
+std::optional<DecodedTurnRate> decode_imu(Encoding encoding, std::span<const std::byte> message);
+std::optional<DecodedOdometry> decode_odometry(Encoding encoding, std::span<const std::byte> message);
 
 /// Of a message of transforms all that it holds, likewise.
 bool decode_transforms(Encoding encoding, std::span<const std::byte> message,

@@ -96,6 +96,19 @@ struct RawFrame {
   double shifted_m = 0;   // the most from the first
 };
 
+/// What the rig's IMU measured, in the order of the file.
+struct RawTurnRates {
+  std::vector<MessageStamps> stamps;
+  std::vector<Eigen::Vector3d> rates_rad_s;  // in the IMU's frame
+};
+
+/// Where the rig's odometry had the base frame, in the order of the file.
+struct RawOdometry {
+  std::vector<MessageStamps> stamps;
+  std::vector<Eigen::Vector3d> positions_m;
+  std::vector<Eigen::Quaterniond> orientations;  // as recorded: not of unit length yet
+};
+
 struct RawRecording {
   std::string file;  // as given, for messages
   std::string name;
@@ -103,6 +116,8 @@ struct RawRecording {
   std::vector<RawLaser> lasers;
   std::vector<RawJoint> joints;
   std::vector<RawFrame> frames;  // of all transforms, also of those that are no joint
+  RawTurnRates turn_rates;       // of the topics that the rig names, else empty
+  RawOdometry odometry;
   std::vector<std::string> warnings;
 };
 

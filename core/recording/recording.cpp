@@ -27,6 +27,8 @@ Recording window(const Recording& recording, double from_s, double to_s) {
   part.epoch_ns = recording.epoch_ns;
   part.rig = recording.rig;
   part.report = recording.report;
+  part.turn_rates = recording.turn_rates;
+  part.odometry = recording.odometry;
   if (recording.scans.empty()) return part;
   const double start_s = recording.scans.front().first_beam_s;
   for (LaserScan scan : recording.scans) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/geometry/pose.hpp"
 #include "core/recording/rig.hpp"
 
 namespace sweepscope {
@@ -44,6 +45,12 @@ struct MotorTrack {
   /// True where both ends lie inside the track and no gap between neighbouring samples inside is longer
   /// than max_gap_s.
   bool covers(double from_s, double to_s, double max_gap_s) const;
+};
+
+/// An IMU's gyroscope: the base frame's angular velocity, in the base frame. Times ascend strictly.
+struct TurnRates {
+  std::vector<double> time_s;  // as stamped, seconds since Recording::epoch_ns
+  std::vector<Eigen::Vector3d> rate_rad_s;
 };
 
 /// A topic of the recording's file, whether it was used or not.
@@ -94,6 +101,9 @@ struct Recording {
   /// Of 3D scanners the beams' unit directions in the laser's frame, like ranges_m; else empty.
   std::vector<Eigen::Vector3f> directions;
   MotorTrack motor;
+  /// Of the topics that the rig names, else empty; on clocks that may be shifted against the laser's.
+  TurnRates turn_rates;
+  std::vector<StampedPose> odometry;
   ReadReport report;
 
   std::span<const float> ranges(const LaserScan& scan) const {

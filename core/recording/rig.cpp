@@ -60,16 +60,18 @@ void read_motor(const YAML::Node& node, Rig::Motor& motor) {
                  [&](const YAML::Node& value) { motor.zero_deg = read_number(value, "motor.zero_deg"); }}});
 }
 
+/// `laser_in_motor` and `pose_in_base`.
+void read_pose(const YAML::Node& node, const std::string& name, Eigen::Vector3d& xyz_m,
+               Eigen::Vector3d& rpy_deg) {
+  read_members(
+      node, name,
+      {{"xyz_m", [&](const YAML::Node& value) { xyz_m = read_vector(value, name + ".xyz_m"); }},
+       {"rpy_deg", [&](const YAML::Node& value) { rpy_deg = read_vector(value, name + ".rpy_deg"); }}});
+}
+
 void read_mount(const YAML::Node& node, Rig::Mount& mount) {
-  const auto read_pose = [&](const YAML::Node& pose) {
-    read_members(pose, "mount.laser_in_motor",
-                 {{"xyz_m",
-                   [&](const YAML::Node& value) {
-                     mount.laser_in_motor_xyz_m = read_vector(value, "mount.laser_in_motor.xyz_m");
-                   }},
-                  {"rpy_deg", [&](const YAML::Node& value) {
-                     mount.laser_in_motor_rpy_deg = read_vector(value, "mount.laser_in_motor.rpy_deg");
-                   }}});
+  const auto read_laser_pose = [&](const YAML::Node& pose) {
+    read_pose(pose, "mount.laser_in_motor", mount.laser_in_motor_xyz_m, mount.laser_in_motor_rpy_deg);
   };
   const auto read_axis = [&](const YAML::Node& value) {
     mount.axis = read_vector(value, "mount.axis");
@@ -77,7 +79,21 @@ void read_mount(const YAML::Node& node, Rig::Mount& mount) {
     if (!(length > 1e-6) || !std::isfinite(length)) refuse(value, "mount.axis must have a direction");
     mount.axis /= length;
   };
-  read_members(node, "mount", {{"axis", read_axis}, {"laser_in_motor", read_pose}});
+  read_members(node, "mount", {{"axis", read_axis}, {"laser_in_motor", read_laser_pose}});
+}
+
+void read_imu(const YAML::Node& node, Rig::Imu& imu) {
+  read_members(node, "imu",
+               {{"topic", [&](const YAML::Node& value) { imu.topic = read_name(value, "imu.topic"); }},
+                {"pose_in_base", [&](const YAML::Node& value) {
+                   read_pose(value, "imu.pose_in_base", imu.pose_in_base_xyz_m, imu.pose_in_base_rpy_deg);
+                 }}});
+}
+
+void read_odometry(const YAML::Node& node, Rig::Odometry& odometry) {
+  read_members(
+      node, "odometry",
+      {{"topic", [&](const YAML::Node& value) { odometry.topic = read_name(value, "odometry.topic"); }}});
 }
 
 Rig read_document(const YAML::Node& document) {
@@ -85,7 +101,9 @@ Rig read_document(const YAML::Node& document) {
   read_members(document, "the rig file",
                {{"laser", [&](const YAML::Node& node) { read_laser(node, rig.laser); }},
                 {"motor", [&](const YAML::Node& node) { read_motor(node, rig.motor); }},
-                {"mount", [&](const YAML::Node& node) { read_mount(node, rig.mount); }}});
+                {"mount", [&](const YAML::Node& node) { read_mount(node, rig.mount); }},
+                {"imu", [&](const YAML::Node& node) { read_imu(node, rig.imu); }},
+                {"odometry", [&](const YAML::Node& node) { read_odometry(node, rig.odometry); }}});
   return rig;
 }
 

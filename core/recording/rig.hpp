@@ -35,9 +35,22 @@ struct Rig {
     Eigen::Vector3d laser_in_motor_xyz_m = Eigen::Vector3d::Zero();
     Eigen::Vector3d laser_in_motor_rpy_deg = Eigen::Vector3d::Zero();
   };
+  /// An IMU (sensor_msgs/Imu) on the base, whose gyroscope is a prior of a moving rig's rotation.
+  struct Imu {
+    std::optional<std::string> topic;  // none: no IMU is used
+    // p_in_base = R(rpy) * p_in_imu + xyz; the place has no effect on a rotation.
+    Eigen::Vector3d pose_in_base_xyz_m = Eigen::Vector3d::Zero();
+    Eigen::Vector3d pose_in_base_rpy_deg = Eigen::Vector3d::Zero();
+  };
+  /// nav_msgs/Odometry of the base frame, a prior of a moving rig's trajectory.
+  struct Odometry {
+    std::optional<std::string> topic;  // none: no odometry is used
+  };
   Laser laser;
   Motor motor;
   Mount mount;
+  Imu imu;
+  Odometry odometry;
 };
 
 /// Reads a rig file (YAML; see assets/rigs). Unknown keys and impossible values are refused with line and

@@ -71,12 +71,33 @@ std::string mount_text(const DetectedRig& detected) {
                      vector_text(mount.laser_in_motor_xyz_m), vector_text(mount.laser_in_motor_rpy_deg));
 }
 
+/// What is known of a walk's motion: the topics that the rig names, else those seen, as comments.
+std::string motion_text(const DetectedRig& detected) {
+  const Rig& rig = detected.rig;
+  const auto pose = [](const Eigen::Vector3d& xyz_m, const Eigen::Vector3d& rpy_deg) {
+    return fmt::format("pose_in_base: {{xyz_m: {}, rpy_deg: {}}}", vector_text(xyz_m), vector_text(rpy_deg));
+  };
+  const std::string imu_pose = pose(rig.imu.pose_in_base_xyz_m, rig.imu.pose_in_base_rpy_deg);
+  std::string text;
+  if (rig.imu.topic) text += fmt::format("imu:\n  topic: {}\n  {}\n", yaml_name(*rig.imu.topic), imu_pose);
+  if (rig.odometry.topic) text += fmt::format("odometry:\n  topic: {}\n", yaml_name(*rig.odometry.topic));
+  for (const RecordedTopic& topic : detected.motion_topics) {
+    const bool is_imu = topic.type.ends_with("/Imu");
+    if (is_imu ? rig.imu.topic.has_value() : rig.odometry.topic.has_value()) continue;
+    const std::string setting = fmt::format("# {}: {{topic: {}{}}}", is_imu ? "imu" : "odometry",
+                                            yaml_name(topic.name), is_imu ? ", " + imu_pose : "");
+    text += line(setting, fmt::format("{} messages; named, a prior of a walk's {}", topic.messages,
+                                      is_imu ? "rotation" : "trajectory"));
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string rig_file_text(const DetectedRig& detected) {
   return "# The rig of " + printable_line(detected.recording) +
          ", as detected. Give it with --rig; what is deleted here is detected anew.\n" +
-         laser_text(detected) + motor_text(detected) + mount_text(detected);
+         laser_text(detected) + motor_text(detected) + mount_text(detected) + motion_text(detected);
 }
 
 }  // namespace sweepscope

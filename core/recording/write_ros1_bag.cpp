@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <rosbag/bag.h>
+#include <sensor_msgs/Imu.h>
 #include <sensor_msgs/JointState.h>
 #include <sensor_msgs/LaserScan.h>
 #include <sensor_msgs/PointCloud2.h>
@@ -27,6 +28,7 @@ namespace {
 
 using LaserScanMessage = sensor_msgs::LaserScan_<MessageAllocator<void>>;
 using PointCloudMessage = sensor_msgs::PointCloud2_<MessageAllocator<void>>;
+using ImuMessage = sensor_msgs::Imu_<MessageAllocator<void>>;
 using JointStateMessage = sensor_msgs::JointState_<MessageAllocator<void>>;
 
 ros::Time ros_time(std::int64_t ns) {
@@ -93,6 +95,19 @@ JointStateMessage joint_message(const RawJoint& joint, std::size_t number) {
   return message;
 }
 
+/// An orientation and an acceleration are not measured: -1, as the message's definition has it.
+ImuMessage imu_message(const RawTurnRates& rates, std::size_t number) {
+  ImuMessage message;
+  message.header.seq = static_cast<std::uint32_t>(number);
+  message.header.stamp = ros_time(rates.stamps[number].header_ns);
+  message.header.frame_id = "imu";
+  message.orientation_covariance[0] = message.linear_acceleration_covariance[0] = -1;
+  message.angular_velocity.x = rates.rates_rad_s[number].x();
+  message.angular_velocity.y = rates.rates_rad_s[number].y();
+  message.angular_velocity.z = rates.rates_rad_s[number].z();
+  return message;
+}
+
 rosbag::CompressionType compression_of(const std::string& name) {
   if (name == "bz2") return rosbag::compression::BZ2;
   if (name == "lz4") return rosbag::compression::LZ4;
@@ -132,12 +147,18 @@ class BagFile {
 
 /// False where the job was cancelled. Throws what rosbag throws.
 bool write_messages(const RawLaser& laser, const RawJoint& joint, const std::filesystem::path& path,
-                    const std::string& compression, const Job& job) {
+                    const std::string& compression, const Job& job, const std::optional<RawImu>& imu) {
   BagFile bag;
   bag.open(path, compression);
   const std::vector<WrittenMessage> all = write_order(laser, joint);
+  std::size_t imu_number = 0;
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (job.cancelled()) return false;
+    for (; imu && imu_number < imu->rates.stamps.size(); ++imu_number) {
+      const std::int64_t received_ns = imu->rates.stamps[imu_number].receive_ns;
+      if (received_ns > all[i].receive_ns) break;
+      bag.write(imu->topic, ros_time(received_ns), imu_message(imu->rates, imu_number));
+    }
     const ros::Time received = std::max(ros_time(all[i].receive_ns), ros::TIME_MIN);
     if (all[i].is_scan && laser.of_clouds)
       bag.write(laser.topic, received, cloud_message(laser.clouds[all[i].number], all[i].number));
@@ -154,10 +175,10 @@ bool write_messages(const RawLaser& laser, const RawJoint& joint, const std::fil
 /// The messages as a bag at `path`; `output` is named in errors.
 Result<void> write_messages_into(const std::filesystem::path& path, const AtomicFile& output,
                                  const RawLaser& laser, const RawJoint& joint, const std::string& compression,
-                                 const Job& job) {
+                                 const Job& job, const std::optional<RawImu>& imu) {
   errno = 0;
   try {
-    if (write_messages(laser, joint, path, compression, job)) return {};
+    if (write_messages(laser, joint, path, compression, job, imu)) return {};
     return failure(ExitCode::kInterrupted, "interrupted");
   } catch (const std::exception& error) {
     // rosbag says less than the system.
@@ -180,17 +201,17 @@ Result<void> copy_into(AtomicFile& output, const std::filesystem::path& path, co
 }  // namespace
 
 Result<void> write_ros1_bag(const RawLaser& laser, const RawJoint& joint, const std::filesystem::path& path,
-                            const std::string& compression, const Job& job) {
+                            const std::string& compression, const Job& job,
+                            const std::optional<RawImu>& imu) {
   auto output = AtomicFile::create(path);
   if (!output) return tl::unexpected(output.error());
   if (!output->part_path().empty())
-    return write_messages_into(output->part_path(), *output, laser, joint, compression, job).and_then([&] {
-      return output->commit();
-    });
+    return write_messages_into(output->part_path(), *output, laser, joint, compression, job, imu)
+        .and_then([&] { return output->commit(); });
   // rosbag goes back to the beginning of its file, which a pipe or a device does not allow.
   const auto whole = TemporaryFile::create();
   if (!whole) return tl::unexpected(whole.error());
-  return write_messages_into(whole->path(), *output, laser, joint, compression, job)
+  return write_messages_into(whole->path(), *output, laser, joint, compression, job, imu)
       .and_then([&] { return copy_into(*output, whole->path(), job); })
       .and_then([&] { return output->commit(); });
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "core/error.hpp"
@@ -9,11 +10,19 @@
 
 namespace sweepscope {
 
+/// An IMU's gyroscope as a topic of sensor_msgs/Imu.
+struct RawImu {
+  std::string topic;
+  RawTurnRates rates;
+};
+
 /// Writes a laser and a motor's joint as a ROS 1 bag (format 2.0, chunks as they are, bz2 or lz4):
 /// sensor_msgs/LaserScan and sensor_msgs/JointState on the topics that they name, in the order in which they
-/// were received; a message without a receive time takes its header stamp for it. Equal input gives equal
-/// bytes. Written beside the path and then renamed; where that fails, ExitCode::kUnreadableInput.
+/// were received, and an IMU where there is one; a message without a receive time takes its header stamp for
+/// it. Equal input gives equal bytes. Written beside the path and then renamed; where that fails,
+/// ExitCode::kUnreadableInput.
 Result<void> write_ros1_bag(const RawLaser& laser, const RawJoint& joint, const std::filesystem::path& path,
-                            const std::string& compression, const Job& job);
+                            const std::string& compression, const Job& job,
+                            const std::optional<RawImu>& imu = std::nullopt);
 
 }  // namespace sweepscope

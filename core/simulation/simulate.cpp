@@ -27,6 +27,7 @@ using namespace simulation;
 constexpr std::int64_t kEpoch_ns = 1'489'900'000'000'000'000;
 constexpr double kRoomDuration_s = 4.5;
 constexpr double kLongestStand_s = 600;
+constexpr std::uint64_t kGyroPurpose = 12;
 constexpr double kTruthStep_s = 0.01, kOwnTruthStep_s = 0.005;
 
 tl::unexpected<Error> wrong(std::string sentence) {
@@ -55,6 +56,7 @@ Result<void> check(const SimulationOptions& o) {
       {"the backlash", o.backlash_deg, 0, 10, " deg"},
       {"the clock drift", o.clock_drift_ppm, -1000, 1000, " ppm"},
       {"the nudge", o.nudge_m * 1e3, -1000, 1000, " mm"},
+      {"the IMU's shift", o.imu_shift_s * 1e3, -10e3, 10e3, " ms"},
       {"the noise per metre", o.noise_per_m * 1e3, 0, 100, " mm"},
       {"the grazing dropout", o.grazing_dropout, 0, 1, ""},
       {"the mount's roll error", o.mount_error_deg.x(), -10, 10, " deg"},
@@ -182,6 +184,27 @@ void fill_truth(Simulation& simulation, const Sensor& sensor) {
   simulation.top_angular_rate_radps = measured.top_angular_rate_radps;
 }
 
+// A gyroscope of a phone's or a robot's class, fixed to the base. Its clock starts with the laser's.
+void fill_imu(Simulation& simulation, const Sensor& sensor) {
+  constexpr double kRate_hz = 200, kNoise_rad_s = 0.005, kHalf_s = 1e-3;
+  const Vector3d bias_rad_s(0.01, -0.02, 0.005);
+  const SimulationOptions& options = simulation.options;
+  const auto samples = static_cast<std::uint64_t>(*options.duration_s * kRate_hz);
+  for (std::uint64_t i = 0; i <= samples; ++i) {
+    const double t_s = double(i) / kRate_hz;
+    const double from_s = std::max(0.0, t_s - kHalf_s), to_s = std::min(*options.duration_s, t_s + kHalf_s);
+    const Eigen::Quaterniond turn =
+        sensor.pose_at(from_s).orientation.conjugate() * sensor.pose_at(to_s).orientation;
+    // Of so small an angle twice the vector part is the rotation vector, to 1e-9.
+    const Vector3d rate_rad_s = (turn.w() < 0 ? -2 : 2) * turn.vec() / (to_s - from_s);
+    Random random(options.seed, kGyroPurpose, i);
+    Vector3d noise;
+    for (double& part : noise) part = kNoise_rad_s * random.normal();
+    simulation.imu.time_s.push_back(t_s - options.imu_shift_s);
+    simulation.imu.rate_rad_s.emplace_back(rate_rad_s + bias_rad_s + noise);
+  }
+}
+
 }  // namespace
 
 Result<Simulation> simulate(const SimulationOptions& options, const Job& job) {
@@ -201,6 +224,7 @@ Result<Simulation> simulate(const SimulationOptions& options, const Job& job) {
   simulation.recording = blank_recording(simulation.options, sensor, *duration_s);
   if (!cast_scans(sensor, simulation.recording, job)) return failure(ExitCode::kInterrupted, "interrupted");
   fill_truth(simulation, sensor);
+  if (simulation.options.imu) fill_imu(simulation, sensor);
   return simulation;
 }
 

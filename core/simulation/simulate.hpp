@@ -61,6 +61,9 @@ struct SimulationOptions {
   double glass = 0;                   // part of the upright surfaces, in cells of 1 m, that are panes, 0 to 1
 
   OwnScene own = {};  // instead of `scene`
+
+  bool imu = false;        // the bag holds an IMU's gyroscope besides, in the base frame
+  double imu_shift_s = 0;  // added to its stamps it gives the laser's clock, within +-10
 };
 
 /// The base frame in the world.
@@ -74,6 +77,7 @@ struct TruthPose {
 struct Simulation {
   Recording recording;           // as reading the bag of write_bag gives it
   std::vector<TruthPose> truth;  // every 10 ms from the first beam to the last; every 5 ms in an own scene
+  TurnRates imu;                 // where asked for: 200 Hz, with a bias and noise, on its own clock
   SimulationOptions options;     // with the duration filled in
   bool moving = false;
   double length_m = 0;  // of the path, from the truth, swaying included; the tops likewise

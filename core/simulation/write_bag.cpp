@@ -72,10 +72,21 @@ RawJoint raw_joint(const Simulation& simulation) {
   return joint;
 }
 
+std::optional<RawImu> raw_imu(const Simulation& simulation) {
+  if (!simulation.options.imu) return std::nullopt;
+  RawImu imu{"/imu", {}};
+  imu.rates.rates_rad_s = simulation.imu.rate_rad_s;
+  for (const double time_s : simulation.imu.time_s) {
+    const double known_s = time_s + simulation.options.imu_shift_s + kMotorLatency_s;
+    imu.rates.stamps.push_back({in_ns(simulation.recording, time_s), in_ns(simulation.recording, known_s)});
+  }
+  return imu;
+}
+
 }  // namespace
 
 Result<void> write_bag(const Simulation& simulation, const std::filesystem::path& path, const Job& job) {
-  return write_ros1_bag(raw_laser(simulation), raw_joint(simulation), path, "none", job);
+  return write_ros1_bag(raw_laser(simulation), raw_joint(simulation), path, "none", job, raw_imu(simulation));
 }
 
 }  // namespace sweepscope

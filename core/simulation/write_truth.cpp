@@ -110,6 +110,8 @@ std::string truth_json(const Simulation& simulation) {
                {"options", options_json(simulation.options)},
                {"version", SWEEPSCOPE_VERSION}};
   if (!simulation.options.own.mesh.empty()) json["own_scene"] = own_json(simulation);
+  if (simulation.options.imu)
+    json["imu"] = {{"topic", "/imu"}, {"time_shift_ms", tidy(simulation.options.imu_shift_s * 1e3)}};
   return json.dump(2) + "\n";
 }
 

@@ -56,5 +56,22 @@ TEST_F(Poses, OfAPartOfTheTimeAreUsedWithAWarning) {
   EXPECT_EQ(run("map r.bag --offset-ms 24 -o out.pcd --poses whole.tum").err, "");
 }
 
+TEST_F(Poses, AreRefusedWhereTheyMakeNoSense) {
+  write_poses("whole.tum", begin_s_ - 10, begin_s_ + 10);
+  const Outcome alone = run("estimate r.bag --trust-poses");
+  EXPECT_EQ(alone.exit_code, 2);
+  EXPECT_NE(alone.err.find("--trust-poses needs --poses"), std::string::npos) << alone.err;
+  const Outcome moving = run("estimate r.bag --poses whole.tum --method moving");
+  EXPECT_EQ(moving.exit_code, 2);
+  EXPECT_NE(moving.err.find("--poses is used by the direct method alone"), std::string::npos) << moving.err;
+  const Outcome standing = run("estimate r.bag --poses whole.tum");
+  EXPECT_EQ(standing.exit_code, 2);
+  EXPECT_NE(standing.err.find("the rig stood still"), std::string::npos) << standing.err;
+  std::ofstream(folder_ / "one.tum") << begin_s_ << ".0 0 0 0 0 0 0 1\n";
+  const Outcome one = run("estimate r.bag --poses one.tum");
+  EXPECT_EQ(one.exit_code, 3);
+  EXPECT_NE(one.err.find("one.tum: a trajectory needs at least two poses"), std::string::npos) << one.err;
+}
+
 }  // namespace
 }  // namespace sweepscope

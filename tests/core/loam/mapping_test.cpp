@@ -43,13 +43,15 @@ TEST_F(SteadyWalk, StepsComeOutEqual) {
   }
 }
 
-// Seen from where the rig was at the first beam, which the motor's sweep began long before.
+// From the first beam to the last: the motor's first sweep began before, and its last one ends after.
 TEST_F(SteadyWalk, TheWayIsAsLongAsItWas) {
-  const SweepPose &first = walk_.sweeps.front(), &last = walk_.sweeps.back();
-  ASSERT_LT(first.begin_s, 0);
-  const Pose at_first_beam = first.at(-first.begin_s / (first.end_s - first.begin_s));
-  const Vector3d way_m = (at_first_beam.inverse() * last.end()).translation_m;
-  EXPECT_NEAR((way_m - Vector3d(0.5 * last.end_s, 0, 0)).norm(), 0, 0.05);
+  const double first_s = recording_.scans.front().first_beam_s,
+               last_s = recording_.scans.back().last_beam_s();
+  const auto at = [](const SweepPose& sweep, double time_s) {
+    return sweep.at((time_s - sweep.begin_s) / (sweep.end_s - sweep.begin_s));
+  };
+  const Pose way = at(walk_.sweeps.front(), first_s).inverse() * at(walk_.sweeps.back(), last_s);
+  EXPECT_NEAR((way.translation_m - Vector3d(0.5 * (last_s - first_s), 0, 0)).norm(), 0, 0.05);
 }
 
 TEST_F(SteadyWalk, WithinASweepTheRigMovesToo) {

@@ -73,6 +73,27 @@ TEST(PathEquations, AccelerationsHaveTheGradientOfTheirSquares) {
   EXPECT_LT((equations.gradient() - numeric).norm(), 0.05 * numeric.norm());
 }
 
+// With a given motion, differences are taken from where it leads.
+TEST(PathEquations, DeviationsFromAGivenMotionHaveTheGradientOfTheirSquares) {
+  const Pose before{rotation_from_vector({-0.03, 0, 0.01}), {-0.2, 0, 0.3}};
+  std::vector<Pose> moves;
+  for (int i = 0; i < 4; ++i)
+    moves.push_back({rotation_from_vector({0.03, -0.02 * i, 0.1}), {0.08, 0.03 * i, -0.05}});
+  PathEquations equations(4, 1);
+  equations.add_accelerations(path(), before, {0.2, 0.5}, kPivot, moves);
+  equations.add_velocities(path(), 0.7, kPivot, moves);
+  const Eigen::VectorXd numeric = numeric_gradient([&](const std::vector<Pose>& knots) {
+    double sum = 0;
+    for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
+      const Vector6d last = difference(knots[i], (i > 0 ? knots[i - 1] : before) * moves[i]);
+      const Vector6d next = difference(knots[i + 1], knots[i] * moves[i + 1]);
+      sum += half_square(next - last, 0.2, 0.5) + half_square(next, 0.7, 0.7);
+    }
+    return sum;
+  });
+  EXPECT_LT((equations.gradient() - numeric).norm(), 0.05 * numeric.norm());
+}
+
 TEST(PathEquations, VelocitiesAndTheTieHaveTheGradientOfTheirSquares) {
   const Pose given{rotation_from_vector({0.01, 0.02, 0}), {0.05, 0.1, 0.2}};
   PathEquations equations(4, 1);

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/loam/guided_path.hpp"
+#include "core/loam/sweep_features.hpp"
+#include "core/offset/joint_walk.hpp"
+
+namespace sweepscope {
+
+/// Standard deviation of the jerk of a walk, or of its deviation from a given motion: of the rotation
+/// (rad/s^3) and of the translation (m/s^3), from sweeps as they were tracked.
+Eigen::Vector2d jerk_sigma(const OffsetProblem& problem, const std::vector<SweepPose>& sweeps,
+                           const JointWalkOptions& options);
+
+/// Learns that standard deviation from a path that was solved for, by the evidence for it (MacKay 1992): the
+/// sum of the squared jerks over the number of them that the measurements determine. Tracked sweeps scatter
+/// more than a rig deviates from a good prior. The number needs a trace of the inverse of the normal matrix,
+/// which is estimated by a few random probes (Hutchinson 1990), the same ones each time.
+class JerkEvidence {
+ public:
+  /// For paths of so many knots and equations of so many unknowns, the knots' six each first.
+  JerkEvidence(std::size_t knots, Eigen::Index unknowns);
+
+  /// One column a probe, half of them of the rotation, then half of the translation.
+  const Eigen::MatrixXd& probes() const { return probes_; }
+  /// `sigma` is what the path was solved with, `solved_probes` are the inverse matrix times the probes.
+  Eigen::Vector2d sigma(const GuidedPath& path, double knot_s, const Eigen::Vector2d& sigma,
+                        const Eigen::MatrixXd& solved_probes) const;
+
+ private:
+  Eigen::MatrixXd probes_;
+};
+
+}  // namespace sweepscope
