@@ -193,7 +193,8 @@ void estimate_walking(const OffsetProblem& problem, double coarse_s, const std::
   if (!source || !source->motion.is_truth()) warn_of_sway(found.sway_rad, result);
   std::optional<double> sigma_s =
       std::hypot(walk.sigma_s, unseen_sigma_s(*problem.recording, problem.motor, walk.offset_s));
-  judge_drift(drift_of(walk), duration_s(problem), walk.sigma_s, result);
+  // Parts that tell nothing scatter as if the clocks drifted apart.
+  if (!sigma_reason(sigma_s, scale)) judge_drift(drift_of(walk), duration_s(problem), walk.sigma_s, result);
   sigma_s = widened_by_halves(sigma_s, parts_offset_s, result);
   add(result.warnings, few_matches_warning(walk.matches, walk.features));
   answer(walk.offset_s, sigma_s, found.curve[1].e_m.value_or(0), scale, window_s, result);

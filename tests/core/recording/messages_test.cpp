@@ -39,8 +39,10 @@ TEST(Messages, AreKnownByTheirNamesInRos1AndRos2) {
   EXPECT_EQ(find_message_type("sensor_msgs/msg/LaserScan")->kind, MessageKind::kLaserScan);
   EXPECT_EQ(find_message_type("dynamixel_msgs/msg/JointState")->kind, MessageKind::kDynamixel);
   EXPECT_EQ(find_message_type("tf2_msgs/msg/TFMessage")->kind, MessageKind::kTransforms);
-  for (const char* other : {"", "sensor_msgs/Imu", "sensor_msgs/srv/LaserScan", "sensor_msgs/msg/LaserScan2",
-                            "sensor_msgs/msg", "sensor_msgsmsg//LaserScan"}) {
+  EXPECT_EQ(find_message_type("sensor_msgs/Imu")->kind, MessageKind::kImu);
+  EXPECT_EQ(find_message_type("nav_msgs/msg/Odometry")->kind, MessageKind::kOdometry);
+  for (const char* other : {"", "sensor_msgs/Image", "sensor_msgs/srv/LaserScan",
+                            "sensor_msgs/msg/LaserScan2", "sensor_msgs/msg", "sensor_msgsmsg//LaserScan"}) {
     EXPECT_EQ(find_message_type(other), nullptr) << other;
   }
 }

@@ -55,7 +55,7 @@ TEST(Rig, RefusesUnknownKeysWithTheirPlace) {
   EXPECT_EQ(refusal("laser: {topic: /scan}\nmotor: {joint: a, sclae: 2}\n"),
             "2:19: unknown key \"sclae\" in motor; known are: joint, scale, stamp, topic, zero_deg");
   EXPECT_EQ(refusal("lidar: {}\n"),
-            "1:1: unknown key \"lidar\" in the rig file; known are: laser, motor, mount");
+            "1:1: unknown key \"lidar\" in the rig file; known are: imu, laser, motor, mount, odometry");
 }
 
 TEST(Rig, RefusesImpossibleValuesWithTheirPlace) {
