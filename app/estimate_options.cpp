@@ -80,9 +80,9 @@ void declare_method(CLI::App& command, EstimateOptions& estimate) {
           [&estimate](const std::string& text) {
             estimate.scoring = text == "loam" ? Scoring::kLoam : Scoring::kTwoStage;
           },
-          "two-stage: count matches after the alternating roll is taken out of the poses (default); loam: at "
-          "LOAM's "
-          "own poses, as the paper did")
+          "two-stage: count matches along the one trajectory that fits the recording best (default); loam: "
+          "at "
+          "LOAM's own poses, tracked at each candidate, as the paper did")
       ->type_name("S")
       ->check(CLI::IsMember({"two-stage", "loam"}));
   command.add_option("--weight-c", estimate.weight_c, "c of d = sqrt(t^2 + c theta^2)")

@@ -140,6 +140,26 @@ std::vector<Vector6d> deviation_twists_per_s(const SweepPose& pose, std::size_t 
   return twists;
 }
 
+std::vector<std::vector<SweepPose>> tracked_runs(const std::vector<SweepPose>& sweeps,
+                                                 const GivenMotion* given) {
+  const auto covered = [&](const SweepPose& sweep) {
+    return given != nullptr && given->covers(sweep.begin_s, sweep.end_s);
+  };
+  std::vector<std::vector<SweepPose>> runs;
+  const SweepPose* last = nullptr;  // of the run
+  for (const SweepPose& sweep : sweeps) {
+    if (sweep.lost) {
+      last = nullptr;
+      continue;
+    }
+    if (last == nullptr || sweep.stretch != last->stretch || covered(sweep) != covered(*last))
+      runs.emplace_back();
+    runs.back().push_back(sweep);
+    last = &sweep;
+  }
+  return runs;
+}
+
 SweepPose along(const GivenMotion& given, SweepPose sweep, const Pose& start, double start_s, double knot_s) {
   const Pose map_from_world = start * given.at(start_s).inverse();
   const double duration_s = sweep.end_s - sweep.begin_s;

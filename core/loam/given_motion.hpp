@@ -67,6 +67,11 @@ class GivenMotion {
 std::vector<Vector6d> deviation_twists_per_s(const SweepPose& pose, std::size_t parts,
                                              const GivenMotion* given, double time_sign);
 
+/// The sweeps that are not lost, cut where one is, where the next one is of another stretch, and where
+/// `given` begins or ceases to cover them.
+std::vector<std::vector<SweepPose>> tracked_runs(const std::vector<SweepPose>& sweeps,
+                                                 const GivenMotion* given = nullptr);
+
 /// A sweep's pose along a given motion from `start` on, which is the pose at `start_s`, with knots about
 /// `knot_s` apart.
 SweepPose along(const GivenMotion& given, SweepPose sweep, const Pose& start, double start_s, double knot_s);

@@ -66,6 +66,7 @@ Remark sigma_reason(std::optional<double> sigma_s, const SearchScale& scale);
 double unseen_of_part_s(const Recording& recording, const MotorMotion& motor, std::size_t sweeps);
 /// Whether a sweep takes so nearly a whole number of scans that so many sweeps all see the same angles.
 bool sees_same_angles(const Recording& recording, const MotorMotion& motor, std::size_t sweeps);
+/// All sweeps do: few surfaces are seen twice.
 Remark aliased_warning(const Recording& recording, const MotorMotion& motor);
 /// The encoder's samples come unevenly.
 Remark encoder_warning(const MotorTrack& track);

@@ -1,7 +1,6 @@
 #include "core/offset/jerk_prior.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <random>
 
@@ -10,7 +9,6 @@
 namespace sweepscope {
 namespace {
 
-constexpr std::array<double, 4> kStencil{-1, 3, -3, 1};
 constexpr Eigen::Index kProbes = 6;  // of the rotation, and as many of the translation
 
 // How much faster the motor turns in the middle half of its sweeps than over all: 1 where it turns evenly,
@@ -31,16 +29,6 @@ double haste_in_the_middle(const OffsetProblem& problem) {
   return hastes[hastes.size() / 2];
 }
 
-// The third differences of a path's knots: rotation vectors and translations.
-std::vector<Vector6d> third_differences(const GuidedPath& path) {
-  std::vector<Vector6d> differences;
-  for (std::size_t k = 0; k + kStencil.size() <= path.knots(); ++k) {
-    const auto step = [&](std::size_t i) { return difference(path.knot(k + i + 1), path.knot(k + i)); };
-    differences.emplace_back(step(2) - 2 * step(1) + step(0));
-  }
-  return differences;
-}
-
 }  // namespace
 
 Eigen::Vector2d jerk_sigma(const OffsetProblem& problem, const std::vector<SweepPose>& sweeps,
@@ -52,17 +40,26 @@ Eigen::Vector2d jerk_sigma(const OffsetProblem& problem, const std::vector<Sweep
   return seen.cwiseMax(options.min_jerk);
 }
 
+std::vector<Vector6d> third_differences(const GuidedPath& path) {
+  std::vector<Vector6d> differences;
+  for (std::size_t k = 0; k + kJerkStencil.size() <= path.knots(); ++k) {
+    const auto step = [&](std::size_t i) { return difference(path.knot(k + i + 1), path.knot(k + i)); };
+    differences.emplace_back(step(2) - 2 * step(1) + step(0));
+  }
+  return differences;
+}
+
 // A column is the transposed stencils times random signs.
 JerkEvidence::JerkEvidence(std::size_t knots, Eigen::Index unknowns)
     : probes_(Eigen::MatrixXd::Zero(unknowns, 2 * kProbes)) {
   std::mt19937 random(1);
   for (Eigen::Index probe = 0; probe < 2 * kProbes; ++probe) {
     const Eigen::Index part = probe < kProbes ? 0 : 3;
-    for (std::size_t k = 0; k + kStencil.size() <= knots; ++k)
+    for (std::size_t k = 0; k + kJerkStencil.size() <= knots; ++k)
       for (Eigen::Index axis = 0; axis < 3; ++axis) {
         const double sign = (random() & 0x10000u) != 0 ? 1 : -1;
-        for (std::size_t a = 0; a < kStencil.size(); ++a)
-          probes_(Eigen::Index(6 * (k + a)) + part + axis, probe) += sign * kStencil[a];
+        for (std::size_t a = 0; a < kJerkStencil.size(); ++a)
+          probes_(Eigen::Index(6 * (k + a)) + part + axis, probe) += sign * kJerkStencil[a];
       }
   }
 }

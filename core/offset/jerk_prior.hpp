@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <vector>
 
 #include "core/loam/guided_path.hpp"
@@ -13,6 +14,11 @@ namespace sweepscope {
 /// (rad/s^3) and of the translation (m/s^3), from sweeps as they were tracked.
 Eigen::Vector2d jerk_sigma(const OffsetProblem& problem, const std::vector<SweepPose>& sweeps,
                            const JointWalkOptions& options);
+
+/// The jerk of a path by its knots, times their spacing cubed: this times four knots in a row.
+constexpr std::array<double, 4> kJerkStencil{-1, 3, -3, 1};
+/// It, for every four knots in a row: rotation vectors and translations.
+std::vector<Vector6d> third_differences(const GuidedPath& path);
 
 /// Learns that standard deviation from a path that was solved for, by the evidence for it (MacKay 1992): the
 /// sum of the squared jerks over the number of them that the measurements determine. Tracked sweeps scatter

@@ -97,18 +97,16 @@ class PartEquations {
   // The acceleration of the walk, or of its deviation from a given motion, changes little: third differences
   // of the knots are near zero, to within sigma (rotation, translation).
   void add_jerks(const GuidedPath& path, const Eigen::Vector2d& sigma) {
-    constexpr std::array<double, 4> kStencil{-1, 3, -3, 1};
+    const std::vector<Vector6d> residuals = third_differences(path);
     Vector6d weights;
     weights << Vector3d::Constant(1 / (sigma[0] * sigma[0])), Vector3d::Constant(1 / (sigma[1] * sigma[1]));
-    for (std::size_t k = 0; k + kStencil.size() <= path.knots(); ++k) {
-      const auto step = [&](std::size_t i) { return difference(path.knot(k + i + 1), path.knot(k + i)); };
-      const Vector6d residual = step(2) - 2 * step(1) + step(0);
-      for (std::size_t a = 0; a < kStencil.size(); ++a) {
+    for (std::size_t k = 0; k < residuals.size(); ++k) {
+      for (std::size_t a = 0; a < kJerkStencil.size(); ++a) {
         const auto row = Eigen::Index(6 * (k + a));
-        gradient_.segment<6>(row) += kStencil[a] * weights.cwiseProduct(residual);
+        gradient_.segment<6>(row) += kJerkStencil[a] * weights.cwiseProduct(residuals[k]);
         for (std::size_t b = 0; b <= a; ++b)
           matrix_.block<6, 6>(row, Eigen::Index(6 * (k + b))).diagonal() +=
-              kStencil[a] * kStencil[b] * weights;
+              kJerkStencil[a] * kJerkStencil[b] * weights;
       }
     }
   }
@@ -397,20 +395,8 @@ void cut(const Sweeps& run, double part_s, std::vector<Sweeps>& parts) {
 
 // No part holds sweeps that are lost, nor sweeps of two stretches, nor an end of a given motion.
 std::vector<Sweeps> parts_of(const Sweeps& sweeps, double part_s, const GivenMotion* given) {
-  const auto covered = [&](const SweepPose& sweep) {
-    return given != nullptr && given->covers(sweep.begin_s, sweep.end_s);
-  };
   std::vector<Sweeps> parts;
-  Sweeps run;
-  for (const SweepPose& sweep : sweeps) {
-    if (!run.empty() &&
-        (sweep.lost || sweep.stretch != run.back().stretch || covered(sweep) != covered(run.back()))) {
-      cut(run, part_s, parts);
-      run.clear();
-    }
-    if (!sweep.lost) run.push_back(sweep);
-  }
-  cut(run, part_s, parts);
+  for (const Sweeps& run : tracked_runs(sweeps, given)) cut(run, part_s, parts);
   return parts;
 }
 

@@ -58,9 +58,8 @@ struct JointWalk {
   std::optional<TimeShift> time_shift;  // of the parts that followed a given motion, as the offset
 };
 
-/// `tracked` are the poses of the problem's sweeps as `track` gives them at `offset_s`, their alternating
-/// roll taken out. Absent where no part has enough matches, or the job was cancelled. The same bytes for any
-/// number of threads.
+/// `tracked` are the poses of the problem's sweeps as `track` gives them at `offset_s`. Absent where no part
+/// has enough matches, or the job was cancelled. The same bytes for any number of threads.
 std::optional<JointWalk> solve_joint_walk(const OffsetProblem& problem, const std::vector<SweepPose>& tracked,
                                           double offset_s, const JointWalkOptions& options, const Job& job);
 

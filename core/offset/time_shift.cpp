@@ -33,25 +33,15 @@ Vector3d turn_rad(const Path& path, double time_s) {
 }
 
 void add_turns(const std::vector<SweepPose>& run, std::vector<Turn>& turns) {
-  if (run.empty()) return;
   const SmoothPath path(run, kKnot_s);
   const double last_s = run.back().end_s - kWindow_s;
   for (auto step = std::int64_t(std::ceil(run.front().begin_s / kStep_s)); time_of(step) <= last_s; ++step)
     turns.push_back({step, turn_rad(path, time_of(step))});
 }
 
-// Of every run of sweeps that are tracked and of one stretch.
 std::vector<Turn> turns_of(const std::vector<SweepPose>& sweeps) {
   std::vector<Turn> turns;
-  std::vector<SweepPose> run;
-  for (const SweepPose& sweep : sweeps) {
-    if (!run.empty() && (sweep.lost || sweep.stretch != run.back().stretch)) {
-      add_turns(run, turns);
-      run.clear();
-    }
-    if (!sweep.lost) run.push_back(sweep);
-  }
-  add_turns(run, turns);
+  for (const std::vector<SweepPose>& run : tracked_runs(sweeps)) add_turns(run, turns);
   return turns;
 }
 

@@ -2,20 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <numbers>
-
+#include "core/geometry/roll_pitch_yaw.hpp"
 #include "core/recording/stream_stamps.hpp"
 
 namespace sweepscope {
 namespace {
-
-/// R = Rz(yaw) Ry(pitch) Rx(roll).
-Eigen::Quaterniond rotation_of(const Eigen::Vector3d& rpy_deg) {
-  const Eigen::Vector3d rpy_rad = rpy_deg * std::numbers::pi / 180;
-  return Eigen::AngleAxisd(rpy_rad.z(), Eigen::Vector3d::UnitZ()) *
-         Eigen::AngleAxisd(rpy_rad.y(), Eigen::Vector3d::UnitY()) *
-         Eigen::AngleAxisd(rpy_rad.x(), Eigen::Vector3d::UnitX());
-}
 
 /// The usable samples of a topic in the order of time.
 struct Samples {
@@ -56,7 +47,7 @@ void assemble_motion(const RawRecording& raw, Recording& recording) {
   const Rig& rig = recording.rig;
   std::vector<std::string>& warnings = recording.report.warnings;
   if (rig.imu.topic) {
-    const Eigen::Quaterniond base_from_imu = rotation_of(rig.imu.pose_in_base_rpy_deg);
+    const Eigen::Quaterniond base_from_imu = rotation_from_rpy(rig.imu.pose_in_base_rpy_deg);
     const auto& rates_rad_s = raw.turn_rates.rates_rad_s;
     Samples samples =
         in_order(raw.turn_rates.stamps, recording, [&](std::size_t i) { return rates_rad_s[i].allFinite(); });
