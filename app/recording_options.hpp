@@ -11,7 +11,7 @@
 #include "app/progress.hpp"
 #include "core/error.hpp"
 #include "core/job.hpp"
-#include "core/recording/read_recording.hpp"
+#include "core/recording/formats/read_recording.hpp"
 
 namespace sweepscope::app {
 

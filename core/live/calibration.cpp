@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <future>
-#include <numbers>
 #include <optional>
 
-#include "core/offset/motion_test.hpp"
-#include "core/recording/assemble.hpp"
+#include "core/numbers.hpp"
+#include "core/offset/rig_motion.hpp"
+#include "core/recording/assemble/assemble.hpp"
 
 namespace sweepscope {
 namespace {
@@ -155,8 +155,7 @@ Result<Estimate> calibrate(RawRecording heard, const CalibrationOptions& options
   const std::string seen = fmt::format(
       "{} of {} pairs of sweeps of the same direction lie apart; at the median by {:.3f} m and "
       "{:.2f} deg.",
-      motion->moved, motion->pairs, motion->median_translation_m,
-      motion->median_rotation_rad * 180 / std::numbers::pi);
+      motion->moved, motion->pairs, motion->median_translation_m, motion->median_rotation_rad * kDegPerRad);
   EstimateOptions estimate_options = options.estimate;
   estimate_options.assume = Method::kStationary;
   auto found = estimate(*recording, estimate_options, job);

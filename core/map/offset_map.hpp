@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/geometry/map_cloud.hpp"
 #include "core/geometry/pose.hpp"
 #include "core/job.hpp"
-#include "core/map/map_cloud.hpp"
 #include "core/offset/estimator.hpp"
 #include "core/recording/recording.hpp"
 

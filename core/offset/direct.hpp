@@ -6,7 +6,7 @@
 #include "core/loam/mapping.hpp"
 #include "core/offset/estimate.hpp"
 #include "core/offset/motion_source.hpp"
-#include "core/offset/motion_test.hpp"
+#include "core/offset/rig_motion.hpp"
 #include "core/offset/search_window.hpp"
 #include "core/offset/still_points.hpp"
 

@@ -6,16 +6,16 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
-#include <numbers>
 
+#include "core/numbers.hpp"
 #include "core/offset/direct.hpp"
 #include "core/offset/direct_moving.hpp"
 #include "core/offset/direct_stationary.hpp"
 #include "core/offset/identifiability.hpp"
 #include "core/offset/kept_candidates.hpp"
 #include "core/offset/motion_source.hpp"
-#include "core/offset/motion_test.hpp"
 #include "core/offset/moving.hpp"
+#include "core/offset/rig_motion.hpp"
 #include "core/offset/search_window.hpp"
 #include "core/offset/stationary.hpp"
 #include "core/offset/still_motion.hpp"
@@ -194,8 +194,7 @@ class Search {
       result_.kind_reason = fmt::format(
           "{} of {} pairs of sweeps of the same direction lie apart; at the median by {:.3f} m and {:.2f} "
           "deg.",
-          test.moved, test.pairs, test.median_translation_m,
-          test.median_rotation_rad * 180 / std::numbers::pi);
+          test.moved, test.pairs, test.median_translation_m, test.median_rotation_rad * kDegPerRad);
     } else {
       result_.kind_reason = "Too short to tell whether the rig stood still: it is taken to have stood still.";
       if (options_.method != Method::kMoving) result_.warnings.push_back(result_.kind_reason);

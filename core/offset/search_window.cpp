@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "core/numbers.hpp"
 
 namespace sweepscope {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 // The next 1, 2 or 5 times a power of ten.
 double rounded_up(double value) {
@@ -22,10 +21,7 @@ double rounded_up(double value) {
 double median_spacing_s(const std::vector<double>& times_s) {
   std::vector<double> spacings_s;
   for (std::size_t i = 1; i < times_s.size(); ++i) spacings_s.push_back(times_s[i] - times_s[i - 1]);
-  if (spacings_s.empty()) return 0.0;
-  std::nth_element(spacings_s.begin(), spacings_s.begin() + std::ptrdiff_t(spacings_s.size() / 2),
-                   spacings_s.end());
-  return spacings_s[spacings_s.size() / 2];
+  return median(std::move(spacings_s));
 }
 
 }  // namespace
@@ -33,9 +29,9 @@ double median_spacing_s(const std::vector<double>& times_s) {
 SearchScale search_scale(const MotorMotion& motor) {
   SearchScale scale;
   scale.most_half_width_s = motor.median_sweep_s / 2;
-  scale.unit_s = rounded_up(std::max(1e-3, 0.36 * kDegree / motor.median_speed_rad_s));
+  scale.unit_s = rounded_up(std::max(1e-3, 0.36 * kRadPerDeg / motor.median_speed_rad_s));
   scale.half_width_s =
-      std::min(scale.most_half_width_s, std::max(0.060, 5 * kDegree / motor.median_speed_rad_s));
+      std::min(scale.most_half_width_s, std::max(0.060, 5 * kRadPerDeg / motor.median_speed_rad_s));
   return scale;
 }
 
@@ -65,12 +61,12 @@ std::vector<std::string> motor_reasons(const MotorTrack& track, const MotorMotio
   if (track.time_s.size() < 3) return {fmt::format("The motor has {} samples only.", track.time_s.size())};
   if (motor.sweeps.empty())
     return {fmt::format("The motor does not move: its angle stays within {:.2f} deg.",
-                        motor.range_rad / kDegree)};
+                        motor.range_rad / kRadPerDeg)};
   if (motor.sweeps.size() < 2)
     return {fmt::format(
         "The motor turns one way only ({:.0f} deg in {:.1f} s): an offset cannot be told from the "
         "encoder's zero.",
-        motor.range_rad / kDegree, track.time_s.back() - track.time_s.front())};
+        motor.range_rad / kRadPerDeg, track.time_s.back() - track.time_s.front())};
   return {};
 }
 

@@ -2,7 +2,7 @@
 #include <cstdio>
 
 #include "core/offset/estimator.hpp"
-#include "core/recording/read_recording.hpp"
+#include "core/recording/formats/read_recording.hpp"
 
 int main(int argc, char** argv) {
   const sweepscope::Job job;

@@ -10,8 +10,8 @@
 #include "core/job.hpp"
 #include "core/map/replace_points.hpp"
 #include "core/offset/estimator.hpp"
+#include "core/recording/formats/read_recording.hpp"
 #include "core/recording/inspect.hpp"
-#include "core/recording/read_recording.hpp"
 
 namespace sweepscope::ui {
 

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "core/offset/search_window.hpp"
-#include "render/comparison_points.hpp"
+#include "render/comparison/comparison_points.hpp"
 
 namespace sweepscope::ui {
 namespace {

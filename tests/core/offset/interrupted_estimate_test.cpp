@@ -1,10 +1,10 @@
 // Long work is interrupted at every point where it looks whether it is: the answer is the whole one, or none.
 #include <fmt/format.h>
 
-#include "core/io/estimate_json.hpp"
 #include "core/map/offset_map.hpp"
 #include "core/offset/estimator.hpp"
-#include "core/offset/motion_test.hpp"
+#include "core/offset/rig_motion.hpp"
+#include "core/results/estimate_json.hpp"
 #include "tests/core/engine_fixtures.hpp"
 #include "tests/core/every_look.hpp"
 
