@@ -11,8 +11,8 @@
 #include "core/live/calibration.hpp"
 #include "core/live/ros_source.hpp"
 #include "core/live/stream_source.hpp"
-#include "core/recording/choose_streams.hpp"
-#include "core/recording/recording_writer.hpp"
+#include "core/recording/assemble/choose_streams.hpp"
+#include "core/recording/formats/recording_writer.hpp"
 
 namespace sweepscope::app {
 namespace {

@@ -13,14 +13,14 @@
 #include "app/progress.hpp"
 #include "app/recording_options.hpp"
 #include "core/io/cloud_file.hpp"
-#include "core/io/estimate_json.hpp"
 #include "core/io/trajectory_file.hpp"
 #include "core/map/feature_points.hpp"
 #include "core/map/offset_map.hpp"
-#include "core/recording/recording_files.hpp"
-#include "render/comparison.hpp"
-#include "render/curve_charts.hpp"
-#include "render/vector_file.hpp"
+#include "core/recording/formats/read_raw_recording.hpp"
+#include "core/results/estimate_json.hpp"
+#include "render/charts/curve_charts.hpp"
+#include "render/comparison/comparison.hpp"
+#include "render/vector/vector_file.hpp"
 
 namespace sweepscope::app {
 namespace {

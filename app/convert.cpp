@@ -6,10 +6,9 @@
 #include "app/progress.hpp"
 #include "app/recording_options.hpp"
 #include "app/say.hpp"
-#include "core/recording/choose_streams.hpp"
-#include "core/recording/read_raw_recording.hpp"
-#include "core/recording/recording_files.hpp"
-#include "core/recording/recording_writer.hpp"
+#include "core/recording/assemble/choose_streams.hpp"
+#include "core/recording/formats/read_raw_recording.hpp"
+#include "core/recording/formats/recording_writer.hpp"
 
 namespace sweepscope::app {
 namespace {

@@ -6,9 +6,8 @@
 #include <array>
 
 #include "app/say.hpp"
-#include "core/io/estimate_json.hpp"
-#include "core/io/program_hash.hpp"
-#include "core/io/recording_hash.hpp"
+#include "core/io/content_hash.hpp"
+#include "core/results/estimate_json.hpp"
 
 namespace sweepscope::app {
 namespace {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "app/recording_options.hpp"
-#include "core/io/candidate_file.hpp"
 #include "core/offset/estimator.hpp"
+#include "core/results/candidate_file.hpp"
 
 namespace sweepscope::app {
 

@@ -10,7 +10,7 @@
 #include "app/recording_options.hpp"
 #include "app/say.hpp"
 #include "app/threads.hpp"
-#include "render/look_options.hpp"
+#include "render/comparison/look_options.hpp"
 
 namespace sweepscope::app {
 namespace {

@@ -8,9 +8,9 @@
 #include "app/recording_options.hpp"
 #include "app/say.hpp"
 #include "core/io/printable_text.hpp"
-#include "core/offset/motion_test.hpp"
+#include "core/offset/rig_motion.hpp"
 #include "core/recording/inspect.hpp"
-#include "core/recording/rig_names.hpp"
+#include "core/recording/rig.hpp"
 
 namespace sweepscope::app {
 namespace {

@@ -35,8 +35,9 @@ install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libsweepscope-dev
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/sweepscope)
 set_target_properties(sweepscope_core PROPERTIES EXPORT_NAME core)
 install(TARGETS sweepscope_core EXPORT sweepscope_engine ARCHIVE COMPONENT engine)
-install(DIRECTORY core DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sweepscope COMPONENT engine FILES_MATCHING
-        PATTERN "*.hpp")
+install(CODE "set(root \"${PROJECT_SOURCE_DIR}\")\nset(headers \"${sweepscope_public_headers}\")\nset(folder \"${CMAKE_INSTALL_INCLUDEDIR}\")"
+        COMPONENT engine)
+install(SCRIPT core/install_headers.cmake COMPONENT engine)
 install(EXPORT sweepscope_engine NAMESPACE sweepscope:: FILE sweepscopeTargets.cmake DESTINATION ${package_folder}
         COMPONENT engine)
 configure_package_config_file(core/sweepscopeConfig.cmake.in ${PROJECT_BINARY_DIR}/sweepscopeConfig.cmake
@@ -69,7 +70,7 @@ set(CPACK_DEBIAN_ENGINE_DESCRIPTION "engine of sweepscope, for other programs
  package: find_package(sweepscope) and link sweepscope::core.")
 # What the program is built with, for whoever builds with its engine.
 set(CPACK_DEBIAN_ENGINE_PACKAGE_DEPENDS
-    "libbz2-dev, libeigen3-dev, libembree-dev, libexpected-dev, libfmt-dev, liblz4-dev, libpcl-dev, librosbag-storage-dev, libroscpp-core-dev, libsensor-msgs-dev, libspdlog-dev, libsqlite3-dev, libtbb-dev, libxxhash-dev, libyaml-cpp-dev, libzstd-dev, nlohmann-json3-dev, pkg-config")
+    "libbz2-dev, libeigen3-dev, libembree-dev, libexpected-dev, libfmt-dev, liblz4-dev, libpcl-dev, librosbag-storage-dev, libroscpp-core-dev, libsensor-msgs-dev, libsqlite3-dev, libtbb-dev, libxxhash-dev, libyaml-cpp-dev, libzstd-dev, nlohmann-json3-dev, pkg-config")
 if(roscpp_FOUND)
   string(APPEND CPACK_DEBIAN_ENGINE_PACKAGE_DEPENDS ", libroscpp-dev")
 endif()

@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "core/error.hpp"
-#include "core/io/unfinished_files.hpp"
+#include "core/io/temporary_file.hpp"
 
 namespace sweepscope::app {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "render/look_options.hpp"
+#include "render/comparison/look_options.hpp"
 
 namespace sweepscope::app {
 

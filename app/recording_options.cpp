@@ -14,7 +14,7 @@
 #include "core/io/memory.hpp"
 #include "core/io/output_check.hpp"
 #include "core/map/offset_map.hpp"
-#include "core/recording/recording_files.hpp"
+#include "core/recording/formats/read_raw_recording.hpp"
 
 namespace sweepscope::app {
 namespace {

@@ -12,7 +12,7 @@
 #include "core/error.hpp"
 #include "core/job.hpp"
 #include "core/offset/estimate.hpp"
-#include "core/recording/read_recording.hpp"
+#include "core/recording/formats/read_recording.hpp"
 
 namespace sweepscope::app {
 

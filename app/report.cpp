@@ -12,7 +12,7 @@
 #include "app/progress.hpp"
 #include "app/recording_options.hpp"
 #include "app/say.hpp"
-#include "core/io/shell_word.hpp"
+#include "core/io/printable_text.hpp"
 #include "render/gl/context.hpp"
 
 namespace sweepscope::app {

@@ -5,8 +5,8 @@
 #include "app/commands.hpp"
 #include "app/progress.hpp"
 #include "app/recording_options.hpp"
-#include "core/recording/detect_rig.hpp"
-#include "core/recording/recording_files.hpp"
+#include "core/recording/formats/read_raw_recording.hpp"
+#include "core/recording/rig/detect_rig.hpp"
 
 namespace sweepscope::app {
 namespace {

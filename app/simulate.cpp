@@ -17,8 +17,7 @@
 #include "core/simulation/portable_math.hpp"
 #include "core/simulation/scene.hpp"
 #include "core/simulation/simulate.hpp"
-#include "core/simulation/write_bag.hpp"
-#include "core/simulation/write_truth.hpp"
+#include "core/simulation/write_simulation.hpp"
 
 namespace sweepscope::app {
 namespace {

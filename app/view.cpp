@@ -11,7 +11,7 @@
 #include "app/interrupt.hpp"
 #include "app/recording_options.hpp"
 #include "core/io/atomic_file.hpp"
-#include "core/io/shell_word.hpp"
+#include "core/io/printable_text.hpp"
 #include "ui/script/script.hpp"
 #include "ui/window_loop.hpp"
 

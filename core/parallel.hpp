@@ -2,8 +2,11 @@
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
 
+#include <algorithm>
 #include <cstddef>
+#include <vector>
 
 #ifdef __SANITIZE_THREAD__
 #include <sanitizer/tsan_interface.h>
@@ -72,6 +75,18 @@ template <typename Index, typename Body>
 void for_each_block(Index count, std::size_t grain, const Body& body) {
   LoopOrder order;
   tbb::parallel_for(tbb::blocked_range<Index>(0, count, grain), order.piece(body));
+}
+
+/// Ascending, on all cores. Equal values must be the same in everything, so that the result is for any number
+/// of threads. ThreadSanitizer would take every access of the sort inside libtbb, whose order it cannot see,
+/// for a race: there one thread sorts.
+template <typename Value>
+void sort_in_parallel(std::vector<Value>& values) {
+#ifdef __SANITIZE_THREAD__
+  std::sort(values.begin(), values.end());
+#else
+  tbb::parallel_sort(values.begin(), values.end());
+#endif
 }
 
 }  // namespace sweepscope

@@ -5,17 +5,28 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 #include "core/geometry/pose.hpp"
-#include "core/recording/recording.hpp"
 
 namespace sweepscope {
+
+/// How the laser is mounted on the motor.
+struct Mount {
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  // the motor's axis in the base frame, unit length
+  // The laser's pose in the frame that turns with the motor: p_in_motor = R(rpy) * p_in_laser + xyz,
+  // R = Rz(yaw) Ry(pitch) Rx(roll).
+  Eigen::Vector3d laser_in_motor_xyz_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d laser_in_motor_rpy_deg = Eigen::Vector3d::Zero();
+};
 
 /// The rig's kinematics: p_in_base = Rot(axis, motor angle) * (motor_from_laser * p_in_laser). Only the first
 /// factor depends on the offset, so points are kept in the motor frame, which turns with the motor.
 class Kinematics {
  public:
-  explicit Kinematics(const Rig::Mount& mount);
+  explicit Kinematics(const Mount& mount)
+      : axis_(mount.axis.normalized()),
+        motor_from_laser_{rotation_from_rpy(mount.laser_in_motor_rpy_deg), mount.laser_in_motor_xyz_m} {}
 
   /// A beam's point in the motor frame. `angle_rad` about the laser's z axis, 0 along its x axis.
   Eigen::Vector3d point_in_motor(double range_m, double angle_rad) const {
@@ -41,6 +52,18 @@ class Kinematics {
  private:
   Eigen::Vector3d axis_;
   Pose motor_from_laser_;
+};
+
+/// The motor's angle over its own clock, linear between samples. Times ascend strictly.
+struct MotorTrack {
+  std::vector<double> time_s;  // motor clock, seconds since Recording::epoch_ns
+  std::vector<double> angle_rad;
+
+  /// The angle at a time, which must lie within [time_s.front(), time_s.back()].
+  double angle_at(double t_s) const;
+  /// True where both ends lie inside the track and no gap between neighbouring samples inside is longer
+  /// than max_gap_s.
+  bool covers(double from_s, double to_s, double max_gap_s) const;
 };
 
 /// Reads a motor track at instants that mostly ascend: a step or two from the last place instead of a search.

@@ -3,6 +3,8 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include "core/numbers.hpp"
+
 namespace sweepscope {
 
 using Vector6d = Eigen::Matrix<double, 6, 1>;
@@ -45,10 +47,23 @@ inline Eigen::Vector3d vector_from_rotation(const Eigen::Quaterniond& rotation) 
   return angle_rad / sine * rotation.vec();
 }
 
+/// Rz(yaw) Ry(pitch) Rx(roll) of an `rpy_deg`, as rig files and ROS have it.
+inline Eigen::Quaterniond rotation_from_rpy(const Eigen::Vector3d& rpy_deg) {
+  const Eigen::Vector3d rpy_rad = rpy_deg * kRadPerDeg;
+  return Eigen::AngleAxisd(rpy_rad.z(), Eigen::Vector3d::UnitZ()) *
+         Eigen::AngleAxisd(rpy_rad.y(), Eigen::Vector3d::UnitY()) *
+         Eigen::AngleAxisd(rpy_rad.x(), Eigen::Vector3d::UnitX());
+}
+
+/// The rotation vector that turns `from` into `to`, in the axes of `from`.
+inline Eigen::Vector3d turn_between(const Eigen::Quaterniond& from, const Eigen::Quaterniond& to) {
+  return vector_from_rotation(from.conjugate() * to);
+}
+
 /// Between `from` (u = 0) and `to` (u = 1): the translation linearly, the rotation at constant rate. u
 /// outside [0, 1] goes on beyond the ends.
 inline Pose interpolate(const Pose& from, const Pose& to, double u) {
-  const Eigen::Vector3d turn_rad = vector_from_rotation(from.rotation.conjugate() * to.rotation);
+  const Eigen::Vector3d turn_rad = turn_between(from.rotation, to.rotation);
   return {from.rotation * rotation_from_vector(u * turn_rad),
           from.translation_m + u * (to.translation_m - from.translation_m)};
 }

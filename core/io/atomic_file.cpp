@@ -12,7 +12,7 @@
 #include <fstream>
 #include <system_error>
 
-#include "core/io/unfinished_files.hpp"
+#include "core/io/temporary_file.hpp"
 
 namespace sweepscope {
 

@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "core/error.hpp"
-#include "core/map/map_cloud.hpp"
+#include "core/geometry/map_cloud.hpp"
 
 namespace sweepscope {
 

@@ -1,6 +1,7 @@
 #include "core/io/content_hash.hpp"
 
 #include <fmt/format.h>
+#include <sys/auxv.h>
 #include <xxhash.h>
 
 #include <algorithm>
@@ -8,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "core/recording/input_file.hpp"
+#include "core/io/input_file.hpp"
 
 namespace sweepscope {
 namespace {
@@ -55,6 +56,37 @@ Result<std::string> file_content_hash(const std::filesystem::path& path) {
     XXH3_128bits_update(state.get(), piece.data(), got);
   }
   return digits_of(XXH3_128bits_digest(state.get()));
+}
+
+Result<std::string> recording_content_hash(const std::filesystem::path& path) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  if (!fs::is_directory(path, error)) return file_content_hash(path);
+  std::vector<fs::path> files;
+  for (auto entry = fs::recursive_directory_iterator(path, error);
+       !error && entry != fs::recursive_directory_iterator(); entry.increment(error))
+    if (entry->is_regular_file(error)) files.push_back(entry->path());
+  if (error) return unreadable(fmt::format("{}: {}", path.string(), error.message()));
+  std::sort(files.begin(), files.end());
+  std::string all;
+  for (const fs::path& file : files) {
+    const bool empty = fs::is_empty(file, error);
+    const auto hash = empty ? content_hash("") : file_content_hash(file);
+    if (!hash) return hash;
+    all += file.lexically_relative(path).string() + '\0' + *hash + '\0';
+  }
+  return content_hash(all);
+}
+
+Result<std::string> program_content_hash() {
+  static const Result<std::string> hash = [] {
+    std::error_code ignored;
+    const std::filesystem::path running = "/proc/self/exe";
+    if (std::filesystem::exists(running, ignored)) return file_content_hash(running);
+    // A bare chroot has no /proc: the path that the program was begun with.
+    return file_content_hash(reinterpret_cast<const char*>(getauxval(AT_EXECFN)));
+  }();
+  return hash;
 }
 
 }  // namespace sweepscope

@@ -15,4 +15,11 @@ std::string content_hash(std::string_view bytes);
 /// reading does.
 Result<std::string> file_content_hash(const std::filesystem::path& path);
 
+/// The content hash of a recording: of its file, or of all files below its folder with their names.
+Result<std::string> recording_content_hash(const std::filesystem::path& path);
+
+/// The content hash of the running program's own file. It stands for the version: another build may answer
+/// otherwise.
+Result<std::string> program_content_hash();
+
 }  // namespace sweepscope

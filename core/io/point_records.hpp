@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "core/map/map_cloud.hpp"
+#include "core/geometry/map_cloud.hpp"
 
 namespace sweepscope {
 

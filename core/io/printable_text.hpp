@@ -24,6 +24,12 @@ std::string printable_message(std::string_view text);
 /// rest, such as JSON.
 std::string valid_utf8(std::string_view text);
 
+/// A word as a shell takes it: in 'single quotes' unless all of it is plain.
+std::string shell_word(const std::string& word);
+
+/// A printable text inside XML or HTML: markup characters and double quotes as entities.
+std::string markup_escaped(std::string_view printable);
+
 /// A document as JSON, indented by two spaces, with a line end. Strings that are no UTF-8 are made so by
 /// valid_utf8, and the control characters that JSON lets through are written as \uNNNN.
 std::string json_text(nlohmann::ordered_json document);

@@ -10,12 +10,23 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <mutex>
+#include <set>
 #include <string_view>
-
-#include "core/io/unfinished_files.hpp"
 
 namespace sweepscope {
 namespace {
+
+struct Unfinished {
+  std::mutex mutex;
+  std::multiset<std::filesystem::path> paths;
+};
+
+// Never destroyed: another thread may end the program while it is in use.
+Unfinished& unfinished() {
+  static Unfinished* const all = new Unfinished;
+  return *all;
+}
 
 namespace fs = std::filesystem;
 
@@ -47,6 +58,29 @@ void remove_if_abandoned(const fs::path& path) {
 }
 
 }  // namespace
+
+int create_unfinished(const std::filesystem::path& path) {
+  const std::lock_guard lock(unfinished().mutex);
+  const int descriptor = open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (descriptor >= 0) unfinished().paths.insert(path);
+  return descriptor;
+}
+
+void remember_unfinished(const std::filesystem::path& path) {
+  const std::lock_guard lock(unfinished().mutex);
+  unfinished().paths.insert(path);
+}
+
+void forget_unfinished(const std::filesystem::path& path) {
+  const std::lock_guard lock(unfinished().mutex);
+  const auto found = unfinished().paths.find(path);
+  if (found != unfinished().paths.end()) unfinished().paths.erase(found);
+}
+
+void remove_unfinished_files() {
+  unfinished().mutex.lock();
+  for (const auto& path : unfinished().paths) std::remove(path.c_str());
+}
 
 Result<TemporaryFile> TemporaryFile::create() {
   const auto refused = [](const std::string& folder, const std::string& why) {

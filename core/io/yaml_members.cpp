@@ -3,7 +3,7 @@
 #include <cmath>
 #include <set>
 
-#include "core/recording/input_file.hpp"
+#include "core/io/input_file.hpp"
 
 namespace sweepscope::yaml {
 

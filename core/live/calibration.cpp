@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "core/offset/rig_kind.hpp"
-#include "core/recording/assemble.hpp"
+#include "core/recording/assemble/assemble.hpp"
 
 namespace sweepscope {
 namespace {

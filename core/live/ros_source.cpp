@@ -11,7 +11,7 @@
 #include <span>
 
 #include "core/live/ros_link.hpp"
-#include "core/recording/message_collector.hpp"
+#include "core/recording/messages/message_collector.hpp"
 #endif
 
 namespace sweepscope {

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "core/live/live_source.hpp"
-#include "core/recording/csv_stream.hpp"
+#include "core/recording/csv/csv_stream.hpp"
 
 namespace sweepscope {
 

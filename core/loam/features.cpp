@@ -5,6 +5,7 @@
 #include <cmath>
 #include <span>
 
+#include "core/numbers.hpp"
 #include "core/parallel.hpp"
 
 namespace sweepscope {
@@ -314,9 +315,7 @@ double estimate_range_noise_m(const Recording& recording) {
     }
   });
   if (differences.empty()) return 0.002;
-  const auto middle = differences.begin() + std::ptrdiff_t(differences.size() / 2);
-  std::nth_element(differences.begin(), middle, differences.end());
-  return std::max(0.002, *middle / (0.6745 * std::sqrt(6.0)));
+  return std::max(0.002, median(std::move(differences)) / (0.6745 * std::sqrt(6.0)));
 }
 
 Result<FeatureSet> extract_features(const Recording& recording, const FeatureOptions& options,

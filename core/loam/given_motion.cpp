@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/loam/path_equations.hpp"
+#include "core/numbers.hpp"
 
 namespace sweepscope {
 namespace {
@@ -15,13 +16,11 @@ constexpr double kLongestGap_s = 0.25, kLongestGapInSpacings = 3;
 double longest_gap_s(const std::vector<StampedPose>& poses) {
   std::vector<double> spacings_s;
   for (std::size_t i = 1; i < poses.size(); ++i) spacings_s.push_back(poses[i].time_s - poses[i - 1].time_s);
-  const auto middle = spacings_s.begin() + std::ptrdiff_t(spacings_s.size() / 2);
-  std::nth_element(spacings_s.begin(), middle, spacings_s.end());
-  return std::max(kLongestGap_s, kLongestGapInSpacings * *middle);
+  return std::max(kLongestGap_s, kLongestGapInSpacings * median(std::move(spacings_s)));
 }
 
 Vector3d turn_rad(const StampedPose& from, const StampedPose& to) {
-  return vector_from_rotation(from.orientation.conjugate() * to.orientation);
+  return turn_between(from.orientation, to.orientation);
 }
 
 // The derivative at the middle of three values, from the steps before and after it.

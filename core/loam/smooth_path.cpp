@@ -90,8 +90,7 @@ void SmoothPath::sample() {
     double rest = 1;
     for (std::size_t k = 1; k < 4; ++k) {
       rest -= w[k - 1];
-      const Eigen::Vector3d turn_rad =
-          vector_from_rotation(knot[k - 1].rotation.conjugate() * knot[k].rotation);
+      const Eigen::Vector3d turn_rad = turn_between(knot[k - 1].rotation, knot[k].rotation);
       pose.rotation = pose.rotation * rotation_from_vector(rest * turn_rad);
       pose.translation_m += w[k] * knot[k].translation_m;
     }

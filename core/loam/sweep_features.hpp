@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "core/geometry/kinematics.hpp"
-#include "core/geometry/sweeps.hpp"
 #include "core/loam/features.hpp"
+#include "core/recording/sweeps.hpp"
 
 namespace sweepscope {
 

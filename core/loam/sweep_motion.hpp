@@ -15,7 +15,7 @@ class MotionStep {
  public:
   MotionStep(const Pose& begin, const Pose& end)
       : begin_m_(begin.translation_m),
-        turn_rad_(vector_from_rotation(begin.rotation.conjugate() * end.rotation)),
+        turn_rad_(turn_between(begin.rotation, end.rotation)),
         shift_m_(end.translation_m - begin.translation_m),
         rotation_(begin.rotation.toRotationMatrix()),
         turn_rad2_(turn_rad_.squaredNorm()) {}

@@ -37,10 +37,8 @@ double alternating_sway_rad(std::span<const SweepPose> sweeps, const Eigen::Vect
   using Eigen::Vector3d;
   std::vector<Vector3d> to_next_rad(sweeps.size(), Vector3d::Zero()), within_rad(sweeps.size());
   for (std::size_t k = 0; k < sweeps.size(); ++k) {
-    within_rad[k] = vector_from_rotation(sweeps[k].begin().rotation.conjugate() * sweeps[k].end().rotation);
-    if (k > 0)
-      to_next_rad[k] =
-          vector_from_rotation(sweeps[k - 1].middle().rotation.conjugate() * sweeps[k].middle().rotation);
+    within_rad[k] = turn_between(sweeps[k].begin().rotation, sweeps[k].end().rotation);
+    if (k > 0) to_next_rad[k] = turn_between(sweeps[k - 1].middle().rotation, sweeps[k].middle().rotation);
   }
   // [-1 2 -1] / 4 passes nothing of a turn that goes on steadily.
   const auto mean_alternation_rad = [&](const std::vector<Vector3d>& turn_rad) {

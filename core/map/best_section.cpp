@@ -7,6 +7,7 @@
 #include "core/map/cross_section.hpp"
 #include "core/map/section_points.hpp"
 #include "core/map/surface_thickness.hpp"
+#include "core/numbers.hpp"
 #include "core/parallel.hpp"
 
 namespace sweepscope {
@@ -69,9 +70,7 @@ Surfaces surfaces_of(const MapCloud& cloud) {
   for (const LocalSurface& surface : found.surfaces)
     thickness_m.push_back(std::isnan(surface.thickness_m) ? std::numeric_limits<float>::infinity()
                                                           : surface.thickness_m);
-  const auto middle = thickness_m.begin() + static_cast<std::ptrdiff_t>(thickness_m.size() / 2);
-  std::nth_element(thickness_m.begin(), middle, thickness_m.end());
-  found.median_thickness_m = *middle;
+  found.median_thickness_m = median(std::move(thickness_m));
   return found;
 }
 

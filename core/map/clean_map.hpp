@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/map/map_cloud.hpp"
+#include "core/geometry/map_cloud.hpp"
 
 namespace sweepscope {
 

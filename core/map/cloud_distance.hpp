@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/map/map_cloud.hpp"
+#include "core/geometry/map_cloud.hpp"
 
 namespace sweepscope {
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/map/section_points.hpp"
+#include "core/numbers.hpp"
 #include "core/parallel.hpp"
 
 namespace sweepscope {
@@ -69,12 +70,6 @@ FacePoint face_point(const MapPoint& p, const CrossSection& section) {
   return {d.dot(section.along()), d.z(), d.dot(section.across())};
 }
 
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 // across = offset + turn * along + lean * up, in the section's own axes.
 struct Plane {
   double offset_m = 0, turn = 0, lean = 0;
@@ -130,7 +125,8 @@ Plane robust_plane(const std::vector<FacePoint>& points, Plane plane, double rea
     if (!solved.allFinite()) break;
     plane = {solved[0], solved[1], solved[2]};
     for (std::size_t i = 0; i < points.size(); ++i) residuals_m[i] = std::abs(plane.distance_m(points[i]));
-    scale_m = std::max(kLeastScale_m, std::min(0.8 * scale_m, 2 * 1.4826 * median(residuals_m)));
+    scale_m =
+        std::max(kLeastScale_m, std::min(0.8 * scale_m, 2 * kSigmaPerMedianDeviation * median(residuals_m)));
   }
   return plane;
 }

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/geometry/map_cloud.hpp"
 #include "core/geometry/pose.hpp"
-#include "core/map/map_cloud.hpp"
 
 namespace sweepscope {
 

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "core/geometry/map_cloud.hpp"
 #include "core/loam/features.hpp"
-#include "core/map/map_cloud.hpp"
 #include "core/recording/recording.hpp"
 
 namespace sweepscope {

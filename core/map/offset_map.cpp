@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "core/loam/sweep_motion.hpp"
-#include "core/map/pose_coverage.hpp"
 #include "core/map/pose_reader.hpp"
 #include "core/offset/search_window.hpp"
 #include "core/offset/still_motion.hpp"

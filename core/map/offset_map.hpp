@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/geometry/map_cloud.hpp"
 #include "core/geometry/pose.hpp"
 #include "core/job.hpp"
-#include "core/map/map_cloud.hpp"
 #include "core/offset/estimate.hpp"
 #include "core/offset/prepared.hpp"
 #include "core/recording/recording.hpp"

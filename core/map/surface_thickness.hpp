@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/map/map_cloud.hpp"
+#include "core/geometry/map_cloud.hpp"
 
 namespace sweepscope {
 

@@ -5,36 +5,13 @@
 #include <cmath>
 #include <utility>
 
+#include "core/geometry/morton.hpp"
 #include "core/parallel.hpp"
-#include "core/parallel_sort.hpp"
 
 namespace sweepscope {
 namespace {
 
 constexpr std::int32_t kHalf = 1 << 20;
-
-// The low 21 bits, two zeros between each.
-std::uint64_t spread(std::uint64_t v) {
-  v &= 0x1fffff;
-  v = (v | v << 32) & 0x1f00000000ffff;
-  v = (v | v << 16) & 0x1f0000ff0000ff;
-  v = (v | v << 8) & 0x100f00f00f00f00f;
-  v = (v | v << 4) & 0x10c30c30c30c30c3;
-  return (v | v << 2) & 0x1249249249249249;
-}
-
-std::uint64_t gathered(std::uint64_t v) {
-  v &= 0x1249249249249249;
-  v = (v | v >> 2) & 0x10c30c30c30c30c3;
-  v = (v | v >> 4) & 0x100f00f00f00f00f;
-  v = (v | v >> 8) & 0x1f0000ff0000ff;
-  v = (v | v >> 16) & 0x1f00000000ffff;
-  return (v | v >> 32) & 0x1fffff;
-}
-
-std::uint64_t morton(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
-  return spread(x) | spread(y) << 1 | spread(z) << 2;
-}
 
 std::uint32_t cell_of(float value_m, double inverse_cell, std::int32_t half) {
   const double cell = std::clamp(std::floor(value_m * inverse_cell), -double(half), half - 1.0);
@@ -66,9 +43,9 @@ VoxelLevel::VoxelLevel(const std::vector<std::uint64_t>& keys, int shift, double
 
 VoxelLevel::Place VoxelLevel::place(std::uint32_t cell) const {
   const std::uint64_t key = keys_[cell];
-  return {static_cast<std::int32_t>(gathered(key)) - half_,
-          static_cast<std::int32_t>(gathered(key >> 1)) - half_,
-          static_cast<std::int32_t>(gathered(key >> 2)) - half_};
+  return {static_cast<std::int32_t>(morton_gathered(key)) - half_,
+          static_cast<std::int32_t>(morton_gathered(key >> 1)) - half_,
+          static_cast<std::int32_t>(morton_gathered(key >> 2)) - half_};
 }
 
 VoxelLevel::Place VoxelLevel::place_of(float x_m, float y_m, float z_m) const {
@@ -82,8 +59,8 @@ std::uint32_t VoxelLevel::find(const Place& place) const {
   for (const std::int32_t p : place)
     if (p < -half_ || p >= half_) return kNone;
   const std::uint64_t key =
-      morton(static_cast<std::uint32_t>(place[0] + half_), static_cast<std::uint32_t>(place[1] + half_),
-             static_cast<std::uint32_t>(place[2] + half_));
+      morton_code(static_cast<std::uint32_t>(place[0] + half_), static_cast<std::uint32_t>(place[1] + half_),
+                  static_cast<std::uint32_t>(place[2] + half_));
   std::size_t slot = hash_of(key) & (slots_.size() - 1);
   while (slots_[slot] != kNone && keys_[slots_[slot]] != key) slot = (slot + 1) & (slots_.size() - 1);
   return slots_[slot];
@@ -101,8 +78,8 @@ VoxelGrid::VoxelGrid(const MapCloud& cloud, double finest_m)
   for_each_block(cloud.size(), 16384, [&](const auto& block) {
     for (std::size_t i = block.begin(); i < block.end(); ++i) {
       const MapPoint& p = cloud.points[i];
-      order[i] = {morton(cell_of(p.x, inverse_cell, kHalf), cell_of(p.y, inverse_cell, kHalf),
-                         cell_of(p.z, inverse_cell, kHalf)),
+      order[i] = {morton_code(cell_of(p.x, inverse_cell, kHalf), cell_of(p.y, inverse_cell, kHalf),
+                              cell_of(p.z, inverse_cell, kHalf)),
                   static_cast<std::uint32_t>(i)};
     }
   });

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/map/map_cloud.hpp"
+#include "core/geometry/map_cloud.hpp"
 
 namespace sweepscope {
 

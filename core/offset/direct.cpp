@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "core/numbers.hpp"
 #include "core/offset/direct_moving.hpp"
 #include "core/offset/direct_stationary.hpp"
 #include "core/offset/identifiability.hpp"
@@ -127,7 +127,7 @@ Remark sway_warning(double sway_rad) {
       "The trajectory turns to and fro in step with the motor, by {:.1f} deg from sweep to sweep: the rig "
       "swayed like that, or the sweeps have too little in common. Another pace or another "
       "motor speed would make the answer surer.",
-      sway_rad * 180 / std::numbers::pi);
+      sway_rad * kDegPerRad);
 }
 
 // Why nothing can be said of a walk.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/loam/least_squares.hpp"
+#include "core/numbers.hpp"
 #include "core/offset/identifiability.hpp"
 #include "core/parallel.hpp"
 
@@ -129,10 +130,7 @@ double robust_deviation_m(const std::vector<LineResiduals>& lines) {
   for (const LineResiduals& line : lines)
     for (const PatchDistance& residual : line.residuals)
       sizes_m.push_back(float(std::abs(residual.distance_m)));
-  if (sizes_m.empty()) return 0;
-  const auto middle = sizes_m.begin() + std::ptrdiff_t(sizes_m.size() / 2);
-  std::nth_element(sizes_m.begin(), middle, sizes_m.end());
-  return 1.4826 * double(*middle);
+  return kSigmaPerMedianDeviation * double(median(std::move(sizes_m)));
 }
 
 struct Sums {

@@ -7,12 +7,11 @@
 #include <limits>
 #include <numbers>
 
+#include "core/numbers.hpp"
 #include "core/recording/stream_stamps.hpp"
 
 namespace sweepscope {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 // Of a 3D scanner the first ring's.
 std::vector<double> scan_stamps_s(const Recording& recording) {
@@ -22,17 +21,11 @@ std::vector<double> scan_stamps_s(const Recording& recording) {
   return stamps_s;
 }
 
-double median_of(std::vector<double> values) {
-  if (values.empty()) return 0;
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
-
 double median_cost(const std::vector<CurvePoint>& coarse) {
   std::vector<double> costs;
   for (const CurvePoint& point : coarse)
     if (point.capped_cost_m) costs.push_back(*point.capped_cost_m);
-  return median_of(costs);
+  return median(costs);
 }
 
 }  // namespace
@@ -116,7 +109,7 @@ Remark lever_reason(double lever_m, double reach_m) {
       "The scene gives no lever: turning the motor's angle by 1 deg lifts the points off their surfaces by "
       "{:.1f} mm "
       "only.",
-      lever_m * kDegree * 1e3);
+      lever_m * kRadPerDeg * 1e3);
 }
 
 double samples_per_sweep(const MotorTrack& track, const MotorMotion& motor) {
@@ -210,7 +203,7 @@ double scans_a_sweep(const Recording& recording, const MotorMotion& motor) {
   const std::vector<double> stamps_s = scan_stamps_s(recording);
   std::vector<double> periods_s;
   for (std::size_t i = 1; i < stamps_s.size(); ++i) periods_s.push_back(stamps_s[i] - stamps_s[i - 1]);
-  const double period_s = median_of(periods_s);
+  const double period_s = median(periods_s);
   return period_s > 0 ? motor.median_sweep_s / period_s : 0;
 }
 
@@ -274,7 +267,7 @@ Remark encoder_warning(const MotorTrack& track) {
   std::vector<double> spacings_s;
   for (std::size_t i = 1; i < track.time_s.size(); ++i)
     spacings_s.push_back(track.time_s[i] - track.time_s[i - 1]);
-  const double median_s = median_of(spacings_s);
+  const double median_s = median(spacings_s);
   if (spacings_s.size() < 4) return std::nullopt;
   std::sort(spacings_s.begin(), spacings_s.end());
   const double quartiles_s = spacings_s[3 * spacings_s.size() / 4] - spacings_s[spacings_s.size() / 4];
@@ -294,7 +287,7 @@ Remark sampling_warning(const MotorTrack& track, const MotorMotion& motor) {
 }
 
 Remark slow_motor_warning(const MotorMotion& motor) {
-  const double turned_deg = motor.median_speed_rad_s * 1e-3 / kDegree;
+  const double turned_deg = motor.median_speed_rad_s * 1e-3 / kRadPerDeg;
   if (turned_deg > 0.1) return std::nullopt;
   return fmt::format("The motor turns slowly: 1 ms is only {:.3f} deg here.", turned_deg);
 }

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "core/loam/path_equations.hpp"
+#include "core/numbers.hpp"
 
 namespace sweepscope {
 namespace {
@@ -25,8 +26,7 @@ double haste_in_the_middle(const OffsetProblem& problem) {
       hastes.push_back(2 * (angle_rad(0.75) - angle_rad(0.25)) / whole_rad);
   }
   if (hastes.empty()) return 1;
-  std::sort(hastes.begin(), hastes.end());
-  return hastes[hastes.size() / 2];
+  return median(std::move(hastes));
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include "core/offset/coarse_search.hpp"
 #include "core/offset/estimate.hpp"
 #include "core/offset/estimate_options.hpp"
-#include "core/offset/motion_test.hpp"
+#include "core/offset/rig_motion.hpp"
 #include "core/offset/search_window.hpp"
 #include "core/offset/still_points.hpp"
 

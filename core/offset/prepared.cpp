@@ -2,16 +2,15 @@
 
 #include <algorithm>
 
+#include "core/numbers.hpp"
+
 namespace sweepscope {
 namespace {
 
 double median_spacing_s(const std::vector<double>& times_s) {
   std::vector<double> spacings_s;
   for (std::size_t i = 1; i < times_s.size(); ++i) spacings_s.push_back(times_s[i] - times_s[i - 1]);
-  if (spacings_s.empty()) return 0.0;
-  std::nth_element(spacings_s.begin(), spacings_s.begin() + std::ptrdiff_t(spacings_s.size() / 2),
-                   spacings_s.end());
-  return spacings_s[spacings_s.size() / 2];
+  return median(std::move(spacings_s));
 }
 
 }  // namespace

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "core/geometry/sweeps.hpp"
 #include "core/job.hpp"
 #include "core/loam/sweep_features.hpp"
+#include "core/recording/sweeps.hpp"
 
 namespace sweepscope {
 

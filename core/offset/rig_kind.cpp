@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <numbers>
+#include "core/numbers.hpp"
 
 namespace sweepscope {
 
@@ -17,7 +17,7 @@ std::string moved_text(const MotionTest& test) {
 std::string pairs_text(const MotionTest& test) {
   return fmt::format(
       "{} of {} pairs of sweeps of the same direction lie apart; at the median by {:.3f} m and {:.2f} deg.",
-      test.moved, test.pairs, test.median_translation_m, test.median_rotation_rad * 180 / std::numbers::pi);
+      test.moved, test.pairs, test.median_translation_m, test.median_rotation_rad * kDegPerRad);
 }
 
 KindDecision decide_kind(const MotionTest& test, const EstimateOptions& options) {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/offset/estimate_options.hpp"
-#include "core/offset/motion_test.hpp"
+#include "core/offset/rig_motion.hpp"
 
 namespace sweepscope {
 

@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "core/numbers.hpp"
 
 namespace sweepscope {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 // The next 1, 2 or 5 times a power of ten.
 double rounded_up(double value) {
@@ -24,9 +23,9 @@ double rounded_up(double value) {
 SearchScale search_scale(const MotorMotion& motor) {
   SearchScale scale;
   scale.max_half_width_s = motor.median_sweep_s / 2;
-  scale.unit_s = rounded_up(std::max(1e-3, 0.36 * kDegree / motor.median_speed_rad_s));
+  scale.unit_s = rounded_up(std::max(1e-3, 0.36 * kRadPerDeg / motor.median_speed_rad_s));
   scale.half_width_s =
-      std::min(scale.max_half_width_s, std::max(0.060, 5 * kDegree / motor.median_speed_rad_s));
+      std::min(scale.max_half_width_s, std::max(0.060, 5 * kRadPerDeg / motor.median_speed_rad_s));
   return scale;
 }
 
@@ -56,12 +55,12 @@ std::vector<std::string> motor_reasons(const MotorTrack& track, const MotorMotio
   if (track.time_s.size() < 3) return {fmt::format("The motor has {} samples only.", track.time_s.size())};
   if (motor.sweeps.empty())
     return {fmt::format("The motor does not move: its angle stays within {:.2f} deg.",
-                        motor.range_rad / kDegree)};
+                        motor.range_rad / kRadPerDeg)};
   if (motor.sweeps.size() < 2)
     return {fmt::format(
         "The motor turns one way only ({:.0f} deg in {:.1f} s): an offset cannot be told from the "
         "encoder's zero.",
-        motor.range_rad / kDegree, track.time_s.back() - track.time_s.front())};
+        motor.range_rad / kRadPerDeg, track.time_s.back() - track.time_s.front())};
   return {};
 }
 

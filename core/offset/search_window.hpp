@@ -3,9 +3,9 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "core/geometry/sweeps.hpp"
 #include "core/loam/sweep_features.hpp"
 #include "core/offset/candidates.hpp"
+#include "core/recording/sweeps.hpp"
 
 namespace sweepscope {
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/numbers.hpp"
 #include "core/offset/sweep_shift.hpp"
 
 namespace sweepscope {
@@ -11,12 +12,6 @@ namespace {
 constexpr std::size_t kMaxPairs = 16, kMaxFarPairs = 4;
 
 using SweepPair = std::pair<std::size_t, std::size_t>;
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
 
 // The sweep of each of the grid's lines; kNoSweep where none.
 std::vector<std::size_t> sweep_of_lines(const StillGrid& grid, double offset_s) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/offset/motion_test.hpp"
+#include "core/offset/rig_motion.hpp"
 #include "core/offset/still_points.hpp"
 
 namespace sweepscope {

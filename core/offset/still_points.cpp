@@ -3,12 +3,12 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "core/numbers.hpp"
 
 namespace sweepscope {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kSpeedSpan_s = 0.010;  // the motor's speed is taken over this much to either side
 
 // Bins as wide as the spacing of the features, so that a bin holds at most one of a scan.
@@ -125,7 +125,7 @@ std::vector<LinePool> pools_by_sweep(const StillPoints& points) {
 
 StillPatchOptions still_patch_options(const OffsetProblem& problem) {
   StillPatchOptions options;
-  options.least_gap_rad = std::max(0.2 * problem.line_spacing_rad, 0.6 * kDegree);
+  options.least_gap_rad = std::max(0.2 * problem.line_spacing_rad, 0.6 * kRadPerDeg);
   options.reach_rad = std::max(1.6 * problem.line_spacing_rad, 4 * options.least_gap_rad);
   options.thickness_m += problem.features->range_noise_m;
   return options;

@@ -29,7 +29,7 @@ double time_of(std::int64_t step) {
 
 template <typename Path>
 Vector3d turn_rad(const Path& path, double time_s) {
-  return vector_from_rotation(path.at(time_s).rotation.conjugate() * path.at(time_s + kWindow_s).rotation);
+  return turn_between(path.at(time_s).rotation, path.at(time_s + kWindow_s).rotation);
 }
 
 void add_turns(const std::vector<SweepPose>& run, std::vector<Turn>& turns) {

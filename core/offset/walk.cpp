@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/loam/given_motion.hpp"
 #include "core/offset/coarse_search.hpp"
@@ -104,8 +103,7 @@ std::string lost_reason(const SolvedWalk& walk, const Recording& recording) {
   const std::vector<Interval> lost = lost_times(walk.sweeps, recording);
   std::string text = fmt::format("LOAM lost track for {:.1f} s", length_s(lost));
   if (!lost.empty()) text += fmt::format(", first at {:.1f} s", lost.front().begin_s);
-  constexpr double kDegree = std::numbers::pi / 180;
-  const double followed_deg_s = followed_rad_s(walk.sweeps) / kDegree;
+  const double followed_deg_s = followed_rad_s(walk.sweeps) / kRadPerDeg;
   if (followed_deg_s > 1) text += fmt::format("; it followed turns of up to {:.0f} deg/s", followed_deg_s);
   return text + ". Turn more slowly, at most by 40 deg/s, above all in the first 5 s.";
 }

@@ -4,16 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <set>
 
-#include "core/geometry/sweeps.hpp"
+#include "core/numbers.hpp"
 #include "core/recording/stream_stamps.hpp"
+#include "core/recording/sweeps.hpp"
 
 namespace sweepscope {
 namespace {
-
-constexpr double kDegPerRad = 180 / std::numbers::pi;
 
 void take_stamps(const StreamStamps& stamps, StreamSummary& stream) {
   stream.stamp = stamps.used;

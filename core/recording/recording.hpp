@@ -35,18 +35,6 @@ struct LaserScan {
   double last_beam_s() const { return beam_s(beams - 1.0); }
 };
 
-/// The motor's angle over its own clock, linear between samples. Times ascend strictly.
-struct MotorTrack {
-  std::vector<double> time_s;  // motor clock, seconds since Recording::epoch_ns
-  std::vector<double> angle_rad;
-
-  /// The angle at a time, which must lie within [time_s.front(), time_s.back()].
-  double angle_at(double t_s) const;
-  /// True where both ends lie inside the track and no gap between neighbouring samples inside is longer
-  /// than max_gap_s.
-  bool covers(double from_s, double to_s, double max_gap_s) const;
-};
-
 /// An IMU's gyroscope: the base frame's angular velocity, in the base frame. Times ascend strictly.
 struct TurnRates {
   std::vector<double> time_s;  // as stamped, seconds since Recording::epoch_ns

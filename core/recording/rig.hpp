@@ -6,12 +6,22 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "core/geometry/kinematics.hpp"
 
 namespace sweepscope {
 
 enum class StampSource { kHeader, kReceive };
 /// Which instant of a scan its stamp names.
 enum class StampAt { kFirstBeam, kLastBeam, kArrival };
+
+/// As the rig file spells them.
+inline std::string name_of(StampSource stamp) {
+  return stamp == StampSource::kHeader ? "header" : "receive";
+}
+inline std::string name_of(StampAt stamp_at) {
+  if (stamp_at == StampAt::kFirstBeam) return "first_beam";
+  return stamp_at == StampAt::kLastBeam ? "last_beam" : "arrival";
+}
 
 /// What a recording was made with: the rig file. Members that are empty are detected in the recording.
 struct Rig {
@@ -28,13 +38,7 @@ struct Rig {
     double scale = 1.0;  // angle_rad = scale * raw - zero_deg * pi / 180
     double zero_deg = 0.0;
   };
-  struct Mount {
-    Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  // the motor's axis in the base frame, unit length
-    // The laser's pose in the frame that turns with the motor: p_in_motor = R(rpy) * p_in_laser + xyz,
-    // R = Rz(yaw) Ry(pitch) Rx(roll).
-    Eigen::Vector3d laser_in_motor_xyz_m = Eigen::Vector3d::Zero();
-    Eigen::Vector3d laser_in_motor_rpy_deg = Eigen::Vector3d::Zero();
-  };
+  using Mount = sweepscope::Mount;
   /// An IMU (sensor_msgs/Imu) on the base, whose gyroscope is a prior of a moving rig's rotation.
   struct Imu {
     std::optional<std::string> topic;  // none: no IMU is used

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/numbers.hpp"
+
 namespace sweepscope {
 namespace {
 
@@ -48,19 +50,11 @@ void measure_delay(std::span<const MessageStamps> stamps, StreamStamps& stream) 
   if (delays_s.empty()) return;
   const double middle_s = median(delays_s);
   for (double& delay_s : delays_s) delay_s = std::abs(delay_s - middle_s);
-  constexpr double kSigmaPerMedianDeviation = 1.4826;
   stream.receive_minus_header_s = middle_s;
   stream.receive_jitter_s = kSigmaPerMedianDeviation * median(std::move(delays_s));
 }
 
 }  // namespace
-
-double median(std::vector<double> numbers) {
-  if (numbers.empty()) return 0;
-  const auto middle = numbers.begin() + std::ssize(numbers) / 2;
-  std::nth_element(numbers.begin(), middle, numbers.end());
-  return *middle;
-}
 
 std::int64_t stamp_ns(const MessageStamps& stamps, StampSource source) {
   return source == StampSource::kHeader ? stamps.header_ns : stamps.receive_ns;

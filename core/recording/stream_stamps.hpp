@@ -10,9 +10,6 @@
 
 namespace sweepscope {
 
-/// The middle of some numbers (of two middle ones the upper); 0 of none.
-double median(std::vector<double> numbers);
-
 /// Which of its two stamps a stream goes by: the wanted one, or the other with a warning where no message has
 /// it. Warns too where the two kinds of stamps run at different speeds, as those in a wrong unit do.
 StreamStamps choose_stamps(std::span<const MessageStamps> stamps, StampSource wanted,

@@ -104,7 +104,7 @@ SplineDeviation deviation(const SplinePath& path, std::span<const StampedPose> p
   for (const StampedPose& pose : poses) {
     const Pose fitted = path.at(pose.time_s);
     position_m2 += (fitted.position_m - pose.position_m).squaredNorm();
-    rotation_rad2 += vector_from_rotation(fitted.orientation.conjugate() * pose.orientation).squaredNorm();
+    rotation_rad2 += turn_between(fitted.orientation, pose.orientation).squaredNorm();
   }
   const auto count = static_cast<double>(poses.size());
   return {std::sqrt(position_m2 / count), std::sqrt(rotation_rad2 / count)};

@@ -7,13 +7,12 @@
 #include <system_error>
 
 #include "core/io/atomic_file.hpp"
-#include "core/io/candidate_file.hpp"
 #include "core/io/content_hash.hpp"
-#include "core/io/estimate_json.hpp"
-#include "core/io/program_hash.hpp"
 #include "core/map/feature_points.hpp"
 #include "core/map/offset_map.hpp"
 #include "core/recording/rig.hpp"
+#include "core/results/candidate_file.hpp"
+#include "core/results/estimate_json.hpp"
 
 namespace sweepscope {
 namespace {

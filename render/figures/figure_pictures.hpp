@@ -6,10 +6,24 @@
 #include "core/map/cross_section.hpp"
 #include "core/map/feature_points.hpp"
 #include "core/offset/estimate.hpp"
-#include "render/chart.hpp"
-#include "render/comparison.hpp"
+#include "render/charts/chart.hpp"
+#include "render/comparison/comparison.hpp"
+#include "render/drawing/style.hpp"
+#include "render/pictures/picture.hpp"
 
 namespace sweepscope {
+
+/// A picture with its title and its last line, and the room between them.
+struct Page {
+  Picture picture;
+  Style style;
+  double scale = 1;  // of letters and lines; 1 where the picture is 640 x 480 or so
+  PixelRect room;
+};
+
+/// The look says size, background and title; without a title the room begins higher. `columns`: how many
+/// parts of about 640 pixels lie beside each other.
+Page make_page(const ComparisonOptions& look, int columns = 1);
 
 /// Charts beside each other under a title; one alone fills the picture.
 Picture charts_picture(std::span<const Chart> charts, const ComparisonOptions& look);

@@ -11,12 +11,12 @@
 #include "core/io/table.hpp"
 #include "core/loam/features.hpp"
 #include "core/map/cross_section.hpp"
-#include "core/recording/recording_files.hpp"
-#include "render/curve_charts.hpp"
+#include "core/recording/formats/read_raw_recording.hpp"
+#include "render/charts/curve_charts.hpp"
 #include "render/figures/figure_data.hpp"
 #include "render/figures/figure_pictures.hpp"
 #include "render/figures/figure_table.hpp"
-#include "render/vector_file.hpp"
+#include "render/vector/vector_file.hpp"
 
 namespace sweepscope {
 namespace {

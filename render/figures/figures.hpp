@@ -7,8 +7,8 @@
 
 #include "core/error.hpp"
 #include "core/job.hpp"
-#include "render/canvas.hpp"
 #include "render/figures/recipe.hpp"
+#include "render/pictures/canvas.hpp"
 
 namespace sweepscope {
 

@@ -4,11 +4,10 @@
 #include <cmath>
 #include <utility>
 
-#include "render/colouring.hpp"
-#include "render/comparison_points.hpp"
+#include "render/charts/ticks.hpp"
+#include "render/comparison/colouring.hpp"
+#include "render/comparison/comparison_points.hpp"
 #include "render/figures/figure_pictures.hpp"
-#include "render/figures/page.hpp"
-#include "render/ticks.hpp"
 
 namespace sweepscope {
 namespace {

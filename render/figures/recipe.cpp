@@ -7,7 +7,7 @@
 
 #include "core/io/yaml_members.hpp"
 #include "core/simulation/scene.hpp"
-#include "render/look_options.hpp"
+#include "render/comparison/look_options.hpp"
 
 namespace sweepscope {
 namespace {

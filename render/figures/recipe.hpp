@@ -9,9 +9,9 @@
 
 #include "core/error.hpp"
 #include "core/offset/estimator.hpp"
-#include "core/recording/read_recording.hpp"
+#include "core/recording/formats/read_recording.hpp"
 #include "core/simulation/simulate.hpp"
-#include "render/comparison.hpp"
+#include "render/comparison/comparison.hpp"
 
 namespace sweepscope {
 

@@ -5,9 +5,8 @@
 #include <cmath>
 #include <string>
 
+#include "render/charts/ticks.hpp"
 #include "render/figures/figure_pictures.hpp"
-#include "render/figures/page.hpp"
-#include "render/ticks.hpp"
 
 namespace sweepscope {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <string>
 
-#include "render/colour_table.hpp"
 #include "render/gl/context.hpp"
-#include "render/image.hpp"
+#include "render/images/colour_table.hpp"
+#include "render/images/image.hpp"
 
 namespace sweepscope::gl {
 

@@ -3,6 +3,7 @@
 #include <vtkSmartPointer.h>
 
 #include <memory>
+#include <string>
 
 #include "render/gl/context.hpp"
 
@@ -33,5 +34,11 @@ class OffscreenWindow {
   std::unique_ptr<Context> context_;
   vtkSmartPointer<vtkGenericOpenGLRenderWindow> window_;
 };
+
+/// From the first call on VTK keeps its warnings and errors to itself, instead of writing them to stderr.
+void quiet_vtk();
+
+/// The first error that VTK met on this thread since it was last asked for; empty where there was none.
+std::string take_vtk_error();
 
 }  // namespace sweepscope::gl

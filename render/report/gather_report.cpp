@@ -6,11 +6,11 @@
 #include <system_error>
 
 #include "core/io/atomic_file.hpp"
-#include "core/io/estimate_json.hpp"
 #include "core/map/offset_map.hpp"
-#include "core/offset/motion_test.hpp"
 #include "core/offset/prepared.hpp"
+#include "core/offset/rig_motion.hpp"
 #include "core/recording/inspect.hpp"
+#include "core/results/estimate_json.hpp"
 
 namespace sweepscope {
 namespace {

@@ -21,21 +21,7 @@ std::string base64(std::string_view bytes) {
 }  // namespace
 
 std::string escape(std::string_view text) {
-  std::string out;
-  for (const char c : printable_line(text)) {
-    if (c == '&') {
-      out += "&amp;";
-    } else if (c == '<') {
-      out += "&lt;";
-    } else if (c == '>') {
-      out += "&gt;";
-    } else if (c == '"') {
-      out += "&quot;";
-    } else {
-      out += c;
-    }
-  }
-  return out;
+  return markup_escaped(printable_line(text));
 }
 
 std::string element(std::string_view name, std::string_view inside) {

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <string_view>
 
-#include "core/io/shell_word.hpp"
-#include "render/comparison.hpp"
-#include "render/curve_charts.hpp"
+#include "core/io/printable_text.hpp"
+#include "render/charts/curve_charts.hpp"
+#include "render/comparison/comparison.hpp"
 #include "render/figures/figure_pictures.hpp"
 #include "render/report/html.hpp"
-#include "render/vector_file.hpp"
+#include "render/vector/vector_file.hpp"
 
 namespace sweepscope {
 namespace {

@@ -8,7 +8,7 @@
 #include "core/map/cross_section.hpp"
 #include "core/offset/estimate.hpp"
 #include "core/recording/inspect.hpp"
-#include "render/compared_map.hpp"
+#include "render/comparison/compared_map.hpp"
 
 namespace sweepscope {
 

@@ -2,7 +2,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "tests/app/program.hpp"
+#include "tests/program.hpp"
 
 namespace sweepscope {
 namespace {
@@ -11,7 +11,6 @@ namespace {
 class CalibrateCommand : public test::ProgramTest {
  protected:
   void SetUp() override {
-    ProgramTest::SetUp();
     ASSERT_EQ(run("simulate room-1 --duration-s 6 --offset-ms 17.3 -o room.bag").exit_code, 0);
     ASSERT_EQ(run("convert room.bag -o tables").exit_code, 0);
     std::ofstream stream(folder_ / "stream.csv");
@@ -70,11 +69,8 @@ TEST_F(CalibrateCommand, AnInterruptionEndsTheListeningAndUsesWhatWasHeard) {
                                              "wait $calibrate; code=$?\n"
                                              "kill $feeder\n"
                                              "exit $code\n";
-  const std::string command =
-      "cd '" + folder_.string() + "' && bash interrupt.sh '" SWEEPSCOPE_EXECUTABLE "' >said.out 2>said.err";
-  const int status = std::system(command.c_str());
-  ASSERT_TRUE(WIFEXITED(status));
-  EXPECT_EQ(WEXITSTATUS(status), 0) << test::contents_of(folder_ / "said.err");
+  const Outcome interrupted = test::run_shell(folder_, "bash interrupt.sh '" SWEEPSCOPE_EXECUTABLE "'");
+  EXPECT_EQ(interrupted.exit_code, 0) << interrupted.err;
   const auto said = parsed(test::contents_of(folder_ / "out.json"));
   ASSERT_TRUE(said.is_object());
   EXPECT_NEAR(said["offset_ms"].get<double>(), 17.3, 0.1);

@@ -4,9 +4,9 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
-#include "core/recording/recording_writer.hpp"
-#include "tests/app/program.hpp"
+#include "core/recording/formats/recording_writer.hpp"
 #include "tests/core/cloud_bench.hpp"
+#include "tests/program.hpp"
 
 namespace sweepscope {
 namespace {
@@ -14,7 +14,6 @@ namespace {
 class CloudRecordings : public test::ProgramTest {
  protected:
   void SetUp() override {
-    ProgramTest::SetUp();
     std::ofstream(folder_ / "rig.yaml")
         << "mount: {axis: [0, 1, 0], laser_in_motor: {xyz_m: [0.05, 0, 0.08]}}\n";
   }

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "core/io/cloud_file.hpp"
-#include "core/io/estimate_json.hpp"
-#include "tests/app/program.hpp"
+#include "core/results/estimate_json.hpp"
+#include "tests/program.hpp"
 #include "tests/render/synthetic_maps.hpp"
 
 namespace sweepscope {
@@ -14,7 +14,6 @@ namespace {
 class CompareTest : public test::ProgramTest {
  protected:
   void SetUp() override {
-    ProgramTest::SetUp();
     ASSERT_TRUE(write_cloud(folder_ / "wrong.pcd", *test::HallMap(0.03, 20'000).make()));
     ASSERT_TRUE(write_cloud(folder_ / "right.ply", *test::HallMap(0, 20'000).make()));
     ASSERT_TRUE(write_estimate_json(folder_ / "estimate.json", test::stationary_curve()));

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "tests/app/program.hpp"
+#include "tests/program.hpp"
 
 namespace sweepscope {
 namespace {

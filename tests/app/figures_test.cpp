@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-#include "tests/app/program.hpp"
+#include "tests/program.hpp"
 
 namespace sweepscope {
 namespace {
@@ -10,7 +10,6 @@ namespace {
 class FiguresCommand : public test::ProgramTest {
  protected:
   void SetUp() override {
-    ProgramTest::SetUp();
     std::ofstream(folder_ / "recipe.yaml")
         << "look: {size: 800x600}\n"
            "recordings: {room: {simulate: room-2, offset_ms: 7, duration_s: 4}}\n"

@@ -1,24 +1,17 @@
 #include <fmt/format.h>
-#include <sys/wait.h>
 
 #include <nlohmann/json.hpp>
 
 #include "tests/core/recording/test_bag.hpp"
+#include "tests/program.hpp"
 
 namespace sweepscope {
 namespace {
 
-struct Outcome {
-  int exit_code = -1;
-  std::string out, err;
-};
+using test::Outcome;
 
 Outcome run_info(const test::ScratchFolder& folder, const std::string& arguments) {
-  const std::string out = folder / "stdout", err = folder / "stderr";
-  const std::string command =
-      fmt::format("'{}' info {} >'{}' 2>'{}'", SWEEPSCOPE_EXECUTABLE, arguments, out, err);
-  const int status = std::system(command.c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, test::read_file(out), test::read_file(err)};
+  return test::run_program(folder.path(), "info " + arguments);
 }
 
 std::string quoted(const std::filesystem::path& path) {
@@ -60,13 +53,14 @@ TEST(Info, JsonInAFileIsTheSame) {
   test::write_sample_bag(folder / "a.bag");
   const Outcome run = run_info(folder, quoted(folder / "a.bag") + " --json " + quoted(folder / "a.json"));
   EXPECT_TRUE(holds(run.out, "a.bag\n"));
-  EXPECT_EQ(test::read_file(folder / "a.json"), run_info(folder, quoted(folder / "a.bag") + " --json -").out);
+  EXPECT_EQ(test::contents_of(folder / "a.json"),
+            run_info(folder, quoted(folder / "a.bag") + " --json -").out);
 }
 
 TEST(Info, WarningsOfACutBagAreOnStderr) {
   const test::ScratchFolder folder;
   test::write_sample_bag(folder / "a.bag");
-  const std::string whole = test::read_file(folder / "a.bag");
+  const std::string whole = test::contents_of(folder / "a.bag");
   test::write_file(folder / "cut.bag", whole.substr(0, whole.size() / 2));
   const Outcome run = run_info(folder, quoted(folder / "cut.bag"));
   EXPECT_EQ(run.exit_code, 0);

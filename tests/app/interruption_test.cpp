@@ -11,6 +11,7 @@
 #include <chrono>
 #include <functional>
 #include <initializer_list>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
@@ -19,7 +20,7 @@
 #include <utility>
 #include <vector>
 
-#include "tests/app/program.hpp"
+#include "tests/program.hpp"
 
 namespace sweepscope {
 namespace {
@@ -60,12 +61,11 @@ const Case kCases[] = {
 class Interruption : public test::ProgramTest, public ::testing::WithParamInterface<Case> {
  protected:
   static void SetUpTestSuite() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "sweepscope-inputs-XXXXXX").string();
-    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
-    inputs_ = pattern;
-    const std::string simulate = "cd '" + pattern + "' && " SWEEPSCOPE_EXECUTABLE " simulate ";
-    ASSERT_EQ(std::system((simulate + "metro-station -o walk.bag --duration-s 20 >/dev/null").c_str()), 0);
-    ASSERT_EQ(std::system((simulate + "room-2 -o room.bag >/dev/null").c_str()), 0);
+    scratch_ = std::make_unique<test::ScratchFolder>();
+    inputs_ = scratch_->path();
+    for (const char* arguments :
+         {"simulate metro-station -o walk.bag --duration-s 20", "simulate room-2 -o room.bag"})
+      ASSERT_EQ(test::run_program(inputs_, arguments).exit_code, 0);
     std::ofstream(inputs_ / "recipe.yaml")
         << "recordings: {walk: {file: walk.bag}}\n"
            "estimates: {walk: {recording: walk, method: moving, ranges_ms: [[14, 34, 0.1]]}}\n"
@@ -73,27 +73,14 @@ class Interruption : public test::ProgramTest, public ::testing::WithParamInterf
     std::ofstream(inputs_ / "wait.script")
         << "screenshot first.png\nestimate\nwait estimated\nscreenshot out.png\n";
   }
-  static void TearDownTestSuite() { std::filesystem::remove_all(inputs_); }
+  static void TearDownTestSuite() { scratch_.reset(); }
   void SetUp() override {
-    ProgramTest::SetUp();
     for (const char* name : {"walk.bag", "room.bag", "recipe.yaml", "wait.script"})
       std::filesystem::copy(inputs_ / name, folder_ / name);
   }
 
-  /// Begun as a shell would, in the folder, with its words in said.out and said.err.
-  pid_t begin(const std::string& arguments) const {
-    const pid_t child = fork();
-    if (child != 0) return child;
-    const std::string command = "cd '" + folder_.string() + "' && exec '" SWEEPSCOPE_EXECUTABLE "' " +
-                                arguments + " >said.out 2>said.err";
-    execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
-    _exit(127);
-  }
-  Outcome ended(pid_t child) const {
-    int status = 0;
-    waitpid(child, &status, 0);
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), said("out"), said("err")};
-  }
+  pid_t begin(const std::string& arguments) const { return test::begin_program(folder_, arguments); }
+  Outcome ended(pid_t child) const { return test::ended(child, folder_); }
   std::string said(const std::string& where) const { return test::contents_of(folder_ / ("said." + where)); }
 
   /// Names of the files that were not there before, in the folder and below.
@@ -112,8 +99,10 @@ class Interruption : public test::ProgramTest, public ::testing::WithParamInterf
       EXPECT_FALSE(name.ends_with(".part")) << name << " was left behind";
   }
 
+  static std::unique_ptr<test::ScratchFolder> scratch_;
   static std::filesystem::path inputs_;
 };
+std::unique_ptr<test::ScratchFolder> Interruption::scratch_;
 std::filesystem::path Interruption::inputs_;
 
 std::size_t lines_in(const std::string& text) {
@@ -392,11 +381,9 @@ TEST_P(Outputs, OfAFullDiskAreRefused) {
       "2>/dev/null && exec \"$@\"' sh ";
   if (std::system("unshare -rm sh -c 'mount -t tmpfs -o size=4k none /mnt' 2>/dev/null") != 0)
     GTEST_SKIP() << "this machine lets no test mount a small disk";
-  const std::string command = "cd '" + folder_.string() + "' && env -u DISPLAY " + mount +
-                              "'" SWEEPSCOPE_EXECUTABLE "' " + written_to(GetParam(), "to") +
-                              " >said.out 2>said.err";
-  const int status = std::system(command.c_str());
-  expect_refused({WEXITSTATUS(status), said("out"), said("err")}, "No space left on device");
+  const std::string command =
+      "env -u DISPLAY " + mount + "'" SWEEPSCOPE_EXECUTABLE "' " + written_to(GetParam(), "to");
+  expect_refused(test::run_shell(folder_, command), "No space left on device");
 }
 
 /// Those of commands that write nothing before them and draw nothing: Mesa draws in a file without a disk, to

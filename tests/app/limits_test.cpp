@@ -6,8 +6,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "tests/app/program.hpp"
 #include "tests/core/recording/zstd_bytes.hpp"
+#include "tests/program.hpp"
 
 namespace sweepscope {
 namespace {
@@ -18,11 +18,8 @@ class Limits : public test::ProgramTest {
  protected:
   /// Run by a shell after `before`, such as "ulimit -v 100".
   Outcome run_after(const std::string& before, const std::string& arguments) const {
-    const std::string command = "cd '" + folder_.string() + "' && " + before +
-                                " && exec '" SWEEPSCOPE_EXECUTABLE "' " + arguments + " >said.out 2>said.err";
-    const int status = std::system(("bash -c \"" + command + "\"").c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, test::contents_of(folder_ / "said.out"),
-            test::contents_of(folder_ / "said.err")};
+    return test::run_shell(
+        folder_, "bash -c \"" + before + " && exec '" SWEEPSCOPE_EXECUTABLE "' " + arguments + "\"");
   }
   static bool can_run(const std::string& command) {
     return std::system((command + " >/dev/null 2>&1").c_str()) == 0;
@@ -70,15 +67,10 @@ TEST_F(Limits, FewerThreadsThanProcessorsGiveTheSameResult) {
   for (const fs::path& path : {folder_, folder_ / "room.bag"}) chmod(path.c_str(), 0777);
   const auto as_limited = [&](int processes, const std::string& arguments) {
     // Root has no limit, and another user has no other processes. What it says is written by root's shell.
-    const std::string limited = "cd '" + folder_.string() +
-                                "' && timeout -s KILL 120 setpriv --reuid=54321 --regid=54321 --clear-groups "
-                                "bash -c 'ulimit -u " +
-                                std::to_string(processes) +
-                                " && exec \"$0\" \"$@\"' '" SWEEPSCOPE_EXECUTABLE "' " + arguments +
-                                " >said.out 2>said.err";
-    const int status = std::system(limited.c_str());
-    return Outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -1, test::contents_of(folder_ / "said.out"),
-                   test::contents_of(folder_ / "said.err")};
+    return test::run_shell(
+        folder_,
+        "timeout -s KILL 120 setpriv --reuid=54321 --regid=54321 --clear-groups bash -c 'ulimit -u " +
+            std::to_string(processes) + " && exec \"$0\" \"$@\"' '" SWEEPSCOPE_EXECUTABLE "' " + arguments);
   };
   const std::string estimate = "estimate room.bag --json - --no-timing --threads 8";
   const Outcome free = run(estimate);
@@ -129,13 +121,9 @@ TEST_F(Limits, WithoutADisplayAWindowIsNoUnreadableInput) {
 
 /// A run with a file that it unpacks is killed as soon as that is there. False where it ended before.
 bool killed_with_its_file(const fs::path& folder) {
-  const pid_t child = fork();
-  if (child == 0) {
-    setenv("TMPDIR", (folder / "tmp").c_str(), 1);
-    if (chdir(folder.c_str()) != 0) _exit(127);
-    execl(SWEEPSCOPE_EXECUTABLE, SWEEPSCOPE_EXECUTABLE, "info", "room.mcap.zstd", nullptr);
-    _exit(127);
-  }
+  setenv("TMPDIR", (folder / "tmp").c_str(), 1);
+  const pid_t child = test::begin_program(folder, "info room.mcap.zstd");
+  unsetenv("TMPDIR");
   while (fs::is_empty(folder / "tmp"))
     if (waitpid(child, nullptr, WNOHANG) == child) return false;
   kill(child, SIGKILL);

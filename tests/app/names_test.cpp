@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "tests/app/program.hpp"
+#include "tests/program.hpp"
 
 namespace sweepscope {
 namespace {
@@ -16,7 +16,6 @@ class Names : public test::ProgramTest {
  protected:
   /// A folder of tables whose own name, topics and joint all steer.
   void SetUp() override {
-    ProgramTest::SetUp();
     ASSERT_EQ(run("simulate room-3 -o r.bag --duration-s 4").exit_code, 0);
     ASSERT_EQ(run("convert r.bag -o plain").exit_code, 0);
     std::filesystem::create_directory(folder_ / recording_);

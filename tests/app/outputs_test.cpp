@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/app/program.hpp"
+#include "tests/program.hpp"
 
 namespace sweepscope {
 namespace {
@@ -61,7 +61,6 @@ class OutputsOntoInputs : public test::ProgramTest, public ::testing::WithParamI
  protected:
   static void TearDownTestSuite() { fs::remove_all(made_); }
   void SetUp() override {
-    ProgramTest::SetUp();
     if (made_.empty()) {
       make_inputs();
       made_ = folder_.string() + "-inputs";
@@ -142,10 +141,7 @@ INSTANTIATE_TEST_SUITE_P(OfEveryCommand, OutputsOntoInputs, ::testing::ValuesIn(
 
 class OutputFiles : public test::ProgramTest {
  protected:
-  void SetUp() override {
-    ProgramTest::SetUp();
-    ASSERT_EQ(run("simulate room-1 --duration-s 2 -o room.bag").exit_code, 0);
-  }
+  void SetUp() override { ASSERT_EQ(run("simulate room-1 --duration-s 2 -o room.bag").exit_code, 0); }
 };
 
 TEST_F(OutputFiles, TablesOfARecordingsFolderAreInputs) {
@@ -191,7 +187,7 @@ TEST_F(OutputFiles, BagsArePutIntoDevicesAndPipesAsTheyAre) {
   const std::string piped =
       "mkfifo pipe && { '" SWEEPSCOPE_EXECUTABLE
       "' convert room.bag -o pipe --to ros1 >/dev/null & cat pipe >through.bag; wait; }";
-  ASSERT_EQ(std::system(("cd '" + folder_.string() + "' && " + piped).c_str()), 0);
+  ASSERT_EQ(test::run_shell(folder_, piped).exit_code, 0);
   ASSERT_TRUE(fs::is_fifo(folder_ / "pipe"));
   ASSERT_EQ(run("convert room.bag -o whole.bag").exit_code, 0);
   EXPECT_EQ(test::contents_of(folder_ / "through.bag"), test::contents_of(folder_ / "whole.bag"));
@@ -206,7 +202,7 @@ TEST_F(OutputFiles, AreEachWholeWhenEqualRunsWriteThemAtOnce) {
   std::ofstream(folder_ / "out.bag.part") << "someone else's";
   const std::string program = "'" SWEEPSCOPE_EXECUTABLE "' convert room.bag -o out.bag";
   const std::string at_once = "( for i in 1 2 3 4 5 6; do " + program + " & done; wait )";
-  ASSERT_EQ(std::system(("cd '" + folder_.string() + "' && " + at_once + " >/dev/null").c_str()), 0);
+  ASSERT_EQ(test::run_shell(folder_, at_once).exit_code, 0);
   EXPECT_EQ(test::contents_of(folder_ / "out.bag"), test::contents_of(folder_ / "whole.bag"));
   EXPECT_EQ(test::contents_of(folder_ / "out.bag.part"), "someone else's");
 }

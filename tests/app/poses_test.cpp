@@ -1,7 +1,7 @@
 // Poses from elsewhere (--poses) that do not cover the recording, through the shipped executable.
 #include <gtest/gtest.h>
 
-#include "tests/app/program.hpp"
+#include "tests/program.hpp"
 
 namespace sweepscope {
 namespace {
@@ -9,7 +9,6 @@ namespace {
 class Poses : public test::ProgramTest {
  protected:
   void SetUp() override {
-    ProgramTest::SetUp();
     ASSERT_EQ(run("simulate room-3 -o r.bag --duration-s 4").exit_code, 0);
     // The truth of a room begins with the recording, at a time of today.
     const std::string truth = test::contents_of(folder_ / "r.truth.tum");

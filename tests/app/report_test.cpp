@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "tests/app/program.hpp"
+#include "tests/program.hpp"
 
 namespace sweepscope {
 namespace {

@@ -1,6 +1,6 @@
 #include <nlohmann/json.hpp>
 
-#include "tests/app/program.hpp"
+#include "tests/program.hpp"
 
 namespace sweepscope {
 namespace {

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "core/io/candidate_file.hpp"
-#include "tests/app/program.hpp"
+#include "core/results/candidate_file.hpp"
+#include "tests/program.hpp"
 
 namespace sweepscope {
 namespace {
@@ -21,10 +21,7 @@ std::size_t lines_in(const std::string& text) {
 
 class Shards : public test::ProgramTest {
  protected:
-  void SetUp() override {
-    ProgramTest::SetUp();
-    ASSERT_EQ(run("simulate room-2 -o room.bag --offset-ms 24").exit_code, 0);
-  }
+  void SetUp() override { ASSERT_EQ(run("simulate room-2 -o room.bag --offset-ms 24").exit_code, 0); }
   std::string file(const std::string& name) const { return contents_of(folder_ / name); }
   void expect_done(const std::string& arguments) const {
     const Outcome outcome = run(arguments);
@@ -32,16 +29,8 @@ class Shards : public test::ProgramTest {
   }
 
   /// Begins the command, and kills it once `path` holds that many lines.
-  void kill_at(const std::vector<std::string>& words, const std::string& path, std::size_t lines) const {
-    const pid_t child = fork();
-    if (child == 0) {
-      std::vector<char*> arguments{const_cast<char*>(SWEEPSCOPE_EXECUTABLE)};
-      for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
-      arguments.push_back(nullptr);
-      if (chdir(folder_.c_str()) != 0) _exit(127);
-      execv(SWEEPSCOPE_EXECUTABLE, arguments.data());
-      _exit(127);
-    }
+  void kill_at(const std::string& arguments, const std::string& path, std::size_t lines) const {
+    const pid_t child = test::begin_program(folder_, arguments);
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(120);
     while (lines_in(file(path)) < lines && std::chrono::steady_clock::now() < deadline)
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -91,10 +80,8 @@ TEST_F(Shards, HaveTheSameBytesForAnyNumberOfThreads) {
 TEST_F(Shards, AKilledRunGoesOnWhereItWas) {
   const std::string search = "room.bag --method stationary --range 20:28:0.1 ";
   expect_done("estimate " + search + "--no-timing --json one.json --threads 1");
-  const std::vector<std::string> killed{"estimate", "room.bag",     "--method",  "stationary",
-                                        "--range",  "20:28:0.1",    "--resume",  "kept.candidates",
-                                        "--json",   "resumed.json", "--threads", "1"};
-  kill_at(killed, "kept.candidates", 15);
+  kill_at("estimate " + search + "--resume kept.candidates --json resumed.json --threads 1",
+          "kept.candidates", 15);
   const std::string kept = file("kept.candidates");
   ASSERT_LT(lines_in(kept), 1U + 81U);
   EXPECT_FALSE(exists("resumed.json"));
@@ -105,7 +92,7 @@ TEST_F(Shards, AKilledRunGoesOnWhereItWas) {
 
 TEST_F(Shards, TheDefaultSearchResumesToo) {
   expect_done("estimate room.bag --method stationary --no-timing --json one.json");
-  kill_at({"estimate", "room.bag", "--resume", "kept.candidates", "--threads", "1"}, "kept.candidates", 15);
+  kill_at("estimate room.bag --resume kept.candidates --threads 1", "kept.candidates", 15);
   expect_done("estimate room.bag --resume kept.candidates --no-timing --json resumed.json");
   EXPECT_EQ(file("resumed.json"), file("one.json"));
 }
@@ -193,10 +180,10 @@ TEST_F(Shards, WrongUsageIsRefused) {
 TEST_F(Shards, RunUnderGnuParallel) {
   if (std::system("command -v parallel >/dev/null") != 0) GTEST_SKIP() << "GNU parallel is not installed";
   expect_done("estimate " + std::string(kSearch) + "--no-timing --json one.json");
-  const std::string command = "cd '" + folder_.string() +
-                              "' && parallel --will-cite -j2 " SWEEPSCOPE_EXECUTABLE " estimate " + kSearch +
-                              "--threads 1 --shard {}/4 ::: 1 2 3 4 >parallel.out 2>&1";
-  ASSERT_EQ(std::system(command.c_str()), 0) << file("parallel.out");
+  const Outcome four =
+      test::run_shell(folder_, "parallel --will-cite -j2 " SWEEPSCOPE_EXECUTABLE " estimate " +
+                                   std::string(kSearch) + "--threads 1 --shard {}/4 ::: 1 2 3 4");
+  ASSERT_EQ(four.exit_code, 0) << four.err;
   expect_done(
       "merge room.1-of-4.candidates room.2-of-4.candidates room.3-of-4.candidates "
       "room.4-of-4.candidates --no-timing --json merged.json");
@@ -204,15 +191,13 @@ TEST_F(Shards, RunUnderGnuParallel) {
 }
 
 TEST_F(Shards, AFileOfCandidatesBelongsToOneRunAtATime) {
-  const std::string path = (folder_ / "kept.candidates").string();
-  expect_done("estimate room.bag --method stationary --range 20:28:1 --resume kept.candidates");
-  const std::string held = "cd '" + folder_.string() +
-                           "' && flock kept.candidates " SWEEPSCOPE_EXECUTABLE
-                           " estimate room.bag --method stationary --range 20:28:1 --resume kept.candidates "
-                           ">said.out 2>said.err";
-  const int status = std::system(held.c_str());
-  EXPECT_EQ(WEXITSTATUS(status), 2);
-  EXPECT_NE(file("said.err").find("another run is writing it"), std::string::npos) << file("said.err");
+  const std::string resumed =
+      "estimate room.bag --method stationary --range 20:28:1 --resume kept.candidates";
+  expect_done(resumed);
+  const Outcome second =
+      test::run_shell(folder_, "flock kept.candidates " SWEEPSCOPE_EXECUTABLE " " + resumed);
+  EXPECT_EQ(second.exit_code, 2);
+  EXPECT_NE(second.err.find("another run is writing it"), std::string::npos) << second.err;
 }
 
 }  // namespace

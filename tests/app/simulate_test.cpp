@@ -1,45 +1,18 @@
-#include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include <array>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "tests/program.hpp"
+
+namespace sweepscope {
 namespace {
 
 namespace fs = std::filesystem;
 
-struct Outcome {
-  int exit_code = -1;
-  std::string output;  // of stdout and stderr
-};
-
-class SimulateCommand : public testing::Test {
+class SimulateCommand : public test::ProgramTest {
  protected:
-  SimulateCommand()
-      : folder_(fs::temp_directory_path() / ("sweepscope-simulate-" + std::to_string(getpid()))) {
-    fs::create_directories(folder_);
-  }
-  ~SimulateCommand() override { fs::remove_all(folder_); }
-
-  Outcome simulate(const std::string& arguments) const {
-    const std::string command =
-        "cd '" + folder_.string() + "' && " SWEEPSCOPE_EXECUTABLE " simulate " + arguments + " 2>&1";
-    Outcome outcome;
-    FILE* pipe = popen(command.c_str(), "r");
-    std::array<char, 4096> buffer{};
-    while (const std::size_t read = std::fread(buffer.data(), 1, buffer.size(), pipe))
-      outcome.output.append(buffer.data(), read);
-    const int status = pclose(pipe);
-    outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    return outcome;
-  }
-
-  fs::path folder_;
+  Outcome simulate(const std::string& arguments) const { return run("simulate " + arguments); }
 };
 
 TEST_F(SimulateCommand, WritesTheBagAndItsTruth) {
@@ -59,7 +32,7 @@ TEST_F(SimulateCommand, RefusesWrongUsageAndWritesNothing) {
        {"hall -o a.bag", "room-1 -o a.bag --noise-mm -1", "room-1 -o a.bag --motor square",
         "room-1 -o a.bag --duration-s nan", "room-1", "room-1 -o a.bag --dropout 1.5"})
     EXPECT_EQ(simulate(arguments).exit_code, 2) << arguments;
-  EXPECT_TRUE(fs::is_empty(folder_));
+  EXPECT_EQ(test::files_in(folder_).size(), 2U) << "what it said";
 }
 
 TEST_F(SimulateCommand, NamesTheScenesWhereOneIsUnknown) {
@@ -120,3 +93,4 @@ TEST_F(SimulateCommand, RefusesAnOwnSceneThatIsNotPlain) {
 }
 
 }  // namespace
+}  // namespace sweepscope

@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "core/recording/ros_allocator.hpp"
+#include "core/recording/ros1/ros_libraries.hpp"
 
 namespace {
 

@@ -17,8 +17,8 @@
 #include <string>
 #include <vector>
 
-#include "core/geometry/sweeps.hpp"
 #include "core/offset/estimator.hpp"
+#include "core/recording/sweeps.hpp"
 #include "core/simulation/portable_math.hpp"
 #include "core/simulation/simulate.hpp"
 

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "render/gl/default_framebuffer.hpp"
+#include "tests/scratch_folder.hpp"
 #include "ui/host/imgui_host.hpp"
 #include "ui/ui.hpp"
 
@@ -231,12 +232,9 @@ int main(int argc, char** argv) {
   if (argc != 2) ui::give_up("usage: sweepscope_explorer_benchmark RECORDING");
   auto context = gl::make_offscreen_context(1600, 1000);
   if (!context) ui::give_up(context.error().message);
-  const auto folder =
-      std::filesystem::temp_directory_path() / fmt::format("sweepscope-explorer-benchmark-{}", getpid());
-  std::filesystem::create_directories(folder);
+  const test::ScratchFolder folder;
   fmt::print("| {:<58} | {:>30} | {:>22} |\n|{:-<60}|{:->31}:|{:->23}:|\n", "what", "measured", "wanted", "",
              "", "");
-  ui::measure(argv[1], **context, folder);
-  std::filesystem::remove_all(folder);
+  ui::measure(argv[1], **context, folder.path());
   return 0;
 }

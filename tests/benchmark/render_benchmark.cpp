@@ -13,10 +13,10 @@
 #include <cmath>
 #include <vector>
 
-#include "render/comparison.hpp"
+#include "render/clouds/point_polydata.hpp"
+#include "render/comparison/comparison.hpp"
 #include "render/gl/vtk_window.hpp"
-#include "render/picture.hpp"
-#include "render/point_polydata.hpp"
+#include "render/pictures/picture.hpp"
 #include "tests/render/synthetic_maps.hpp"
 
 namespace sweepscope {

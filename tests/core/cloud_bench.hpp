@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
-#include "core/recording/assemble.hpp"
-#include "core/recording/message_collector.hpp"
+#include "core/recording/assemble/assemble.hpp"
+#include "core/recording/messages/message_collector.hpp"
 #include "tests/core/engine_fixtures.hpp"
 #include "tests/core/recording/cloud_bytes.hpp"
 

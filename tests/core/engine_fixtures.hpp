@@ -9,9 +9,9 @@
 #include <string>
 #include <tuple>
 
-#include "core/geometry/sweeps.hpp"
 #include "core/offset/prepared.hpp"
 #include "core/offset/search_window.hpp"
+#include "core/recording/sweeps.hpp"
 #include "core/simulation/mesh.hpp"
 #include "core/simulation/motor.hpp"
 #include "core/simulation/portable_math.hpp"
@@ -21,7 +21,7 @@
 namespace sweepscope::test {
 
 inline constexpr double kPi = std::numbers::pi;
-inline constexpr double kDegree = kPi / 180.0;
+inline constexpr double kDegree = kRadPerDeg;
 inline constexpr double kMs = 1e-3;
 
 /// A motor track that samples an angle over time.

@@ -1,6 +1,6 @@
 // Files of candidates: what was read is written and read again as the same. The input's lines are sealed, or
 // no change would get past the hashes.
-#include "core/io/candidate_file.hpp"
+#include "core/results/candidate_file.hpp"
 #include "tests/fuzz/memory_file.hpp"
 
 namespace {

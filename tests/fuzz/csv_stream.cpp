@@ -1,5 +1,5 @@
 // The lines that `calibrate -` listens to.
-#include "core/recording/csv_stream.hpp"
+#include "core/recording/csv/csv_stream.hpp"
 
 #include <algorithm>
 

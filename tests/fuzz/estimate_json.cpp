@@ -1,5 +1,5 @@
 // Estimates: what was read is written and read again as the same.
-#include "core/io/estimate_json.hpp"
+#include "core/results/estimate_json.hpp"
 
 #include "tests/fuzz/memory_file.hpp"
 

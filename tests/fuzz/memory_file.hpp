@@ -11,6 +11,11 @@
 
 namespace sweepscope::test {
 
+/// Where folders need no disk, on a system that has such a place.
+inline std::filesystem::path folder_in_memory() {
+  return std::filesystem::is_directory("/dev/shm") ? "/dev/shm" : std::filesystem::temp_directory_path();
+}
+
 /// A file without a disk, for readers that take a path.
 class MemoryFile {
  public:

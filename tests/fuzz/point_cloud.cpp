@@ -1,6 +1,6 @@
 // Clouds of 3D scanners: the first byte chooses the encoding, the rest are messages of a few hundred bytes
 // each, one after the other, to one reader.
-#include "core/recording/point_cloud.hpp"
+#include "core/recording/messages/point_cloud.hpp"
 
 #include "tests/fuzz/memory_file.hpp"
 

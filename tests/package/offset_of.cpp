@@ -1,8 +1,7 @@
 // Prints the offset of a recording: what another program does with the engine.
 #include <cstdio>
-
-#include "core/offset/estimator.hpp"
-#include "core/recording/read_recording.hpp"
+#include <sweepscope/core/offset/estimator.hpp>
+#include <sweepscope/core/recording/formats/read_recording.hpp>
 
 int main(int argc, char** argv) {
   const sweepscope::Job job;

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <random>
 
-#include "core/map/map_cloud.hpp"
+#include "core/geometry/map_cloud.hpp"
 #include "core/offset/estimate.hpp"
 
 namespace sweepscope::test {

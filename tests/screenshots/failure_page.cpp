@@ -9,6 +9,7 @@
 #include <string>
 
 #include "core/io/atomic_file.hpp"
+#include "core/io/printable_text.hpp"
 
 namespace sweepscope::screenshots {
 namespace {
@@ -21,14 +22,6 @@ constexpr const char* kHead =
     "img {{ width: 100%; border: 1px solid #888; image-rendering: pixelated }}\n"
     "pre {{ white-space: pre-wrap; background: #f2f2f2; padding: .7em }}\n"
     "</style></head><body>\n<h1>{0}</h1>\n";
-
-std::string escaped(const std::string& text) {
-  std::string html;
-  for (const char c : text) {
-    html += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
-  }
-  return html;
-}
 
 /// Held while it lives; other processes wait.
 class FolderLock {
@@ -50,8 +43,8 @@ class FolderLock {
 }  // namespace
 
 Result<void> write_failure_page(const std::filesystem::path& folder, const Failure& failure) {
-  std::string page = fmt::format(kHead, escaped(failure.name));
-  page += fmt::format("<pre>{}</pre>\n<div>\n", escaped(failure.score));
+  std::string page = fmt::format(kHead, markup_escaped(failure.name));
+  page += fmt::format("<pre>{}</pre>\n<div>\n", markup_escaped(failure.score));
   for (const char* picture : {"actual", "expected", "difference"}) {
     if (!std::filesystem::exists(folder / fmt::format("{}.png", picture))) continue;
     page += fmt::format(
@@ -60,7 +53,7 @@ Result<void> write_failure_page(const std::filesystem::path& folder, const Failu
         picture);
   }
   page += fmt::format("</div>\n<pre>{}</pre>\n<pre>{}</pre>\n</body></html>\n",
-                      escaped("sweepscope " + failure.command), escaped(failure.facts));
+                      markup_escaped("sweepscope " + failure.command), markup_escaped(failure.facts));
   return write_file(folder / "index.html", page)
       .and_then([&] { return write_file(folder / "facts.txt", failure.facts); })
       .and_then([&] { return write_file(folder / "score.txt", failure.score + "\n"); });
@@ -74,8 +67,8 @@ Result<void> write_failure_index(const std::filesystem::path& folder) {
   }
   std::string page = fmt::format(kHead, fmt::format("Screenshots: {} failed", failed.size()));
   for (const std::string& name : failed) {
-    page += fmt::format("<p><a href=\"{0}/index.html\">{0}</a>: {1}</p>\n", escaped(name),
-                        escaped(read_file(folder / name / "score.txt").value_or("")));
+    page += fmt::format("<p><a href=\"{0}/index.html\">{0}</a>: {1}</p>\n", markup_escaped(name),
+                        markup_escaped(read_file(folder / name / "score.txt").value_or("")));
   }
   return write_file(folder / "index.html", page + "</body></html>\n");
 }

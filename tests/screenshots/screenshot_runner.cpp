@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "core/io/atomic_file.hpp"
-#include "render/image.hpp"
-#include "render/image_difference.hpp"
+#include "render/images/image.hpp"
+#include "render/images/image_difference.hpp"
 #include "tests/screenshots/failure_page.hpp"
 #include "tests/screenshots/machine_facts.hpp"
 #include "tests/screenshots/manifest.hpp"

@@ -8,10 +8,10 @@
 
 #include "core/io/atomic_file.hpp"
 #include "core/io/cloud_file.hpp"
-#include "core/io/estimate_json.hpp"
+#include "core/results/estimate_json.hpp"
 #include "core/simulation/simulate.hpp"
-#include "core/simulation/write_bag.hpp"
-#include "core/simulation/write_truth.hpp"
+#include "core/simulation/write_simulation.hpp"
+#include "tests/scratch_folder.hpp"
 #include "ui/model/explorer.hpp"
 #include "ui/model/picking.hpp"
 #include "ui/model/view_camera.hpp"
@@ -36,7 +36,8 @@ void perform(Explorer& explorer, const std::string& line) {
 }
 
 std::filesystem::path scratch(const std::string& name) {
-  return std::filesystem::temp_directory_path() / ("sweepscope-ui-" + name);
+  static const test::ScratchFolder folder;
+  return folder / name;
 }
 
 class InARoom : public testing::Test {

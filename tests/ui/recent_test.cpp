@@ -1,6 +1,6 @@
 #include "ui/recent.hpp"
 
-#include "tests/core/io/test_files.hpp"
+#include "tests/folder_test.hpp"
 
 namespace sweepscope::ui {
 namespace {

@@ -7,7 +7,8 @@
 #include <set>
 
 #include "core/io/atomic_file.hpp"
-#include "render/image_difference.hpp"
+#include "render/images/image_difference.hpp"
+#include "tests/program.hpp"
 #include "ui/host/imgui_host.hpp"
 #include "ui/window_loop.hpp"
 
@@ -130,12 +131,12 @@ TEST_F(Headless, APointIsAskedAndADistanceIsMeasuredByClicks) {
 }
 
 TEST_F(Headless, ABrokenFileDroppedOnTheWindowGivesAMessageAndTheWindowLivesOn) {
-  const auto path = std::filesystem::temp_directory_path() / "sweepscope-dropped.bag";
+  const test::ScratchFolder folder;
+  const auto path = folder / "dropped.bag";
   ASSERT_TRUE(write_file(path, "no bag"));
   expect_runs("drop " + path.string() + "\nwait loaded\nexpect message contains dropped.bag\nkey Escape");
   EXPECT_EQ(now("message"), "");
   expect_runs(kRoom);
-  std::filesystem::remove(path);
 }
 
 TEST_F(Headless, AnAskedPointAndAMeasuredDistanceAreCommandsThatEscapeTakesBack) {
@@ -156,26 +157,23 @@ TEST_F(Headless, TheCopiedCommandLineMakesTheSamePicture) {
   expect_runs("copy-command");
   std::string line = ui_.clipboard();
   ASSERT_EQ(line.find("sweepscope view"), 0u) << line;
-  const auto folder = std::filesystem::temp_directory_path() / "sweepscope-copied";
-  std::filesystem::create_directories(folder);
-  line = "cd " + folder.string() + " && " + SWEEPSCOPE_EXECUTABLE +
-         line.substr(std::string("sweepscope").size());
-  ASSERT_EQ(std::system(line.c_str()), 0) << line;
+  const test::ScratchFolder folder;
+  const test::Outcome copied =
+      test::run_program(folder.path(), line.substr(std::string("sweepscope").size()));
+  ASSERT_EQ(copied.exit_code, 0) << line << "\n" << copied.err;
   const auto there = read_png(folder / "picture.png");
   ASSERT_TRUE(there) << there.error().message;
   EXPECT_TRUE(compare_images(*there, here).passes);
-  std::filesystem::remove_all(folder);
 }
 
 TEST_F(Headless, TheReportIsWrittenBesideTheInterface) {
   expect_runs(kRoom);
-  const auto folder = std::filesystem::temp_directory_path() / "sweepscope-report-of-ui";
-  expect_runs("export-report " + folder.string() + "\nexpect message contains report.html");
+  const test::ScratchFolder folder;
+  expect_runs("export-report " + folder.path().string() + "\nexpect message contains report.html");
   const auto page = read_file(folder / "report.html");
   ASSERT_TRUE(page) << page.error().message;
   EXPECT_NE(page->find("t_motor = t_laser + offset"), std::string::npos);
   expect_runs("frames 3");  // the interface draws on after the report's pictures were drawn
-  std::filesystem::remove_all(folder);
 }
 
 TEST_F(Headless, AnExportThatFailsEndsAScriptAndAnOpeningThatFailsDoesNot) {
@@ -188,13 +186,11 @@ TEST_F(Headless, AnExportThatFailsEndsAScriptAndAnOpeningThatFailsDoesNot) {
 }
 
 TEST_F(Headless, WanderingLeavesTheInterfaceAlive) {
-  const auto folder = std::filesystem::temp_directory_path() / "sweepscope-wandered";
-  std::filesystem::create_directories(folder);
+  const test::ScratchFolder folder;
   const auto before = std::filesystem::current_path();
-  std::filesystem::current_path(folder);
+  std::filesystem::current_path(folder.path());
   expect_runs("wander 30 1\nsample room-1\nwait solved\nwander 60 2\ncancel\nclose\nframes 2");
   std::filesystem::current_path(before);
-  std::filesystem::remove_all(folder);
 }
 
 TEST_F(Headless, EveryStateHasAPictureOfItsOwn) {

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "core/io/atomic_file.hpp"
+#include "tests/folder_test.hpp"
 #include "ui/script/script.hpp"
 #include "ui/state/session.hpp"
 
@@ -14,19 +15,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class Story : public testing::Test {
+class Story : public test::FolderTest {
  protected:
   void SetUp() override {
-    folder_ = fs::temp_directory_path() / "sweepscope-story";
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
     before_ = fs::current_path();
     fs::current_path(folder_);  // where the dialogs suggest to write
   }
-  void TearDown() override {
-    fs::current_path(before_);
-    fs::remove_all(folder_);
-  }
+  void TearDown() override { fs::current_path(before_); }
 
   /// Tells it in a fresh interface, with lines of these kinds alone; returns the session that it saved as
   /// room-1.session.json.
@@ -46,7 +41,7 @@ class Story : public testing::Test {
   }
 
  private:
-  fs::path folder_, before_;
+  fs::path before_;
 };
 
 std::string numbers(const std::vector<double>& values) {

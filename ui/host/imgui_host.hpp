@@ -5,7 +5,7 @@
 #include <string>
 
 #include "render/gl/context.hpp"
-#include "render/image.hpp"
+#include "render/images/image.hpp"
 #include "ui/host/input.hpp"
 #include "ui/host/theme.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <imgui.h>
 
-#include "render/drawing.hpp"
+#include "render/drawing/drawing.hpp"
 #include "ui/host/theme.hpp"
 
 namespace sweepscope::ui {

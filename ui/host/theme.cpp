@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "render/fonts.hpp"
+#include "render/drawing/fonts.hpp"
 
 namespace sweepscope::ui {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "render/style.hpp"
+#include "render/drawing/style.hpp"
 #include "ui/state/settings.hpp"
 
 namespace sweepscope::ui {

@@ -5,9 +5,9 @@
 
 #include "core/io/atomic_file.hpp"
 #include "core/io/cloud_file.hpp"
-#include "core/io/estimate_json.hpp"
 #include "core/io/output_check.hpp"
-#include "core/recording/recording_files.hpp"
+#include "core/recording/formats/read_raw_recording.hpp"
+#include "core/results/estimate_json.hpp"
 #include "render/report/gather_report.hpp"
 #include "ui/model/explorer.hpp"
 #include "ui/state/session.hpp"

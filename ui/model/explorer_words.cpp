@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "core/io/shell_word.hpp"
-#include "render/curve_charts.hpp"
+#include "core/io/printable_text.hpp"
+#include "render/charts/curve_charts.hpp"
 #include "ui/model/explorer.hpp"
 
 namespace sweepscope::ui {

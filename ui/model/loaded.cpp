@@ -4,10 +4,11 @@
 
 #include <algorithm>
 
-#include "core/io/shell_word.hpp"
+#include "core/io/printable_text.hpp"
 #include "core/io/trajectory_file.hpp"
-#include "core/map/pose_coverage.hpp"
-#include "core/offset/motion_test.hpp"
+#include "core/map/pose_reader.hpp"
+#include "core/numbers.hpp"
+#include "core/offset/rig_motion.hpp"
 #include "core/simulation/simulate.hpp"
 #include "ui/state/value.hpp"
 
@@ -18,13 +19,8 @@ namespace {
 void find_intensities(Loaded& loaded) {
   std::vector<float> all = loaded.recording.intensities;
   if (all.empty()) return;
-  const auto at = [&](double part) {
-    const auto place = all.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(all.size() - 1));
-    std::nth_element(all.begin(), place, all.end());
-    return static_cast<double>(*place);
-  };
-  loaded.least_intensity = at(0.01);
-  loaded.greatest_intensity = at(0.99);
+  loaded.least_intensity = static_cast<double>(quantile(all, 0.01));
+  loaded.greatest_intensity = static_cast<double>(quantile(all, 0.99));
 }
 
 Result<LoadedPtr> finish(std::shared_ptr<Loaded> loaded, const Job& job) {

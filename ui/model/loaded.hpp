@@ -13,7 +13,6 @@
 #include "core/offset/prepared.hpp"
 #include "core/offset/walk.hpp"
 #include "core/recording/inspect.hpp"
-#include "core/recording/read_recording.hpp"
 
 namespace sweepscope::ui {
 

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/geometry/kinematics.hpp"
+#include "core/numbers.hpp"
 
 namespace sweepscope::ui {
 namespace {
@@ -60,7 +60,7 @@ std::vector<std::pair<std::string, std::string>> describe_beam(const Placement& 
   const double time_s = loaded.beams.time_s(beam);
   const auto angle_deg = [&](double offset_s) {
     MotorReader motor(recording.motor);
-    return motor.angle_at(time_s + offset_s) * 180 / std::numbers::pi;
+    return motor.angle_at(time_s + offset_s) * kDegPerRad;
   };
   const auto at_a = place_of(a, beam), at_b = place_of(b, beam);
   std::vector<std::pair<std::string, std::string>> rows{

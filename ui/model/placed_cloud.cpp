@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "core/map/surface_thickness.hpp"
+#include "core/numbers.hpp"
 #include "core/parallel.hpp"
 
 namespace sweepscope::ui {
@@ -218,10 +219,7 @@ double difference_span_mm(const Placement& placement, const Placement& other) {
     if (std::isfinite(a[i][0]) && std::isfinite(b[i][0])) distances_mm.push_back(distance_mm(a[i], b[i]));
   }
   if (distances_mm.empty()) return 1;
-  const auto place =
-      distances_mm.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(distances_mm.size() - 1));
-  std::nth_element(distances_mm.begin(), place, distances_mm.end());
-  return std::max(*place, 1.0);
+  return std::max(quantile(distances_mm, 0.95), 1.0);
 }
 
 PlacedCloud place_cloud(const Placement& placement, const CloudLook& look, bool coarse,

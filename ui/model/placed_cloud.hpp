@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "core/map/feature_points.hpp"
-#include "render/colour_table.hpp"
-#include "render/colouring.hpp"
-#include "render/live_view.hpp"
+#include "render/comparison/colouring.hpp"
+#include "render/images/colour_table.hpp"
+#include "render/pictures/live_view.hpp"
 #include "ui/model/solved_map.hpp"
 #include "ui/state/settings.hpp"
 

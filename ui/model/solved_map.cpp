@@ -5,7 +5,7 @@
 
 #include "core/map/offset_map.hpp"
 #include "core/offset/prepared.hpp"
-#include "render/comparison_points.hpp"
+#include "render/comparison/comparison_points.hpp"
 
 namespace sweepscope::ui {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/map/offset_map.hpp"
-#include "render/comparison.hpp"
+#include "render/comparison/comparison.hpp"
 #include "ui/model/loaded.hpp"
 #include "ui/model/spatial_order.hpp"
 

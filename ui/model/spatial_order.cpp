@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "render/morton.hpp"
+#include "core/geometry/morton.hpp"
 
 namespace sweepscope::ui {
 namespace {

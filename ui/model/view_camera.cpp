@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "core/numbers.hpp"
 
 namespace sweepscope::ui {
 namespace {
 
-constexpr double kRadPerDeg = std::numbers::pi / 180;
 constexpr double kViewAngle_deg = 30;
 
 struct Axes {

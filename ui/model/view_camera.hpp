@@ -2,8 +2,8 @@
 
 #include <Eigen/Core>
 
-#include "render/camera.hpp"
-#include "render/drawing.hpp"
+#include "render/drawing/drawing.hpp"
+#include "render/pictures/camera.hpp"
 #include "ui/state/settings.hpp"
 
 namespace sweepscope::ui {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/map/cross_section.hpp"
-#include "render/chart.hpp"
+#include "render/charts/chart.hpp"
 #include "ui/model/placed_cloud.hpp"
 #include "ui/state/settings.hpp"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "core/map/feature_points.hpp"
-#include "render/ticks.hpp"
+#include "render/charts/ticks.hpp"
 #include "ui/host/paint.hpp"
 #include "ui/model/wall_profile.hpp"
 #include "ui/panes/widgets.hpp"

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "core/offset/search_window.hpp"
-#include "render/chart_layout.hpp"
-#include "render/curve_charts.hpp"
+#include "render/charts/chart_layout.hpp"
+#include "render/charts/curve_charts.hpp"
 #include "ui/host/paint.hpp"
 #include "ui/panes/closer.hpp"
 #include "ui/panes/widgets.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/ticks.hpp"
+#include "render/charts/ticks.hpp"
 #include "ui/host/paint.hpp"
 #include "ui/panes/widgets.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "render/drawing.hpp"
+#include "render/drawing/drawing.hpp"
 #include "ui/state/settings.hpp"
 
 namespace sweepscope::ui {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "render/ticks.hpp"
+#include "render/charts/ticks.hpp"
 #include "ui/host/paint.hpp"
 #include "ui/model/picking.hpp"
 #include "ui/panes/widgets.hpp"

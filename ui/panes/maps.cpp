@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "render/curve_charts.hpp"
+#include "render/charts/curve_charts.hpp"
 #include "ui/panes/map_tools.hpp"
 #include "ui/panes/widgets.hpp"
 

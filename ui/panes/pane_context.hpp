@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/map/cross_section.hpp"
-#include "render/live_view.hpp"
+#include "render/pictures/live_view.hpp"
 #include "ui/host/theme.hpp"
 #include "ui/model/explorer.hpp"
 #include "ui/panes/layout.hpp"

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/io/printable_text.hpp"
-#include "render/curve_charts.hpp"
+#include "render/charts/curve_charts.hpp"
 #include "ui/panes/widgets.hpp"
 
 namespace sweepscope::ui {

@@ -9,7 +9,7 @@
 #include <random>
 #include <thread>
 
-#include "render/image_difference.hpp"
+#include "render/images/image_difference.hpp"
 #include "ui/host/imgui_host.hpp"
 
 namespace sweepscope::ui {

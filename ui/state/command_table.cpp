@@ -174,7 +174,7 @@ void look(Settings& s, const std::string& from) {
 
 void pan(Settings& s, double right, double up) {
   for_both_cameras(s, [&](ViewPoint& view) {
-    const double turn = view.turn_deg * M_PI / 180, tilt = view.elevation_deg * M_PI / 180;
+    const double turn = view.turn_deg * kRadPerDeg, tilt = view.elevation_deg * kRadPerDeg;
     const Eigen::Vector3d to_right(std::cos(turn), std::sin(turn), 0);
     const Eigen::Vector3d to_top(-std::sin(turn) * std::sin(tilt), std::cos(turn) * std::sin(tilt),
                                  std::cos(tilt));

@@ -4,8 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/io/estimate_json.hpp"
 #include "core/io/printable_text.hpp"
+#include "core/results/estimate_json.hpp"
 #include "ui/state/commands.hpp"
 
 namespace sweepscope::ui {

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <string>
 
-#include "render/colouring.hpp"
+#include "render/comparison/colouring.hpp"
 
 namespace sweepscope::ui {
 

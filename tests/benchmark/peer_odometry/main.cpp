@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "core/io/trajectory_file.hpp"
-#include "core/recording/read_recording.hpp"
+#include "core/recording/formats/read_recording.hpp"
 #include "peers.hpp"
 
 namespace sweepscope {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/geometry/kinematics.hpp"
-#include "core/geometry/sweeps.hpp"
 #include "core/offset/prepared.hpp"
+#include "core/recording/sweeps.hpp"
 
 namespace sweepscope {
 namespace {

@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-#include "tests/core/io/test_files.hpp"
+#include "tests/folder_test.hpp"
 
 namespace sweepscope {
 namespace {

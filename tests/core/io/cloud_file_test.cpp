@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "tests/core/io/test_files.hpp"
+#include "tests/folder_test.hpp"
 
 namespace sweepscope {
 namespace {

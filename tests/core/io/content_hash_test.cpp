@@ -1,7 +1,7 @@
 #include "core/io/content_hash.hpp"
 
 #include "core/io/atomic_file.hpp"
-#include "tests/core/io/test_files.hpp"
+#include "tests/folder_test.hpp"
 
 namespace sweepscope {
 namespace {

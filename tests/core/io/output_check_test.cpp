@@ -1,6 +1,6 @@
 #include "core/io/output_check.hpp"
 
-#include "tests/core/io/test_files.hpp"
+#include "tests/folder_test.hpp"
 
 namespace sweepscope {
 namespace {
@@ -10,7 +10,6 @@ namespace fs = std::filesystem;
 class OutputCheck : public test::FolderTest {
  protected:
   void SetUp() override {
-    FolderTest::SetUp();
     std::ofstream(folder_ / "in.bag") << "recording";
     fs::create_directory(folder_ / "sub");
   }

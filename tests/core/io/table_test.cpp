@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "tests/core/io/test_files.hpp"
+#include "tests/folder_test.hpp"
 
 namespace sweepscope {
 namespace {

@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-#include "tests/core/io/folder_contents.hpp"
+#include "tests/scratch_folder.hpp"
 
 namespace sweepscope {
 namespace {
@@ -20,10 +20,7 @@ namespace fs = std::filesystem;
 /// A folder for temporary files of our own.
 class TemporaryFiles : public test::FolderTest {
  protected:
-  void SetUp() override {
-    FolderTest::SetUp();
-    setenv("TMPDIR", folder_.c_str(), 1);
-  }
+  void SetUp() override { setenv("TMPDIR", folder_.c_str(), 1); }
   void TearDown() override {
     unsetenv("TMPDIR");
     FolderTest::TearDown();

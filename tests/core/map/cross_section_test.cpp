@@ -4,8 +4,8 @@
 #include <tbb/global_control.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "core/numbers.hpp"
 #include "tests/core/map/noisy_surfaces.hpp"
 
 namespace sweepscope {
@@ -14,7 +14,6 @@ namespace {
 using Eigen::Vector3d;
 using test::NoisySurfaces;
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kWidthPerDeviation = 2.3548;
 
 // A wall through (3, 2), 2 m long and 2 m high, its normal 30 deg from x, seen by sweeps of both directions.
@@ -25,7 +24,7 @@ struct Wall {
   CrossSection section() const {
     CrossSection section;
     section.at_m = {3, 2};
-    section.normal_rad = 30 * kDegree;
+    section.normal_rad = 30 * kRadPerDeg;
     section.lean_rad = lean_rad;
     section.length_m = 1.6;
     section.from_m = 1;
@@ -70,7 +69,7 @@ TEST(CrossSection, ALayerBelowHalfThePeakShowsInTheIntegralWidthAlone) {
 TEST(CrossSection, TheDensityIsNormalisedAndAboutTheMedian) {
   const Wall wall;
   CrossSection beside = wall.section();
-  beside.at_m += 0.04 * Eigen::Vector2d(std::cos(30 * kDegree), std::sin(30 * kDegree));
+  beside.at_m += 0.04 * Eigen::Vector2d(std::cos(30 * kRadPerDeg), std::sin(30 * kRadPerDeg));
   const Profile profile = profile_across(wall.map(), beside);
   double sum = 0, first = 0;
   for (std::size_t i = 0; i < profile.density_per_mm.size(); ++i) {
@@ -104,17 +103,17 @@ TEST(CrossSection, TooFewPointsHaveNoWidth) {
 
 TEST(CrossSection, ARoughlyNamedFaceIsFound) {
   Wall wall;
-  wall.lean_rad = 1.5 * kDegree;
+  wall.lean_rad = 1.5 * kRadPerDeg;
   const MapCloud map = wall.map();
   CrossSection rough = wall.section();
   rough.at_m += Eigen::Vector2d(0.06, 0.03);
-  rough.normal_rad += 4 * kDegree;
+  rough.normal_rad += 4 * kRadPerDeg;
   rough.lean_rad = 0;
   EXPECT_GT(*profile_across(map, rough).width_at_half_height_mm, 40);
   const auto fitted = face_fitted(map, rough);
   ASSERT_TRUE(fitted);
-  EXPECT_NEAR(fitted->normal_rad, 30 * kDegree, 0.1 * kDegree);
-  EXPECT_NEAR(fitted->lean_rad, 1.5 * kDegree, 0.1 * kDegree);
+  EXPECT_NEAR(fitted->normal_rad, 30 * kRadPerDeg, 0.1 * kRadPerDeg);
+  EXPECT_NEAR(fitted->lean_rad, 1.5 * kRadPerDeg, 0.1 * kRadPerDeg);
   EXPECT_NEAR(wall.section().across().dot(fitted->middle_m() - wall.section().middle_m()), 0, 0.001);
   EXPECT_NEAR(*profile_across(map, *fitted).width_at_half_height_mm, 23.5, 1.2);
 }
@@ -128,7 +127,7 @@ TEST(CrossSection, ClutterBesideTheFaceDoesNotPullTheFit) {
   map += clutter.cloud;
   const auto fitted = face_fitted(map, s);
   ASSERT_TRUE(fitted);
-  EXPECT_NEAR(fitted->normal_rad, s.normal_rad, 0.2 * kDegree);
+  EXPECT_NEAR(fitted->normal_rad, s.normal_rad, 0.2 * kRadPerDeg);
 }
 
 // A corridor along x: walls at y = -2 and 2, a wall across at x = 8, and a rig that walks 6 m along it at

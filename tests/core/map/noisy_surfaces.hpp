@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "core/map/map_cloud.hpp"
+#include "core/geometry/map_cloud.hpp"
 #include "core/simulation/portable_math.hpp"
 
 namespace sweepscope::test {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
-#include "core/io/estimate_json.hpp"
+#include "core/results/estimate_json.hpp"
 #include "tests/core/engine_fixtures.hpp"
 
 namespace sweepscope {

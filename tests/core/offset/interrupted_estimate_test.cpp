@@ -1,7 +1,6 @@
 // Long work is interrupted at every point where it looks whether it is: the answer is the whole one, or none.
 #include <fmt/format.h>
 
-#include "core/io/estimate_json.hpp"
 #include "core/map/offset_map.hpp"
 #include "core/offset/estimator.hpp"
 #include "core/offset/prepared.hpp"

@@ -4,8 +4,9 @@
 #include <numbers>
 
 #include "core/map/offset_map.hpp"
+#include "core/numbers.hpp"
 #include "core/offset/estimator.hpp"
-#include "core/offset/motion_test.hpp"
+#include "core/offset/rig_motion.hpp"
 #include "core/offset/still_points.hpp"
 
 namespace sweepscope {
@@ -59,9 +60,8 @@ TEST(ScanSize, TheMostBeamsAScanAreWorkedWith) {
 }
 
 TEST(ScanSize, AFieldOfViewBeyondAFullTurnIsWorkedWith) {
-  constexpr double kDegree = std::numbers::pi / 180;
-  expect_ends(recording_of(std::vector<std::uint32_t>(60, 1600), 400 * kDegree));
-  expect_ends(recording_of(std::vector<std::uint32_t>(60, 1600), 40'000 * kDegree));
+  expect_ends(recording_of(std::vector<std::uint32_t>(60, 1600), 400 * kRadPerDeg));
+  expect_ends(recording_of(std::vector<std::uint32_t>(60, 1600), 40'000 * kRadPerDeg));
 }
 
 TEST(ScanSize, AFewLongScansAmongShortOnesTakeNoRoomInAllOfThem) {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/offset/motion_test.hpp"
+#include "core/offset/rig_motion.hpp"
 #include "core/offset/still_motion.hpp"
 #include "tests/core/engine_fixtures.hpp"
 

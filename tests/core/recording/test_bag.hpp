@@ -4,7 +4,6 @@
 #include <rosbag/bag.h>
 #include <sensor_msgs/JointState.h>
 #include <sensor_msgs/LaserScan.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <cstdlib>
@@ -13,38 +12,10 @@
 #include <string>
 #include <vector>
 
-#include "core/recording/ros_allocator.hpp"
+#include "core/recording/ros1/ros_libraries.hpp"
+#include "tests/scratch_folder.hpp"
 
 namespace sweepscope::test {
-
-/// A folder of this test's own, gone when the test ends.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    path_ =
-        std::filesystem::path(testing::TempDir()) / (std::string("sweepscope_") + test->test_suite_name() +
-                                                     "_" + test->name() + "_" + std::to_string(getpid()));
-    std::filesystem::create_directories(path_);
-  }
-  ~ScratchFolder() { std::filesystem::remove_all(path_); }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-
- private:
-  std::filesystem::path path_;
-};
-
-inline void write_file(const std::filesystem::path& path, const std::string& bytes) {
-  std::ofstream(path, std::ios::binary) << bytes;
-}
-
-inline std::string read_file(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 /// The folder of real recordings, or empty where there is none.
 inline std::filesystem::path real_data() {

@@ -11,8 +11,8 @@
 #include "core/simulation/free_space.hpp"
 #include "core/simulation/portable_math.hpp"
 #include "core/simulation/sensor.hpp"
-#include "core/simulation/write_truth.hpp"
-#include "tests/core/io/test_files.hpp"
+#include "core/simulation/write_simulation.hpp"
+#include "tests/folder_test.hpp"
 
 namespace sweepscope {
 namespace {
@@ -29,10 +29,7 @@ constexpr const char* kRoom =
 
 class OwnScenes : public test::FolderTest {
  protected:
-  void SetUp() override {
-    FolderTest::SetUp();
-    std::ofstream(folder_ / "room.obj") << kRoom;
-  }
+  void SetUp() override { std::ofstream(folder_ / "room.obj") << kRoom; }
   SimulationOptions options() const {
     SimulationOptions options;
     options.own.mesh = folder_ / "room.obj";

@@ -6,7 +6,7 @@
 
 #include "core/io/trajectory_file.hpp"
 #include "core/simulation/portable_math.hpp"
-#include "tests/core/io/test_files.hpp"
+#include "tests/folder_test.hpp"
 
 namespace sweepscope::simulation {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "core/io/estimate_json.hpp"
+#include "core/results/estimate_json.hpp"
 #include "tests/core/every_look.hpp"
-#include "tests/core/io/test_files.hpp"
+#include "tests/folder_test.hpp"
 
 namespace sweepscope {
 namespace {

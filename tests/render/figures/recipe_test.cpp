@@ -1,6 +1,6 @@
 #include "render/figures/recipe.hpp"
 
-#include "tests/core/io/test_files.hpp"
+#include "tests/folder_test.hpp"
 
 namespace sweepscope {
 namespace {

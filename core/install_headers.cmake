@@ -1,0 +1,18 @@
+# Run by the installation: the headers in the list `headers` and all that they include, from `root` into
+# `folder`/sweepscope below the prefix. There they include each other as "sweepscope/core/...".
+cmake_policy(VERSION 3.25)
+set(todo ${headers})
+set(done "")
+while(todo)
+  list(POP_FRONT todo header)
+  if(header IN_LIST done)
+    continue()
+  endif()
+  list(APPEND done ${header})
+  file(READ ${root}/${header} text)
+  string(REGEX MATCHALL "#include \"core/[^\"]*" includes "${text}")
+  list(TRANSFORM includes REPLACE "#include \"" "")
+  list(APPEND todo ${includes})
+  string(REPLACE "#include \"core/" "#include \"sweepscope/core/" text "${text}")
+  file(WRITE $ENV{DESTDIR}${CMAKE_INSTALL_PREFIX}/${folder}/sweepscope/${header} "${text}")
+endwhile()

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <algorithm>
+#include <iterator>
+#include <numbers>
+#include <vector>
+
+namespace sweepscope {
+
+inline constexpr double kRadPerDeg = std::numbers::pi / 180;
+inline constexpr double kDegPerRad = 180 / std::numbers::pi;
+
+/// The normal distribution's standard deviation as a multiple of its median absolute deviation.
+inline constexpr double kSigmaPerMedianDeviation = 1.4826;
+
+/// The median; of two middle values the upper one. 0 of none.
+template <typename Number>
+Number median(std::vector<Number> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + std::ssize(values) / 2;
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// The value that `fraction` of the others, in [0, 1], are below. Changes the order of `values`, of which
+/// there is at least one.
+template <typename Number>
+Number quantile(std::vector<Number>& values, double fraction) {
+  const auto place =
+      values.begin() + static_cast<std::ptrdiff_t>(fraction * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+}  // namespace sweepscope

@@ -1,0 +1,433 @@
+#include "core/recording/assemble/assemble.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+
+#include "core/recording/assemble/beam_times.hpp"
+#include "core/recording/assemble/choose_streams.hpp"
+#include "core/recording/stream_stamps.hpp"
+
+namespace sweepscope {
+namespace {
+
+constexpr double kScanGapFactor = 1.5, kMotorGapFactor = 3.0;
+constexpr double kLongestTimeIncrement_s = 1.0;
+constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
+
+double since_s(std::int64_t ns, std::int64_t epoch_ns) {
+  return static_cast<double>(ns - epoch_ns) * 1e-9;
+}
+
+bool usable_increment(double increment_s) {
+  return increment_s > 0 && increment_s < kLongestTimeIncrement_s;
+}
+
+/// Refuses a scan of more beams than can be told apart.
+std::optional<Error> too_many_beams(const RawRecording& raw, const RawLaser& laser) {
+  for (std::size_t i = 0; i < laser.scans.size(); ++i) {
+    if (laser.scans[i].beams <= kMostBeamsAScan) continue;
+    return Error{ExitCode::kUnreadableInput,
+                 fmt::format("{}: scan {} on {} has {} beams, and at most {} a scan are read", raw.file,
+                             i + 1, laser.topic, laser.scans[i].beams, kMostBeamsAScan)};
+  }
+  return std::nullopt;
+}
+
+/// Turns raw scans into those of the recording.
+class ScanAssembler {
+ public:
+  ScanAssembler(RawLaser& raw, Recording& recording)
+      : raw_(raw), recording_(recording), report_(recording.report) {}
+
+  /// False where no scan is usable.
+  bool assemble();
+  std::string reason() const;
+
+ private:
+  void turn_round(RawScan& scan);
+  bool place(const RawScan& raw, LaserScan& scan);
+  void set_epoch();
+  bool check_cloud_times(const std::vector<LaserScan>& lines);
+  void order_lines(std::vector<LaserScan>& lines);
+  void take_ranges();
+  void clean(const RawScan& raw, std::span<float> ranges_m);
+  void warn_of_drops();
+  void warn_of_overlap();
+
+  RawLaser& raw_;
+  Recording& recording_;
+  ReadReport& report_;
+  std::vector<double> cloud_spans_s_;  // of the lines placed
+  std::string cloud_problem_;
+  double period_s_ = 0;  // from scan to scan; 0 where it is not known
+  BeamTimesReport beam_times_;
+  std::size_t without_stamp_ = 0, without_beams_ = 0;
+};
+
+/// The whole second at or before the first scan: near enough for times in double precision.
+void ScanAssembler::set_epoch() {
+  std::int64_t first_ns = std::numeric_limits<std::int64_t>::max();
+  for (const RawScan& scan : raw_.scans) {
+    const std::int64_t ns = stamp_ns(scan.stamps, report_.laser_stamps.used);
+    if (ns != 0) first_ns = std::min(first_ns, ns);
+  }
+  recording_.epoch_ns = first_ns - first_ns % kNanosecondsPerSecond;
+}
+
+/// A scan whose beams were fired from the last to the first (a negative time_increment), in the order of
+/// time.
+void ScanAssembler::turn_round(RawScan& scan) {
+  const auto reverse = [&](std::vector<float>& of_beams) {
+    const auto first = of_beams.begin() + static_cast<std::ptrdiff_t>(scan.first_range);
+    std::reverse(first, first + scan.beams);
+  };
+  reverse(raw_.ranges_m);
+  if (raw_.has_intensities) reverse(raw_.intensities);
+  scan.angle_min_rad = last_beam_angle_rad(scan);
+  scan.angle_increment_rad = -scan.angle_increment_rad;
+  scan.time_increment_s = -scan.time_increment_s;
+  // The stamp of the first beam in the message is that of the last one fired.
+  if (recording_.rig.laser.stamp_at == StampAt::kFirstBeam)
+    scan.first_beam_after_stamp_s = -(scan.beams - 1.0) * double{scan.time_increment_s};
+}
+
+/// When and where a scan's beams went; false, and counted, where that cannot be said.
+bool ScanAssembler::place(const RawScan& raw, LaserScan& scan) {
+  const std::int64_t ns = stamp_ns(raw.stamps, report_.laser_stamps.used);
+  if (ns == 0) return ++without_stamp_, false;
+  const bool one_direction = raw.angle_increment_rad == 0 && raw.beams > 1;
+  if (raw.beams == 0 || one_direction || !std::isfinite(raw.angle_min_rad) ||
+      !std::isfinite(raw.angle_increment_rad)) {
+    return ++without_beams_, false;
+  }
+  scan.beams = raw.beams;
+  scan.angle_min_rad = double{raw.angle_min_rad};
+  scan.angle_increment_rad = double{raw.angle_increment_rad};
+  scan.first_range = raw.first_range;
+  // The times of a cloud's points have a check of their own.
+  const BeamTimes times =
+      judge_beam_times(raw, raw_.of_clouds ? 0 : period_s_, recording_.rig.laser.time_increment_s);
+  beam_times_.add(raw, times);
+  if (times.time_increment_s == 0) return false;
+  scan.time_increment_s = times.time_increment_s;
+  scan.ring = raw.ring;
+  const double stamp_s = since_s(ns, recording_.epoch_ns);
+  const bool first = recording_.rig.laser.stamp_at == StampAt::kFirstBeam;
+  const double end_s =
+      raw_.of_clouds ? raw.cloud_end_after_stamp_s : (raw.beams - 1.0) * scan.time_increment_s;
+  const bool turned_round = !raw_.of_clouds && raw.first_beam_after_stamp_s < 0;
+  const double after_stamp_s = turned_round ? -end_s : raw.first_beam_after_stamp_s;
+  scan.first_beam_s = stamp_s + after_stamp_s - (first ? 0 : end_s);
+  return true;
+}
+
+bool ScanAssembler::assemble() {
+  set_epoch();
+  period_s_ = scan_period_s(raw_.scans, report_.laser_stamps.used);
+  std::vector<LaserScan> placed;
+  std::vector<double> times_s;
+  for (RawScan& raw : raw_.scans) {
+    LaserScan scan;
+    if (!raw_.of_clouds && usable_increment(-double{raw.time_increment_s})) turn_round(raw);
+    if (!place(raw, scan)) {
+      ++report_.scans_dropped;
+      continue;
+    }
+    clean(raw, std::span(raw_.ranges_m).subspan(raw.first_range, raw.beams));
+    placed.push_back(scan);
+    times_s.push_back(scan.first_beam_s);
+    if (raw_.of_clouds) cloud_spans_s_.push_back(raw.cloud_end_after_stamp_s - raw.first_beam_after_stamp_s);
+  }
+  if (placed.empty()) return false;
+  if (raw_.of_clouds) {
+    if (!check_cloud_times(placed)) return false;
+    order_lines(placed);
+  } else {
+    const TimeOrder order = order_by_time(times_s);
+    report_.scans_out_of_order = order.out_of_order;
+    report_.scans_doubled = order.doubled;
+    for (const std::size_t i : order.kept) recording_.scans.push_back(placed[i]);
+  }
+  take_ranges();
+  warn_of_drops();
+  warn_of_overlap();
+  return true;
+}
+
+/// Drivers have many units for the times of points. One misread shows, since a cloud takes about as long as
+/// from it to the next: false where it takes another time altogether.
+bool ScanAssembler::check_cloud_times(const std::vector<LaserScan>& lines) {
+  constexpr double kLeastPart = 0.02, kMostPart = 50;
+  const std::uint16_t ring = std::ranges::min(lines, {}, &LaserScan::ring).ring;
+  std::vector<double> times_s, spans_s;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (lines[i].ring != ring) continue;
+    times_s.push_back(lines[i].first_beam_s);
+    spans_s.push_back(cloud_spans_s_[i]);
+  }
+  std::ranges::sort(times_s);
+  const double period_s = spacing(times_s, kScanGapFactor).median_s, span_s = median(spans_s);
+  if (times_s.size() < 3 || !(period_s > 0)) return true;
+  if (span_s > kLeastPart * period_s && span_s < kMostPart * period_s) return true;
+  cloud_problem_ = fmt::format(
+      "by their points' times clouds take {:.3g} s, and they follow every {:.3g} s: the times are in no unit "
+      "that is known",
+      span_s, period_s);
+  return false;
+}
+
+/// The lines of clouds in the order of time: rings may begin at one instant, a ring has no two lines there.
+void ScanAssembler::order_lines(std::vector<LaserScan>& lines) {
+  std::map<std::uint16_t, double> latest_s;
+  for (const LaserScan& line : lines) {
+    const auto [found, is_new] = latest_s.try_emplace(line.ring, line.first_beam_s);
+    if (!is_new && line.first_beam_s < found->second) ++report_.scans_out_of_order;
+    found->second = std::max(found->second, line.first_beam_s);
+  }
+  const auto key = [](const LaserScan& line) { return std::pair(line.first_beam_s, line.ring); };
+  std::ranges::stable_sort(lines, {}, key);
+  for (const LaserScan& line : lines) {
+    if (!recording_.scans.empty() && key(recording_.scans.back()) == key(line))
+      ++report_.scans_doubled;
+    else
+      recording_.scans.push_back(line);
+  }
+}
+
+/// Marks what is no range with NaN, and counts it by its kind.
+void ScanAssembler::clean(const RawScan& raw, std::span<float> ranges_m) {
+  const float most_m = raw.range_max_m > 0 ? raw.range_max_m : std::numeric_limits<float>::infinity();
+  constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
+  for (float& range_m : ranges_m) {
+    if (std::isnan(range_m)) {
+      ++report_.nan_ranges;
+    } else if (std::isinf(range_m)) {
+      ++report_.infinite_ranges;
+      range_m = kNothing;
+    } else if (range_m == 0) {
+      ++report_.zero_ranges;
+      range_m = kNothing;
+    } else if (range_m < 0 || range_m < raw.range_min_m || range_m > most_m) {
+      ++report_.out_of_range_ranges;
+      range_m = kNothing;
+    }
+  }
+}
+
+/// Moves the ranges where they lie in order already, else gathers them scan by scan.
+void ScanAssembler::take_ranges() {
+  std::size_t next = 0;
+  bool in_order = true;
+  for (const LaserScan& scan : recording_.scans) {
+    in_order = in_order && scan.first_range == next;
+    next += scan.beams;
+  }
+  const bool intensities = raw_.has_intensities;
+  if (in_order && next == raw_.ranges_m.size()) {
+    recording_.ranges_m = std::move(raw_.ranges_m);
+    if (intensities) recording_.intensities = std::move(raw_.intensities);
+    recording_.directions = std::move(raw_.directions);
+    return;
+  }
+  recording_.ranges_m.reserve(next);
+  if (intensities) recording_.intensities.reserve(next);
+  for (LaserScan& scan : recording_.scans) {
+    const auto append = [&](const auto& from, auto& to) {
+      const auto first = from.begin() + static_cast<std::ptrdiff_t>(scan.first_range);
+      to.insert(to.end(), first, first + scan.beams);
+    };
+    const std::size_t first_range = recording_.ranges_m.size();
+    append(raw_.ranges_m, recording_.ranges_m);
+    if (intensities) append(raw_.intensities, recording_.intensities);
+    if (!raw_.directions.empty()) append(raw_.directions, recording_.directions);
+    scan.first_range = first_range;
+  }
+}
+
+std::string ScanAssembler::reason() const {
+  std::vector<std::string> reasons;
+  if (!cloud_problem_.empty()) reasons.push_back(cloud_problem_);
+  if (without_stamp_ > 0) reasons.push_back(fmt::format("{} have no stamp", without_stamp_));
+  if (without_beams_ > 0) reasons.push_back(fmt::format("{} have no beams with directions", without_beams_));
+  if (std::string without_increment = beam_times_.unusable(); !without_increment.empty())
+    reasons.push_back(std::move(without_increment));
+  return fmt::format("{}", fmt::join(reasons, ", "));
+}
+
+void ScanAssembler::warn_of_drops() {
+  if (report_.scans_dropped > 0) {
+    report_.warnings.push_back(fmt::format("{} of {} scans on {} were dropped: {}", report_.scans_dropped,
+                                           raw_.scans.size(), raw_.topic, reason()));
+  }
+  for (std::string& warning : beam_times_.warnings(raw_.topic, period_s_))
+    report_.warnings.push_back(std::move(warning));
+  report_.beam_time_doubt_s = beam_times_.doubt_s();
+}
+
+void ScanAssembler::warn_of_overlap() {
+  std::vector<double> times_s, durations_s;
+  for (const LaserScan& scan : recording_.scans) {
+    if (scan.ring != recording_.scans.front().ring) continue;
+    times_s.push_back(scan.first_beam_s);
+    durations_s.push_back(scan.last_beam_s() - scan.first_beam_s);
+  }
+  const Spacing spaced = spacing(times_s, kScanGapFactor);
+  report_.laser_stamps.median_period_s = spaced.median_s;
+  report_.scan_gaps = spaced.gaps;
+  report_.longest_scan_gap_s = spaced.longest_gap_s;
+  const double duration_s = median(durations_s);
+  if (times_s.size() > 2 && duration_s > 1.05 * spaced.median_s) {
+    report_.warnings.push_back(
+        fmt::format("a scan on {} takes {:.4g} s by its time_increment, and scans follow every {:.4g} s: its "
+                    "time_increment is too long, or scans are doubled",
+                    raw_.topic, duration_s, spaced.median_s));
+  }
+}
+
+/// Takes whole turns out of jumps between neighbouring samples.
+void unwrap(MotorTrack& motor, double longest_step_s, ReadReport& report) {
+  constexpr double kTurn = 2 * std::numbers::pi;
+  double turned_rad = 0;
+  double before_rad = motor.angle_rad.front();
+  for (std::size_t i = 1; i < motor.time_s.size(); ++i) {
+    const double jump_rad = motor.angle_rad[i] - before_rad;
+    before_rad = motor.angle_rad[i];
+    if (std::abs(jump_rad) > 0.75 * kTurn && motor.time_s[i] - motor.time_s[i - 1] <= longest_step_s) {
+      turned_rad -= kTurn * std::round(jump_rad / kTurn);
+      ++report.motor_unwrapped;
+    }
+    motor.angle_rad[i] += turned_rad;
+  }
+}
+
+/// False where fewer than two samples are usable.
+bool assemble_motor(const RawJoint& raw, Recording& recording) {
+  ReadReport& report = recording.report;
+  const Rig::Motor& rig = recording.rig.motor;
+  std::vector<double> times_s, angles_rad;
+  for (std::size_t i = 0; i < raw.stamps.size(); ++i) {
+    const std::int64_t ns = stamp_ns(raw.stamps[i], report.motor_stamps.used);
+    const double angle_rad = rig.scale * raw.positions[i] - rig.zero_deg * std::numbers::pi / 180;
+    if (ns == 0 || !std::isfinite(angle_rad)) {
+      ++report.motor_dropped;
+      continue;
+    }
+    times_s.push_back(since_s(ns, recording.epoch_ns));
+    angles_rad.push_back(angle_rad);
+  }
+  const TimeOrder order = order_by_time(times_s);
+  report.motor_out_of_order = order.out_of_order;
+  report.motor_doubled = order.doubled;
+  MotorTrack& motor = recording.motor;
+  for (const std::size_t i : order.kept) {
+    motor.time_s.push_back(times_s[i]);
+    motor.angle_rad.push_back(angles_rad[i]);
+  }
+  if (motor.time_s.size() < 2) return false;
+  const Spacing spaced = spacing(motor.time_s, kMotorGapFactor);
+  report.motor_stamps.median_period_s = spaced.median_s;
+  report.motor_gaps = spaced.gaps;
+  report.longest_motor_gap_s = spaced.longest_gap_s;
+  unwrap(motor, kMotorGapFactor * spaced.median_s, report);
+  if (report.motor_dropped > 0) {
+    report.warnings.push_back(
+        fmt::format("{} of {} samples of joint {} were dropped: no stamp, or no finite angle",
+                    report.motor_dropped, raw.stamps.size(), raw.joint));
+  }
+  return true;
+}
+
+/// How the two streams fit together at offset 0.
+void compare_streams(Recording& recording) {
+  ReadReport& report = recording.report;
+  const MotorTrack& motor = recording.motor;
+  const double longest_gap_s = kMotorGapFactor * report.motor_stamps.median_period_s;
+  for (const LaserScan& scan : recording.scans) {
+    if (!motor.covers(scan.first_beam_s, scan.last_beam_s(), longest_gap_s)) ++report.scans_without_motor;
+  }
+  if (report.laser_stamps.used != report.motor_stamps.used) {
+    const bool laser_by_header = report.laser_stamps.used == StampSource::kHeader;
+    report.warnings.push_back(
+        fmt::format("the laser goes by {} and the motor by {}: the offset then holds the delays of "
+                    "this one recording",
+                    laser_by_header ? "header stamps" : "receive times",
+                    laser_by_header ? "receive times" : "header stamps"));
+  }
+  const double start_s = recording.scans.front().first_beam_s, end_s = recording.scans.back().last_beam_s();
+  if (motor.time_s.front() > end_s || motor.time_s.back() < start_s) {
+    report.warnings.push_back(
+        fmt::format("the two streams' clocks do not overlap: the scans last {:.3f} s, and the motor's "
+                    "samples lie from {:.3f} to {:.3f} s after the first scan; consider --stamps receive",
+                    end_s - start_s, motor.time_s.front() - start_s, motor.time_s.back() - start_s));
+  } else if (20 * report.scans_without_motor > recording.scans.size()) {
+    report.warnings.push_back(fmt::format("{} of {} scans have no motor samples around them",
+                                          report.scans_without_motor, recording.scans.size()));
+  }
+}
+
+/// What a number means is not said in the file.
+void warn_of_source(const RawJoint& joint, Recording& recording) {
+  if (joint.source != JointSource::kNumber) return;
+  recording.report.warnings.push_back(
+      fmt::format("{} holds plain numbers: they are taken times {:.6g} (the rig's motor.scale) as rad, and "
+                  "whether they are measured angles or commands is not said",
+                  joint.topic, recording.rig.motor.scale));
+}
+
+/// The stamps of both streams, and the rig completed by them.
+void choose_both_stamps(const RawLaser& laser, const RawJoint& joint, std::optional<StampSource> stamps,
+                        Recording& recording) {
+  Rig& rig = recording.rig;
+  ReadReport& report = recording.report;
+  std::vector<MessageStamps> of_scans;
+  for (const RawScan& scan : laser.scans) of_scans.push_back(scan.stamps);
+  const auto wanted = [&](const std::optional<StampSource>& of_rig) {
+    return stamps.value_or(of_rig.value_or(StampSource::kHeader));
+  };
+  report.laser_stamps = choose_stamps(of_scans, wanted(rig.laser.stamp), laser.topic, report.warnings);
+  report.motor_stamps = choose_stamps(joint.stamps, wanted(rig.motor.stamp), joint.topic, report.warnings);
+  rig.laser.topic = laser.topic;
+  rig.laser.stamp = report.laser_stamps.used;
+  rig.motor.topic = joint.topic;
+  rig.motor.joint = joint.joint;
+  rig.motor.stamp = report.motor_stamps.used;
+}
+
+}  // namespace
+
+Result<Recording> assemble(RawRecording raw, const Rig& rig, std::optional<StampSource> stamps) {
+  const auto laser = choose_laser(raw, rig);
+  if (!laser) return tl::unexpected(laser.error());
+  const auto joint = choose_joint(raw, rig);
+  if (!joint) return tl::unexpected(joint.error());
+  RawLaser& raw_laser = raw.lasers[*laser];
+  if (auto error = too_many_beams(raw, raw_laser)) return tl::unexpected(std::move(*error));
+  const RawJoint& raw_joint = raw.joints[*joint];
+
+  Recording recording;
+  recording.name = raw.name;
+  recording.rig = rig;
+  recording.report.topics = std::move(raw.topics);
+  recording.report.warnings = std::move(raw.warnings);
+  warn_of_source(raw_joint, recording);
+  choose_both_stamps(raw_laser, raw_joint, stamps, recording);
+  ScanAssembler scans(raw_laser, recording);
+  if (!scans.assemble()) {
+    return unreadable(fmt::format("{}: none of the {} scans on {} can be used: {}", raw.file,
+                                  raw_laser.scans.size(), raw_laser.topic, scans.reason()));
+  }
+  if (!assemble_motor(raw_joint, recording)) {
+    return unreadable(fmt::format("{}: joint {} on {} has {} usable samples, and two are needed", raw.file,
+                                  raw_joint.joint, raw_joint.topic, recording.motor.time_s.size()));
+  }
+  compare_streams(recording);
+  assemble_motion(raw, recording);
+  return recording;
+}
+
+}  // namespace sweepscope

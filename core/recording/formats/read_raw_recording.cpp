@@ -1,0 +1,82 @@
+#include "core/recording/formats/read_raw_recording.hpp"
+
+#include <fmt/format.h>
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/io/input_file.hpp"
+#include "core/recording/csv/csv_recording.hpp"
+#include "core/recording/packed/unpacked_file.hpp"
+#include "core/recording/ros1/ros1_recording.hpp"
+#include "core/recording/ros2/ros2_recording.hpp"
+
+namespace sweepscope {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kReadable =
+    "sweepscope reads ROS 1 bags of format 2.0, ROS 2 bags (.db3 and MCAP, packed by zstd too) and folders "
+    "with scans.csv and motor.csv";
+
+/// A file's first bytes, as far as it has them.
+Result<std::string> beginning(const fs::path& path) {
+  auto file = InputFile::open(path);
+  if (!file) return tl::unexpected(file.error());
+  std::string bytes(16, '\0');
+  bytes.resize(file->read(std::as_writable_bytes(std::span(bytes))));
+  return bytes;
+}
+
+std::string not_readable(std::string_view start) {
+  if (start.starts_with("#ROSBAG V1")) return "is a ROS 1 bag of format 1; convert it with `rosbag fix`";
+  if (start.starts_with("#ROSBAG")) return "is a ROS 1 bag of an unknown format";
+  if (start.starts_with("\x89MCAP")) return "is an MCAP file of an unknown version";
+  if (start.starts_with("SQLite format")) return "is an SQLite database of an unknown version";
+  return "byte 0 begins no recording that is known";
+}
+
+Result<RawRecording> read_folder(const fs::path& folder, const Rig& rig, const Job& job, CloudDetail clouds) {
+  std::error_code error;
+  const bool scans = fs::exists(folder / kScansCsv, error), motor = fs::exists(folder / kMotorCsv, error);
+  if (scans && motor) return read_csv_recording(folder, rig, job);
+  if (scans || motor) {
+    return unreadable(fmt::format("{}: is a folder with {} and without {}", folder.string(),
+                                  scans ? kScansCsv : kMotorCsv, scans ? kMotorCsv : kScansCsv));
+  }
+  if (is_ros2_folder(folder)) return read_ros2_folder(folder, rig, job, clouds);
+  return unreadable(fmt::format("{}: is a folder that holds no recording; {}", folder.string(), kReadable));
+}
+
+}  // namespace
+
+Result<RawRecording> read_raw_recording(const fs::path& path, const Rig& rig, const Job& job,
+                                        CloudDetail clouds) {
+  std::error_code ignored;
+  if (fs::is_directory(path, ignored)) return read_folder(path, rig, job, clouds);
+  const auto start = beginning(path);
+  if (!start) return tl::unexpected(start.error());
+  if (start->starts_with("#ROSBAG V2.0\n")) return read_ros1_recording(path, rig, job, clouds);
+  if (bag_storage(*start) || begins_zstd(std::as_bytes(std::span(*start))))
+    return read_ros2_file(path, rig, job, clouds);
+  return unreadable(fmt::format("{}: {}; {}", path.string(), not_readable(*start), kReadable));
+}
+
+std::vector<fs::path> recording_files(const fs::path& recording) {
+  std::error_code ignored;
+  std::vector<fs::path> named{recording};
+  if (fs::is_directory(recording, ignored)) {
+    named = ros2_files(recording);
+    named.push_back(recording / kScansCsv);
+    named.push_back(recording / kMotorCsv);
+  }
+  std::vector<fs::path> files;
+  for (const fs::path& file : named)
+    for (const char* of_database : {"", "-wal", "-shm", "-journal"})
+      if (const fs::path path = file.string() + of_database; fs::exists(path, ignored)) files.push_back(path);
+  return files;
+}
+
+}  // namespace sweepscope

@@ -1,0 +1,258 @@
+#include "core/recording/messages/message_collector.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/recording/packed/decompress.hpp"
+#include "core/recording/packed/unpacked_file.hpp"
+
+namespace sweepscope {
+namespace {
+
+bool is_laser(MessageKind kind) {
+  return kind == MessageKind::kLaserScan || kind == MessageKind::kCloud;
+}
+
+bool is_motion(MessageKind kind) {
+  return kind == MessageKind::kImu || kind == MessageKind::kOdometry;
+}
+
+JointSource source_of(MessageKind kind) {
+  switch (kind) {
+    case MessageKind::kFloat64:
+    case MessageKind::kFloat32:
+    case MessageKind::kInt32:
+      return JointSource::kNumber;
+    case MessageKind::kTransforms:
+      return JointSource::kTransform;
+    default:
+      return JointSource::kJointState;
+  }
+}
+
+}  // namespace
+
+std::optional<Error> too_much(const std::string& file, std::size_t beams, std::size_t joint_samples) {
+  if (beams <= kMostBeams && joint_samples <= kMostJointSamples) return std::nullopt;
+  const bool of_beams = beams > kMostBeams;
+  return Error{ExitCode::kUnreadableInput,
+               fmt::format("{}: holds more than {} {}, more than are read at once; cut it into parts, or "
+                           "name the topic{} in a rig file",
+                           file, of_beams ? kMostBeams : kMostJointSamples,
+                           of_beams ? "beams" : "joint samples", of_beams ? "" : " and joint")};
+}
+
+const MessageType* MessageCollector::type_of(const Topic& topic) {
+  const MessageType* type = find_message_type(topic.type);
+  if (type == nullptr || !topic.decodable) return nullptr;
+  if (topic.md5sum != "*" && topic.md5sum != type->md5) {
+    raw_.warnings.push_back(
+        fmt::format("{}: topic {} holds another version of {} (md5sum {}) and is not used", raw_.name,
+                    topic.name, topic.type, topic.md5sum));
+    return nullptr;
+  }
+  if (type->kind == MessageKind::kTransforms) return type;
+  if (is_motion(type->kind)) {
+    const auto& named = type->kind == MessageKind::kImu ? rig_.imu.topic : rig_.odometry.topic;
+    return named == topic.name ? type : nullptr;
+  }
+  const bool laser = is_laser(type->kind);
+  const auto& wanted = laser ? rig_.laser.topic : rig_.motor.topic;
+  return wanted && *wanted != topic.name ? nullptr : type;
+}
+
+std::size_t MessageCollector::number_of(const Topic& topic) {
+  const auto [found, is_new] =
+      numbers_.try_emplace({topic.name, topic.type, topic.encoding}, entries_.size());
+  if (is_new) {
+    Entry& entry = entries_.emplace_back();
+    entry.topic = topic;
+    entry.type = type_of(topic);
+    entry.laser = raw_.lasers.size();
+    entry.may_be_motor = !rig_.motor.topic || *rig_.motor.topic == topic.name;
+    raw_.topics.push_back({topic.name, topic.type});
+    if (entry.type != nullptr && is_laser(entry.type->kind)) {
+      raw_.lasers.emplace_back().topic = topic.name;
+      raw_.lasers.back().of_clouds = entry.type->kind == MessageKind::kCloud;
+    }
+  }
+  return found->second;
+}
+
+/// Empty, which no message is, where it is damaged.
+Result<std::span<const std::byte>> MessageCollector::unpacked(std::span<const std::byte> message) {
+  const std::uint64_t most =
+      limit_ != nullptr ? limit_->most(kMostPackedMessage_bytes) : kMostPackedMessage_bytes;
+  const Decompressed plain = decompress(Compression::kZstd, message, most, unpacked_);
+  if (limit_ != nullptr)
+    if (auto error = limit_->take(plain.bytes.size() + (plain.too_long ? 1 : 0)))
+      return tl::unexpected(std::move(*error));
+  return plain.problem.empty() ? plain.bytes : std::span<const std::byte>();
+}
+
+std::optional<Error> MessageCollector::add(std::size_t topic, std::int64_t receive_ns,
+                                           std::span<const std::byte> message,
+                                           const std::function<std::string()>& place) {
+  Entry& entry = entries_[topic];
+  RecordedTopic& counts = raw_.topics[topic];
+  ++counts.messages;
+  if (entry.type == nullptr) return std::nullopt;
+  // CDR begins with 00, a frame of zstd never does.
+  if (entry.topic.encoding == Encoding::kCdr && begins_zstd(message)) {
+    const auto plain = unpacked(message);
+    if (!plain) return plain.error();
+    message = *plain;
+  }
+  const bool whole = entry.type->kind == MessageKind::kLaserScan ? add_scan(entry, receive_ns, message)
+                     : entry.type->kind == MessageKind::kCloud   ? add_cloud(entry, receive_ns, message)
+                     : is_motion(entry.type->kind)               ? add_motion(entry, receive_ns, message)
+                                                                 : add_joints(entry, receive_ns, message);
+  if (!whole && counts.malformed++ == 0) entry.first_malformed = place();
+  if (cloud_bytes_ > kMostCloudBytes)
+    return Error{ExitCode::kUnreadableInput,
+                 fmt::format("{}: holds more than {} GiB of clouds, more than are converted at once; cut it "
+                             "into parts, or name the topic in a rig file",
+                             raw_.file, kMostCloudBytes >> 30)};
+  return too_much(raw_.file, beams_, joint_samples_);
+}
+
+bool MessageCollector::add_scan(const Entry& entry, std::int64_t receive_ns,
+                                std::span<const std::byte> message) {
+  const auto decoded = decode_laser_scan(entry.topic.encoding, message);
+  if (!decoded) return false;
+  RawLaser& laser = raw_.lasers[entry.laser];
+  RawScan scan;
+  scan.stamps = {decoded->header_ns, receive_ns};
+  scan.angle_min_rad = decoded->angle_min_rad;
+  scan.angle_max_rad = decoded->angle_max_rad;
+  scan.angle_increment_rad = decoded->angle_increment_rad;
+  scan.time_increment_s = decoded->time_increment_s;
+  scan.scan_time_s = decoded->scan_time_s;
+  scan.range_min_m = decoded->range_min_m;
+  scan.range_max_m = decoded->range_max_m;
+  scan.first_range = laser.ranges_m.size();
+  scan.beams = static_cast<std::uint32_t>(decoded->ranges_m.size());
+  decoded->ranges_m.append_to(laser.ranges_m);
+  laser.has_intensities = laser.has_intensities && decoded->intensities.size() == scan.beams;
+  if (laser.has_intensities)
+    decoded->intensities.append_to(laser.intensities);
+  else
+    std::vector<float>().swap(laser.intensities);
+  if (laser.scans.empty()) laser.frame = decoded->frame;
+  laser.scans.push_back(scan);
+  beams_ += scan.beams;
+  return true;
+}
+
+bool MessageCollector::add_cloud(Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message) {
+  constexpr std::size_t kBeamsOfScans_a_beam = 4;  // a beam of a cloud has a direction besides
+  RawLaser& laser = raw_.lasers[entry.laser];
+  const std::size_t before = laser.ranges_m.size();
+  const bool used = entry.clouds.add(entry.topic.encoding, message, receive_ns, laser);
+  beams_ += kBeamsOfScans_a_beam * (laser.ranges_m.size() - before);
+  if (used && clouds_ == CloudDetail::kWhole) keep_cloud(entry, receive_ns, message, laser);
+  if (!used && entry.cloud_problem.empty()) entry.cloud_problem = entry.clouds.problem();
+  return used;
+}
+
+void MessageCollector::keep_cloud(const Entry& entry, std::int64_t receive_ns,
+                                  std::span<const std::byte> message, RawLaser& laser) {
+  const auto decoded = decode_cloud(entry.topic.encoding, message);
+  RawCloud& cloud = laser.clouds.emplace_back();
+  cloud.stamps = {decoded->header_ns, receive_ns};
+  cloud.frame = decoded->frame;
+  cloud.height = decoded->height;
+  cloud.width = decoded->width;
+  cloud.point_bytes = decoded->point_bytes;
+  cloud.row_bytes = decoded->row_bytes;
+  cloud.big_endian = decoded->swapped;
+  cloud.dense = decoded->dense;
+  for (const CloudField& field : decoded->fields)
+    cloud.fields.push_back({std::string(field.name), field.offset, field.datatype, field.count});
+  cloud.data.assign(decoded->data.begin(), decoded->data.end());
+  cloud_bytes_ += cloud.data.size();
+}
+
+bool MessageCollector::add_joints(Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message) {
+  if (entry.type->kind == MessageKind::kTransforms && !add_frames(entry, receive_ns, message)) return false;
+  if (!entry.may_be_motor) return true;
+  if (!decode_joints(entry.type->kind, entry.topic.encoding, message, rig_.mount.axis, joints_)) return false;
+  for (const DecodedJoint& decoded : joints_) {
+    RawJoint& joint = joint_of(entry, decoded.name);
+    // Known by name all the same, for a list of choices.
+    if (rig_.motor.joint && decoded.name != *rig_.motor.joint) continue;
+    joint.stamps.push_back({decoded.header_ns, receive_ns});
+    joint.positions.push_back(decoded.position);
+    ++joint_samples_;
+  }
+  return true;
+}
+
+bool MessageCollector::add_motion(const Entry& entry, std::int64_t receive_ns,
+                                  std::span<const std::byte> message) {
+  ++joint_samples_;  // as large as those
+  if (entry.type->kind == MessageKind::kImu) {
+    const auto imu = decode_imu(entry.topic.encoding, message);
+    if (!imu) return false;
+    raw_.turn_rates.stamps.push_back({imu->header_ns, receive_ns});
+    raw_.turn_rates.rates_rad_s.push_back(imu->rate_rad_s);
+    return true;
+  }
+  const auto odometry = decode_odometry(entry.topic.encoding, message);
+  if (!odometry) return false;
+  raw_.odometry.stamps.push_back({odometry->header_ns, receive_ns});
+  raw_.odometry.positions_m.push_back(odometry->position_m);
+  raw_.odometry.orientations.push_back(odometry->orientation);
+  return true;
+}
+
+bool MessageCollector::add_frames(const Entry& entry, std::int64_t receive_ns,
+                                  std::span<const std::byte> message) {
+  constexpr std::size_t kMostFrames = 4096;
+  if (!decode_transforms(entry.topic.encoding, message, transforms_)) return false;
+  for (const DecodedTransform& decoded : transforms_) {
+    if (!decoded.rotation.coeffs().allFinite() || !(decoded.rotation.norm() > 0.5)) continue;
+    const RawFrame::Pose pose{
+        {decoded.header_ns, receive_ns}, decoded.rotation.normalized(), decoded.translation_m};
+    auto found = frames_.find(decoded.child);
+    if (found == frames_.end()) {
+      if (raw_.frames.size() == kMostFrames) continue;
+      found = frames_.emplace(decoded.child, raw_.frames.size()).first;
+      raw_.frames.push_back({std::string(decoded.parent), std::string(decoded.child), pose, pose});
+    }
+    RawFrame& frame = raw_.frames[found->second];
+    frame.shifted_m = std::max(frame.shifted_m, (pose.translation_m - frame.first.translation_m).norm());
+    const double turned_rad = frame.first.rotation.angularDistance(pose.rotation);
+    if (turned_rad <= frame.turned_rad) continue;
+    frame.turned_rad = turned_rad;
+    frame.farthest = pose;
+  }
+  return true;
+}
+
+RawJoint& MessageCollector::joint_of(Entry& entry, std::string_view joint) {
+  auto found = entry.joints.find(joint);
+  if (found == entry.joints.end()) {
+    found = entry.joints.emplace(joint, raw_.joints.size()).first;
+    RawJoint& added = raw_.joints.emplace_back();
+    added.topic = entry.topic.name;
+    added.joint = joint;
+    added.source = source_of(entry.type->kind);
+  }
+  return raw_.joints[found->second];
+}
+
+void MessageCollector::finish() {
+  for (const auto& [key, number] : numbers_) {
+    const RecordedTopic& topic = raw_.topics[number];
+    if (topic.malformed == 0) continue;
+    const std::string& cloud_problem = entries_[number].cloud_problem;
+    raw_.warnings.push_back(
+        fmt::format("{} of {} messages on {} are {} and were skipped, the first at {}{}", topic.malformed,
+                    topic.messages, topic.name, cloud_problem.empty() ? "malformed" : "of no use",
+                    entries_[number].first_malformed, cloud_problem.empty() ? "" : ": " + cloud_problem));
+  }
+}
+
+}  // namespace sweepscope

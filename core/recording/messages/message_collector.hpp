@@ -1,0 +1,94 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/recording/messages/messages.hpp"
+#include "core/recording/messages/point_cloud.hpp"
+#include "core/recording/packed/unpacking_limit.hpp"
+#include "core/recording/raw_recording.hpp"
+
+namespace sweepscope {
+
+/// A file or topic holds no more than this of what is kept, so that a small file of highly compressed
+/// messages cannot fill the memory.
+inline constexpr std::size_t kMostBeams = std::size_t{1} << 29;
+inline constexpr std::size_t kMostJointSamples = std::size_t{1} << 27;
+/// A message that is packed holds no more than this.
+inline constexpr std::size_t kMostPackedMessage_bytes = std::size_t{1} << 28;
+/// Where clouds are kept whole, of their bytes.
+inline constexpr std::size_t kMostCloudBytes = std::size_t{1} << 33;
+
+/// The refusal of a file that holds more beams or joint samples than that; empty where it does not.
+std::optional<Error> too_much(const std::string& file, std::size_t beams, std::size_t joint_samples);
+
+/// Sorts the messages of a file, of whatever format, into lasers and joints. Those that the rig rules out by
+/// name are counted and not kept.
+class MessageCollector {
+ public:
+  struct Topic {
+    std::string name, type;
+    Encoding encoding = Encoding::kRos1;
+    bool decodable = true;     // false: the encoding is another one; its messages are only counted
+    std::string md5sum = "*";  // of the ROS 1 definition; "*" where nothing tells
+  };
+
+  /// Both must outlive it.
+  MessageCollector(const Rig& rig, RawRecording& raw, CloudDetail clouds = CloudDetail::kLines)
+      : rig_(rig), raw_(raw), clouds_(clouds) {}
+
+  /// What the messages that follow may unpack to; it must outlive them.
+  void begin_file(UnpackingLimit& limit) { limit_ = &limit; }
+  /// The number of a topic, for add(): the same for the same name, type and encoding.
+  std::size_t number_of(const Topic& topic);
+  /// Takes a message, one of CDR also packed by zstd (rosbag2's compression mode MESSAGE). `place` says where
+  /// it is, and is asked only where the message is malformed.
+  std::optional<Error> add(std::size_t topic, std::int64_t receive_ns, std::span<const std::byte> message,
+                           const std::function<std::string()>& place);
+  /// Call once, last: warns of what was malformed.
+  void finish();
+
+ private:
+  struct Entry {
+    Topic topic;
+    const MessageType* type = nullptr;  // null: only counted
+    std::size_t laser = 0;              // in RawRecording::lasers
+    bool may_be_motor = true;           // false: another topic is the rig's motor.topic
+    std::map<std::string, std::size_t, std::less<>> joints;
+    std::string first_malformed;  // the place
+    CloudReader clouds;
+    std::string cloud_problem;  // of the first cloud that is of no use
+  };
+
+  const MessageType* type_of(const Topic& topic);
+  Result<std::span<const std::byte>> unpacked(std::span<const std::byte> message);
+  bool add_scan(const Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message);
+  bool add_cloud(Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message);
+  void keep_cloud(const Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message,
+                  RawLaser& laser);
+  bool add_joints(Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message);
+  bool add_motion(const Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message);
+  bool add_frames(const Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message);
+  RawJoint& joint_of(Entry& entry, std::string_view joint);
+
+  const Rig& rig_;
+  RawRecording& raw_;
+  CloudDetail clouds_;
+  UnpackingLimit* limit_ = nullptr;
+  std::vector<Entry> entries_;  // like RawRecording::topics
+  std::map<std::tuple<std::string, std::string, Encoding>, std::size_t> numbers_;
+  std::vector<std::byte> unpacked_;
+  std::vector<DecodedJoint> joints_;
+  std::vector<DecodedTransform> transforms_;
+  std::map<std::string, std::size_t, std::less<>> frames_;  // by the child, in RawRecording::frames
+  std::size_t beams_ = 0, joint_samples_ = 0, cloud_bytes_ = 0;
+};
+
+}  // namespace sweepscope

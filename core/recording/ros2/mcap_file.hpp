@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/job.hpp"
+#include "core/recording/packed/decompress.hpp"
+#include "core/recording/packed/unpacking_limit.hpp"
+
+namespace sweepscope {
+
+/// MCAP files (https://mcap.dev/spec), read record by record from the front. Indexes, statistics and the
+/// footer are not needed, so files that were cut short or never closed read like any other; where there is a
+/// summary, its channels help to read what a damaged chunk introduced. No size in the file is trusted: what a
+/// record claims is held against what the file still has, and against these limits.
+inline constexpr std::uint64_t kMostMcapChunk_bytes = std::uint64_t{256} << 20;  // packed or unpacked
+inline constexpr std::uint64_t kMostMcapSummary_bytes = std::uint64_t{16} << 20;
+
+struct McapChannel {
+  std::string topic;
+  std::string encoding;      // of its messages: "cdr", "ros1" or another one
+  std::string type;          // its schema's name, for example sensor_msgs/msg/LaserScan
+  std::string md5sum = "*";  // where a converter kept it from ROS 1
+};
+
+/// One message. Its bytes and its channel are there for the length of the visit.
+struct McapMessage {
+  const McapChannel& channel;
+  std::int64_t log_ns;
+  std::span<const std::byte> bytes;
+  BagPlace place;
+};
+
+/// Called with every message in the file's order; an error that it returns ends the reading.
+using McapVisitor = std::function<std::optional<Error>(const McapMessage&)>;
+
+/// Reads a whole file, one chunk in memory at a time. Gives the warnings: what was damaged or missing, each
+/// naming the place. What is whole in a damaged file is visited; a chunk whose checksum is wrong is not.
+Result<std::vector<std::string>> read_mcap(const std::filesystem::path& path, const McapVisitor& visit,
+                                           const Job& job);
+/// The same of a file that was itself unpacked, under the limit of the packed one.
+Result<std::vector<std::string>> read_mcap(const std::filesystem::path& path, UnpackingLimit& limit,
+                                           const McapVisitor& visit, const Job& job);
+
+}  // namespace sweepscope

@@ -1,0 +1,151 @@
+#include "core/recording/sweeps.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/numbers.hpp"
+
+namespace sweepscope {
+namespace {
+
+// The time at which the track crosses a level between samples i - 1 and i.
+double crossing_s(const MotorTrack& track, std::size_t i, double level_rad) {
+  const double a = track.angle_rad[i - 1], b = track.angle_rad[i];
+  if (a == b) return track.time_s[i];
+  const double u = std::clamp((level_rad - a) / (b - a), 0.0, 1.0);
+  return track.time_s[i - 1] + u * (track.time_s[i] - track.time_s[i - 1]);
+}
+
+// Samples at which the angle is extreme between turns by more than `turn_rad`; the first and last sample
+// besides.
+std::vector<std::size_t> extremes(const MotorTrack& track, double turn_rad) {
+  std::vector<std::size_t> found;
+  const auto& angle = track.angle_rad;
+  std::size_t low = 0, high = 0;
+  int direction = 0;
+  for (std::size_t i = 1; i < angle.size(); ++i) {
+    if (angle[i] >= angle[high]) high = i;
+    if (angle[i] <= angle[low]) low = i;
+    if (direction >= 0 && angle[high] - angle[i] > turn_rad) {
+      if (direction != 0 || high > low) found.push_back(high);
+      direction = -1;
+      low = i;
+    } else if (direction <= 0 && angle[i] - angle[low] > turn_rad) {
+      if (direction != 0 || low > high) found.push_back(low);
+      direction = 1;
+      high = i;
+    }
+  }
+  found.insert(found.begin(), 0);
+  if (found.back() + 1 < angle.size()) found.push_back(angle.size() - 1);
+  return found;
+}
+
+struct Crossings {
+  double leave_s, arrive_s;
+};
+
+// Where the track between two extremes leaves the first by `margin_rad` and comes as near to the second.
+Crossings between(const MotorTrack& track, std::size_t first, std::size_t last, double margin_rad) {
+  const double sign = track.angle_rad[last] > track.angle_rad[first] ? 1.0 : -1.0;
+  const double leave_rad = track.angle_rad[first] + sign * margin_rad;
+  const double arrive_rad = track.angle_rad[last] - sign * margin_rad;
+  std::size_t leave = first + 1, arrive = last;
+  while (leave < last && sign * (track.angle_rad[leave] - leave_rad) < 0) ++leave;
+  while (arrive > leave && sign * (track.angle_rad[arrive - 1] - arrive_rad) > 0) --arrive;
+  return {crossing_s(track, leave, leave_rad), crossing_s(track, arrive, arrive_rad)};
+}
+
+// The reversal between two sweeps: the middle between where the angle comes near the extreme and where it
+// leaves it again, since a clipped or stepped extreme has no sharp instant of its own.
+void join_at_reversal(Sweep& before, Sweep& after, const Crossings& near_before,
+                      const Crossings& near_after) {
+  const double reversal_s = (near_before.arrive_s + near_after.leave_s) / 2;
+  before.end_s = reversal_s;
+  after.begin_s = reversal_s;
+}
+
+}  // namespace
+
+MotorMotion find_sweeps(const MotorTrack& track) {
+  MotorMotion motion;
+  if (track.angle_rad.size() < 3) return motion;
+  const auto [least, greatest] = std::minmax_element(track.angle_rad.begin(), track.angle_rad.end());
+  motion.range_rad = *greatest - *least;
+  const double turn_rad = std::max(0.5 * kRadPerDeg, 0.05 * motion.range_rad);
+  if (motion.range_rad < 2 * turn_rad) return motion;
+
+  const std::vector<std::size_t> turns = extremes(track, turn_rad);
+  std::vector<Crossings> near;
+  for (std::size_t i = 0; i + 1 < turns.size(); ++i) {
+    const double turned_rad = track.angle_rad[turns[i + 1]] - track.angle_rad[turns[i]];
+    if (std::abs(turned_rad) < turn_rad) continue;
+    const double margin_rad = std::min(0.03 * motion.range_rad, std::abs(turned_rad) / 4);
+    const Crossings crossings = between(track, turns[i], turns[i + 1], margin_rad);
+    Sweep sweep;
+    sweep.direction = turned_rad > 0 ? 1 : -1;
+    sweep.begin_s = sweep.steady_begin_s = crossings.leave_s;
+    sweep.end_s = sweep.steady_end_s = crossings.arrive_s;
+    if (sweep.end_s <= sweep.begin_s) continue;
+    sweep.speed_rad_s = (std::abs(turned_rad) - 2 * margin_rad) / (sweep.end_s - sweep.begin_s);
+    // A rest longer than the sweep itself parts two sweeps: nothing was turned meanwhile.
+    const bool joined =
+        !motion.sweeps.empty() && crossings.leave_s - near.back().arrive_s < sweep.end_s - sweep.begin_s;
+    if (joined) join_at_reversal(motion.sweeps.back(), sweep, near.back(), crossings);
+    motion.sweeps.push_back(sweep);
+    near.push_back(crossings);
+  }
+  std::vector<double> speeds, durations;
+  for (std::size_t i = 0; i < motion.sweeps.size(); ++i) {
+    speeds.push_back(motion.sweeps[i].speed_rad_s);
+    const bool partial = i == 0 || i + 1 == motion.sweeps.size();
+    if (!partial || motion.sweeps.size() <= 2)
+      durations.push_back(motion.sweeps[i].end_s - motion.sweeps[i].begin_s);
+  }
+  motion.median_speed_rad_s = median(speeds);
+  motion.median_sweep_s = median(durations);
+  return motion;
+}
+
+std::vector<std::size_t> assign_sweeps(const std::vector<LaserScan>& scans, const std::vector<Sweep>& sweeps,
+                                       double offset_s) {
+  std::vector<std::size_t> assigned(scans.size(), kNoSweep);
+  std::size_t sweep = 0;
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    const double middle_s = (scans[i].first_beam_s + scans[i].last_beam_s()) / 2 + offset_s;
+    while (sweep < sweeps.size() && sweeps[sweep].end_s <= middle_s) ++sweep;
+    if (sweep < sweeps.size() && sweeps[sweep].begin_s <= middle_s) assigned[i] = sweep;
+  }
+  return assigned;
+}
+
+double distinct_lines(const Recording& recording, const MotorMotion& motor, double offset_s) {
+  constexpr double kUncounted = std::numeric_limits<double>::infinity();
+  if (!recording.directions.empty()) return kUncounted;
+  const std::vector<std::size_t> sweep_of = assign_sweeps(recording.scans, motor.sweeps, offset_s);
+  std::vector<double> places[2];
+  for (std::size_t i = 0; i < recording.scans.size(); ++i) {
+    // The first and the last sweep may be cut off: their places are not known.
+    if (sweep_of[i] == kNoSweep || sweep_of[i] == 0 || sweep_of[i] + 1 == motor.sweeps.size()) continue;
+    const Sweep& sweep = motor.sweeps[sweep_of[i]];
+    const LaserScan& scan = recording.scans[i];
+    const double middle_s = (scan.first_beam_s + scan.last_beam_s()) / 2 + offset_s;
+    places[sweep.direction > 0].push_back((middle_s - sweep.begin_s) / (sweep.end_s - sweep.begin_s));
+  }
+  double least = kUncounted;
+  for (std::vector<double>& of_direction : places) {
+    if (of_direction.empty()) continue;
+    std::sort(of_direction.begin(), of_direction.end());
+    std::vector<double> gaps{of_direction.front() + 1 - of_direction.back()};
+    for (std::size_t i = 1; i < of_direction.size(); ++i)
+      gaps.push_back(of_direction[i] - of_direction[i - 1]);
+    std::sort(gaps.begin(), gaps.end());
+    std::size_t i = 0;
+    for (double within = gaps[0]; i + 1 < gaps.size() && within < 0.5; within += gaps[i]) ++i;
+    least = std::min(least, 1 / gaps[i]);
+  }
+  return least;
+}
+
+}  // namespace sweepscope

@@ -1,0 +1,335 @@
+#include "core/results/estimate_json.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "core/io/atomic_file.hpp"
+#include "core/io/printable_text.hpp"
+#include "core/results/fields.hpp"
+
+namespace sweepscope {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kSchema = "sweepscope.estimate/1";
+
+/// To 1e-9 ms, so that 0.0239 s is written 23.9 and not 23.900000000000002.
+double to_ms(double seconds) {
+  return std::round(seconds * 1e12) / 1e9;
+}
+
+// Of an instant in a recording.
+double to_millisecond(double time_s) {
+  return std::round(time_s * 1e3) / 1e3;
+}
+
+/// Whole numbers, such as counts, without a decimal point.
+Json number(double value) {
+  if (value == std::floor(value) && std::abs(value) < 1e15) return static_cast<std::int64_t>(value);
+  return value;
+}
+
+Json number_or_null(const std::optional<double>& value) {
+  return value ? number(*value) : Json(nullptr);
+}
+
+Json milliseconds_or_null(const std::optional<double>& seconds) {
+  return seconds ? Json(to_ms(*seconds)) : Json(nullptr);
+}
+
+Json curve_to_json(const std::vector<CurvePoint>& curve) {
+  Json points = Json::array();
+  for (const CurvePoint& point : curve) {
+    Json object;
+    object["offset_ms"] = to_ms(point.offset_s);
+    for (const CurveColumn& column : kCurveColumns) object[column.key] = number_or_null(point.*column.value);
+    points.push_back(std::move(object));
+  }
+  return points;
+}
+
+constexpr std::array kMethodNames{"direct", "stationary", "moving"};  // by Method
+constexpr std::array kKindNames{"stationary", "moving"};              // by RigKind
+
+/// What is wrong with a document, as a place and a reason.
+struct BadValue : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+const Json& member(const Json& object, const char* key, const std::string& where) {
+  const auto found = object.find(key);
+  if (found == object.end()) throw BadValue(where + key + " is missing");
+  return *found;
+}
+
+template <typename T>
+T required(const Json& object, const char* key, const std::string& where = "") {
+  try {
+    return member(object, key, where).get<T>();
+  } catch (const Json::exception&) {
+    throw BadValue(where + key + " has the wrong type");
+  }
+}
+
+/// The value of an enum whose names are these.
+template <typename T>
+T named(const std::string& name, const auto& names, const char* key) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) throw BadValue(fmt::format("{} is none of {}", key, fmt::join(names, ", ")));
+  return static_cast<T>(found - names.begin());
+}
+
+std::size_t required_count(const Json& object, const char* key) {
+  constexpr std::int64_t kGreatest = 1'000'000'000'000;
+  const auto count = whole_number(member(object, key, ""), 0, kGreatest);
+  if (!count) throw BadValue(fmt::format("{} is no whole number from 0 to {}", key, kGreatest));
+  return static_cast<std::size_t>(*count);
+}
+
+std::optional<double> optional_number(const Json& object, const char* key, const std::string& where = "") {
+  const auto found = object.find(key);
+  if (found == object.end() || found->is_null()) return std::nullopt;
+  if (!found->is_number()) throw BadValue(where + key + " is neither a number nor null");
+  return found->get<double>();
+}
+
+std::string optional_text(const Json& object, const char* key) {
+  const auto found = object.find(key);
+  if (found == object.end() || found->is_null()) return {};
+  if (!found->is_string()) throw BadValue(std::string(key) + " is neither a text nor null");
+  return found->get<std::string>();
+}
+
+/// Beyond a thousand seconds no clocks lie apart, and a millisecond would lose its last digits.
+double seconds(double milliseconds, const std::string& name) {
+  if (!(std::abs(milliseconds) <= 1e6)) throw BadValue(name + " lies beyond 1000 s");
+  return milliseconds / 1e3;
+}
+
+std::optional<double> optional_seconds(const Json& object, const char* key) {
+  const auto milliseconds = optional_number(object, key);
+  return milliseconds ? std::optional(seconds(*milliseconds, key)) : std::nullopt;
+}
+
+std::vector<CurvePoint> curve_from_json(const Json& curve) {
+  if (!curve.is_array()) throw BadValue("curve is not a list");
+  std::vector<CurvePoint> points;
+  for (const Json& object : curve) {
+    const std::string where = fmt::format("curve[{}].", points.size());
+    CurvePoint point;
+    if (!object.is_object()) throw BadValue(where + " is not an object");
+    point.offset_s = seconds(required<double>(object, "offset_ms", where), where + "offset_ms");
+    for (const CurveColumn& column : kCurveColumns)
+      point.*column.value = optional_number(object, column.key, where);
+    points.push_back(point);
+  }
+  return points;
+}
+
+/// To a nanosecond.
+Json seconds_or_null(const std::optional<double>& seconds) {
+  return seconds ? Json(std::round(*seconds * 1e9) / 1e9) : Json(nullptr);
+}
+
+/// "poses": a file, or a topic of odometry or of an IMU.
+Json motion_to_json(const UsedMotion& motion) {
+  Json object;
+  if (motion.kind == UsedMotion::Kind::kPoses) {
+    object["file"] = motion.name;
+  } else {
+    object["topic"] = motion.name;
+    object["type"] = motion.kind == UsedMotion::Kind::kOdometry ? "odometry" : "imu";
+  }
+  object["as"] = motion.trusted ? "truth" : "prior";
+  object["time_shift_s"] = seconds_or_null(motion.time_shift_s);
+  object["time_shift_sigma_s"] = seconds_or_null(motion.time_shift_sigma_s);
+  return object;
+}
+
+std::optional<UsedMotion> motion_from_json(const Json& document) {
+  const auto found = document.find("poses");
+  if (found == document.end() || found->is_null()) return std::nullopt;
+  if (!found->is_object()) throw BadValue("poses is not an object");
+  UsedMotion motion;
+  const std::string type = optional_text(*found, "type");
+  if (found->contains("file"))
+    motion.name = required<std::string>(*found, "file", "poses.");
+  else
+    motion.name = required<std::string>(*found, "topic", "poses.");
+  if (!type.empty()) motion.kind = type == "imu" ? UsedMotion::Kind::kImu : UsedMotion::Kind::kOdometry;
+  motion.trusted = required<std::string>(*found, "as", "poses.") == "truth";
+  motion.time_shift_s = optional_number(*found, "time_shift_s", "poses.");
+  motion.time_shift_sigma_s = optional_number(*found, "time_shift_sigma_s", "poses.");
+  return motion;
+}
+
+Json fit_to_json(const FitEvidence& fit) {
+  return {{"converged", fit.converged},
+          {"iterations", fit.iterations},
+          {"features", fit.features},
+          {"matches", fit.matches},
+          {"residual_m", number(fit.residual_m)},
+          {"lever_m", number(fit.lever_m)},
+          {"reach_m", number(fit.reach_m)}};
+}
+
+std::optional<FitEvidence> fit_from_json(const Json& document) {
+  constexpr std::int64_t kMaxIterations = 1'000'000;
+  const auto found = document.find("fit");
+  if (found == document.end() || found->is_null()) return std::nullopt;
+  if (!found->is_object()) throw BadValue("fit is not an object");
+  FitEvidence fit;
+  fit.converged = required<bool>(*found, "converged", "fit.");
+  const auto iterations = whole_number(member(*found, "iterations", "fit."), 0, kMaxIterations);
+  if (!iterations) throw BadValue("fit.iterations is no whole number");
+  fit.iterations = static_cast<int>(*iterations);
+  fit.features = required_count(*found, "features");
+  fit.matches = required_count(*found, "matches");
+  fit.residual_m = required<double>(*found, "residual_m", "fit.");
+  fit.lever_m = required<double>(*found, "lever_m", "fit.");
+  fit.reach_m = required<double>(*found, "reach_m", "fit.");
+  return fit;
+}
+
+std::vector<CriterionOptimum> criteria_from_json(const Json& criteria) {
+  if (!criteria.is_object()) throw BadValue("criteria is not an object");
+  std::vector<CriterionOptimum> optima;
+  for (const auto& [key, object] : criteria.items()) {
+    const std::string where = fmt::format("criteria.{}.", key);
+    if (!object.is_object()) throw BadValue(where + " is not an object");
+    optima.push_back({key, seconds(required<double>(object, "offset_ms", where), where + "offset_ms"),
+                      required<double>(object, "value", where)});
+  }
+  return optima;
+}
+
+// Older documents have none.
+std::vector<Interval> intervals_from_json(const Json& document, const char* key) {
+  if (!document.contains(key)) return {};
+  std::vector<Interval> intervals;
+  for (const auto& [begin_s, end_s] : required<std::vector<std::array<double, 2>>>(document, key))
+    intervals.push_back({begin_s, end_s});
+  return intervals;
+}
+
+Estimate estimate_from_json(const Json& document) {
+  if (!document.is_object()) throw BadValue("it is not a JSON object");
+  if (required<std::string>(document, "schema") != kSchema) {
+    throw BadValue(fmt::format("schema is not {}", kSchema));
+  }
+  Estimate estimate;
+  estimate.recording = required<std::string>(document, "recording");
+  estimate.method = named<Method>(required<std::string>(document, "method"), kMethodNames, "method");
+  estimate.identifiable = required<bool>(document, "identifiable");
+  estimate.offset_s = optional_seconds(document, "offset_ms");
+  estimate.sigma_s = optional_seconds(document, "sigma_ms");
+  estimate.drift_ppm = optional_number(document, "drift_ppm");
+  if (const std::string kind = optional_text(document, "kind"); !kind.empty())
+    estimate.kind = named<RigKind>(kind, kKindNames, "kind");
+  estimate.kind_reason = optional_text(document, "kind_reason");
+  estimate.lost = intervals_from_json(document, "lost_s");
+  estimate.motion = motion_from_json(document);
+  estimate.fit = fit_from_json(document);
+  estimate.warnings = required<std::vector<std::string>>(document, "warnings");
+  estimate.reasons = required<std::vector<std::string>>(document, "reasons");
+  estimate.criteria = criteria_from_json(member(document, "criteria", ""));
+  estimate.curve = curve_from_json(member(document, "curve", ""));
+  estimate.sweeps = required_count(document, "sweeps");
+  estimate.scans = required_count(document, "scans");
+  estimate.cpu_s = optional_number(document, "cpu_s").value_or(0);
+  estimate.wall_s = optional_number(document, "wall_s").value_or(0);
+  return estimate;
+}
+
+}  // namespace
+
+const char* to_text(Method method) {
+  return kMethodNames[static_cast<std::size_t>(method)];
+}
+
+const char* to_text(RigKind kind) {
+  return kKindNames[static_cast<std::size_t>(kind)];
+}
+
+std::string estimate_to_json(const Estimate& estimate, Timing timing) {
+  Json document;
+  document["schema"] = kSchema;
+  document["recording"] = estimate.recording;
+  document["method"] = to_text(estimate.method);
+  document["equation"] = "t_motor = t_laser + offset";
+  document["identifiable"] = estimate.identifiable;
+  const bool found = estimate.identifiable;
+  document["offset_ms"] = found ? milliseconds_or_null(estimate.offset_s) : Json(nullptr);
+  document["sigma_ms"] = found ? milliseconds_or_null(estimate.sigma_s) : Json(nullptr);
+  document["drift_ppm"] = number_or_null(estimate.drift_ppm);
+  document["kind"] = estimate.kind ? Json(to_text(*estimate.kind)) : Json(nullptr);
+  document["kind_reason"] = estimate.kind_reason.empty() ? Json(nullptr) : Json(estimate.kind_reason);
+  document["lost_s"] = Json::array();
+  for (const Interval& lost : estimate.lost)
+    document["lost_s"].push_back({to_millisecond(lost.begin_s), to_millisecond(lost.end_s)});
+  if (estimate.motion) document["poses"] = motion_to_json(*estimate.motion);
+  document["warnings"] = estimate.warnings;
+  document["reasons"] = estimate.reasons;
+  document["criteria"] = Json::object();
+  for (const CriterionOptimum& optimum : estimate.criteria) {
+    document["criteria"][optimum.name] = {{"offset_ms", to_ms(optimum.offset_s)},
+                                          {"value", number(optimum.value)}};
+  }
+  if (estimate.fit) document["fit"] = fit_to_json(*estimate.fit);
+  document["curve"] = curve_to_json(estimate.curve);
+  document["sweeps"] = estimate.sweeps;
+  document["scans"] = estimate.scans;
+  document["cpu_s"] = timing == Timing::kWritten ? Json(estimate.cpu_s) : Json(nullptr);
+  document["wall_s"] = timing == Timing::kWritten ? Json(estimate.wall_s) : Json(nullptr);
+  document["version"] = SWEEPSCOPE_VERSION;
+  return json_text(std::move(document));
+}
+
+Result<Estimate> parse_estimate_json(std::string_view text, std::string_view name) {
+  try {
+    return estimate_from_json(Json::parse(text));
+  } catch (const Json::parse_error& error) {
+    return unreadable(fmt::format("{}: not JSON: broken at byte {}", name, error.byte));
+  } catch (const Json::out_of_range&) {
+    return unreadable(fmt::format("{}: not an estimate: a number in it is too large", name));
+  } catch (const BadValue& error) {
+    return unreadable(fmt::format("{}: not an estimate: {}", name, error.what()));
+  }
+}
+
+Result<void> write_estimate_json(const std::filesystem::path& path, const Estimate& estimate, Timing timing) {
+  return write_file(path, estimate_to_json(estimate, timing));
+}
+
+Result<Estimate> read_estimate_json(const std::filesystem::path& path) {
+  const Result<std::string> text = read_file(path);
+  if (!text) return tl::unexpected(text.error());
+  return parse_estimate_json(*text, path.string());
+}
+
+std::string curve_to_csv(const Estimate& estimate) {
+  std::string text = "offset_ms,d,translation_m,rotation_rad,signed_rotation_rad,n,e_m,capped_cost_m\n";
+  for (const CurvePoint& point : estimate.curve) {
+    text += fmt::format("{}", to_ms(point.offset_s));
+    for (const CurveColumn& column : kCurveColumns) {
+      const auto& value = point.*column.value;
+      text += value ? fmt::format(",{}", *value) : ",";
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+Result<void> write_curve_csv(const std::filesystem::path& path, const Estimate& estimate) {
+  return write_file(path, curve_to_csv(estimate));
+}
+
+}  // namespace sweepscope

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/drawing/drawing.hpp"
+#include "render/drawing/style.hpp"
+
+namespace sweepscope {
+
+/// What stands at a series' points. The shapes tell series apart where colours do not.
+enum class MarkerShape { kNone, kCircle, kSquare, kTriangle, kDiamond };
+
+struct ChartSeries {
+  std::string name;  // in the legend; without one it is not there
+  std::vector<double> x;
+  std::vector<std::optional<double>> y;  // absent values leave a gap, and a tick on the axis below
+  Colour colour;
+  MarkerShape marker = MarkerShape::kCircle;
+  bool dashed = false;  // thin dashes: what was fitted, not measured
+  bool filled = false;  // down to 0, which the axis then holds
+};
+
+/// A vertical line across the chart with a label above it.
+struct ChartVertical {
+  double x = 0;
+  std::string label;
+  Colour colour;
+  bool dashed = false;
+};
+
+struct ChartMarker {
+  double x = 0, y = 0;
+  Colour colour;
+  MarkerShape shape = MarkerShape::kDiamond;
+};
+
+/// A shaded range of x, such as an uncertainty.
+struct ChartBand {
+  double from = 0, to = 0;
+  Colour colour;
+};
+
+/// A horizontal bar with ends, such as a width at half height, and what it measures beside it.
+struct ChartSpan {
+  double y = 0, from = 0, to = 0;
+  std::string label;
+  Colour colour;
+};
+
+/// A chart of lines as data. Axes fit what there is; `with_zero` widens y to hold 0 and draws a line there.
+struct Chart {
+  std::string title;    // what y is, with its unit
+  std::string x_title;  // what x is, with its unit
+  std::vector<ChartSeries> series;
+  std::vector<ChartVertical> verticals;
+  std::vector<ChartMarker> markers;
+  bool with_zero = false;
+  std::vector<ChartBand> bands;
+  std::vector<ChartSpan> spans;
+  std::string absent_name;  // what an absent value means, in the legend
+};
+
+/// Draws the chart with its title, legend and labels inside `place`; `scale` is 1 for letters of 13 px.
+void add_chart(Drawing& drawing, const PixelRect& place, const Chart& chart, const Style& style,
+               double scale);
+
+}  // namespace sweepscope

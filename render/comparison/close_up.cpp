@@ -1,0 +1,116 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "render/comparison/comparison_points.hpp"
+
+namespace sweepscope {
+namespace {
+
+constexpr double kCell_m = 0.05, kTile_m = 0.5, kLeastHeight_m = 0.8;
+constexpr double kMostTiles = 2000;  // along a side: 1 km
+
+/// Filled cells of a tile, or of a window of tiles, with their moments about the grid's corner.
+struct Filled {
+  double count = 0, x = 0, y = 0, xx = 0, yy = 0, xy = 0;
+
+  void add(double px, double py) {
+    count += 1, x += px, y += py, xx += px * px, yy += py * py, xy += px * py;
+  }
+  void add(const Filled& other) {
+    count += other.count, x += other.x, y += other.y, xx += other.xx, yy += other.yy, xy += other.xy;
+  }
+  /// 1 where the cells spread alike in all directions, 0 where they lie on a line.
+  double roundness() const {
+    if (count < 3) return 0;
+    const double a = xx / count - x * x / (count * count), b = yy / count - y * y / (count * count);
+    const double c = xy / count - x * y / (count * count);
+    const double root = std::sqrt((a - b) * (a - b) / 4 + c * c), mean = (a + b) / 2;
+    return mean + root > 0 ? std::max(0.0, (mean - root) / (mean + root)) : 0;
+  }
+};
+
+struct TileGrid {
+  Bounds x, y;
+  std::size_t columns = 0, rows = 0;
+  std::vector<Filled> tiles;
+
+  Filled window(std::size_t column, std::size_t row, std::size_t wide, std::size_t high) const {
+    Filled sum;
+    for (std::size_t r = row; r < std::min(rows, row + high); ++r) {
+      for (std::size_t c = column; c < std::min(columns, column + wide); ++c) sum.add(tiles[r * columns + c]);
+    }
+    return sum;
+  }
+};
+
+/// Floors fill their cells however sharp they are: only what stands above the path counts.
+TileGrid fill_tiles(const SlabPoints& map, const Bounds& x, const Bounds& y) {
+  TileGrid grid{x,
+                y,
+                static_cast<std::size_t>(std::min(kMostTiles, x.length() / kTile_m)) + 1,
+                static_cast<std::size_t>(std::min(kMostTiles, y.length() / kTile_m)) + 1,
+                {}};
+  grid.tiles.resize(grid.columns * grid.rows);
+  std::vector<std::uint64_t> cells;
+  for (std::size_t i = 0; i < map.points.size(); ++i) {
+    const double px = static_cast<double>(map.points.xyz_m[i][0]) - x.from;
+    const double py = static_cast<double>(map.points.xyz_m[i][1]) - y.from;
+    if (static_cast<double>(map.above_path_m[i]) < kLeastHeight_m) continue;
+    if (px < 0 || py < 0 || px >= kTile_m * static_cast<double>(grid.columns) ||
+        py >= kTile_m * static_cast<double>(grid.rows)) {
+      continue;
+    }
+    cells.push_back(static_cast<std::uint64_t>(py / kCell_m) << 32 |
+                    static_cast<std::uint64_t>(px / kCell_m));
+  }
+  std::sort(cells.begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  for (const std::uint64_t cell : cells) {
+    const double px = kCell_m * (static_cast<double>(cell & 0xffffffff) + 0.5);
+    const double py = kCell_m * (static_cast<double>(cell >> 32) + 0.5);
+    const auto column = std::min(grid.columns - 1, static_cast<std::size_t>(px / kTile_m));
+    const auto row = std::min(grid.rows - 1, static_cast<std::size_t>(py / kTile_m));
+    grid.tiles[row * grid.columns + column].add(px, py);
+  }
+  return grid;
+}
+
+}  // namespace
+
+Region find_close_up(std::span<const SlabPoints> maps, double height_m, double width_m) {
+  const Bounds x = bounds_of(maps, 0, 0.002), y = bounds_of(maps, 1, 0.002);
+  std::vector<TileGrid> grids;
+  for (const SlabPoints& map : maps) grids.push_back(fill_tiles(map, x, y));
+  // Looked for in squares of half the close-up's smaller side, so that the find lies well inside, and
+  // preferably with nothing around it: a pillar tells more than a piece of a wall.
+  const auto side =
+      static_cast<std::size_t>(std::max(2.0, std::floor(0.5 * std::min(height_m, width_m) / kTile_m)));
+  const std::size_t rim = side / 2;
+  Region best{{x.middle(), y.middle()}, height_m};
+  double best_score = 0;
+  for (std::size_t row = 0; row + side <= grids[0].rows; ++row) {
+    for (std::size_t column = 0; column + side <= grids[0].columns; ++column) {
+      std::size_t sharpest = 0;
+      double least = 0, most = 0;
+      for (std::size_t m = 0; m < grids.size(); ++m) {
+        const double count = grids[m].window(column, row, side, side).count;
+        if (m == 0 || count < least) least = count, sharpest = m;
+        most = std::max(most, count);
+      }
+      if (least < 30) continue;
+      const TileGrid& grid = grids[sharpest];
+      const Filled object = grid.window(column, row, side, side);
+      const Filled around = grid.window(column - std::min(column, rim), row - std::min(row, rim),
+                                        side + 2 * rim, side + 2 * rim);
+      const double alone = object.count / around.count;
+      const double score = (1 - least / most) * std::sqrt(least) * object.roundness() * alone * alone;
+      if (score <= best_score) continue;
+      best_score = score;
+      best.centre_m = {x.from + object.x / object.count, y.from + object.y / object.count};
+    }
+  }
+  return best;
+}
+
+}  // namespace sweepscope

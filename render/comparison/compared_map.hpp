@@ -1,0 +1,25 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/geometry/map_cloud.hpp"
+#include "core/geometry/pose.hpp"
+#include "core/map/feature_points.hpp"
+
+namespace sweepscope {
+
+/// A map to draw, alone or beside others.
+struct ComparedMap {
+  std::string label;                       // empty: "offset 24.0 ms", from offset_s
+  std::optional<double> offset_s;          // marked in the charts; absent where it is not known
+  MapCloud::ConstPtr cloud;                // in the map frame, z up
+  std::vector<StampedPose> path;           // the sensor's way, which heights refer to; may be empty
+  double path_height_m = 0;                // the sensor's height where `path` is empty
+  std::vector<FeatureKind> feature_kinds;  // of each point; empty where they are not known
+
+  std::size_t size() const { return cloud ? cloud->size() : 0; }
+};
+
+}  // namespace sweepscope

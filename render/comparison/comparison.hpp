@@ -1,0 +1,67 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/offset/estimate.hpp"
+#include "render/comparison/colouring.hpp"
+#include "render/comparison/compared_map.hpp"
+#include "render/drawing/style.hpp"
+#include "render/pictures/camera.hpp"
+#include "render/pictures/picture.hpp"
+
+namespace sweepscope {
+
+/// Heights above the sensor's path (below it: negative).
+struct HeightRange {
+  double from_m = 0, to_m = 0;
+};
+
+/// A part of the map that a close-up shows from above.
+struct Region {
+  Eigen::Vector2d centre_m{0, 0};  // x and y in the map frame
+  double height_m = 4;             // of the close-up; its width follows from the picture's
+};
+
+struct ComparisonOptions {
+  int width_px = 1920, height_px = 1200;
+  Background background = Background::kDark;
+  std::string title;  // empty: the estimate's recording
+  ColourBy colour_by = ColourBy::kElevation;
+  std::string colour_table = "viridis";
+  std::optional<ValueRange> colour_range;  // empty: of the points shown, without their outermost part
+  double point_size_px = 1;                // at 1920 x 1200
+  Viewpoint viewpoint = Viewpoint::kTop;
+  bool perspective = false;
+  std::optional<Camera> camera;  // instead of the viewpoint
+  std::optional<Box> box;        // only what is inside, fitted to the view
+  /// The heights shown. A roll error moves points the more the farther they are above or below the sensor, so
+  /// near its own height there is nothing to see, and a ceiling hides all below it. Empty: from above,
+  /// everything at least 0.8 m below the path, and from 0.8 m above it to just under the ceiling where there
+  /// is one; from elsewhere, everything under the ceiling.
+  std::vector<HeightRange> slabs;
+  /// Empty: the place where the maps differ most in sharpness.
+  std::optional<Region> close_up;
+  bool with_close_up = true;
+  bool each_own_view = false;  // for maps of different places: each fills its panel
+};
+
+/// Whether a comparison of that size has room for what it shows; else ExitCode::kWrongUsage.
+Result<void> check_size(const ComparisonOptions& options);
+
+/// One to four maps side by side, seen alike (one camera and one colour scale for all), a close-up of one
+/// region of each below, and below those the criteria over the offset with the compared offsets marked. Maps
+/// without points and a curve without values are said in words. `estimate` may be null: then no charts.
+Result<Picture> comparison_picture(std::span<const ComparedMap> maps, const Estimate* estimate,
+                                   const ComparisonOptions& options = {});
+
+/// What a file of that picture says about itself: the program's version, the equation, the maps and offsets,
+/// and how they are shown.
+std::vector<PngText> comparison_texts(std::span<const ComparedMap> maps, const ComparisonOptions& options);
+
+}  // namespace sweepscope

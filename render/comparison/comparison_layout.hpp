@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "render/comparison/comparison.hpp"
+#include "render/drawing/drawing.hpp"
+
+namespace sweepscope {
+
+/// Where everything of a comparison lies. Places that are not used are empty.
+struct ComparisonLayout {
+  double scale = 1;  // of letters and lines; 1 at 1920 x 1200
+  double margin = 0;
+  PixelPoint title, subtitle, footer;  // baselines
+  std::vector<PixelPoint> labels;      // of the maps
+  std::vector<PixelRect> overviews, close_ups;
+  PixelRect scalar_bar;  // the bar itself, without its numbers
+  std::vector<PixelRect> charts;
+};
+
+/// `charts` is how many lie beside each other at the bottom; 0 leaves the maps all the room.
+ComparisonLayout lay_out(const ComparisonOptions& options, std::size_t maps, std::size_t charts);
+
+}  // namespace sweepscope

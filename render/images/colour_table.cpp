@@ -1,0 +1,88 @@
+#include "render/images/colour_table.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <pcl/common/colors.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sweepscope {
+namespace {
+
+constexpr std::array<std::string_view, 4> kNames{"viridis", "cividis", "turbo", "grey"};
+
+/// Coefficients of a polynomial per channel, the constant first; channels from 0 to 1.
+using Polynomial = std::array<double, 6>;
+
+double evaluate(const Polynomial& polynomial, double t) {
+  double value = 0;
+  for (auto c = polynomial.rbegin(); c != polynomial.rend(); ++c) value = value * t + *c;
+  return value;
+}
+
+std::uint8_t to_byte(double channel) {
+  return static_cast<std::uint8_t>(std::lround(255 * std::clamp(channel, 0.0, 1.0)));
+}
+
+ColourTable from_polynomials(const Polynomial& red, const Polynomial& green, const Polynomial& blue) {
+  ColourTable table;
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    const double t = static_cast<double>(i) / 255;
+    table[i] = {to_byte(evaluate(red, t)), to_byte(evaluate(green, t)), to_byte(evaluate(blue, t))};
+  }
+  return table;
+}
+
+/// Van der Walt and Smith, 2015 (CC0).
+ColourTable viridis() {
+  ColourTable table;
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    const pcl::RGB colour = pcl::ViridisLUT::at(i);
+    table[i] = {colour.r, colour.g, colour.b};
+  }
+  return table;
+}
+
+/// Nunez, Anderton and Renslow, 2018; polynomials fitted by Jamie Perkins, published with d3-scale-chromatic.
+ColourTable cividis() {
+  return from_polynomials(
+      {-4.54 / 255, -35.34 / 255, 2381.73 / 255, -6402.7 / 255, 7024.72 / 255, -2710.57 / 255},
+      {32.49 / 255, 170.73 / 255, 52.82 / 255, -131.46 / 255, 176.58 / 255, -67.37 / 255},
+      {81.24 / 255, 442.36 / 255, -2482.43 / 255, 6167.24 / 255, -6614.94 / 255, 2475.67 / 255});
+}
+
+/// Mikhailov, 2019; polynomials fitted by Ruofei Du.
+ColourTable turbo() {
+  return from_polynomials({0.13572138, 4.61539260, -42.66032258, 132.13108234, -152.94239396, 59.28637943},
+                          {0.09140261, 2.19418839, 4.84296658, -14.18503333, 4.27729857, 2.82956604},
+                          {0.10667330, 12.64194608, -60.58204836, 110.36276771, -89.90310912, 27.34824973});
+}
+
+/// Not from black, which would vanish on the dark background.
+ColourTable grey() {
+  return from_polynomials({0.25, 0.75}, {0.25, 0.75}, {0.25, 0.75});
+}
+
+}  // namespace
+
+std::span<const std::string_view> colour_table_names() {
+  return kNames;
+}
+
+Result<ColourTable> colour_table(std::string_view name) {
+  if (name == "viridis") return viridis();
+  if (name == "cividis") return cividis();
+  if (name == "turbo") return turbo();
+  if (name == "grey") return grey();
+  return failure(ExitCode::kWrongUsage,
+                 fmt::format("There is no colour table \"{}\"; there are {}", name, fmt::join(kNames, ", ")));
+}
+
+Colour ColourScale::at(double value) const {
+  if (std::isnan(value)) return no_value;
+  const double t = to > from ? (value - from) / (to - from) : 0.5;
+  return table[static_cast<std::size_t>(std::lround(255 * std::clamp(t, 0.0, 1.0)))];
+}
+
+}  // namespace sweepscope

@@ -1,0 +1,208 @@
+#include "render/pictures/live_view.hpp"
+
+#include <vtkActor.h>
+#include <vtkCamera.h>
+#include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkNew.h>
+#include <vtkOpenGLFramebufferObject.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkRenderer.h>
+#include <vtkTextureObject.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "render/clouds/point_polydata.hpp"
+#include "render/gl/vtk_window.hpp"
+
+namespace sweepscope {
+namespace {
+
+constexpr std::size_t kSlicePoints = 32768;
+
+/// A cloud cut into actors, which are made when they are first drawn.
+struct Slices {
+  LivePointsPtr points;
+  std::vector<vtkSmartPointer<vtkActor>> actors;
+
+  void reset(LivePointsPtr next, vtkRenderer& renderer) {
+    for (const auto& actor : actors) {
+      if (actor) renderer.RemoveActor(actor);
+    }
+    points = std::move(next);
+    actors.assign(points ? (points->size() + kSlicePoints - 1) / kSlicePoints : 0, nullptr);
+  }
+  /// Stays in the renderer, unseen between drawings: VTK uploads an actor's points anew once it was away.
+  vtkActor* at(std::size_t slice, double point_size_px, vtkRenderer& renderer) {
+    if (!actors[slice]) {
+      const std::size_t from = slice * kSlicePoints, count = std::min(kSlicePoints, points->size() - from);
+      vtkNew<vtkPolyDataMapper> mapper;
+      mapper->SetInputData(to_polydata(std::span(points->xyz_m).subspan(from, count),
+                                       std::span(points->rgb).subspan(from, count)));
+      mapper->SetColorModeToDirectScalars();
+      mapper->StaticOn();
+      actors[slice] = vtkSmartPointer<vtkActor>::New();
+      actors[slice]->SetMapper(mapper);
+      actors[slice]->GetProperty()->LightingOff();
+      renderer.AddActor(actors[slice]);
+    }
+    actors[slice]->GetProperty()->SetPointSize(static_cast<float>(point_size_px));
+    return actors[slice];
+  }
+};
+
+double now_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+}  // namespace
+
+struct LiveView::Parts {
+  explicit Parts(gl::Context& gl_context)
+      : context(gl_context), window(gl::make_vtk_window(gl_context, 64, 64)) {
+    window->AddRenderer(renderer);
+    renderer->GetActiveCamera()->ParallelProjectionOn();
+  }
+
+  ~Parts() {
+    context.make_current();
+    window->Finalize();
+  }
+
+  /// One slice, or an empty picture: `actor` may be null.
+  void render(vtkActor* actor, bool clear) {
+    if (actor != nullptr) actor->VisibilityOn();
+    renderer->SetErase(clear);
+    apply_camera();
+    window->Render();
+    if (actor != nullptr) actor->VisibilityOff();
+  }
+
+  void apply_camera() {
+    vtkCamera& out = *renderer->GetActiveCamera();
+    out.SetPosition(camera.position_m.data());
+    out.SetFocalPoint(camera.looks_at_m.data());
+    out.SetViewUp(camera.up.data());
+    out.SetParallelProjection(camera.orthographic);
+    out.SetParallelScale(camera.view_height_m / 2);
+    out.SetViewAngle(camera.view_angle_deg);
+    // The same for every slice, or the depths of one would not compare with those of another.
+    if (bounds[0] <= bounds[1]) renderer->ResetCameraClippingRange(bounds.data());
+  }
+
+  void find_bounds() {
+    bounds = {1, -1, 1, -1, 1, -1};
+    for (const LivePoints* points : {coarse.points.get(), full.points.get()}) {
+      if (points == nullptr) continue;
+      for (const auto& p : points->xyz_m) {
+        if (bounds[0] > bounds[1]) bounds = {p[0], p[0], p[1], p[1], p[2], p[2]};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          bounds[2 * axis] = std::min(bounds[2 * axis], static_cast<double>(p[axis]));
+          bounds[2 * axis + 1] = std::max(bounds[2 * axis + 1], static_cast<double>(p[axis]));
+        }
+      }
+    }
+  }
+
+  void begin_again() { drawn = 0; }
+  std::size_t wanted() const {
+    return 1 + coarse.actors.size() + (moving ? 0 : full.actors.size());  // 1: the empty picture
+  }
+  void draw_next() {
+    const std::size_t slice = drawn++;
+    if (slice == 0) return render(nullptr, true);
+    if (slice <= coarse.actors.size()) return render(coarse.at(slice - 1, point_size_px, *renderer), false);
+    render(full.at(slice - 1 - coarse.actors.size(), point_size_px, *renderer), false);
+  }
+
+  gl::Context& context;
+  vtkSmartPointer<vtkGenericOpenGLRenderWindow> window;
+  vtkNew<vtkRenderer> renderer;
+  Slices coarse, full;
+  Camera camera;
+  double point_size_px = 1;
+  Colour background{0, 0, 0};
+  bool moving = false;
+  std::array<double, 6> bounds{1, -1, 1, -1, 1, -1};
+  std::size_t drawn = 0;  // of the empty picture, the coarse slices and the full ones
+};
+
+LiveView::LiveView(gl::Context& context) : parts_(std::make_unique<Parts>(context)) {}
+LiveView::~LiveView() = default;
+
+void LiveView::resize(int width_px, int height_px) {
+  if (width_px == this->width_px() && height_px == this->height_px()) return;
+  parts_->window->SetSize(width_px, height_px);
+  parts_->begin_again();
+}
+
+void LiveView::show(LivePointsPtr coarse, LivePointsPtr full) {
+  if (coarse == parts_->coarse.points && full == parts_->full.points) return;
+  const bool only_more = coarse == parts_->coarse.points && parts_->full.points == nullptr;
+  if (coarse != parts_->coarse.points) parts_->coarse.reset(std::move(coarse), *parts_->renderer);
+  if (full != parts_->full.points) parts_->full.reset(std::move(full), *parts_->renderer);
+  const auto before = parts_->bounds;
+  parts_->find_bounds();
+  if (!only_more || before != parts_->bounds) parts_->begin_again();
+}
+
+void LiveView::set_camera(const Camera& camera) {
+  const Camera& now = parts_->camera;
+  if (camera.position_m == now.position_m && camera.looks_at_m == now.looks_at_m && camera.up == now.up &&
+      camera.orthographic == now.orthographic && camera.view_height_m == now.view_height_m)
+    return;
+  parts_->camera = camera;
+  parts_->begin_again();
+}
+
+void LiveView::set_point_size(double size_px) {
+  if (size_px == parts_->point_size_px) return;
+  parts_->point_size_px = size_px;
+  parts_->begin_again();
+}
+
+void LiveView::set_background(Colour colour) {
+  if (colour == parts_->background) return;
+  parts_->background = colour;
+  parts_->renderer->SetBackgroundAlpha(1);
+  parts_->renderer->SetBackground(colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0);
+  parts_->begin_again();
+}
+
+void LiveView::set_moving(bool moving) {
+  parts_->moving = moving;
+}
+
+void LiveView::draw(double budget_s) {
+  parts_->context.make_current();
+  const double end_s = now_s() + budget_s;
+  const std::size_t at_once = 1 + parts_->coarse.actors.size();  // a picture without them would flicker
+  while (!done() && (parts_->drawn < at_once || now_s() < end_s)) {
+    parts_->draw_next();
+    // What only waits to be drawn has taken no time yet: it would pile up, and a later frame would wait for
+    // all.
+    if (parts_->drawn >= at_once && !done()) parts_->window->WaitForCompletion();
+  }
+}
+
+bool LiveView::done() const {
+  return parts_->drawn >= parts_->wanted();
+}
+
+unsigned LiveView::texture() const {
+  vtkOpenGLFramebufferObject* drawn = parts_->window->GetDisplayFramebuffer();
+  vtkTextureObject* colours = drawn != nullptr ? drawn->GetColorAttachmentAsTextureObject(0) : nullptr;
+  return colours != nullptr ? colours->GetHandle() : 0;
+}
+
+int LiveView::width_px() const {
+  return parts_->window->GetSize()[0];
+}
+
+int LiveView::height_px() const {
+  return parts_->window->GetSize()[1];
+}
+
+}  // namespace sweepscope

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "render/clouds/points.hpp"
+#include "render/drawing/drawing.hpp"
+#include "render/images/colour_table.hpp"
+#include "render/images/image.hpp"
+#include "render/pictures/camera.hpp"
+
+class vtkRenderWindow;
+
+namespace sweepscope {
+
+/// Points and what colours them.
+struct CloudLayer {
+  std::shared_ptr<const ColouredPoints> points;
+  double point_size_px = 1;
+};
+
+/// A line through places of the map frame, drawn above the points.
+struct ScenePath {
+  std::vector<Eigen::Vector3d> points_m;
+  double width_px = 1;
+  Colour colour;
+};
+
+/// Words at a place of the map frame.
+struct SceneLabel {
+  Eigen::Vector3d at_m{0, 0, 0};
+  std::string text;
+  double size_px = 14;
+  Colour colour;
+};
+
+struct Scene {
+  std::vector<CloudLayer> clouds;
+  ColourScale colours;
+  std::vector<ScenePath> paths;
+  std::vector<SceneLabel> labels;
+  Camera camera;
+  Colour background{0, 0, 0};
+};
+
+/// A scene in a part of a picture.
+struct View {
+  PixelRect place;
+  Scene scene;
+};
+
+/// A picture as data: views of scenes beside each other, and flat marks above them all. Where the background
+/// of the picture and of its views has alpha 0 the picture is transparent.
+struct Picture {
+  int width_px = 0, height_px = 0;
+  Colour background{0, 0, 0};
+  std::vector<View> views;
+  Drawing marks;
+};
+
+constexpr int kLeastPictureSidePx = 64, kGreatestPictureSidePx = 8000;
+
+/// Says why a picture of that size cannot be drawn (ExitCode::kWrongUsage).
+Result<void> check_size(const Picture& picture);
+
+/// Everything flat: the paths and labels of its scenes at their places, then its marks.
+Drawing flat_marks(const Picture& picture);
+
+/// Draws it without a display. Edges are smoothed by drawing at twice the size; the same picture gives the
+/// same pixels, run after run. A size beyond the limits is ExitCode::kWrongUsage.
+Result<Image> draw(const Picture& picture);
+
+/// The size at which VTK draws the picture: larger, for smooth edges.
+int drawn_width_px(const Picture& picture);
+int drawn_height_px(const Picture& picture);
+
+/// Draws the picture in a window of that size, whatever is behind it. The window has no renderers before and
+/// after. Fails with ExitCode::kWrongUsage and VTK's words where VTK cannot draw it.
+Result<Image> draw_in(vtkRenderWindow& window, const Picture& picture);
+
+}  // namespace sweepscope

@@ -1,0 +1,173 @@
+#include "core/recording/sweeps.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/core/engine_fixtures.hpp"
+
+namespace sweepscope {
+namespace {
+
+using simulation::Motor;
+using simulation::MotorKind;
+using test::kDegree;
+using test::kPi;
+using test::track_of;
+
+// With phase 0 the motor passes 0 upwards at t = 0: sweeps of 0.5 s are cut at 0.25, 0.75, 1.25, ... s.
+MotorTrack turning(MotorKind kind, double from_s, double to_s) {
+  return track_of([motor = Motor(kind, 0.5, 0)](double t_s) { return motor.angle_rad(t_s); }, from_s, to_s);
+}
+
+void expect_cuts(const MotorMotion& motion, double first_cut_s, double tolerance_s) {
+  for (std::size_t i = 1; i < motion.sweeps.size(); ++i) {
+    const Sweep &before = motion.sweeps[i - 1], &after = motion.sweeps[i];
+    EXPECT_NEAR(after.begin_s, first_cut_s + 0.5 * double(i - 1), tolerance_s) << i;
+    EXPECT_EQ(before.end_s, after.begin_s) << i;
+    EXPECT_EQ(before.direction, -after.direction) << i;
+  }
+}
+
+class FindSweeps : public testing::TestWithParam<MotorKind> {};
+
+TEST_P(FindSweeps, CutsAtTheReversalsAndKeepsThePartialEnds) {
+  const MotorMotion motion = find_sweeps(turning(GetParam(), 0, 4.1));
+  ASSERT_EQ(motion.sweeps.size(), 9u);  // half a sweep, seven whole ones, and the last from 3.75 s on
+  expect_cuts(motion, 0.25, 1e-3);
+  EXPECT_EQ(motion.sweeps.front().direction, 1);
+  EXPECT_NEAR(motion.sweeps.front().begin_s, 0, 0.02);
+  EXPECT_NEAR(motion.sweeps.back().end_s, 4.1, 0.02);
+  EXPECT_NEAR(motion.range_rad, kPi, 0.05);
+  EXPECT_NEAR(motion.median_sweep_s, 0.5, 1e-3);
+}
+
+TEST_P(FindSweeps, TheSteadyPartKeepsOffTheReversals) {
+  for (const Sweep& sweep : find_sweeps(turning(GetParam(), 0, 4.1)).sweeps) {
+    EXPECT_LT(sweep.begin_s, sweep.steady_begin_s + 1e-9);
+    EXPECT_LT(sweep.steady_begin_s, sweep.steady_end_s);
+    EXPECT_LT(sweep.steady_end_s, sweep.end_s + 1e-9);
+  }
+}
+
+// Stepped like the paper's encoder, and far more coarsely: 0.3 deg with noise of as much.
+TEST_P(FindSweeps, StepsAndNoiseAreNotReversals) {
+  simulation::Random random(1, 7, 0);
+  for (const double step_deg : {0.088, 0.3}) {
+    MotorTrack track = turning(GetParam(), 0, 4.1);
+    for (double& angle_rad : track.angle_rad) {
+      const double noisy_deg = angle_rad / kDegree + step_deg * random.normal();
+      angle_rad = std::floor(noisy_deg / step_deg + 0.5) * step_deg * kDegree;
+    }
+    const MotorMotion motion = find_sweeps(track);
+    ASSERT_EQ(motion.sweeps.size(), 9u) << step_deg;
+    expect_cuts(motion, 0.25, 2e-3);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(MotorKinds, FindSweeps,
+                         testing::Values(MotorKind::kTriangle, MotorKind::kTrapezoid, MotorKind::kSine),
+                         [](const auto& kind) { return std::string(simulation::name_of(kind.param)); });
+
+TEST(FindSweeps, TheMedianSpeedIsTheMotorsOwn) {
+  EXPECT_NEAR(find_sweeps(turning(MotorKind::kTriangle, 0, 4)).median_speed_rad_s, kPi / 0.5, 0.01);
+  // A trapezoid spends 0.16 of a sweep on reversals: pi / (0.5 * (1 - 0.08)).
+  EXPECT_NEAR(find_sweeps(turning(MotorKind::kTrapezoid, 0, 4)).median_speed_rad_s, kPi / 0.46, 0.25);
+}
+
+TEST(FindSweeps, ARestBeforeTheStartBelongsToNoSweep) {
+  const Motor motor(MotorKind::kTriangle, 0.5, 0.25);
+  const MotorMotion motion =
+      find_sweeps(track_of([&](double t_s) { return t_s < 2 ? -kPi / 2 : -motor.angle_rad(t_s - 2); }, 0, 5));
+  ASSERT_EQ(motion.sweeps.size(), 6u);
+  EXPECT_NEAR(motion.sweeps.front().begin_s, 2.0, 0.03);
+  EXPECT_EQ(motion.sweeps.front().direction, 1);
+  expect_cuts(motion, 2.5, 1e-3);
+}
+
+TEST(FindSweeps, ALongRestBetweenSweepsBelongsToNone) {
+  const Motor motor(MotorKind::kTriangle, 0.5, 0.25);
+  const auto moved_s = [](double t_s) { return t_s < 1 ? t_s : std::max(1.0, t_s - 3); };
+  const MotorMotion motion =
+      find_sweeps(track_of([&](double t_s) { return motor.angle_rad(moved_s(t_s)); }, 0, 6));
+  std::size_t resting = 0;
+  for (const Sweep& sweep : motion.sweeps)
+    if (sweep.begin_s < 2.5 && sweep.end_s > 2.5) ++resting;
+  EXPECT_EQ(resting, 0u);
+  EXPECT_EQ(motion.sweeps.size(), 6u);
+}
+
+TEST(FindSweeps, AMotorThatTurnsOneWayIsASingleSweep) {
+  EXPECT_EQ(find_sweeps(turning(MotorKind::kOneWay, 0, 4)).sweeps.size(), 1u);
+}
+
+TEST(FindSweeps, AStuckMotorHasNoSweepThoughItsEncoderJitters) {
+  EXPECT_TRUE(find_sweeps(turning(MotorKind::kStuck, 0, 4)).sweeps.empty());
+  const auto jitter = [](double t_s) { return (double(std::lround(t_s * 100) % 3) - 1) * 0.088 * kDegree; };
+  EXPECT_TRUE(find_sweeps(track_of(jitter, 0, 4)).sweeps.empty());
+}
+
+TEST(FindSweeps, ATrackOfTwoSamplesIsNoMotion) {
+  EXPECT_TRUE(find_sweeps(MotorTrack{{0, 1}, {0, 1}}).sweeps.empty());
+}
+
+class AssignSweeps : public testing::Test {
+ protected:
+  // 100 beams over 9.9 ms, from 5 ms before `middle_s`.
+  static LaserScan scan_about(double middle_s) { return {middle_s - 0.00495, 1e-4, 0, 0.01, 0, 100}; }
+  static std::size_t sweep_at(double middle_s, double offset_s) {
+    const std::vector<Sweep> sweeps = {{0.5, 1.0, 0.5, 1.0, 1, 1}, {1.0, 1.5, 1.0, 1.5, -1, 1}};
+    return assign_sweeps({scan_about(middle_s)}, sweeps, offset_s).front();
+  }
+};
+
+TEST_F(AssignSweeps, GoesByTheMiddleOfTheBeams) {
+  EXPECT_EQ(sweep_at(0.999, 0), 0u);
+  EXPECT_EQ(sweep_at(1.001, 0), 1u);
+}
+
+TEST_F(AssignSweeps, ScansOutsideEverySweepHaveNone) {
+  EXPECT_EQ(sweep_at(0.499, 0), kNoSweep);
+  EXPECT_EQ(sweep_at(1.501, 0), kNoSweep);
+}
+
+// t_motor = t_laser + offset: with a positive offset a scan belongs to a later part of the motor's track.
+TEST_F(AssignSweeps, APositiveOffsetMovesScansToLaterSweeps) {
+  EXPECT_EQ(sweep_at(0.990, 0.009), 0u);
+  EXPECT_EQ(sweep_at(0.990, 0.011), 1u);
+  EXPECT_EQ(sweep_at(1.010, -0.009), 1u);
+  EXPECT_EQ(sweep_at(1.010, -0.011), 0u);
+}
+
+TEST_F(AssignSweeps, KeepsTheOrderOfScans) {
+  std::vector<LaserScan> scans;
+  for (int i = 0; i < 60; ++i) scans.push_back(scan_about(0.4 + 0.02 * i));
+  const auto assigned = assign_sweeps(scans, {{0.5, 1.0, 0.5, 1.0, 1, 1}, {1.0, 1.5, 1.0, 1.5, -1, 1}}, 0);
+  EXPECT_EQ(std::count(assigned.begin(), assigned.end(), 0u), 25);
+  EXPECT_EQ(std::count(assigned.begin(), assigned.end(), 1u), 25);
+}
+
+// Scans every 25 ms against sweeps that take so many of them.
+double lines_of(double scans_a_sweep) {
+  const double sweep_s = 0.025 * scans_a_sweep;
+  const Motor motor(MotorKind::kTriangle, sweep_s, 0);
+  Recording recording;
+  recording.motor = track_of([&](double t_s) { return motor.angle_rad(t_s); }, 0, 6, 1000);
+  for (int i = 0; i < 240; ++i) recording.scans.emplace_back().first_beam_s = 0.025 * i;
+  return distinct_lines(recording, find_sweeps(recording.motor), 0.003);
+}
+
+TEST(DistinctLines, CountPlacesThatSweepsShareOnce) {
+  EXPECT_NEAR(lines_of(4), 4, 0.1);
+  EXPECT_NEAR(lines_of(20), 20, 0.5);
+  EXPECT_NEAR(lines_of(4.5), 4.5, 0.1);  // those of the other direction lie between
+  EXPECT_GT(lines_of(4.3), 20);
+  EXPECT_GT(lines_of(20.3), 60);
+}
+
+TEST(DistinctLines, AreWithoutBoundFor3DScanners) {
+  Recording recording;
+  recording.directions.resize(1);
+  EXPECT_EQ(distinct_lines(recording, MotorMotion(), 0), std::numeric_limits<double>::infinity());
+}
+
+}  // namespace
+}  // namespace sweepscope

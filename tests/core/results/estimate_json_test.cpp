@@ -1,0 +1,160 @@
+#include "core/results/estimate_json.hpp"
+
+#include <gtest/gtest.h>
+
+namespace sweepscope {
+namespace {
+
+Estimate stationary_estimate() {
+  Estimate estimate;
+  estimate.recording = "room-1.bag";
+  estimate.method = Method::kStationary;
+  estimate.kind = RigKind::kStationary;
+  estimate.kind_reason = "As assumed.";
+  estimate.identifiable = true;
+  estimate.offset_s = 0.0239;
+  estimate.sigma_s = 0.00005;
+  estimate.criteria = {{"d", 0.0239, 0.0037}};
+  CurvePoint point;
+  point.offset_s = 0.0191;
+  point.d = 0.05;
+  point.translation_m = 0.01;
+  point.rotation_rad = 0.049;
+  point.signed_rotation_rad = -0.048;
+  CurvePoint failed;
+  failed.offset_s = 0.0201;
+  estimate.curve = {point, failed};
+  estimate.sweeps = 8;
+  estimate.scans = 160;
+  estimate.cpu_s = 1.5;
+  estimate.wall_s = 0.75;
+  return estimate;
+}
+
+TEST(EstimateJson, HasTheDocumentedKeysInTheDocumentedOrder) {
+  const std::string expected = R"({
+  "schema": "sweepscope.estimate/1",
+  "recording": "room-1.bag",
+  "method": "stationary",
+  "equation": "t_motor = t_laser + offset",
+  "identifiable": true,
+  "offset_ms": 23.9,
+  "sigma_ms": 0.05,
+  "drift_ppm": null,
+  "kind": "stationary",
+  "kind_reason": "As assumed.",
+  "lost_s": [],
+  "warnings": [],
+  "reasons": [],
+  "criteria": {
+    "d": {
+      "offset_ms": 23.9,
+      "value": 0.0037
+    }
+  },
+  "curve": [
+    {
+      "offset_ms": 19.1,
+      "d": 0.05,
+      "translation_m": 0.01,
+      "rotation_rad": 0.049,
+      "signed_rotation_rad": -0.048,
+      "n": null,
+      "e_m": null,
+      "capped_cost_m": null
+    },
+    {
+      "offset_ms": 20.1,
+      "d": null,
+      "translation_m": null,
+      "rotation_rad": null,
+      "signed_rotation_rad": null,
+      "n": null,
+      "e_m": null,
+      "capped_cost_m": null
+    }
+  ],
+  "sweeps": 8,
+  "scans": 160,
+  "cpu_s": 1.5,
+  "wall_s": 0.75,
+  "version": ")" SWEEPSCOPE_VERSION "\"\n}\n";
+  EXPECT_EQ(estimate_to_json(stationary_estimate()), expected);
+}
+
+TEST(EstimateJson, WithoutTimingTwoRunsGiveTheSameBytes) {
+  Estimate slow = stationary_estimate(), fast = stationary_estimate();
+  slow.cpu_s = 9;
+  slow.wall_s = 8;
+  EXPECT_EQ(estimate_to_json(slow, Timing::kNull), estimate_to_json(fast, Timing::kNull));
+  EXPECT_NE(estimate_to_json(slow, Timing::kNull).find("\"cpu_s\": null"), std::string::npos);
+}
+
+TEST(EstimateJson, ARefusalHasNoOffset) {
+  Estimate estimate = stationary_estimate();
+  estimate.identifiable = false;
+  estimate.reasons = {"The motor does not move."};
+  const std::string text = estimate_to_json(estimate);
+  EXPECT_NE(text.find("\"offset_ms\": null,\n  \"sigma_ms\": null"), std::string::npos);
+  EXPECT_NE(text.find("\"The motor does not move.\""), std::string::npos);
+}
+
+TEST(EstimateJson, ReadsBackWhatItWrote) {
+  Estimate written = stationary_estimate();
+  written.curve[1].n = 12345;
+  written.curve[1].e_m = 0.0123;
+  written.curve[1].capped_cost_m = 0.04;
+  written.drift_ppm = -12.5;
+  written.warnings = {"n and e are 1.2 ms apart."};
+  const auto read = parse_estimate_json(estimate_to_json(written), "a.json");
+  ASSERT_TRUE(read);
+  EXPECT_EQ(estimate_to_json(*read), estimate_to_json(written));
+  EXPECT_DOUBLE_EQ(*read->offset_s, 0.0239);
+  EXPECT_FALSE(read->curve[1].d);
+  EXPECT_EQ(*read->curve[1].n, 12345);
+}
+
+TEST(EstimateJson, CountsAreWrittenWithoutADecimalPoint) {
+  Estimate estimate = stationary_estimate();
+  estimate.curve[0].n = 2'345'678;
+  EXPECT_NE(estimate_to_json(estimate).find("\"n\": 2345678,"), std::string::npos);
+}
+
+TEST(EstimateJson, ErrorsNameTheFileAndThePlace) {
+  const auto message = [](std::string_view text) {
+    return parse_estimate_json(text, "a.json").error().message;
+  };
+  EXPECT_EQ(message("{\"schema\": "), "a.json: not JSON: broken at byte 12");
+  EXPECT_EQ(message("[]"), "a.json: not an estimate: it is not a JSON object");
+  EXPECT_EQ(message("[1e999]"), "a.json: not an estimate: a number in it is too large");
+  EXPECT_EQ(message(R"({"schema": "other/1"})"),
+            "a.json: not an estimate: schema is not sweepscope.estimate/1");
+  std::string text = estimate_to_json(stationary_estimate());
+  text.replace(text.find("0.049"), 5, "\"abc\"");
+  EXPECT_EQ(message(text), "a.json: not an estimate: curve[0].rotation_rad is neither a number nor null");
+  text = estimate_to_json(stationary_estimate());
+  text.replace(text.find("19.1"), 4, "1e12");
+  EXPECT_EQ(message(text), "a.json: not an estimate: curve[0].offset_ms lies beyond 1000 s");
+  for (const char* count : {"5e110", "-8", "1.5", "18446744073709551615", "null"}) {
+    text = estimate_to_json(stationary_estimate());
+    text.replace(text.find("\"sweeps\": 8"), 11, std::string("\"sweeps\": ") + count);
+    EXPECT_EQ(message(text), "a.json: not an estimate: sweeps is no whole number from 0 to 1000000000000")
+        << count;
+  }
+}
+
+TEST(EstimateJson, ANameThatIsNotUtf8StillMakesADocument) {
+  Estimate estimate = stationary_estimate();
+  estimate.recording = "r\xff.bag";
+  EXPECT_TRUE(parse_estimate_json(estimate_to_json(estimate), "a.json"));
+}
+
+TEST(CurveCsv, NamesUnitsAndLeavesAbsentValuesEmpty) {
+  EXPECT_EQ(curve_to_csv(stationary_estimate()),
+            "offset_ms,d,translation_m,rotation_rad,signed_rotation_rad,n,e_m,capped_cost_m\n"
+            "19.1,0.05,0.01,0.049,-0.048,,,\n"
+            "20.1,,,,,,,\n");
+}
+
+}  // namespace
+}  // namespace sweepscope
