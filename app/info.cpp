@@ -8,6 +8,7 @@
 #include "app/recording_options.hpp"
 #include "app/say.hpp"
 #include "core/io/printable_text.hpp"
+#include "core/offset/expectations.hpp"
 #include "core/offset/rig_motion.hpp"
 #include "core/recording/inspect.hpp"
 #include "core/recording/rig.hpp"
@@ -172,7 +173,7 @@ std::string as_text(const RecordingSummary& summary) {
   std::string text = printable_line(summary.name) + "\n\n" + topics_text(summary) + "\n" +
                      laser_text(summary.laser) + "\n" + motor_text(summary.motor);
   if (summary.motion) text += "\nmotion\n" + row("the rig is", *summary.motion);
-  text += "\nwhat an estimate can hope for\n";
+  text += "\nexpected accuracy\n";
   for (const std::string& line : summary.expectations) text += "  " + printable_line(line) + "\n";
   return text;
 }
@@ -189,6 +190,7 @@ ExitCode run(const RecordingOptions& options, const std::string& json) {
     if (!prepared) return tl::unexpected(prepared.error());
     const MotionTest motion = test_motion(*prepared);
     if (motion.answered()) found.motion = motion.moving() ? "moving" : "stationary";
+    found.expectations = expectations(*recording, found, prepared->motor);
     return found;
   }();
   if (!summary) return fail(summary.error());
@@ -206,7 +208,7 @@ void add_info(CLI::App& app, ExitCode& exit_code) {
     std::string json;
   };
   CLI::App* info =
-      app.add_subcommand("info", "Show what a recording holds and what an estimate can hope for");
+      app.add_subcommand("info", "Show what a recording holds and the expected accuracy of an estimate");
   const auto options = std::make_shared<Options>();
   options->keep_intensities = false;
   options->declare(*info);

@@ -1,7 +1,5 @@
 #include "core/recording/inspect.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -104,94 +102,6 @@ MotorSummary inspect_motor(const Recording& recording, const MotorMotion& motion
   return motor;
 }
 
-/// What stands in the way of any estimate; empty where nothing does.
-std::vector<std::string> obstacles(const LaserSummary& laser, const MotorSummary& motor) {
-  if (!motor.turns) return {"The motor does not turn: there is no offset to see."};
-  if (motor.one_way) {
-    return {
-        "The motor turns one way only: the offset cannot be told from the encoder's zero. Record it turning "
-        "back "
-        "and forth."};
-  }
-  if (motor.reversals == 0) return {"The motor never turns back: there are no two sweeps to compare."};
-  if (laser.used == laser.scans_without_motor) {
-    return {"No scan has motor samples around it at offset 0: choose other stamps."};
-  }
-  return {};
-}
-
-constexpr double kFewestSamples = 4, kFewSamples = 8;  // of the motor, a sweep
-
-/// 0 where there is no whole sweep.
-double samples_a_sweep(const MotorSummary& motor) {
-  return motor.median_period_s > 0 ? motor.median_sweep_s / motor.median_period_s : 0;
-}
-
-/// Why an estimate will be refused though nothing obvious stands in its way; empty where none is known.
-std::string refusal(const LaserSummary& laser, const MotorSummary& motor, double distinct_lines) {
-  if (laser.stamp == StampSource::kReceive && laser.uneven_s > laser.median_period_s / 4)
-    return fmt::format(
-        "Expect a refusal: the scans' receive times come unevenly, by up to {:.0f} ms nine times in ten, "
-        "where a scan takes {:.0f} ms.",
-        1000 * laser.uneven_s, 1000 * laser.median_period_s);
-  constexpr double kLeastUnit_ms = 1, kUnit_deg = 0.36;  // what an answer must be surer than
-  if (const double doubt_ms = 1000 * laser.beam_time_doubt_s;
-      doubt_ms / 2 > std::max(kLeastUnit_ms, kUnit_deg / motor.deg_per_ms()))
-    return fmt::format(
-        "Expect a refusal: when the beams were fired is not known, the last one of a scan to {:.1f} ms only; "
-        "give laser.time_increment_s in a rig file.",
-        doubt_ms);
-  if (const double samples = samples_a_sweep(motor); samples > 0 && samples < kFewestSamples)
-    return fmt::format("Expect a refusal: the motor is sampled {:.1f} times a sweep only.", samples);
-  if (distinct_lines < kLeastDistinctLines)
-    return fmt::format(
-        "Expect a refusal: all sweeps of a direction see the same {:.2g} scan lines; a slower motor, or "
-        "sweeps that last a little longer or shorter, would show more.",
-        distinct_lines);
-  return "";
-}
-
-std::vector<std::string> expect(const LaserSummary& laser, const MotorSummary& motor, double distinct_lines) {
-  std::vector<std::string> lines = obstacles(laser, motor);
-  if (!lines.empty()) return lines;
-  // The paper's rig repeats to 0.3 ms (standard deviation) at 360 deg/s.
-  constexpr double kRepeatable_deg = 0.1;
-  const double millimetres = laser.median_range_m * motor.deg_per_ms() / kDegPerRad * 1000;
-  lines.push_back(
-      fmt::format("1 ms of offset turns a scan by {:.3g} deg: {:.2g} mm at the median range of {:.3g} m.",
-                  motor.deg_per_ms(), millimetres, laser.median_range_m));
-  std::string refused = refusal(laser, motor, distinct_lines);
-  lines.push_back(!refused.empty()
-                      ? std::move(refused)
-                      : fmt::format("Expect an offset good to about {:.2g} ms ({} deg of the motor's angle).",
-                                    kRepeatable_deg / motor.deg_per_ms(), kRepeatable_deg));
-  if (motor.median_sweep_s > 0) {
-    lines.push_back(fmt::format(
-        "Offsets up to {:.4g} ms to either side can be told apart (a quarter of the motor's period).",
-        1000 * motor.median_sweep_s / 2));
-  }
-  if (const double samples = samples_a_sweep(motor); samples >= kFewestSamples && samples <= kFewSamples)
-    lines.push_back(fmt::format(
-        "The motor is sampled {:.1f} times a sweep only, which costs accuracy: sample it every {:.2g} s.",
-        samples, motor.median_sweep_s / (2 * kFewSamples)));
-  constexpr std::size_t kStanding = 8, kMoving = 40;
-  if (motor.whole_sweeps() < kStanding) {
-    lines.push_back(
-        fmt::format("{} whole sweeps are few: {} of a standing rig or {} of a moving one make a good set.",
-                    motor.whole_sweeps(), kStanding, kMoving));
-  } else if (motor.whole_sweeps() < kMoving) {
-    lines.push_back(fmt::format("{} whole sweeps are enough of a standing rig; a moving one should give {}.",
-                                motor.whole_sweeps(), kMoving));
-  }
-  for (const auto& [stream, name] :
-       {std::pair<const StreamSummary&, const char*>{laser, "scans'"}, {motor, "motor's"}}) {
-    if (stream.stamp != StampSource::kReceive || !stream.receive_jitter_s) continue;
-    lines.push_back(fmt::format("The {} receive times jitter by {:.2g} ms, which goes into the answer.", name,
-                                1000 * *stream.receive_jitter_s));
-  }
-  return lines;
-}
-
 }  // namespace
 
 RecordingSummary inspect(const Recording& recording) {
@@ -202,7 +112,6 @@ RecordingSummary inspect(const Recording& recording) {
   summary.laser = inspect_laser(recording);
   const MotorMotion motion = find_sweeps(recording.motor);
   summary.motor = inspect_motor(recording, motion);
-  summary.expectations = expect(summary.laser, summary.motor, distinct_lines(recording, motion, 0));
   return summary;
 }
 

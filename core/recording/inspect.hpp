@@ -59,7 +59,7 @@ struct RecordingSummary {
   LaserSummary laser;
   MotorSummary motor;
   std::optional<std::string> motion;      // "stationary" or "moving", where the motion test was run
-  std::vector<std::string> expectations;  // what an estimate can hope for, whole sentences
+  std::vector<std::string> expectations;  // whole sentences; see expectations() in core/offset
   std::vector<std::string> warnings;
 };
 

@@ -33,7 +33,7 @@ TEST(Info, ShowsWhatIsInARecording) {
   EXPECT_TRUE(holds(run.out, "  joint      roll_motor on /joint_states, 420 samples\n")) << run.out;
   EXPECT_TRUE(holds(run.out, "  speed      229.2 deg/s (median of the sweeps): 1 ms is 0.229 deg\n"))
       << run.out;
-  EXPECT_TRUE(holds(run.out, "what an estimate can hope for\n")) << run.out;
+  EXPECT_TRUE(holds(run.out, "expected accuracy\n")) << run.out;
 }
 
 TEST(Info, JsonOnStdoutIsAlone) {

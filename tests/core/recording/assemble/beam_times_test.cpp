@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/offset/estimator.hpp"
+#include "core/offset/expectations.hpp"
 #include "core/recording/assemble/assemble.hpp"
 #include "core/recording/inspect.hpp"
 #include "core/simulation/sensor.hpp"
@@ -142,7 +143,9 @@ TEST(BeamTimes, WrongOnesGiveNoAnswerThatIsSureAndWrong) {
     EXPECT_FALSE(direct.identifiable) << factor;
     EXPECT_EQ(direct.reasons.at(0).find("When the beams were fired is not known"), 0U) << direct.reasons[0];
     std::string expectations;
-    for (const std::string& line : inspect(recording).expectations) expectations += line + "\n";
+    for (const std::string& line :
+         sweepscope::expectations(recording, inspect(recording), find_sweeps(recording.motor)))
+      expectations += line + "\n";
     EXPECT_NE(expectations.find("Expect a refusal: when the beams were fired is not known"),
               std::string::npos)
         << expectations;

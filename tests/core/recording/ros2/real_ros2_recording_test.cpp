@@ -1,4 +1,5 @@
 #include "core/offset/estimator.hpp"
+#include "core/offset/expectations.hpp"
 #include "core/recording/formats/read_recording.hpp"
 #include "core/recording/inspect.hpp"
 #include "tests/core/recording/test_bag.hpp"
@@ -41,7 +42,8 @@ TEST_F(LidarServo, HoldsWhatItIsKnownToHoldAsFolderAndAsFile) {
 }
 
 TEST_F(LidarServo, ItsFaultsAreTold) {
-  const RecordingSummary summary = inspect(read(bag_));
+  const Recording recording = read(bag_);
+  const RecordingSummary summary = inspect(recording);
   EXPECT_NEAR(summary.motor.least_deg, 60 - 90, 1e-9);
   EXPECT_NEAR(summary.motor.most_deg, 119 - 90, 1e-9);
   EXPECT_GT(summary.laser.gaps, 0U);
@@ -53,7 +55,8 @@ TEST_F(LidarServo, ItsFaultsAreTold) {
   EXPECT_NE(warnings.find("/lidar_servo_angle holds plain numbers"), std::string::npos) << warnings;
   EXPECT_EQ(summary.laser.stamp_at, StampAt::kLastBeam);
   std::string expectations;
-  for (const std::string& line : summary.expectations) expectations += line + "\n";
+  for (const std::string& line : sweepscope::expectations(recording, summary, find_sweeps(recording.motor)))
+    expectations += line + "\n";
   EXPECT_NE(expectations.find("Expect a refusal: the scans' receive times come unevenly"), std::string::npos)
       << expectations;
   EXPECT_EQ(expectations.find("Expect an offset good to"), std::string::npos) << expectations;

@@ -1,0 +1,102 @@
+#include "core/offset/expectations.hpp"
+
+#include <fmt/format.h>
+
+#include <cctype>
+#include <cmath>
+
+#include "core/numbers.hpp"
+#include "core/offset/identifiability.hpp"
+
+namespace sweepscope {
+namespace {
+
+// What stands in the way of any estimate; empty where nothing does.
+std::vector<std::string> obstacles(const LaserSummary& laser, const MotorSummary& motor) {
+  if (!motor.turns) return {"The motor does not turn: there is no offset to see."};
+  if (motor.one_way)
+    return {
+        "The motor turns one way only: the offset cannot be told from the encoder's zero. Record it turning "
+        "back and forth."};
+  if (motor.reversals == 0) return {"The motor never turns back: there are no two sweeps to compare."};
+  if (laser.used == laser.scans_without_motor)
+    return {"No scan has motor samples around it at offset 0: choose other stamps."};
+  return {};
+}
+
+// Why an estimate will be refused whatever the scans show.
+Remark refusal(const Recording& recording, const MotorMotion& motor) {
+  const SearchScale scale = search_scale(motor);
+  for (const Remark& reason :
+       {stamps_reason(recording, scale), beam_times_reason(recording, scale),
+        sampling_reason(recording.motor, motor, scale), lines_reason(distinct_lines(recording, motor, 0))}) {
+    if (!reason) continue;
+    std::string text = *reason;
+    text[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(text[0])));
+    return "Expect a refusal: " + text;
+  }
+  return std::nullopt;
+}
+
+// What the encoder, its samples and the scan lines leave uncertain at best, and on a walk of 40 s what bends
+// of the path within the sweeps leave besides.
+std::string accuracy(const Recording& recording, const MotorMotion& motor) {
+  constexpr double kParts = 4;  // of a walk of 40 s
+  const double stationary_s = unseen_sigma_s(recording, motor, 0);
+  const double of_part_s = unseen_of_part_s(recording, motor, std::size_t(10 / motor.median_sweep_s));
+  return fmt::format(
+      "Expect an offset good to about {:.2g} ms of a stationary rig, and to {:.2g} ms of a moving one (40 "
+      "s).",
+      1e3 * std::max(stationary_s, 0.01e-3), 1e3 * std::hypot(stationary_s, of_part_s / std::sqrt(kParts)));
+}
+
+Remark sparse_samples(const Recording& recording, const MotorMotion& motor) {
+  constexpr double kEnough = 16;  // a sweep
+  if (!sampling_warning(recording.motor, motor)) return std::nullopt;
+  return fmt::format(
+      "The motor is sampled {:.1f} times a sweep only, which costs accuracy: sample it every {:.2g} s.",
+      samples_per_sweep(recording.motor, motor), motor.median_sweep_s / kEnough);
+}
+
+Remark few_sweeps(std::size_t sweeps) {
+  constexpr std::size_t kStationary = 8, kMoving = 40;
+  if (sweeps < kStationary)
+    return fmt::format(
+        "{} whole sweeps are few: a good recording has {} of a stationary rig or {} of a moving one.", sweeps,
+        kStationary, kMoving);
+  if (sweeps < kMoving)
+    return fmt::format("{} whole sweeps are enough of a stationary rig; a moving one should give {}.", sweeps,
+                       kMoving);
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<std::string> expectations(const Recording& recording, const RecordingSummary& summary,
+                                      const MotorMotion& motor) {
+  const LaserSummary& laser = summary.laser;
+  std::vector<std::string> lines = obstacles(laser, summary.motor);
+  if (!lines.empty()) return lines;
+  const auto add = [&](const Remark& line) {
+    if (line) lines.push_back(*line);
+  };
+  const double deg_per_ms = summary.motor.deg_per_ms();
+  add(fmt::format("1 ms of offset turns a scan by {:.3g} deg: {:.2g} mm at the median range of {:.3g} m.",
+                  deg_per_ms, laser.median_range_m * deg_per_ms * kRadPerDeg * 1000, laser.median_range_m));
+  const Remark refused = refusal(recording, motor);
+  add(refused ? *refused : accuracy(recording, motor));
+  add(fmt::format(
+      "Offsets up to {:.4g} ms to either side can be told apart (a quarter of the motor's period).",
+      1e3 * search_scale(motor).max_half_width_s));
+  if (!refused) add(sparse_samples(recording, motor));
+  add(few_sweeps(summary.motor.whole_sweeps()));
+  for (const auto& [stream, name] :
+       {std::pair<const StreamSummary&, const char*>{laser, "scans'"}, {summary.motor, "motor's"}}) {
+    if (stream.stamp != StampSource::kReceive || !stream.receive_jitter_s) continue;
+    add(fmt::format("The {} receive times jitter by {:.2g} ms, which goes into the answer.", name,
+                    1000 * *stream.receive_jitter_s));
+  }
+  return lines;
+}
+
+}  // namespace sweepscope

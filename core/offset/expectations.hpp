@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/recording/inspect.hpp"
+#include "core/recording/recording.hpp"
+#include "core/recording/sweeps.hpp"
+
+namespace sweepscope {
+
+/// The expected accuracy of an estimate from a recording, or why it will be refused, by the estimator's own
+/// limits: whole sentences. `motor` are the sweeps of its motor track.
+std::vector<std::string> expectations(const Recording& recording, const RecordingSummary& summary,
+                                      const MotorMotion& motor);
+
+}  // namespace sweepscope
