@@ -42,8 +42,8 @@ Json stream_json(const StreamSummary& stream) {
 Json laser_json(const LaserSummary& laser) {
   Json json = stream_json(laser);
   json.update(Json{{"stamp_at", name_of(laser.stamp_at)},
-                   {"fewest_beams", laser.fewest_beams},
-                   {"most_beams", laser.most_beams},
+                   {"fewest_beams", laser.min_beams},
+                   {"most_beams", laser.max_beams},
                    {"first_beam_deg", laser.first_beam_deg},
                    {"last_beam_deg", laser.last_beam_deg},
                    {"scan_s", laser.scan_s},
@@ -63,8 +63,8 @@ Json laser_json(const LaserSummary& laser) {
 Json motor_json(const MotorSummary& motor) {
   Json json = stream_json(motor);
   json.update(Json{{"joint", motor.joint},
-                   {"least_deg", motor.least_deg},
-                   {"most_deg", motor.most_deg},
+                   {"least_deg", motor.min_deg},
+                   {"most_deg", motor.max_deg},
                    {"median_speed_deg_s", motor.median_speed_deg_s},
                    {"deg_per_ms", motor.deg_per_ms()},
                    {"turns", motor.turns},
@@ -131,9 +131,9 @@ std::string stream_text(const StreamSummary& stream, const std::string& where = 
 }
 
 std::string laser_text(const LaserSummary& laser) {
-  const std::string beams = laser.fewest_beams == laser.most_beams
-                                ? fmt::format("{}", laser.most_beams)
-                                : fmt::format("{} to {}", laser.fewest_beams, laser.most_beams);
+  const std::string beams = laser.min_beams == laser.max_beams
+                                ? fmt::format("{}", laser.max_beams)
+                                : fmt::format("{} to {}", laser.min_beams, laser.max_beams);
   const double usable =
       laser.beams > 0 ? 100.0 * static_cast<double>(laser.usable_beams) / static_cast<double>(laser.beams)
                       : 0;
@@ -162,7 +162,7 @@ std::string motor_text(const MotorSummary& motor) {
   return "motor\n" + row("joint", fmt::format("{} on {}, {} samples", motor.joint, motor.topic, motor.used)) +
          stream_text(motor) +
          row("angle",
-             fmt::format("{:.2f} to {:.2f} deg{}", motor.least_deg, motor.most_deg,
+             fmt::format("{:.2f} to {:.2f} deg{}", motor.min_deg, motor.max_deg,
                          motor.unwrapped > 0 ? fmt::format(", unwrapped {} times", motor.unwrapped) : "")) +
          row("speed", fmt::format("{:.1f} deg/s (median of the sweeps): 1 ms is {:.3g} deg",
                                   motor.median_speed_deg_s, motor.deg_per_ms())) +

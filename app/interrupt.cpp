@@ -30,10 +30,10 @@ void wait_for_signal() {
 }
 
 // At most so long; what returned before is another signal.
-void wait_for_second_signal(int most_s) {
+void wait_for_second_signal(int max_s) {
   timespec until{};
   clock_gettime(CLOCK_REALTIME, &until);
-  until.tv_sec += most_s;
+  until.tv_sec += max_s;
   while (sem_timedwait(&signals, &until) != 0 && errno == EINTR) {
   }
 }

@@ -38,11 +38,11 @@ Result<Size> parse_size(const std::string& text) {
   const bool separated = first == std::errc() && x != end && *x == 'x';
   const auto [after, second] =
       separated ? std::from_chars(x + 1, end, size.height_px) : std::from_chars_result{x, first};
-  constexpr int kLeast = 320, kGreatest = 8000;
-  if (!separated || second != std::errc() || after != end || size.width_px < kLeast ||
-      size.height_px < kLeast || size.width_px > kGreatest || size.height_px > kGreatest)
+  constexpr int kMin = 320, kMax = 8000;
+  if (!separated || second != std::errc() || after != end || size.width_px < kMin || size.height_px < kMin ||
+      size.width_px > kMax || size.height_px > kMax)
     return failure(ExitCode::kWrongUsage,
-                   fmt::format("--size {}: not like 1600x1000, {} to {} pixels", text, kLeast, kGreatest));
+                   fmt::format("--size {}: not like 1600x1000, {} to {} pixels", text, kMin, kMax));
   return size;
 }
 
@@ -89,9 +89,9 @@ Result<std::vector<ui::Script>> scripts_of(const ViewOptions& options) {
 
 /// Clouds come and go by the hundred megabytes: what is let go goes back to the system at once.
 void return_memory() {
-  constexpr int kKept_bytes = 1 << 20, kMostArenas = 4;
+  constexpr int kKept_bytes = 1 << 20, kMaxArenas = 4;
   mallopt(M_MMAP_THRESHOLD, kKept_bytes);
-  mallopt(M_ARENA_MAX, kMostArenas);
+  mallopt(M_ARENA_MAX, kMaxArenas);
 }
 
 Result<void> view(const ViewOptions& options) {

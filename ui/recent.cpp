@@ -9,7 +9,7 @@
 namespace sweepscope::ui {
 namespace {
 
-constexpr std::size_t kMost = 8;
+constexpr std::size_t kMax = 8;
 
 }  // namespace
 
@@ -27,7 +27,7 @@ std::vector<std::string> read_recent(const std::filesystem::path& list) {
   if (!text) return recent;
   std::istringstream lines(*text);
   std::error_code ignored;
-  for (std::string line; std::getline(lines, line) && recent.size() < kMost;) {
+  for (std::string line; std::getline(lines, line) && recent.size() < kMax;) {
     // A recording is a file or a folder.
     if (!line.empty() && std::filesystem::exists(line, ignored)) recent.push_back(line);
   }
@@ -40,7 +40,7 @@ std::vector<std::string> remember_recent(const std::filesystem::path& list, std:
   const std::string path = std::filesystem::absolute(file, ignored).string();
   std::erase(recent, path);
   recent.insert(recent.begin(), path);
-  if (recent.size() > kMost) recent.resize(kMost);
+  if (recent.size() > kMax) recent.resize(kMax);
   if (list.empty()) return recent;
   std::string text;
   for (const std::string& line : recent) text += line + "\n";

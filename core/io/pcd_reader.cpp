@@ -39,8 +39,8 @@ std::optional<std::string> lzf_unpack(std::string_view packed, std::size_t unpac
   return out;
 }
 
-constexpr std::size_t kMostFields = 128;
-constexpr double kMostCount = 4096;
+constexpr std::size_t kMaxFields = 128;
+constexpr double kMaxCount = 4096;
 
 struct PcdHeader {
   PointLayout layout;
@@ -105,9 +105,9 @@ std::optional<ScalarType> scalar_type(std::string_view letter, double size) {
 
 Result<void> complete_fields(PcdHeader& header, std::string_view name) {
   auto& fields = header.layout.fields;
-  if (fields.empty() || fields.size() > kMostFields) {
-    return unreadable(fmt::format("{}: the PCD header names {} fields; 1 to {} are read", name, fields.size(),
-                                  kMostFields));
+  if (fields.empty() || fields.size() > kMaxFields) {
+    return unreadable(
+        fmt::format("{}: the PCD header names {} fields; 1 to {} are read", name, fields.size(), kMaxFields));
   }
   if (header.counts.empty()) header.counts.assign(fields.size(), 1);
   if (header.sizes.size() != fields.size() || header.types.size() != fields.size() ||
@@ -118,7 +118,7 @@ Result<void> complete_fields(PcdHeader& header, std::string_view name) {
   for (std::size_t f = 0; f < fields.size(); ++f) {
     const auto type = scalar_type(header.types[f], header.sizes[f]);
     const double count = header.counts[f];
-    if (!type || !(count >= 1 && count <= kMostCount) || count != std::floor(count)) {
+    if (!type || !(count >= 1 && count <= kMaxCount) || count != std::floor(count)) {
       return unreadable(
           fmt::format("{}: field {} of the PCD header has TYPE {}, SIZE {}, COUNT {}, which cannot be", name,
                       fields[f].name, header.types[f], header.sizes[f], count));

@@ -18,8 +18,8 @@ double load_as_double(const char* bytes) {
 }
 
 std::uint32_t to_sweep(double value) {
-  constexpr double kMost = std::numeric_limits<std::uint32_t>::max();
-  return value >= 0 && value <= kMost ? static_cast<std::uint32_t>(value) : 0;  // NaN is 0 too
+  constexpr double kMax = std::numeric_limits<std::uint32_t>::max();
+  return value >= 0 && value <= kMax ? static_cast<std::uint32_t>(value) : 0;  // NaN is 0 too
 }
 
 }  // namespace

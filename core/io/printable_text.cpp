@@ -17,7 +17,7 @@ struct CodePoint {
 /// The first code point of a text that is not empty. Overlong forms, surrogates and what lies beyond U+10FFFF
 /// are no UTF-8.
 CodePoint first_code_point(std::string_view text) {
-  constexpr std::array<char32_t, 5> kLeast{0, 0, 0x80, 0x800, 0x10000};
+  constexpr std::array<char32_t, 5> kMin{0, 0, 0x80, 0x800, 0x10000};
   const auto byte = [&](std::size_t at) { return static_cast<unsigned char>(text[at]); };
   const unsigned char lead = byte(0);
   if (lead < 0x80) return {lead, 1};
@@ -29,7 +29,7 @@ CodePoint first_code_point(std::string_view text) {
     value = value << 6 | (byte(i) & 0x3FU);
   }
   const bool surrogate = value >= 0xD800 && value <= 0xDFFF;
-  if (value < kLeast[bytes] || surrogate || value > 0x10FFFF) return {};
+  if (value < kMin[bytes] || surrogate || value > 0x10FFFF) return {};
   return {value, bytes};
 }
 

@@ -63,11 +63,11 @@ std::vector<YAML::Node> read_list(const YAML::Node& node) {
   return {node.begin(), node.end()};
 }
 
-Result<void> read_file(const std::filesystem::path& path, const std::string& kind, std::uint64_t most_bytes,
+Result<void> read_file(const std::filesystem::path& path, const std::string& kind, std::uint64_t max_bytes,
                        const std::function<void(const YAML::Node&)>& read) {
   auto file = InputFile::open(path);
   if (!file) return tl::unexpected(file.error());
-  if (file->size() > most_bytes) {
+  if (file->size() > max_bytes) {
     return unreadable(fmt::format("{}: has {} bytes, too many for {}", path.string(), file->size(), kind));
   }
   std::string text(file->size(), '\0');

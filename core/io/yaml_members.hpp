@@ -52,7 +52,7 @@ T read_choice(const YAML::Node& node, const std::string& name, const std::map<st
 
 /// Hands the file's document to `read`; `kind` is what it should be: "a rig file". Every failure is
 /// ExitCode::kUnreadableInput with a sentence that names the file, the line and the column.
-Result<void> read_file(const std::filesystem::path& path, const std::string& kind, std::uint64_t most_bytes,
+Result<void> read_file(const std::filesystem::path& path, const std::string& kind, std::uint64_t max_bytes,
                        const std::function<void(const YAML::Node&)>& read);
 
 }  // namespace sweepscope::yaml

@@ -105,13 +105,13 @@ HeardSoFar heard_so_far(const RawRecording& raw) {
 HeardLimits limits_of(const CalibrationOptions& options) {
   // A spinning scanner of 128 lines sends 20 MB/s, a scanner of one line less than 1 MB/s, a motor 1000
   // samples/s, and before the first scan as well.
-  constexpr double kScans_bytes_per_s = 32e6, kMostScans_bytes = 512e6;
-  constexpr double kSamples_per_s = 20e3, kMostSamples = 10e6;
-  constexpr std::size_t kMostNames = 10'000;
-  return {static_cast<std::size_t>(std::min(kMostScans_bytes, kScans_bytes_per_s * options.seconds)),
-          static_cast<std::size_t>(
-              std::min(kMostSamples, kSamples_per_s * (options.seconds + options.silence_s))),
-          kMostNames};
+  constexpr double kScans_bytes_per_s = 32e6, kMaxScans_bytes = 512e6;
+  constexpr double kSamples_per_s = 20e3, kMaxSamples = 10e6;
+  constexpr std::size_t kMaxNames = 10'000;
+  return {
+      static_cast<std::size_t>(std::min(kMaxScans_bytes, kScans_bytes_per_s * options.seconds)),
+      static_cast<std::size_t>(std::min(kMaxSamples, kSamples_per_s * (options.seconds + options.silence_s))),
+      kMaxNames};
 }
 
 Result<ListeningEnd> listen(

@@ -64,7 +64,7 @@ class RoscppLink : public RosLink {
     return topics;
   }
 
-  void subscribe(const std::string& topic, std::uint32_t most_queued) override {
+  void subscribe(const std::string& topic, std::uint32_t max_queued) override {
     const boost::function<void(const Event&)> take = [this, topic](const Event& event) {
       const ros::M_string& said = event.getConnectionHeader();
       const auto value = [&](const char* key) {
@@ -76,7 +76,7 @@ class RoscppLink : public RosLink {
       const auto received_ns = static_cast<std::int64_t>(event.getReceiptTime().toNSec());
       if (take_ != nullptr) (*take_)({topic, type, md5sum, received_ns, bytes.data(), bytes.size()});
     };
-    subscribers_.push_back(node_.subscribe<AnyRosMessage>(topic, most_queued, take, ros::VoidConstPtr(),
+    subscribers_.push_back(node_.subscribe<AnyRosMessage>(topic, max_queued, take, ros::VoidConstPtr(),
                                                           ros::TransportHints().tcpNoDelay()));
   }
 

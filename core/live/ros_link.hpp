@@ -32,8 +32,8 @@ class RosLink {
   virtual ~RosLink() = default;
   /// What is published now.
   virtual std::vector<RosTopic> topics() = 0;
-  /// Of what is not taken in time the newest `most_queued` messages wait.
-  virtual void subscribe(const std::string& topic, std::uint32_t most_queued) = 0;
+  /// Of what is not taken in time the newest `max_queued` messages wait.
+  virtual void subscribe(const std::string& topic, std::uint32_t max_queued) = 0;
   /// Hands on the messages that have come, waiting for the first at most so long.
   virtual void receive(std::chrono::milliseconds most,
                        const std::function<void(const RosMessage&)>& take) = 0;

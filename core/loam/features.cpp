@@ -50,8 +50,8 @@ double lost_part(const Recording& recording) {
 
 // So many beams in a row are lost by chance with this probability, where one is with `lost`.
 double lost_in_a_row(double lost, double probability) {
-  constexpr double kMost = 0.9;
-  return std::log(probability) / std::log(std::min(lost, kMost));
+  constexpr double kMax = 0.9;
+  return std::log(probability) / std::log(std::min(lost, kMax));
 }
 
 class LineFeatures {

@@ -31,15 +31,15 @@ inline double cauchy_weight(double residual, double scale) {
   return 1.0 / (1.0 + ratio * ratio);
 }
 
-/// Minimises x' A x / 2 + g' x, leaving the directions alone whose eigenvalue is below `least_eigenvalue`:
+/// Minimises x' A x / 2 + g' x, leaving the directions alone whose eigenvalue is below `min_eigenvalue`:
 /// what the scene does not determine keeps its value. `free_directions` counts them.
-inline Vector6d solve_determined(const Matrix6d& a, const Vector6d& g, double least_eigenvalue,
+inline Vector6d solve_determined(const Matrix6d& a, const Vector6d& g, double min_eigenvalue,
                                  int& free_directions) {
   const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(a);
   Vector6d step = Vector6d::Zero();
   free_directions = 0;
   for (int i = 0; i < 6; ++i) {
-    if (solver.eigenvalues()[i] < least_eigenvalue) {
+    if (solver.eigenvalues()[i] < min_eigenvalue) {
       ++free_directions;
       continue;
     }

@@ -188,7 +188,7 @@ class Walk {
 
   void judge(Stretch& found) const {
     const Eigen::Vector3d motor_axis = source_.place(found.start).turned_rad.normalized();
-    found.alternates = alternating_sway_rad(found.poses, motor_axis) > options_.most_alternation_rad;
+    found.alternates = alternating_sway_rad(found.poses, motor_axis) > options_.max_alternation_rad;
     found.well = found.count.matched_part() >= options_.well_tracked && !found.alternates;
   }
 

@@ -46,7 +46,7 @@ struct MappingOptions {
       start;                  // the sweep to begin with, by its place among those that have scans; else ...
   int max_starts = 6;         // ... sweeps to begin with that are tried, as long as less than this part ...
   double well_tracked = 0.8;  // ... of all features matches, or the sweeps alternate by more than this:
-  double most_alternation_rad = 0.07;  // sweeps of one direction lie beside those of the other, on a map each
+  double max_alternation_rad = 0.07;  // sweeps of one direction lie beside those of the other, on a map each
 
   // Instead of the above, for criteria that are counted at LOAM's own poses.
   double loam_knot_s = 0.25, loam_acceleration = 0.6, loam_tie_sigma = 0.005;

@@ -32,10 +32,10 @@ Eigen::Vector3d eigenvalues_of(const Spread& s) {
   const double minors = xy + xz + yz;
   const double determinant =
       s.xx * yz - s.xy * (s.xy * s.zz - s.yz * s.xz) + s.xz * (s.xy * s.yz - s.yy * s.xz);
-  constexpr int kMostSteps = 40;
+  constexpr int kMaxSteps = 40;
   const double tolerance = 1e-12 * trace;
   double least = 0;
-  for (int i = 0; i < kMostSteps; ++i) {
+  for (int i = 0; i < kMaxSteps; ++i) {
     const double value = determinant - least * (minors - least * (trace - least));
     const double slope = minors - least * (2 * trace - 3 * least);
     if (!(value > 0) || !(slope > 0)) break;
@@ -77,7 +77,7 @@ Spread spread_of(const Neighbours& neighbours) {
 
 std::optional<PlanePatch> fit_plane(const Neighbours& neighbours, const PatchOptions& options,
                                     double radius_m) {
-  if (neighbours.count < 5 || neighbours.lines < options.least_lines) return std::nullopt;
+  if (neighbours.count < 5 || neighbours.lines < options.min_lines) return std::nullopt;
   const Spread spread = spread_of(neighbours);
   const double thickness_m = options.thickness_m + options.thickness_slope * radius_m;
   const double flat = spread.eigenvalues_m2[0], wide = spread.eigenvalues_m2[1];
@@ -88,7 +88,7 @@ std::optional<PlanePatch> fit_plane(const Neighbours& neighbours, const PatchOpt
 
 std::optional<LinePatch> fit_line(const Neighbours& neighbours, const PatchOptions& options,
                                   double radius_m) {
-  if (neighbours.count < 4 || neighbours.lines < options.least_edge_lines) return std::nullopt;
+  if (neighbours.count < 4 || neighbours.lines < options.min_edge_lines) return std::nullopt;
   const Spread spread = spread_of(neighbours);
   const double thickness_m = options.thickness_m + options.thickness_slope * radius_m;
   if (!(spread.eigenvalues_m2[1] < thickness_m * thickness_m) ||

@@ -11,9 +11,9 @@ namespace sweepscope {
 struct PatchOptions {
   int plane_neighbours = 10;
   int edge_neighbours = 6;
-  int per_line = 2;     // neighbours from one scan line: more would fit the line instead of the surface
-  int least_lines = 4;  // distinct scan lines among a plane's neighbours, at least 3
-  int least_edge_lines = 3;
+  int per_line = 2;   // neighbours from one scan line: more would fit the line instead of the surface
+  int min_lines = 4;  // distinct scan lines among a plane's neighbours, at least 3
+  int min_edge_lines = 3;
   double thickness_m = 0.06;      // RMS distance of the neighbours from the plane or line, at most ...
   double thickness_slope = 0.03;  // ... plus this times the search radius
 };

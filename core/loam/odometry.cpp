@@ -79,16 +79,16 @@ SweepMap map_of(const PlacedSweep& sweep) {
 Registration register_rigidly(const SweepMap& target, const PlacedSweep& source,
                               const OdometryOptions& options) {
   Registration result;
-  for (; result.iterations < options.most_iterations; ++result.iterations) {
+  for (; result.iterations < options.max_iterations; ++result.iterations) {
     Accumulated sum;
     add_planes(target, source, result.target_from_source, options, sum);
     add_edges(target, source, result.target_from_source, options, sum);
     result.features = sum.features;
     result.matches = sum.matches;
-    if (sum.matches < std::size_t(options.least_matches)) return result;
+    if (sum.matches < std::size_t(options.min_matches)) return result;
     result.mean_distance_m = sum.distance_sum_m / double(sum.matches);
     const Vector6d step = solve_determined(
-        sum.matrix, sum.gradient, options.least_eigenvalue * double(sum.matches), result.free_directions);
+        sum.matrix, sum.gradient, options.min_eigenvalue * double(sum.matches), result.free_directions);
     result.target_from_source = stepped(result.target_from_source, step, Eigen::Vector3d::Zero());
     if (step.head<3>().norm() < options.step_tolerance && step.tail<3>().norm() < options.step_tolerance)
       break;

@@ -11,16 +11,16 @@ struct OdometryOptions {
   PatchOptions patch{.plane_neighbours = 9,
                      .edge_neighbours = 6,
                      .per_line = 3,
-                     .least_lines = 3,
+                     .min_lines = 3,
                      .thickness_m = 0.02,
                      .thickness_slope = 0.01};
   double search_radius_m = 0.5;
   double search_radius_slope = 0.25;  // of the range, or more where scan lines lie far apart: see for_lines
   double loss_width_m = 0.1;          // Cauchy
-  int most_iterations = 20;
+  int max_iterations = 20;
   double step_tolerance = 2e-5;  // m and rad
-  int least_matches = 100;
-  double least_eigenvalue = 0.003;  // of the normal matrix, per match: below, the scene does not tell
+  int min_matches = 100;
+  double min_eigenvalue = 0.003;  // of the normal matrix, per match: below, the scene does not tell
 };
 
 /// The options with a search radius that reaches three scan lines `line_spacing_rad` apart, as a plane needs.

@@ -39,7 +39,7 @@ SearchRule search_rule(const MappingOptions& options, bool grown, SweepFilter fi
   SearchRule rule{options.patch, options.search_radius_m, options.search_radius_slope, filter};
   if (!grown) {
     rule.patch.per_line = 3;
-    rule.patch.least_lines = 3;
+    rule.patch.min_lines = 3;
     rule.radius_slope = std::max(rule.radius_slope, 0.25);
   }
   return rule;

@@ -14,7 +14,7 @@ namespace sweepscope {
 namespace {
 
 constexpr std::size_t kSearchPoints = 700'000;  // of a map, to find faces by
-constexpr std::size_t kMostCandidates = 60;
+constexpr std::size_t kMaxCandidates = 60;
 
 // Where the rig was and how its motor's axis pointed, linear between the path's poses.
 class RigReader {
@@ -82,17 +82,17 @@ struct WallPoint {
 };
 
 std::vector<WallPoint> wall_points(const Surfaces& map, const RigReader& rig, const SectionSearch& search) {
-  constexpr float kMostUpright = 0.15f;
+  constexpr float kMaxUpright = 0.15f;
   constexpr int kDirections = 6;
   std::vector<WallPoint> found;
   for (std::size_t i = 0; i < map.surfaces.size(); ++i) {
     const LocalSurface& surface = map.surfaces[i];
-    if (std::isnan(surface.thickness_m) || std::abs(surface.normal.z()) > kMostUpright) continue;
+    if (std::isnan(surface.thickness_m) || std::abs(surface.normal.z()) > kMaxUpright) continue;
     const MapPoint& p = map.cloud.points[i];
     if (search.near_m && (Eigen::Vector2d(p.x, p.y) - *search.near_m).norm() > search.near_radius_m) continue;
     const auto at = rig.at(p.time_s);
     const Eigen::Vector3d from_rig_m = p.getVector3fMap().cast<double>() - at.position_m;
-    if (std::abs(from_rig_m.z()) < search.least_height_m) continue;
+    if (std::abs(from_rig_m.z()) < search.min_height_m) continue;
     double normal_rad = std::atan2(surface.normal.y(), surface.normal.x());
     if (normal_rad < 0) normal_rad += std::numbers::pi;
     const int direction =
@@ -122,7 +122,7 @@ struct Candidate {
 std::optional<Candidate> candidate_of(std::span<const WallPoint> points, const MapCloud& cloud,
                                       double points_each, const SectionSearch& search) {
   const double count = points_each * static_cast<double>(points.size());
-  if (count < static_cast<double>(search.least_points)) return std::nullopt;
+  if (count < static_cast<double>(search.min_points)) return std::nullopt;
   std::vector<float> heights_m;
   Eigen::Vector2d sum_m = Eigen::Vector2d::Zero(), doubled = Eigen::Vector2d::Zero();
   std::vector<float> levers_m;
@@ -170,7 +170,7 @@ std::vector<Candidate> candidates(const Surfaces& map, double points_each, const
   }
   std::stable_sort(found.begin(), found.end(),
                    [](const Candidate& a, const Candidate& b) { return a.promise > b.promise; });
-  if (found.size() > kMostCandidates) found.resize(kMostCandidates);
+  if (found.size() > kMaxCandidates) found.resize(kMaxCandidates);
   return found;
 }
 
@@ -222,14 +222,14 @@ std::optional<Measured> measured(const Candidate& candidate, std::size_t sharpes
   const double sharp_mm = result.found.widths_mm[sharpest];
   if (per_map.size() == 1) profiles.push_back(turned_profile(sharp, *fitted, rig, search.error_rad));
   // A face blurred beyond the section's reach has no width to compare.
-  constexpr double kLeastPart = 0.7;
+  constexpr double kMinPart = 0.7;
   for (const Profile& profile : profiles) {
     const bool inside =
-        static_cast<double>(profile.points) >= kLeastPart * static_cast<double>(profiles[sharpest].points);
+        static_cast<double>(profile.points) >= kMinPart * static_cast<double>(profiles[sharpest].points);
     if (!profile.width_at_half_height_mm || !inside) return std::nullopt;
     result.score = std::max(result.score, *profile.width_at_half_height_mm / sharp_mm);
   }
-  if (sharp_mm > search.most_width_mm || profiles[sharpest].points < search.least_points) return std::nullopt;
+  if (sharp_mm > search.max_width_mm || profiles[sharpest].points < search.min_points) return std::nullopt;
   return result;
 }
 

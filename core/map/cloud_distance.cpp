@@ -33,14 +33,14 @@ class CubeSearch {
   }
 
   float distance_m(const std::array<float, 3>& p_m) {
-    float least_m2 = cap_m2_;
+    float min_m2 = cap_m2_;
     std::size_t next = 0;
     for (int ring = 0; ring <= kRings; ++ring) {
-      if (ring > 1 && gap_to_ring_m2(p_m, ring) >= least_m2) break;
+      if (ring > 1 && gap_to_ring_m2(p_m, ring) >= min_m2) break;
       if (ring >= rings_) gather_ring(ring);
-      for (; next < ring_end_[ring]; ++next) look_in(candidates_[next], p_m, least_m2);
+      for (; next < ring_end_[ring]; ++next) look_in(candidates_[next], p_m, min_m2);
     }
-    return std::sqrt(least_m2);
+    return std::sqrt(min_m2);
   }
 
  private:
@@ -68,26 +68,26 @@ class CubeSearch {
   }
 
   float gap_to_ring_m2(const std::array<float, 3>& p_m, int ring) const {
-    float least_m = std::numeric_limits<float>::max();
+    float min_m = std::numeric_limits<float>::max();
     for (int axis = 0; axis < 3; ++axis) {
       const auto low_m = static_cast<float>((place_[axis] - ring + 1) * level_.cell_m());
       const auto high_m = static_cast<float>((place_[axis] + ring) * level_.cell_m());
-      least_m = std::min({least_m, p_m[axis] - low_m, high_m - p_m[axis]});
+      min_m = std::min({min_m, p_m[axis] - low_m, high_m - p_m[axis]});
     }
-    return std::max(0.0f, least_m) * std::max(0.0f, least_m);
+    return std::max(0.0f, min_m) * std::max(0.0f, min_m);
   }
 
-  void look_in(const Candidate& candidate, const std::array<float, 3>& p_m, float& least_m2) const {
+  void look_in(const Candidate& candidate, const std::array<float, 3>& p_m, float& min_m2) const {
     float gap_m2 = 0;
     for (int axis = 0; axis < 3; ++axis) {
       const float gap_m =
           std::max({0.0f, candidate.low_m[axis] - p_m[axis], p_m[axis] - candidate.high_m[axis]});
       gap_m2 += gap_m * gap_m;
     }
-    if (gap_m2 >= least_m2) return;
+    if (gap_m2 >= min_m2) return;
     for (std::uint32_t i = candidate.begin; i < candidate.end; ++i) {
       const float x = to_.x_m[i] - p_m[0], y = to_.y_m[i] - p_m[1], z = to_.z_m[i] - p_m[2];
-      least_m2 = std::min(least_m2, x * x + y * y + z * z);
+      min_m2 = std::min(min_m2, x * x + y * y + z * z);
     }
   }
 

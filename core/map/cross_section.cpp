@@ -13,7 +13,7 @@ namespace sweepscope {
 namespace {
 
 constexpr double kStep_mm = 1, kSmoothing_mm = 3;
-constexpr std::size_t kLeastPoints = 300;
+constexpr std::size_t kMinPoints = 300;
 const double kWidthPerDeviation = 2 * std::sqrt(2 * std::numbers::ln2);
 
 // Counts per step from -reach to reach about the median, and a Gaussian's width beyond it on either side.
@@ -80,15 +80,15 @@ struct Plane {
 
 // The direction in which the face is densest somewhere across it: a start near enough for the fit.
 Plane densest(const std::vector<FacePoint>& points, double length_m, double reach_m) {
-  constexpr double kMostTurn_rad = 6 * std::numbers::pi / 180, kBin_m = 0.005;
+  constexpr double kMaxTurn_rad = 6 * std::numbers::pi / 180, kBin_m = 0.005;
   const std::size_t stride = 1 + points.size() / 20000;
-  const int turns = static_cast<int>(std::ceil(kMostTurn_rad * std::max(length_m, 0.3) / 0.01));
+  const int turns = static_cast<int>(std::ceil(kMaxTurn_rad * std::max(length_m, 0.3) / 0.01));
   const int bins = static_cast<int>(2 * reach_m / kBin_m) + 1;
   std::vector<int> counts(bins);
   Plane best;
   int most = -1;
   for (int k = -turns; k <= turns; ++k) {
-    const double turn = std::tan(kMostTurn_rad * k / turns);
+    const double turn = std::tan(kMaxTurn_rad * k / turns);
     std::fill(counts.begin(), counts.end(), 0);
     for (std::size_t i = 0; i < points.size(); i += stride) {
       const auto bin =
@@ -108,7 +108,7 @@ Plane densest(const std::vector<FacePoint>& points, double length_m, double reac
 // Reweighted least squares (Welsch): from half the reach, which holds both layers of a doubled face, down to
 // the spread that the points have.
 Plane robust_plane(const std::vector<FacePoint>& points, Plane plane, double reach_m) {
-  constexpr double kLeastScale_m = 0.015;
+  constexpr double kMinScale_m = 0.015;
   constexpr int kRounds = 25;
   double scale_m = reach_m / 2;
   std::vector<double> residuals_m(points.size());
@@ -126,7 +126,7 @@ Plane robust_plane(const std::vector<FacePoint>& points, Plane plane, double rea
     plane = {solved[0], solved[1], solved[2]};
     for (std::size_t i = 0; i < points.size(); ++i) residuals_m[i] = std::abs(plane.distance_m(points[i]));
     scale_m =
-        std::max(kLeastScale_m, std::min(0.8 * scale_m, 2 * kSigmaPerMedianDeviation * median(residuals_m)));
+        std::max(kMinScale_m, std::min(0.8 * scale_m, 2 * kSigmaPerMedianDeviation * median(residuals_m)));
   }
   return plane;
 }
@@ -201,7 +201,7 @@ Profile profile_of(std::vector<double> distances_m, double reach_m) {
   for (std::size_t i = 0; i < profile.density_per_mm.size(); ++i)
     profile.distances_mm.push_back(kStep_mm * static_cast<double>(i) - half_mm);
   profile.peak_per_mm = *std::max_element(profile.density_per_mm.begin(), profile.density_per_mm.end());
-  if (profile.points >= kLeastPoints) {
+  if (profile.points >= kMinPoints) {
     const double half = profile.peak_per_mm / 2;
     profile.width_at_half_height_mm = width_at_half_mm(profile.density_per_mm, half);
     const auto [first, last] = outermost(profile.density_per_mm, half);
@@ -213,7 +213,7 @@ Profile profile_of(std::vector<double> distances_m, double reach_m) {
 
 std::optional<CrossSection> face_of(const MapCloud& cloud, std::span<const std::uint32_t> inside,
                                     const CrossSection& section) {
-  if (inside.size() < kLeastPoints) return std::nullopt;
+  if (inside.size() < kMinPoints) return std::nullopt;
   std::vector<FacePoint> face;
   for (const std::uint32_t i : inside) face.push_back(face_point(cloud.points[i], section));
   const Plane plane = robust_plane(face, densest(face, section.length_m, section.reach_m), section.reach_m);

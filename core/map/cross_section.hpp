@@ -63,13 +63,13 @@ struct MapOnPath {
 struct SectionSearch {
   Eigen::Vector3d motor_axis = Eigen::Vector3d::UnitX();  // in the base frame
   double length_m = 0.5;                                  // of the section along the face
-  double least_height_m = 0.8;  // above or below the rig, where a wrong offset shows in a view from above
+  double min_height_m = 0.8;  // above or below the rig, where a wrong offset shows in a view from above
   double reach_m = 0.25;
-  std::size_t least_points = 600;
+  std::size_t min_points = 600;
   double error_rad = 0.0314;              // the turning that one map alone is tried with: 5 ms at 360 deg/s
   std::optional<Eigen::Vector2d> near_m;  // only faces within near_radius_m of this place in the map
   double near_radius_m = 2;
-  double most_width_mm = 45;  // at half height, in the sharpest of the maps
+  double max_width_mm = 45;  // at half height, in the sharpest of the maps
 };
 
 /// A section and what speaks for it.

@@ -21,7 +21,7 @@ class SmoothRotation {
 
   Vector operator()(double angle_rad, const Vector& p) {
     double step = angle_rad - base_rad_;
-    if (std::abs(step) > kMostStep_rad) {
+    if (std::abs(step) > kMaxStep_rad) {
       restart(angle_rad);
       step = 0;
     }
@@ -33,7 +33,7 @@ class SmoothRotation {
   }
 
  private:
-  static constexpr double kMostStep_rad = 0.03;
+  static constexpr double kMaxStep_rad = 0.03;
 
   void restart(double angle_rad) {
     base_rad_ = angle_rad;

@@ -14,13 +14,13 @@
 namespace sweepscope {
 namespace {
 
-constexpr std::uint32_t kMostPerCell = 16;  // dense cells are sampled evenly: the cost of a cube is bounded
-constexpr int kTerms = 6;                   // of a surface of second degree
-constexpr std::size_t kMostPoints = 27 * kMostPerCell;
+constexpr std::uint32_t kMaxPerCell = 16;  // dense cells are sampled evenly: the cost of a cube is bounded
+constexpr int kTerms = 6;                  // of a surface of second degree
+constexpr std::size_t kMaxPoints = 27 * kMaxPerCell;
 
 // The points around a cell, relative to its middle.
 struct Neighbourhood {
-  std::array<float, kMostPoints> x_m, y_m, z_m;
+  std::array<float, kMaxPoints> x_m, y_m, z_m;
   std::size_t count = 0;
   std::uint32_t points = 0;  // before sampling
   bool forward = false, backward = false;
@@ -42,7 +42,7 @@ class SurfaceFitter {
     gather(cell);
     CellSurface fitted;
     fitted.points = near_.points;
-    const bool enough = near_.count >= static_cast<std::size_t>(std::max(options_.least_points, kTerms + 1));
+    const bool enough = near_.count >= static_cast<std::size_t>(std::max(options_.min_points, kTerms + 1));
     if (enough && !(options_.both_directions && !(near_.forward && near_.backward)))
       fitted.surface = surface();
     return fitted;
@@ -63,7 +63,7 @@ class SurfaceFitter {
 
   void take(std::uint32_t cell, const VoxelLevel::Place& middle) {
     const std::uint32_t begin = level_.begin(cell), count = level_.begin(cell + 1) - begin;
-    const std::uint32_t taken = std::min(count, kMostPerCell);
+    const std::uint32_t taken = std::min(count, kMaxPerCell);
     near_.points += count;
     const auto offset_m = [&](int axis) {
       return static_cast<float>((middle[axis] + 0.5) * level_.cell_m());
@@ -98,12 +98,12 @@ class SurfaceFitter {
     axes.computeDirect(spread_m2);
     const double along_m = std::sqrt(std::max(0.0, axes.eigenvalues()[1]));
     const double filled_m = 3 * level_.cell_m() / std::sqrt(12.0);
-    if (along_m < options_.least_extent * filled_m) return {};
+    if (along_m < options_.min_extent * filled_m) return {};
     const Eigen::Matrix3f to_surface = axes.eigenvectors().transpose().cast<float>();
     const double thickness_m =
         distance_from_bent_m(to_surface, static_cast<float>(along_m),
                              static_cast<float>(std::sqrt(axes.eigenvalues()[2]) / along_m));
-    if (!(thickness_m <= options_.most_flatness * along_m)) return {};
+    if (!(thickness_m <= options_.max_flatness * along_m)) return {};
     return {to_surface.row(0).transpose(), static_cast<float>(thickness_m)};
   }
 
@@ -133,7 +133,7 @@ class SurfaceFitter {
   // True where the points fill the surface, in units of their spread. A standing rig's lie in scan lines some
   // 9 deg apart: a bent surface goes through any three of them, however far a wrong offset moved each.
   bool spread_over(float v_spread) const {
-    constexpr int kSide = 6, kLeast = 22;
+    constexpr int kSide = 6, kMin = 22;
     const auto bin = [](float value, float spread) {
       return std::clamp(static_cast<int>(std::floor((value / (1.8f * spread) + 1) * kSide / 2)), 0,
                         kSide - 1);
@@ -141,24 +141,24 @@ class SurfaceFitter {
     std::uint64_t filled = 0;
     for (Eigen::Index i = 0; i < u_.size(); ++i)
       filled |= std::uint64_t{1} << (bin(u_[i], 1) + kSide * bin(v_[i], v_spread));
-    return std::popcount(filled) >= kLeast;
+    return std::popcount(filled) >= kMin;
   }
 
-  using Row = Eigen::Array<float, 1, Eigen::Dynamic, Eigen::RowMajor, 1, kMostPoints>;
+  using Row = Eigen::Array<float, 1, Eigen::Dynamic, Eigen::RowMajor, 1, kMaxPoints>;
   const MapCloud& cloud_;
   const VoxelGrid& grid_;
   const VoxelLevel& level_;
   const ThicknessOptions& options_;
   Neighbourhood near_;
   Row x_, y_, z_, u_, v_, h_;
-  Eigen::Matrix<float, 6, Eigen::Dynamic, Eigen::RowMajor, 6, kMostPoints> terms_;
+  Eigen::Matrix<float, 6, Eigen::Dynamic, Eigen::RowMajor, 6, kMaxPoints> terms_;
 };
 
 // The sharpest of the surfaces through a cell's own cube and its six neighbours': beside a step or a corner
 // a cube pushed aside holds the one face alone. Pushed across a thick surface it would cut off a part of it,
 // and hold fewer points.
 LocalSurface sharpest(const std::vector<CellSurface>& fitted, const VoxelLevel& level, std::uint32_t cell) {
-  constexpr double kLeastPart = 0.8;
+  constexpr double kMinPart = 0.8;
   const VoxelLevel::Place place = level.place(cell);
   LocalSurface best = fitted[cell].surface;
   for (int axis = 0; axis < 3; ++axis)
@@ -166,7 +166,7 @@ LocalSurface sharpest(const std::vector<CellSurface>& fitted, const VoxelLevel& 
       VoxelLevel::Place beside = place;
       beside[axis] += d;
       const std::uint32_t other = level.find(beside);
-      if (other == VoxelLevel::kNone || fitted[other].points < kLeastPart * fitted[cell].points) continue;
+      if (other == VoxelLevel::kNone || fitted[other].points < kMinPart * fitted[cell].points) continue;
       const LocalSurface& surface = fitted[other].surface;
       if (surface.thickness_m < best.thickness_m ||
           (std::isnan(best.thickness_m) && !std::isnan(surface.thickness_m)))

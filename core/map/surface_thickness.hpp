@@ -13,9 +13,9 @@ namespace sweepscope {
 struct ThicknessOptions {
   double cell_m = 0.1;           // of the finer cubes
   int doublings = 2;             // how often the cube may grow
-  int least_points = 20;         // in a cube
-  double most_flatness = 0.45;   // greatest spread across the surface, of the lesser spread along it
-  double least_extent = 0.25;    // least spread along the surface, of that of a cube filled evenly
+  int min_points = 20;           // in a cube
+  double max_flatness = 0.45;    // greatest spread across the surface, of the lesser spread along it
+  double min_extent = 0.25;      // least spread along the surface, of that of a cube filled evenly
   bool both_directions = false;  // only where sweeps of both directions saw the surface
 };
 

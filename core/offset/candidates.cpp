@@ -70,14 +70,14 @@ std::vector<CurvePoint> united(std::vector<CurvePoint> curve, const std::vector<
   return curve;
 }
 
-std::size_t index_of_least(const std::vector<CurvePoint>& curve, CurveValue value) {
+std::size_t index_of_min(const std::vector<CurvePoint>& curve, CurveValue value) {
   std::size_t best = curve.size();
   for (std::size_t i = 0; i < curve.size(); ++i)
     if (curve[i].*value && (best == curve.size() || *(curve[i].*value) < *(curve[best].*value))) best = i;
   return best;
 }
 
-std::size_t index_of_greatest(const std::vector<CurvePoint>& curve, CurveValue value) {
+std::size_t index_of_max(const std::vector<CurvePoint>& curve, CurveValue value) {
   std::size_t best = curve.size();
   for (std::size_t i = 0; i < curve.size(); ++i)
     if (curve[i].*value && (best == curve.size() || *(curve[i].*value) > *(curve[best].*value))) best = i;
@@ -92,7 +92,7 @@ double ExtremumFit::at(double offset_s) const {
 
 namespace {
 
-constexpr std::size_t kLeastFitted = 5;
+constexpr std::size_t kMinFitted = 5;
 
 struct Span {
   std::size_t first, last;
@@ -120,7 +120,7 @@ Span fitted_span(const std::vector<CurvePoint>& curve, CurveValue value, std::si
   const double even_s = std::min(curve[best].offset_s - curve[all.first].offset_s,
                                  curve[all.last].offset_s - curve[best].offset_s);
   const Span even = present_within(curve, value, best, even_s);
-  return even.size() >= kLeastFitted ? even : all;
+  return even.size() >= kMinFitted ? even : all;
 }
 
 }  // namespace
@@ -130,7 +130,7 @@ std::optional<ExtremumFit> fit_of_extremum(const std::vector<CurvePoint>& curve,
   const double centre_s = curve[best].offset_s;
   const auto [first, last] = fitted_span(curve, value, best, reach_s);
   const auto count = static_cast<Eigen::Index>(last - first + 1);
-  if (count < Eigen::Index(kLeastFitted)) return std::nullopt;
+  if (count < Eigen::Index(kMinFitted)) return std::nullopt;
   Eigen::MatrixXd powers(count, 3);
   Eigen::VectorXd values(count);
   const double best_value = *(curve[best].*value), scale = best_value == 0 ? 1.0 : best_value;
@@ -154,8 +154,7 @@ std::optional<ExtremumFit> fit_of_extremum(const std::vector<CurvePoint>& curve,
 std::optional<ExtremumFit> fit_behind(const std::vector<CurvePoint>& curve, CurveValue value,
                                       const CriterionOptimum& optimum) {
   constexpr double kUsualReach_s = 3e-3, kSame_s = 1e-10, kSameGridPoint_s = 2e-12;
-  const std::size_t best =
-      value == &CurvePoint::n ? index_of_greatest(curve, value) : index_of_least(curve, value);
+  const std::size_t best = value == &CurvePoint::n ? index_of_max(curve, value) : index_of_min(curve, value);
   if (best == curve.size() || std::abs(curve[best].offset_s - optimum.offset_s) <= kSameGridPoint_s)
     return std::nullopt;
   std::vector<double> reaches_s{kUsualReach_s};

@@ -52,8 +52,8 @@ std::vector<CurvePoint> united(std::vector<CurvePoint> curve, const std::vector<
 
 /// The index of the least (or greatest) present value; points().size() where there is none.
 using CurveValue = std::optional<double> CurvePoint::*;
-std::size_t index_of_least(const std::vector<CurvePoint>& curve, CurveValue value);
-std::size_t index_of_greatest(const std::vector<CurvePoint>& curve, CurveValue value);
+std::size_t index_of_min(const std::vector<CurvePoint>& curve, CurveValue value);
+std::size_t index_of_max(const std::vector<CurvePoint>& curve, CurveValue value);
 
 /// A second-degree fit over a part of a curve, with x = (offset - centre) / reach. n falls off as a parabola,
 /// n = scale (c0 + c1 x + c2 x^2). Distances go as a hyperbola, sqrt(floor^2 + (slope (offset - best))^2): d,

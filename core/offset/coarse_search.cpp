@@ -29,7 +29,7 @@ CoarseSearch search_coarsely(const OffsetProblem& problem, double from_s, double
   CoarseSearch search;
   const auto compute = [&](const std::vector<double>& offsets_s) {
     search.curve = united(std::move(search.curve), stationary_coarse_curve(grid, offsets_s, job));
-    const std::size_t best = index_of_least(search.curve, &CurvePoint::capped_cost_m);
+    const std::size_t best = index_of_min(search.curve, &CurvePoint::capped_cost_m);
     if (best < search.curve.size()) search.best = best;
   };
   const std::vector<double> all_s = offsets_of({{from_s, to_s, scale.unit_s}});

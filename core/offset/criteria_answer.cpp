@@ -94,7 +94,7 @@ Certainty of_stationary(const OffsetSearch& search, const SharedByCandidates& sh
   const std::optional<double> of_pairs_s = sigma_of_pairs(search, shared, offset_s, step_s);
   const StationaryDirect direct = solve_stationary(search.grid, offset_s, {}, job);
   const auto of_direct_s = sigma_of(direct, *search.problem.recording);
-  if (!of_pairs_s || !of_direct_s || direct.matches < StationaryDirectOptions().least_matches)
+  if (!of_pairs_s || !of_direct_s || direct.matches < StationaryDirectOptions().min_matches)
     return {of_pairs_s, {}, 0};
   return {std::max(*of_pairs_s, std::hypot(direct.offset_s - offset_s, *of_direct_s)),
           trend_of(direct.block_s, direct.block_offset_s), *of_direct_s};
@@ -127,9 +127,9 @@ void add_extrema(Answer& answer, const OffsetSearch& search, std::size_t best) {
   };
   const CriterionOptimum least = optimum_of(moving ? "e" : "d", decisive(search), best);
   if (moving) {
-    const CriterionOptimum most = optimum_of("n", &CurvePoint::n, index_of_greatest(curve, &CurvePoint::n));
+    const CriterionOptimum most = optimum_of("n", &CurvePoint::n, index_of_max(curve, &CurvePoint::n));
     compare_criteria(answer, most.offset_s, least.offset_s, search.scale);
-    const std::size_t cheapest = index_of_least(curve, &CurvePoint::capped_cost_m);
+    const std::size_t cheapest = index_of_min(curve, &CurvePoint::capped_cost_m);
     if (cheapest < curve.size()) optimum_of("capped_cost", &CurvePoint::capped_cost_m, cheapest);
   }
   if (curve.size() > 2 && (best == 0 || best + 1 == curve.size()))
@@ -146,7 +146,7 @@ Answer judged_by_criteria(const OffsetSearch& search, const SharedByCandidates& 
   const bool moving = search.as_moving();
   const Recording& recording = *search.problem.recording;
   const MotorMotion& motor = search.problem.motor;
-  const std::size_t best = index_of_least(answer.curve, decisive(search));
+  const std::size_t best = index_of_min(answer.curve, decisive(search));
   if (best == answer.curve.size()) {
     answer.reasons.push_back(
         moving ? lost_reason(*shared.walk, recording)

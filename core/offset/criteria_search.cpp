@@ -74,7 +74,7 @@ bool coarse_to_fine(const OffsetSearch& search, Curve& curve, const Job& job) {
     centre_s = rounded_to(centre_s, scale.unit_s);
     const double from_s = std::max(centre_s - 5 * scale.unit_s, -scale.max_half_width_s);
     if (!curve.compute(offsets_of({{from_s, from_s + 10 * scale.unit_s, scale.unit_s}}), job)) return false;
-    const std::size_t best = index_of_least(curve.points(), decisive(search));
+    const std::size_t best = index_of_min(curve.points(), decisive(search));
     if (best == curve.points().size()) return true;
     centre_s = curve.points()[best].offset_s;
     if (best > 1 && best + 2 < curve.points().size()) break;

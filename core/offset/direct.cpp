@@ -82,7 +82,7 @@ Answer of_stationary(const OffsetSearch& search, Answer answer, const Job& job) 
   if (job.cancelled()) return answer;
   answer.fit = FitEvidence{found.converged,  found.iterations, found.features, found.matches,
                            found.residual_m, found.lever_m,    found.reach_m};
-  if (found.matches < StationaryDirectOptions().least_matches) {
+  if (found.matches < StationaryDirectOptions().min_matches) {
     answer.reasons.push_back(fmt::format("Only {} of {} points lie on surfaces that the other direction saw.",
                                          found.matches, found.features));
     return answer;

@@ -231,10 +231,10 @@ std::vector<WithoutPart> offsets_without(const Linearisation& at, const Parts& p
 // What each block of at least two sweeps asks for by itself.
 void fill_blocks(const Linearisation& at, const StillGrid& grid, double loss_width_m,
                  StationaryDirect& result) {
-  constexpr std::size_t kMostBlocks = 10;
+  constexpr std::size_t kMaxBlocks = 10;
   const Blocks sweeps = blocks_of_sweeps(at.points(), std::size_t(-1));
   const Blocks blocks =
-      blocks_of_sweeps(at.points(), std::clamp<std::size_t>(sweeps.count / 2, 1, kMostBlocks));
+      blocks_of_sweeps(at.points(), std::clamp<std::size_t>(sweeps.count / 2, 1, kMaxBlocks));
   const std::vector<LineResiduals> lines = at.residuals_within(blocks.of_line, blocks.count);
   std::vector<Sums> sums(blocks.count);
   std::vector<double> time_s(blocks.count, 0.0), count(blocks.count, 0.0);
@@ -268,10 +268,10 @@ void fill_levers(const std::vector<LineResiduals>& lines, StationaryDirect& resu
 // Sweeps are the parts where there are enough of them.
 void resample(const StillGrid& grid, const Linearisation& at, const std::vector<LineResiduals>& lines,
               double loss_width_m, StationaryDirect& result) {
-  constexpr std::size_t kMostParts = 10, kLeastBlocks = 6, kSectors = 8, kSections = 3, kCombs = 12;
-  const Blocks blocks = blocks_of_sweeps(at.points(), kMostParts);
-  const Parts parts = blocks.count < kLeastBlocks ? views(at.points(), kSectors, kSections)
-                                                  : parts_of(blocks, at.points().bins);
+  constexpr std::size_t kMaxParts = 10, kMinBlocks = 6, kSectors = 8, kSections = 3, kCombs = 12;
+  const Blocks blocks = blocks_of_sweeps(at.points(), kMaxParts);
+  const Parts parts = blocks.count < kMinBlocks ? views(at.points(), kSectors, kSections)
+                                                : parts_of(blocks, at.points().bins);
   const double whole_jj = summed(lines, loss_width_m).jj;
   result.without_part = offsets_without(at, parts, loss_width_m, whole_jj);
   result.without_comb = offsets_without(at, combs(at.points(), kCombs), loss_width_m, whole_jj);
@@ -307,24 +307,24 @@ StationaryDirect solve_stationary(const StillGrid& grid, double first_offset_s,
   result.offset_s = first_offset_s;
   double loss_width_m = options.first_loss_width_m;
   bool narrowed = false;
-  for (; result.iterations < options.most_iterations && !job.cancelled(); ++result.iterations) {
+  for (; result.iterations < options.max_iterations && !job.cancelled(); ++result.iterations) {
     const Linearisation at(grid, patches, result.offset_s);
     const std::vector<LineResiduals> lines = at.residuals();
     const Sums sums = summed(lines, loss_width_m);
     result.features = sums.features;
     result.matches = sums.matches;
-    if (sums.matches < options.least_matches || !(sums.jj > 0)) return result;
+    if (sums.matches < options.min_matches || !(sums.jj > 0)) return result;
     const double step_s = -sums.jr / sums.jj;
     result.step_s = step_s;
     result.residual_m = robust_deviation_m(lines);
     result.converged = narrowed && std::abs(step_s) < options.step_tolerance_s;
-    const bool last = result.converged || result.iterations + 1 == options.most_iterations;
+    const bool last = result.converged || result.iterations + 1 == options.max_iterations;
     result.offset_s += step_s;
     if (last) {
       resample(grid, at, lines, loss_width_m, result);
       break;
     }
-    const double width_m = std::max(options.least_loss_width_m, options.loss_widths * result.residual_m);
+    const double width_m = std::max(options.min_loss_width_m, options.loss_widths * result.residual_m);
     narrowed = width_m > 0.7 * loss_width_m;
     loss_width_m = std::min(width_m, loss_width_m);
   }

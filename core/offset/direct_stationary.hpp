@@ -17,12 +17,12 @@ namespace sweepscope {
 ///   dr / d offset = (omega_p - omega_c) n . (a x p),
 /// and Gauss-Newton's step is - sum w r J / sum w J^2, with Cauchy weights w.
 struct StationaryDirectOptions {
-  int most_iterations = 10;
+  int max_iterations = 10;
   double step_tolerance_s = 1e-6;
   double first_loss_width_m = 0.1;  // later: `loss_widths` times the residuals' robust deviation
   double loss_widths = 2.5;
-  double least_loss_width_m = 0.004;
-  std::size_t least_matches = 100;
+  double min_loss_width_m = 0.004;
+  std::size_t min_matches = 100;
 };
 
 /// A point against a patch of the other direction, at one offset.

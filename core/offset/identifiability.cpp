@@ -41,13 +41,13 @@ Remark edge_reason(const std::vector<CurvePoint>& coarse, std::size_t best) {
 Remark rival_reason(const std::vector<CurvePoint>& coarse, std::size_t best, const SearchScale& scale) {
   constexpr double kApart = 8;   // units
   constexpr double kLike = 0.2;  // of the least one's depth
-  const double least_m = *coarse[best].capped_cost_m, depth_m = median_cost(coarse) - least_m;
+  const double min_m = *coarse[best].capped_cost_m, depth_m = median_cost(coarse) - min_m;
   for (std::size_t i = 1; i + 1 < coarse.size(); ++i) {
     const auto &before = coarse[i - 1].capped_cost_m, &here = coarse[i].capped_cost_m,
                &after = coarse[i + 1].capped_cost_m;
     if (!before || !here || !after || !(*here < *before) || !(*here <= *after)) continue;
     if (std::abs(coarse[i].offset_s - coarse[best].offset_s) < kApart * scale.unit_s) continue;
-    if (*here - least_m < kLike * depth_m)
+    if (*here - min_m < kLike * depth_m)
       return fmt::format("Two offsets fit about equally well: {:.0f} ms and {:.0f} ms.",
                          coarse[best].offset_s * 1e3, coarse[i].offset_s * 1e3);
   }
@@ -55,20 +55,20 @@ Remark rival_reason(const std::vector<CurvePoint>& coarse, std::size_t best, con
 }
 
 Remark flat_reason(const std::vector<CurvePoint>& coarse, std::size_t best) {
-  constexpr double kLeastDepth = 0.15;
-  const double least_m = *coarse[best].capped_cost_m, median_m = median_cost(coarse);
-  if (median_m - least_m > kLeastDepth * median_m) return std::nullopt;
+  constexpr double kMinDepth = 0.15;
+  const double min_m = *coarse[best].capped_cost_m, median_m = median_cost(coarse);
+  if (median_m - min_m > kMinDepth * median_m) return std::nullopt;
   return fmt::format(
       "The scene gives no lever: sweeps of opposite directions fit each other about equally well at every "
       "offset "
       "({:.1f} mm apart at the best, {:.1f} mm at the median).",
-      least_m * 1e3, median_m * 1e3);
+      min_m * 1e3, median_m * 1e3);
 }
 
 Remark stamps_reason(const Recording& recording, const SearchScale& scale) {
-  constexpr std::size_t kLeastScans = 20;
+  constexpr std::size_t kMinScans = 20;
   if (recording.report.laser_stamps.used != StampSource::kReceive) return std::nullopt;
-  if (recording.scans.size() < kLeastScans) return std::nullopt;
+  if (recording.scans.size() < kMinScans) return std::nullopt;
   const double spread_s = unevenness_s(scan_stamps_s(recording)),
                period_s = recording.report.laser_stamps.median_period_s;
   if (spread_s < std::max(period_s / 4, scale.unit_s / 2)) return std::nullopt;
@@ -78,14 +78,13 @@ Remark stamps_reason(const Recording& recording, const SearchScale& scale) {
       spread_s * 1e3, period_s * 1e3);
 }
 
-Remark gaps_reason(const Recording& recording, const std::vector<char>& covered, double least_s,
-                   double greatest_s) {
+Remark gaps_reason(const Recording& recording, const std::vector<char>& covered, double min_s, double max_s) {
   const MotorTrack& motor = recording.motor;
   std::size_t within = 0, used = 0;
   for (std::size_t i = 0; i < recording.scans.size(); ++i) {
     const LaserScan& scan = recording.scans[i];
-    if (scan.first_beam_s + least_s < motor.time_s.front()) continue;
-    if (scan.last_beam_s() + greatest_s > motor.time_s.back()) continue;
+    if (scan.first_beam_s + min_s < motor.time_s.front()) continue;
+    if (scan.last_beam_s() + max_s > motor.time_s.back()) continue;
     ++within;
     used += covered[i] ? 1 : 0;
   }
@@ -103,8 +102,8 @@ Remark drift_reason(const Trend& trend, double duration_s, double sigma_s) {
 }
 
 Remark lever_reason(double lever_m, double reach_m) {
-  constexpr double kLeastLever = 0.05;
-  if (lever_m > kLeastLever * reach_m) return std::nullopt;
+  constexpr double kMinLever = 0.05;
+  if (lever_m > kMinLever * reach_m) return std::nullopt;
   return fmt::format(
       "The scene gives no lever: turning the motor's angle by 1 deg lifts the points off their surfaces by "
       "{:.1f} mm "
@@ -120,7 +119,7 @@ double samples_per_sweep(const MotorTrack& track, const MotorMotion& motor) {
 double encoder_step_sigma_s(const MotorTrack& track, const MotorMotion& motor) {
   // Steps and samples beat: neighbouring samples err alike, and the next sweeps repeat them, those of both
   // directions. Found by simulation.
-  constexpr double kMostIndependent = 32;
+  constexpr double kMaxIndependent = 32;
   constexpr double kSame_rad = 1e-7;
   std::vector<double> angles_rad = track.angle_rad;
   std::sort(angles_rad.begin(), angles_rad.end());
@@ -129,7 +128,7 @@ double encoder_step_sigma_s(const MotorTrack& track, const MotorMotion& motor) {
     if (const double gap_rad = angles_rad[i] - angles_rad[i - 1]; gap_rad > kSame_rad)
       step_rad = std::min(step_rad, gap_rad);
   if (!std::isfinite(step_rad)) return 0;
-  const double independent = std::clamp(2 * samples_per_sweep(track, motor), 1.0, kMostIndependent);
+  const double independent = std::clamp(2 * samples_per_sweep(track, motor), 1.0, kMaxIndependent);
   return step_rad / motor.median_speed_rad_s / std::sqrt(12 * independent);
 }
 
@@ -175,7 +174,7 @@ double unseen_sigma_s(const Recording& recording, const MotorMotion& motor, doub
 }
 
 Remark lines_reason(double distinct_lines) {
-  if (distinct_lines >= kLeastDistinctLines) return std::nullopt;
+  if (distinct_lines >= kMinDistinctLines) return std::nullopt;
   return fmt::format(
       "All sweeps of a direction see the same {:.2g} scan lines, too few for surfaces that both directions "
       "see: a slower motor, or sweeps that last a little longer or shorter, would show more.",
@@ -183,9 +182,9 @@ Remark lines_reason(double distinct_lines) {
 }
 
 Remark sampling_reason(const MotorTrack& track, const MotorMotion& motor, const SearchScale& scale) {
-  constexpr double kLeast = 3;
+  constexpr double kMin = 3;
   const double samples = samples_per_sweep(track, motor);
-  if (samples > kLeast && encoder_sampling_sigma_s(track, motor) < scale.unit_s) return std::nullopt;
+  if (samples > kMin && encoder_sampling_sigma_s(track, motor) < scale.unit_s) return std::nullopt;
   return fmt::format("The motor is sampled {:.1f} times a sweep only: what it does in between is not known.",
                      samples);
 }

@@ -24,8 +24,7 @@ Remark flat_reason(const std::vector<CurvePoint>& coarse, std::size_t best);
 /// than the motor's speed allows.
 Remark stamps_reason(const Recording& recording, const SearchScale& scale);
 /// Of the scans made while the motor was recorded, most lie in gaps of its samples.
-Remark gaps_reason(const Recording& recording, const std::vector<char>& covered, double least_s,
-                   double greatest_s);
+Remark gaps_reason(const Recording& recording, const std::vector<char>& covered, double min_s, double max_s);
 
 /// A sweep has so few samples of the motor that what it did between them decides the answer.
 Remark sampling_reason(const MotorTrack& track, const MotorMotion& motor, const SearchScale& scale);

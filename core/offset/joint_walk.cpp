@@ -26,8 +26,8 @@ std::uint32_t slices_per_scan(const Recording& recording) {
   double longest_s = 0;
   for (const LaserScan& scan : recording.scans)
     longest_s = std::max(longest_s, scan.last_beam_s() - scan.first_beam_s);
-  constexpr double kMost = 64;
-  return static_cast<std::uint32_t>(std::clamp(std::ceil(longest_s / kLongestSlice_s), 1.0, kMost));
+  constexpr double kMax = 64;
+  return static_cast<std::uint32_t>(std::clamp(std::ceil(longest_s / kLongestSlice_s), 1.0, kMax));
 }
 
 // What the points of a scan, or of a slice of one, share: where the motor's axis was, how fast it turned, and
@@ -169,7 +169,7 @@ class Part {
     for (int i = 0; i < iterations && !job.cancelled(); ++i) {
       PartEquations equations(path_.blocks());
       linearise(equations);
-      if (result_.matches < options_.least_matches) return;
+      if (result_.matches < options_.min_matches) return;
       equations.add_jerks(path_, std::pow(options_.knot_s, 3) * jerk_sigma_);
       constexpr double kFirstSigma = 1e-4, kKnotSigma = 0.5;
       equations.hold(path_.knots(), kFirstSigma, kKnotSigma, options_.offset_sigma_s);
@@ -452,14 +452,14 @@ std::optional<JointWalk> solve_joint_walk(const OffsetProblem& problem, const st
     Part part(problem, cuts[i], offset_s, options);
     part.solve(job);
     parts[i] = part.result();
-    if (parts[i].matches >= options.least_matches)
+    if (parts[i].matches >= options.min_matches)
       for (SweepPose& sweep : sweeps[i]) sweep = part.path().as_sweep(sweep);
   });
   if (job.cancelled()) return std::nullopt;
   JointWalk walk;
   const bool held = options.mapping.given && options.mapping.given->is_truth();
   for (std::size_t i = 0; i < cuts.size(); ++i) {
-    if (parts[i].matches >= options.least_matches && parts[i].sigma_s > 0) {
+    if (parts[i].matches >= options.min_matches && parts[i].sigma_s > 0) {
       if (!held)
         parts[i].sigma_s =
             std::hypot(parts[i].sigma_s, unseen_of_part_s(*problem.recording, problem.motor, cuts[i].size()));

@@ -17,10 +17,10 @@ std::string span_text(double from_s, double to_s) {
 }
 
 bool overlap(const Recording& recording, const GivenMotion& motion) {
-  constexpr double kLeast_s = 3;
+  constexpr double kMin_s = 3;
   const double from_s = std::max(recording.scans.front().first_beam_s, motion.begin_s());
   const double to_s = std::min(recording.scans.back().last_beam_s(), motion.end_s());
-  return to_s - from_s > kLeast_s;
+  return to_s - from_s > kMin_s;
 }
 
 Error no_overlap(const Recording& recording, const MotionSource& source) {

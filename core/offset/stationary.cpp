@@ -7,9 +7,9 @@ namespace sweepscope {
 namespace {
 
 bool form_pair(const PlacedSweep& first, const PlacedSweep& second, const MotorMotion& motor) {
-  const double least_s = 0.25 * motor.median_sweep_s;
-  return second.sweep == first.sweep + 1 && first.end_s - first.begin_s > least_s &&
-         second.end_s - second.begin_s > least_s;
+  const double min_s = 0.25 * motor.median_sweep_s;
+  return second.sweep == first.sweep + 1 && first.end_s - first.begin_s > min_s &&
+         second.end_s - second.begin_s > min_s;
 }
 
 }  // namespace

@@ -125,8 +125,8 @@ std::vector<LinePool> pools_by_sweep(const StillPoints& points) {
 
 StillPatchOptions still_patch_options(const OffsetProblem& problem) {
   StillPatchOptions options;
-  options.least_gap_rad = std::max(0.2 * problem.line_spacing_rad, 0.6 * kRadPerDeg);
-  options.reach_rad = std::max(1.6 * problem.line_spacing_rad, 4 * options.least_gap_rad);
+  options.min_gap_rad = std::max(0.2 * problem.line_spacing_rad, 0.6 * kRadPerDeg);
+  options.reach_rad = std::max(1.6 * problem.line_spacing_rad, 4 * options.min_gap_rad);
   options.thickness_m += problem.features->range_noise_m;
   return options;
 }
@@ -162,7 +162,7 @@ int StillNeighbours::collect(double angle_rad, std::size_t bin, int step) {
        place += std::size_t(step)) {
     const double away_rad = step * (points_.angle_rad[cell(place, bin)] - angle_rad);
     if (away_rad > options_.reach_rad) break;
-    if (lines > 0 && away_rad - last_rad < options_.least_gap_rad) continue;
+    if (lines > 0 && away_rad - last_rad < options_.min_gap_rad) continue;
     const int before = count_;
     for (std::size_t b = first_bin; b <= last_bin; ++b)
       if (const std::size_t c = cell(place, b); points_.placed[c]) near_[std::size_t(count_++)] = c;

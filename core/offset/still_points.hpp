@@ -59,7 +59,7 @@ std::vector<LinePool> pools_by_sweep(const StillPoints& points);
 /// How a point's neighbours are chosen. Lines as near to each other as encoder steps tell nothing of a
 /// surface's slope, so they keep a distance.
 struct StillPatchOptions {
-  double least_gap_rad = 0;        // between neighbouring lines of a patch
+  double min_gap_rad = 0;          // between neighbouring lines of a patch
   double reach_rad = 0;            // of lines to either side of the point
   int lines_per_side = 3;          // at most StillNeighbours::kMaxLinesPerSide
   double thickness_m = 0.006;      // a patch's points lie this near to its plane (rms) ...

@@ -27,13 +27,13 @@ double student_factor(double degrees_of_freedom) {
 }
 
 std::optional<double> jackknife_sigma(double estimate, const std::vector<WithoutPart>& without) {
-  constexpr double kLeastShare = 1e-3;
+  constexpr double kMinShare = 1e-3;
   double shares = 0;
   for (const WithoutPart& part : without) shares += std::max(0.0, part.share);
   std::vector<double> pseudo_values, ratios;  // h = 1 / share
   for (const WithoutPart& part : without) {
     const double share = part.share / shares;
-    if (!(share > kLeastShare) || !(share < 1 - kLeastShare)) continue;
+    if (!(share > kMinShare) || !(share < 1 - kMinShare)) continue;
     ratios.push_back(1 / share);
     pseudo_values.push_back(estimate / share - (1 / share - 1) * part.value);
   }
@@ -46,9 +46,9 @@ std::optional<double> jackknife_sigma(double estimate, const std::vector<Without
   return student_factor(n - 1) * std::sqrt(variance);
 }
 
-std::optional<double> block_sigma(const std::vector<double>& series, std::size_t least_length,
-                                  std::size_t most_blocks) {
-  const std::size_t blocks = std::min(most_blocks, series.size() / std::max<std::size_t>(1, least_length));
+std::optional<double> block_sigma(const std::vector<double>& series, std::size_t min_length,
+                                  std::size_t max_blocks) {
+  const std::size_t blocks = std::min(max_blocks, series.size() / std::max<std::size_t>(1, min_length));
   if (blocks < 3) return std::nullopt;
   std::vector<double> means(blocks, 0.0);
   for (std::size_t b = 0; b < blocks; ++b) {

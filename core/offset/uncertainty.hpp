@@ -21,10 +21,10 @@ struct WithoutPart {
 std::optional<double> jackknife_sigma(double estimate, const std::vector<WithoutPart>& without);
 
 /// The standard deviation of the mean of a series whose neighbours err together, from the means of blocks of
-/// neighbours, Student's factor included. There are at most `most_blocks`, each of at least `least_length`
+/// neighbours, Student's factor included. There are at most `max_blocks`, each of at least `min_length`
 /// values; absent for fewer than three.
-std::optional<double> block_sigma(const std::vector<double>& series, std::size_t least_length,
-                                  std::size_t most_blocks);
+std::optional<double> block_sigma(const std::vector<double>& series, std::size_t min_length,
+                                  std::size_t max_blocks);
 
 /// The slope of a series of (time, value) by least squares and its standard deviation from the residuals.
 struct Trend {

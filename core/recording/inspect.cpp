@@ -20,8 +20,8 @@ void take_stamps(const StreamStamps& stamps, StreamSummary& stream) {
 
 /// The median of the usable ranges, from at most about a million of them.
 double median_range_m(const std::vector<float>& ranges_m) {
-  constexpr std::size_t kMost = 1'000'000;
-  const std::size_t step = ranges_m.size() / kMost + 1;
+  constexpr std::size_t kMax = 1'000'000;
+  const std::size_t step = ranges_m.size() / kMax + 1;
   std::vector<double> sample_m;
   for (std::size_t i = 0; i < ranges_m.size(); i += step) {
     if (!std::isnan(ranges_m[i])) sample_m.push_back(double{ranges_m[i]});
@@ -54,8 +54,8 @@ LaserSummary inspect_laser(const Recording& recording) {
   laser.median_range_m = median_range_m(recording.ranges_m);
   if (recording.scans.empty()) return laser;
   const auto [fewest, most] = std::ranges::minmax(recording.scans, {}, &LaserScan::beams);
-  laser.fewest_beams = fewest.beams;
-  laser.most_beams = most.beams;
+  laser.min_beams = fewest.beams;
+  laser.max_beams = most.beams;
   const LaserScan& first = recording.scans.front();
   laser.first_beam_deg = first.beam_angle_rad(0) * kDegPerRad;
   laser.last_beam_deg = first.beam_angle_rad(first.beams - 1.0) * kDegPerRad;
@@ -91,14 +91,14 @@ MotorSummary inspect_motor(const Recording& recording, const MotorMotion& motion
   motor.unwrapped = report.motor_unwrapped;
   if (track.time_s.empty()) return motor;
   motor.duration_s = track.time_s.back() - track.time_s.front();
-  const auto [least_rad, most_rad] = std::ranges::minmax(track.angle_rad);
-  motor.least_deg = least_rad * kDegPerRad;
-  motor.most_deg = most_rad * kDegPerRad;
+  const auto [min_rad, max_rad] = std::ranges::minmax(track.angle_rad);
+  motor.min_deg = min_rad * kDegPerRad;
+  motor.max_deg = max_rad * kDegPerRad;
   motor.median_speed_deg_s = motion.median_speed_rad_s * kDegPerRad;
   motor.reversals = motion.sweeps.empty() ? 0 : motion.sweeps.size() - 1;
   if (motor.whole_sweeps() > 0) motor.median_sweep_s = motion.median_sweep_s;
-  motor.turns = !motion.sweeps.empty() && motor.most_deg - motor.least_deg > 1;
-  motor.one_way = motor.reversals == 0 && motor.most_deg - motor.least_deg > 360;
+  motor.turns = !motion.sweeps.empty() && motor.max_deg - motor.min_deg > 1;
+  motor.one_way = motor.reversals == 0 && motor.max_deg - motor.min_deg > 360;
   return motor;
 }
 

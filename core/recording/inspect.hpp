@@ -23,7 +23,7 @@ struct StreamSummary {
 };
 
 struct LaserSummary : StreamSummary {
-  std::size_t fewest_beams = 0, most_beams = 0;  // of a scan
+  std::size_t min_beams = 0, max_beams = 0;      // of a scan
   std::size_t rings = 0;                         // of a 3D scanner, or slices of its clouds; 0: a 2D scanner
   double first_beam_deg = 0, last_beam_deg = 0;  // of the first scan
   StampAt stamp_at = StampAt::kFirstBeam;
@@ -39,7 +39,7 @@ struct LaserSummary : StreamSummary {
 
 struct MotorSummary : StreamSummary {
   std::string joint;
-  double least_deg = 0, most_deg = 0;
+  double min_deg = 0, max_deg = 0;
   double median_speed_deg_s = 0;  // of the sweeps, away from their reversals
   std::size_t reversals = 0;
   std::size_t unwrapped = 0;

@@ -15,7 +15,7 @@
 namespace sweepscope {
 
 /// A scan has no more beams than this: features count them in 16 bits.
-inline constexpr std::uint32_t kMostBeamsAScan = 65'536;
+inline constexpr std::uint32_t kMaxBeamsAScan = 65'536;
 
 /// One scan line of the laser. Beam i was fired at `first_beam_s + i * time_increment_s`, in the direction
 /// `angle_min_rad + i * angle_increment_rad` about the laser's z axis, 0 along its x axis. Of a 3D scanner a

@@ -9,7 +9,7 @@ namespace {
 
 using yaml::read_choice, yaml::read_members, yaml::read_number, yaml::refuse;
 
-constexpr std::uint64_t kMostRigFile_bytes = std::uint64_t{1} << 20;
+constexpr std::uint64_t kMaxRigFile_bytes = std::uint64_t{1} << 20;
 
 std::string read_name(const YAML::Node& node, const std::string& name) {
   if (!node.IsScalar() || node.Scalar().empty()) refuse(node, fmt::format("{} must be a name", name));
@@ -111,7 +111,7 @@ Rig read_document(const YAML::Node& document) {
 
 Result<Rig> read_rig(const std::filesystem::path& path) {
   Rig rig;
-  return yaml::read_file(path, "a rig file", kMostRigFile_bytes,
+  return yaml::read_file(path, "a rig file", kMaxRigFile_bytes,
                          [&](const YAML::Node& node) { rig = read_document(node); })
       .map([&] { return std::move(rig); });
 }

@@ -41,6 +41,6 @@ std::vector<std::size_t> assign_sweeps(const std::vector<LaserScan>& scans, cons
 /// the direction that has fewer; infinite for 3D scanners, whose lines cross. Fewer than kLeastDistinctLines
 /// tell no offset: neighbours do not lie on the same surfaces.
 double distinct_lines(const Recording& recording, const MotorMotion& motor, double offset_s);
-inline constexpr double kLeastDistinctLines = 7.5;
+inline constexpr double kMinDistinctLines = 7.5;
 
 }  // namespace sweepscope

@@ -67,8 +67,8 @@ std::string point_line(const CurvePoint& point) {
 
 std::optional<Shard> shard_of(const Json& value) {
   if (value.is_null()) return std::nullopt;
-  constexpr int kMostParts = std::numeric_limits<int>::max();
-  const auto count = whole_number(value.at(1), 1, kMostParts);
+  constexpr int kMaxParts = std::numeric_limits<int>::max();
+  const auto count = whole_number(value.at(1), 1, kMaxParts);
   const auto number = whole_number(value.at(0), 1, count.value_or(0));
   if (value.size() != 2 || !count || !number) throw std::runtime_error("no shard");
   return Shard{static_cast<int>(*number), static_cast<int>(*count)};
@@ -88,8 +88,8 @@ CandidateSearch search_of(const Json& line) {
 
 CurvePoint point_of(const Json& line) {
   CurvePoint point;
-  constexpr std::int64_t kMost_ns = 1'000'000'000'000;  // beyond a thousand seconds no clocks lie apart
-  const auto offset_ns = whole_number(line.at("offset_ns"), -kMost_ns, kMost_ns);
+  constexpr std::int64_t kMax_ns = 1'000'000'000'000;  // beyond a thousand seconds no clocks lie apart
+  const auto offset_ns = whole_number(line.at("offset_ns"), -kMax_ns, kMax_ns);
   if (!offset_ns) throw std::runtime_error("no offset");
   point.offset_s = double(*offset_ns) * 1e-9;
   for (const CurveColumn& column : kCurveColumns)

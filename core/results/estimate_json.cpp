@@ -88,9 +88,9 @@ T named(const std::string& name, const auto& names, const char* key) {
 }
 
 std::size_t required_count(const Json& object, const char* key) {
-  constexpr std::int64_t kGreatest = 1'000'000'000'000;
-  const auto count = whole_number(member(object, key, ""), 0, kGreatest);
-  if (!count) throw BadValue(fmt::format("{} is no whole number from 0 to {}", key, kGreatest));
+  constexpr std::int64_t kMax = 1'000'000'000'000;
+  const auto count = whole_number(member(object, key, ""), 0, kMax);
+  if (!count) throw BadValue(fmt::format("{} is no whole number from 0 to {}", key, kMax));
   return static_cast<std::size_t>(*count);
 }
 

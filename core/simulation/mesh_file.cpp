@@ -20,14 +20,14 @@ std::string MeshBuilder::add_vertex(const Vector3d& p_m) {
 
 std::string MeshBuilder::add_face(std::span<const std::int64_t> corners) {
   if (corners.size() < 3) return fmt::format("a face has {} corners, not 3 or more", corners.size());
-  if (corners.size() > kMostCorners)
-    return fmt::format("a face has {} corners, more than {}", corners.size(), kMostCorners);
+  if (corners.size() > kMaxCorners)
+    return fmt::format("a face has {} corners, more than {}", corners.size(), kMaxCorners);
   for (const std::int64_t corner : corners)
     if (corner < 0 || std::cmp_greater_equal(corner, vertices_.size()))
       return fmt::format("a face names vertex {} (counted from 0), but there are {}", corner,
                          vertices_.size());
-  if (mesh_.triangles.size() + corners.size() - 2 > kMostTriangles)
-    return fmt::format("there are more than {} triangles", kMostTriangles);
+  if (mesh_.triangles.size() + corners.size() - 2 > kMaxTriangles)
+    return fmt::format("there are more than {} triangles", kMaxTriangles);
   const auto vertex = [&](std::size_t i) { return vertices_[static_cast<std::size_t>(corners[i])]; };
   for (std::size_t i = 2; i < corners.size(); ++i) {
     const Triangle t{vertex(0), vertex(i - 1), vertex(i)};

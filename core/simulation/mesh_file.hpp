@@ -13,8 +13,8 @@ class MeshBuilder {
  public:
   // Embree proposes triangles in single precision, which tells less than 1 mm apart up to this distance.
   static constexpr double kFarthest_m = 5000;
-  static constexpr std::size_t kMostTriangles = 20'000'000;
-  static constexpr std::size_t kMostCorners = 1000;  // of a polygon
+  static constexpr std::size_t kMaxTriangles = 20'000'000;
+  static constexpr std::size_t kMaxCorners = 1000;  // of a polygon
 
   /// What is wrong, or empty.
   std::string add_vertex(const Vector3d& p_m);

@@ -8,7 +8,7 @@
 namespace sweepscope::simulation {
 namespace {
 
-constexpr std::size_t kFewestPoses = 20;
+constexpr std::size_t kMinPoses = 20;
 constexpr double kWidestGap_s = 1;
 constexpr double kWidestTurn_deg = 60;
 
@@ -38,9 +38,9 @@ Vector3d mean_position(std::span<const StampedPose> poses) {
 }
 
 Result<void> check(std::span<const StampedPose> poses, const std::string& name) {
-  if (poses.size() < kFewestPoses)
+  if (poses.size() < kMinPoses)
     return unreadable(
-        fmt::format("{}: holds {} poses, but a walk needs at least {}", name, poses.size(), kFewestPoses));
+        fmt::format("{}: holds {} poses, but a walk needs at least {}", name, poses.size(), kMinPoses));
   const double cos_half_widest = sin_cos(radians(kWidestTurn_deg / 2)).cos;
   for (std::size_t i = 1; i < poses.size(); ++i) {
     const StampedPose &before = poses[i - 1], &now = poses[i];

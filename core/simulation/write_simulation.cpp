@@ -23,9 +23,9 @@ enum Purpose : std::uint64_t { kScanArrival = 101, kMotorArrival = 102 };
 
 /// Most messages arrive promptly, few late: an exponential distribution, cut off.
 double delay_s(const Simulation& simulation, Purpose purpose, std::size_t number) {
-  constexpr double kMean_s = 0.0003, kMost_s = 0.003;
+  constexpr double kMean_s = 0.0003, kMax_s = 0.003;
   const double u = Random(simulation.options.seed, purpose, number).uniform();
-  return std::min(-kMean_s * simulation::natural_log(1 - u), kMost_s);
+  return std::min(-kMean_s * simulation::natural_log(1 - u), kMax_s);
 }
 
 std::int64_t in_ns(const Recording& recording, double time_s) {

@@ -136,9 +136,8 @@ Result<Quantity> quantity_named(std::string_view key) {
 
 /// One divided by the value of an estimate's best candidate.
 double normalising_factor(const Estimate& estimate, const Quantity& quantity) {
-  const std::size_t best = quantity.value == &CurvePoint::n
-                               ? index_of_greatest(estimate.curve, quantity.value)
-                               : index_of_least(estimate.curve, quantity.value);
+  const std::size_t best = quantity.value == &CurvePoint::n ? index_of_max(estimate.curve, quantity.value)
+                                                            : index_of_min(estimate.curve, quantity.value);
   if (best == estimate.curve.size()) return 1;
   const double value = *(estimate.curve[best].*quantity.value);
   return value == 0 ? 1 : 1 / value;

@@ -10,7 +10,7 @@
 namespace sweepscope {
 namespace {
 
-std::array<float, 3> least_corner(const ColouredPoints& points) {
+std::array<float, 3> min_corner(const ColouredPoints& points) {
   std::array<float, 3> least;
   least.fill(std::numeric_limits<float>::max());
   for (const auto& point : points.xyz_m) {
@@ -23,7 +23,7 @@ std::array<float, 3> least_corner(const ColouredPoints& points) {
 std::vector<MortonKey> keys_along_curve(const ColouredPoints& points, double edge_m) {
   std::vector<std::uint32_t> all(points.size());
   std::iota(all.begin(), all.end(), 0);
-  return along_morton_curve(points.xyz_m, all, least_corner(points), edge_m);
+  return along_morton_curve(points.xyz_m, all, min_corner(points), edge_m);
 }
 
 /// The first point of each cell; a cell is what shares a key without its last `bits`.
@@ -52,10 +52,10 @@ ColouredPoints thin(const ColouredPoints& points, double edge_m) {
 
 ColouredPoints decimated(const ColouredPoints& points, std::size_t most) {
   constexpr double kFinest_m = 1e-3;
-  constexpr int kBitsPerStep = 3, kMostBits = 60;
+  constexpr int kBitsPerStep = 3, kMaxBits = 60;
   const std::vector<MortonKey> keyed = keys_along_curve(points, kFinest_m);
   int bits = 0;
-  while (bits < kMostBits && count_cells(keyed, bits) > most) bits += kBitsPerStep;
+  while (bits < kMaxBits && count_cells(keyed, bits) > most) bits += kBitsPerStep;
   return first_of_cells(points, keyed, bits);
 }
 

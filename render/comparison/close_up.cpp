@@ -7,8 +7,8 @@
 namespace sweepscope {
 namespace {
 
-constexpr double kCell_m = 0.05, kTile_m = 0.5, kLeastHeight_m = 0.8;
-constexpr double kMostTiles = 2000;  // along a side: 1 km
+constexpr double kCell_m = 0.05, kTile_m = 0.5, kMinHeight_m = 0.8;
+constexpr double kMaxTiles = 2000;  // along a side: 1 km
 
 /// Filled cells of a tile, or of a window of tiles, with their moments about the grid's corner.
 struct Filled {
@@ -48,15 +48,15 @@ struct TileGrid {
 TileGrid fill_tiles(const SlabPoints& map, const Bounds& x, const Bounds& y) {
   TileGrid grid{x,
                 y,
-                static_cast<std::size_t>(std::min(kMostTiles, x.length() / kTile_m)) + 1,
-                static_cast<std::size_t>(std::min(kMostTiles, y.length() / kTile_m)) + 1,
+                static_cast<std::size_t>(std::min(kMaxTiles, x.length() / kTile_m)) + 1,
+                static_cast<std::size_t>(std::min(kMaxTiles, y.length() / kTile_m)) + 1,
                 {}};
   grid.tiles.resize(grid.columns * grid.rows);
   std::vector<std::uint64_t> cells;
   for (std::size_t i = 0; i < map.points.size(); ++i) {
     const double px = static_cast<double>(map.points.xyz_m[i][0]) - x.from;
     const double py = static_cast<double>(map.points.xyz_m[i][1]) - y.from;
-    if (static_cast<double>(map.above_path_m[i]) < kLeastHeight_m) continue;
+    if (static_cast<double>(map.above_path_m[i]) < kMinHeight_m) continue;
     if (px < 0 || py < 0 || px >= kTile_m * static_cast<double>(grid.columns) ||
         py >= kTile_m * static_cast<double>(grid.rows)) {
       continue;

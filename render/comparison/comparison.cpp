@@ -154,12 +154,12 @@ struct Panel {
   const Style& style;
 };
 
-View with_points(View view, const Panel& panel, const SlabPoints& map, float least_height_m,
+View with_points(View view, const Panel& panel, const SlabPoints& map, float min_height_m,
                  double point_size_px) {
   const Projection projection(view.scene.camera, view.place);
   view.scene.background = panel.style.map_panel;
   view.scene.colours = panel.prepared.colouring.scale;
-  view.scene.clouds.push_back({points_seen(map, projection, least_height_m),
+  view.scene.clouds.push_back({points_seen(map, projection, min_height_m),
                                point_size_px * panel.options.point_size_px * panel.layout.scale});
   return view;
 }

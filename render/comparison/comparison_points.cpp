@@ -51,7 +51,7 @@ bool is_inside(const MapPoint& point, const Box& box) {
 
 /// How far above the path a ceiling begins to hide what is below it; infinite where there is none.
 double ceiling_above_path_m(std::span<const ComparedMap> maps) {
-  constexpr double kBin_m = 0.1, kLeastShare = 0.12;
+  constexpr double kBin_m = 0.1, kMinShare = 0.12;
   std::vector<std::size_t> bins(300, 0);
   std::size_t above = 0;
   for (const ComparedMap& map : maps) {
@@ -67,7 +67,7 @@ double ceiling_above_path_m(std::span<const ComparedMap> maps) {
     const std::size_t count = bins[i - 1] + bins[i] + bins[i + 1];
     if (count > best_count) best = i, best_count = count;
   }
-  if (static_cast<double>(best_count) < kLeastShare * static_cast<double>(above) || above == 0)
+  if (static_cast<double>(best_count) < kMinShare * static_cast<double>(above) || above == 0)
     return kInfinity;
   // Lamps and beams hang below it, and a roll error tilts its far parts down: a quarter of the way is left
   // out.
@@ -100,13 +100,13 @@ SlabPoints points_in_slabs(const ComparedMap& map, std::span<const float> values
 }
 
 std::shared_ptr<const ColouredPoints> points_seen(const SlabPoints& map, const Projection& projection,
-                                                  float least_height_m) {
+                                                  float min_height_m) {
   constexpr double kCellsPerPixel = 2;
   std::vector<char> seen(map.points.size());
   for_each_block(seen.size(), 1, [&](const auto& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i) {
       const auto& p = map.points.xyz_m[i];
-      if (map.above_path_m[i] < least_height_m) continue;
+      if (map.above_path_m[i] < min_height_m) continue;
       const auto at = projection(Eigen::Vector3f(p[0], p[1], p[2]).cast<double>());
       seen[i] = at && projection.place().contains(*at);
     }

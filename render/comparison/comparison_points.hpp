@@ -23,10 +23,10 @@ std::vector<HeightRange> choose_slabs(std::span<const ComparedMap> maps, const C
 SlabPoints points_in_slabs(const ComparedMap& map, std::span<const float> values,
                            std::span<const HeightRange> slabs, const std::optional<Box>& box = {});
 
-/// The points that a view shows, of those higher above the path than `least_height_m`; no more of them than
+/// The points that a view shows, of those higher above the path than `min_height_m`; no more of them than
 /// its pixels can show.
 std::shared_ptr<const ColouredPoints> points_seen(const SlabPoints& map, const Projection& projection,
-                                                  float least_height_m);
+                                                  float min_height_m);
 
 struct Bounds {
   double from = 0, to = 0;

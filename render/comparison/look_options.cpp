@@ -42,11 +42,11 @@ Result<bool> switch_of(const std::string& text) {
 Result<void> set_size(ComparisonOptions& options, const std::string& text) {
   const auto size = numbers_of(text, 'x', 2);
   const auto fits = [](double side_px) {
-    return side_px >= kLeastPictureSidePx && side_px <= kGreatestPictureSidePx;
+    return side_px >= kMinPictureSidePx && side_px <= kMaxPictureSidePx;
   };
   if (!size || !fits((*size)[0]) || !fits((*size)[1])) {
-    return wrong(fmt::format("not like 1920x1200, each side {} to {} pixels", kLeastPictureSidePx,
-                             kGreatestPictureSidePx));
+    return wrong(
+        fmt::format("not like 1920x1200, each side {} to {} pixels", kMinPictureSidePx, kMaxPictureSidePx));
   }
   options.width_px = static_cast<int>((*size)[0]);
   options.height_px = static_cast<int>((*size)[1]);

@@ -111,13 +111,13 @@ double path_height_at(const ComparedMap& map, const Eigen::Vector2d& at_m) {
 
 std::optional<CrossSection> fitted_on_sharpest(const CrossSection& rough, std::span<const ComparedMap> maps) {
   std::optional<CrossSection> sharpest;
-  double least_mm = 1e300;
+  double min_mm = 1e300;
   for (const ComparedMap& map : maps) {
     const auto section = face_fitted(*map.cloud, rough);
     if (!section) continue;
     // Not at half height: of a doubled face a fit can lean on one layer and leave the other below half.
     const double width_mm = profile_across(*map.cloud, *section).integral_width_mm.value_or(1e299);
-    if (width_mm < least_mm) least_mm = width_mm, sharpest = section;
+    if (width_mm < min_mm) min_mm = width_mm, sharpest = section;
   }
   return sharpest;
 }

@@ -16,7 +16,7 @@ using yaml::Members, yaml::read_choice, yaml::read_list, yaml::read_members, yam
     yaml::read_switch, yaml::read_text, yaml::refuse;
 using YAML::Node;
 
-constexpr std::uint64_t kMostRecipe_bytes = std::uint64_t{1} << 20;
+constexpr std::uint64_t kMaxRecipe_bytes = std::uint64_t{1} << 20;
 
 double read_within(const Node& node, const std::string& name, double least, double greatest) {
   const double number = read_number(node, name);
@@ -439,7 +439,7 @@ class RecipeReader {
 
 Result<Recipe> read_recipe(const std::filesystem::path& path) {
   Recipe recipe;
-  return yaml::read_file(path, "a recipe", kMostRecipe_bytes,
+  return yaml::read_file(path, "a recipe", kMaxRecipe_bytes,
                          [&](const Node& document) { recipe = RecipeReader(path).read(document); })
       .map([&] { return std::move(recipe); });
 }

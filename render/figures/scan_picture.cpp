@@ -43,16 +43,16 @@ void add_axes(Page& page, const PlaneAxes& axes) {
   const double size = 11 * page.scale, gap = 6 * page.scale;
   const PixelRect& plot = axes.plot;
   marks.fill(plot, page.style.panel);
-  const int most_x = std::max(2, static_cast<int>(plot.width / (48 * page.scale))),
-            most_y = std::max(2, static_cast<int>(plot.height / (36 * page.scale)));
-  const Ticks xs = round_ticks(axes.from_x, axes.from_x + plot.width / axes.px_per_m, most_x);
+  const int max_x = std::max(2, static_cast<int>(plot.width / (48 * page.scale))),
+            max_y = std::max(2, static_cast<int>(plot.height / (36 * page.scale)));
+  const Ticks xs = round_ticks(axes.from_x, axes.from_x + plot.width / axes.px_per_m, max_x);
   for (std::size_t i = 0; i < xs.values.size(); ++i) {
     const double x = axes(xs.values[i], 0).x;
     marks.line({x, plot.top}, {x, plot.bottom()}, page.scale, page.style.grid);
     marks.add(TextMark{
         {x, plot.bottom() + gap}, xs.labels[i], size, page.style.faint_text, AlignX::kCentre, AlignY::kTop});
   }
-  const Ticks ys = round_ticks(axes.from_y, axes.from_y + plot.height / axes.px_per_m, most_y);
+  const Ticks ys = round_ticks(axes.from_y, axes.from_y + plot.height / axes.px_per_m, max_y);
   for (std::size_t i = 0; i < ys.values.size(); ++i) {
     const double y = axes(0, ys.values[i]).y;
     marks.line({plot.left, y}, {plot.right(), y}, page.scale, page.style.grid);

@@ -43,9 +43,9 @@ class GlfwWindow final : public Window {
   void present() override { glfwSwapBuffers(window_); }
   std::string renderer() const override { return is_current() ? renderer_of_current() : ""; }
 
-  void wait(double most_s) override {
-    if (most_s > 0)
-      glfwWaitEventsTimeout(most_s);
+  void wait(double max_s) override {
+    if (max_s > 0)
+      glfwWaitEventsTimeout(max_s);
     else
       glfwPollEvents();
   }

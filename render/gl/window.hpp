@@ -28,7 +28,7 @@ class Window : public Context {
   WindowEvents events;
 
   /// Lets events happen: waits for one, at most so long (0: not at all).
-  virtual void wait(double most_s) = 0;
+  virtual void wait(double max_s) = 0;
   virtual bool should_close() const = 0;
   /// Of the display: 1 at 100 %.
   virtual double scale() const = 0;

@@ -135,11 +135,10 @@ bool is_opaque(const Picture& picture) {
 
 Result<void> check_size(const Picture& picture) {
   const auto [least, greatest] = std::minmax(picture.width_px, picture.height_px);
-  if (least >= kLeastPictureSidePx && greatest <= kGreatestPictureSidePx) return {};
-  return failure(
-      ExitCode::kWrongUsage,
-      fmt::format("A picture of {} x {} pixels cannot be drawn: each side is {} to {} pixels",
-                  picture.width_px, picture.height_px, kLeastPictureSidePx, kGreatestPictureSidePx));
+  if (least >= kMinPictureSidePx && greatest <= kMaxPictureSidePx) return {};
+  return failure(ExitCode::kWrongUsage,
+                 fmt::format("A picture of {} x {} pixels cannot be drawn: each side is {} to {} pixels",
+                             picture.width_px, picture.height_px, kMinPictureSidePx, kMaxPictureSidePx));
 }
 
 int drawn_width_px(const Picture& picture) {

@@ -61,7 +61,7 @@ struct Picture {
   Drawing marks;
 };
 
-constexpr int kLeastPictureSidePx = 64, kGreatestPictureSidePx = 8000;
+constexpr int kMinPictureSidePx = 64, kMaxPictureSidePx = 8000;
 
 /// Says why a picture of that size cannot be drawn (ExitCode::kWrongUsage).
 Result<void> check_size(const Picture& picture);

@@ -10,7 +10,7 @@ namespace {
 
 /// As far as it lies in the view: a path may leave it and come back.
 void add_path(Drawing& drawing, const Projection& projection, const ScenePath& path) {
-  constexpr double kLeastStep_px = 2;
+  constexpr double kMinStep_px = 2;
   LineMark line{{}, path.width_px, path.colour};
   const auto finish = [&] {
     if (line.points.size() > 1) drawing.add(line);
@@ -19,7 +19,7 @@ void add_path(Drawing& drawing, const Projection& projection, const ScenePath& p
   std::optional<PixelPoint> last;  // none before the first point, and behind the camera
   for (const Eigen::Vector3d& point_m : path.points_m) {
     const auto at = projection(point_m);
-    if (last && at && std::hypot(at->x - last->x, at->y - last->y) < kLeastStep_px) continue;
+    if (last && at && std::hypot(at->x - last->x, at->y - last->y) < kMinStep_px) continue;
     const auto seen = last && at ? clip(*last, *at, projection.place()) : std::nullopt;
     if (seen) {
       if (line.points.empty()) line.points.push_back(seen->first);

@@ -16,7 +16,7 @@ namespace sweepscope {
 namespace {
 
 constexpr double kOff_s = 0.005;
-constexpr double kLeastRatio = 1.3;  // of a wall's widths: a face that shows no difference tells nothing
+constexpr double kMinRatio = 1.3;  // of a wall's widths: a face that shows no difference tells nothing
 
 /// The maps 5 ms off and at the answer, and the face between them that tells most.
 Result<void> add_maps(ReportContent& content, const PreparedRecording& prepared, const Job& job) {
@@ -39,8 +39,7 @@ Result<void> add_maps(ReportContent& content, const PreparedRecording& prepared,
   SectionSearch search;
   search.motor_axis = recording.rig.mount.axis;
   const auto found = best_section(on_paths, search);
-  if (found && found->widths_mm.at(0) > kLeastRatio * found->widths_mm.at(1))
-    content.section = found->section;
+  if (found && found->widths_mm.at(0) > kMinRatio * found->widths_mm.at(1)) content.section = found->section;
   return {};
 }
 

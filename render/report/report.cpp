@@ -123,10 +123,10 @@ std::string recorded(const RecordingSummary& summary) {
                       : 0;
   std::string rows =
       row("laser", fmt::format("{}: {} scans of {} beams, {:.1f} % of them usable, median range {:.2f} m",
-                               laser.topic, laser.used, laser.most_beams, usable, laser.median_range_m));
+                               laser.topic, laser.used, laser.max_beams, usable, laser.median_range_m));
   rows += stream_rows("laser", laser);
   rows += row("motor", fmt::format("{} on {}: {} samples, {:.1f} to {:.1f}°", motor.joint, motor.topic,
-                                   motor.used, motor.least_deg, motor.most_deg));
+                                   motor.used, motor.min_deg, motor.max_deg));
   rows += stream_rows("motor", motor);
   rows += row("sweeps",
               fmt::format("{} whole, {:.3f} s each, at {:.1f}°/s: 1 ms is {:.3g}°", motor.whole_sweeps(),

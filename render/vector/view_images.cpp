@@ -57,7 +57,7 @@ Result<std::vector<ViewImage>> view_images(const Picture& picture) {
   std::vector<ViewImage> images;
   if (picture.views.empty()) return images;
   const int longest = std::max(picture.width_px, picture.height_px),
-            factor = 2 * longest <= kGreatestPictureSidePx ? 2 : 1;
+            factor = 2 * longest <= kMaxPictureSidePx ? 2 : 1;
   const Result<Image> drawn = draw(scenes_of(picture, factor));
   if (!drawn) return tl::unexpected(drawn.error());
   const Surface whole = to_surface(*drawn);

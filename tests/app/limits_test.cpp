@@ -34,8 +34,8 @@ TEST_F(Limits, TooLittleMemoryNamesTheFile) {
   const char* const commands[] = {"map walk.bag --offset-ms 24 -o map.pcd --threads 1", "info walk.bag"};
   constexpr int kFirst_kB = 100'000, kStep_kB = 10'000, kLast_kB = 2'000'000;
   bool too_little = false, enough = false;
-  for (int most_kB = kFirst_kB; !enough && most_kB <= kLast_kB; most_kB += kStep_kB) {
-    const std::string limit = "ulimit -v " + std::to_string(most_kB);
+  for (int max_kB = kFirst_kB; !enough && max_kB <= kLast_kB; max_kB += kStep_kB) {
+    const std::string limit = "ulimit -v " + std::to_string(max_kB);
     // The libraries alone take much.
     if (run_after(limit, "--version").exit_code != 0) continue;
     enough = true;
@@ -137,9 +137,9 @@ TEST_F(Limits, WhatAKilledRunUnpackedIsRemovedByTheNext) {
   std::ofstream(folder_ / "room.mcap.zstd", std::ios::binary)
       << test::packed_by_zstd(test::contents_of(folder_ / "room.mcap"));
   fs::create_directory(folder_ / "tmp");
-  constexpr int kMostTries = 100;  // it may be done before it is seen
+  constexpr int kMaxTries = 100;  // it may be done before it is seen
   int tries = 0;
-  while (!killed_with_its_file(folder_)) ASSERT_LT(++tries, kMostTries);
+  while (!killed_with_its_file(folder_)) ASSERT_LT(++tries, kMaxTries);
   const Outcome next = run("info room.bag", "TMPDIR='" + (folder_ / "tmp").string() + "'");
   EXPECT_EQ(next.exit_code, 0) << next.err;
   EXPECT_TRUE(fs::is_empty(folder_ / "tmp"));

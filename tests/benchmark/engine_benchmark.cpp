@@ -34,7 +34,7 @@ double reference_kernel() {
 }
 
 double reference_s() {
-  static const double least_s = [] {
+  static const double min_s = [] {
     double fastest_s = std::numeric_limits<double>::infinity();
     for (int run = 0; run < 7; ++run) {
       const auto begin = std::chrono::steady_clock::now();
@@ -44,7 +44,7 @@ double reference_s() {
     }
     return fastest_s;
   }();
-  return least_s;
+  return min_s;
 }
 
 // A recording and what is known of it before any offset is tried.

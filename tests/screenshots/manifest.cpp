@@ -10,7 +10,7 @@ namespace {
 using YAML::Node;
 using yaml::read_list, yaml::read_members, yaml::read_text, yaml::refuse;
 
-constexpr std::uint64_t kMostManifest_bytes = std::uint64_t{1} << 20;
+constexpr std::uint64_t kMaxManifest_bytes = std::uint64_t{1} << 20;
 
 Screenshot read_screenshot(const std::string& name, const Node& node) {
   Screenshot picture;
@@ -76,7 +76,7 @@ Result<Manifest> read_manifest(const std::filesystem::path& path) {
       manifest.controls[name] = read_control(name, node, manifest);
     });
   };
-  return yaml::read_file(path, "a manifest", kMostManifest_bytes, read).map([&] {
+  return yaml::read_file(path, "a manifest", kMaxManifest_bytes, read).map([&] {
     return std::move(manifest);
   });
 }

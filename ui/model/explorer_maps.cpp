@@ -6,8 +6,8 @@
 namespace sweepscope::ui {
 namespace {
 
-constexpr double kRest_s = 0.15;       // after the last change, before all points are placed
-constexpr std::size_t kMostKept = 12;  // solved maps
+constexpr double kRest_s = 0.15;      // after the last change, before all points are placed
+constexpr std::size_t kMaxKept = 12;  // solved maps
 
 std::int64_t to_ns(double offset_s) {
   return static_cast<std::int64_t>(std::llround(offset_s * 1e9));
@@ -198,7 +198,7 @@ void Explorer::keep_solved(std::int64_t offset_ns, Result<SolvedMapPtr> solved) 
   const bool first = solved_.empty();
   solved_[offset_ns] = *solved;
   solved_order_.push_back(offset_ns);
-  if (solved_order_.size() > kMostKept) {
+  if (solved_order_.size() > kMaxKept) {
     solved_.erase(solved_order_.front());
     solved_order_.erase(solved_order_.begin());
   }

@@ -19,8 +19,8 @@ namespace {
 void find_intensities(Loaded& loaded) {
   std::vector<float> all = loaded.recording.intensities;
   if (all.empty()) return;
-  loaded.least_intensity = static_cast<double>(quantile(all, 0.01));
-  loaded.greatest_intensity = static_cast<double>(quantile(all, 0.99));
+  loaded.min_intensity = static_cast<double>(quantile(all, 0.01));
+  loaded.max_intensity = static_cast<double>(quantile(all, 0.99));
 }
 
 Result<LoadedPtr> finish(std::shared_ptr<Loaded> loaded, const Job& job) {

@@ -45,7 +45,7 @@ struct Loaded {
   std::optional<bool> moving;      // what the motion test said; empty: too short to tell
   std::optional<double> truth_s;   // of a simulation
   std::vector<StampedPose> poses;  // where the rig went, when that is known and is not to be solved for
-  double least_intensity = 0, greatest_intensity = 1;  // of nearly all beams
+  double min_intensity = 0, max_intensity = 1;  // of nearly all beams
 
   double duration_s() const {
     return recording.scans.empty()

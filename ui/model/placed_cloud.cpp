@@ -197,7 +197,7 @@ ColourSpan colour_span(ColourBy by, const Loaded& loaded, const SolvedMap* a, co
       return {std::min(first.z_m.from, second.z_m.from), std::max(first.z_m.to, second.z_m.to)};
     }
     case ColourBy::kIntensity:
-      return {loaded.least_intensity, loaded.greatest_intensity};
+      return {loaded.min_intensity, loaded.max_intensity};
     case ColourBy::kTime:
       return {0, std::max(loaded.duration_s(), 1e-3)};
     case ColourBy::kDirection:

@@ -10,7 +10,7 @@
 namespace sweepscope::ui {
 namespace {
 
-constexpr std::size_t kMostChosen = 60000;
+constexpr std::size_t kMaxChosen = 60000;
 
 std::vector<float> path_heights(const Recording& recording, const FixedPath& path) {
   std::vector<float> heights_m(recording.scans.size(), 0);
@@ -33,7 +33,7 @@ void describe_points(const Loaded& loaded, SolvedMap& map) {
   map.path_height_m = path_heights(loaded.recording, map.path);
   std::vector<std::array<float, 3>> places(loaded.beams.size());
   replace_points(loaded.beams, map.path, map.offset_s, places);
-  map.order = order_for_drawing(places, kMostChosen);
+  map.order = order_for_drawing(places, kMaxChosen);
   ComparedMap compared;
   compared.path = map.trajectory;
   auto cloud = MapCloud::Ptr(new MapCloud);

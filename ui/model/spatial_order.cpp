@@ -69,7 +69,7 @@ void choose(DrawOrder& order, const std::vector<MortonKey>& cubes) {
 
 }  // namespace
 
-DrawOrder order_for_drawing(std::span<const std::array<float, 3>> xyz_m, std::size_t most_chosen) {
+DrawOrder order_for_drawing(std::span<const std::array<float, 3>> xyz_m, std::size_t max_chosen) {
   std::vector<std::uint32_t> finite;
   finite.reserve(xyz_m.size());
   for (std::uint32_t i = 0; i < xyz_m.size(); ++i) {
@@ -81,17 +81,17 @@ DrawOrder order_for_drawing(std::span<const std::array<float, 3>> xyz_m, std::si
   const double finest_m = box.longest() * std::exp2(-kMortonBits);
   const std::vector<MortonKey> along_curve = along_morton_curve(xyz_m, finite, box.least, finest_m);
   for (const MortonKey& key : along_curve) order.all.push_back(key.index);
-  if (finite.size() <= most_chosen) {
+  if (finite.size() <= max_chosen) {
     choose(order, along_curve);
     return order;
   }
-  double edge_m = edge_for(along_curve, finest_m, most_chosen);
+  double edge_m = edge_for(along_curve, finest_m, max_chosen);
   do {
     order.chosen.clear();
     order.chosen_order.clear();
     choose(order, along_morton_curve(xyz_m, finite, box.least, edge_m));
     edge_m *= 1.1;
-  } while (order.chosen.size() > most_chosen);
+  } while (order.chosen.size() > max_chosen);
   return order;
 }
 

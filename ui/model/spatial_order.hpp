@@ -14,8 +14,8 @@ struct DrawOrder {
   std::vector<std::uint32_t> chosen_order;  // indices into `chosen`, along the curve
 };
 
-/// Points that are not finite are left out. At most `most_chosen` are chosen, and not many fewer, by cubes
+/// Points that are not finite are left out. At most `max_chosen` are chosen, and not many fewer, by cubes
 /// whose edge is found for that. The same for any number of threads.
-DrawOrder order_for_drawing(std::span<const std::array<float, 3>> xyz_m, std::size_t most_chosen);
+DrawOrder order_for_drawing(std::span<const std::array<float, 3>> xyz_m, std::size_t max_chosen);
 
 }  // namespace sweepscope::ui

@@ -8,8 +8,8 @@
 namespace sweepscope::ui {
 namespace {
 
-constexpr double kMostReach_m = 25;       // a wall is asked for, not a town
-constexpr std::size_t kMostDrawn = 2000;  // more than a chart is pixels wide
+constexpr double kMaxReach_m = 25;       // a wall is asked for, not a town
+constexpr std::size_t kMaxDrawn = 2000;  // more than a chart is pixels wide
 
 void add(Chart& chart, const Profile& profile, const char* name, Colour colour) {
   ChartSeries series;
@@ -18,7 +18,7 @@ void add(Chart& chart, const Profile& profile, const char* name, Colour colour) 
   series.marker = MarkerShape::kNone;
   series.filled = true;
   const auto& densities = profile.density_per_mm;
-  const std::size_t stride = densities.size() / kMostDrawn + 1;
+  const std::size_t stride = densities.size() / kMaxDrawn + 1;
   for (std::size_t i = 0; i < densities.size(); i += stride) {
     const auto first = densities.begin() + static_cast<std::ptrdiff_t>(i);
     const auto last = densities.begin() + static_cast<std::ptrdiff_t>(std::min(i + stride, densities.size()));
@@ -45,7 +45,7 @@ std::optional<CrossSection> section_of(const Settings& settings) {
   section.length_m = 0.5;
   section.from_m = -100;
   section.to_m = 100;
-  section.reach_m = std::min(along_m.norm() / 2, kMostReach_m);
+  section.reach_m = std::min(along_m.norm() / 2, kMaxReach_m);
   return section;
 }
 

@@ -25,14 +25,13 @@ void recording_rows(const PaneContext& context, const Loaded& loaded) {
       fmt::format("{:.1f} s, the rig {}", laser.duration_s,
                   summary.motion ? "was " + *summary.motion : "perhaps moved"));
   row(context, "laser",
-      fmt::format("{} scans of {} beams, {:.1f} Hz", laser.used, laser.most_beams, rate_hz(laser)));
+      fmt::format("{} scans of {} beams, {:.1f} Hz", laser.used, laser.max_beams, rate_hz(laser)));
   const double usable =
       laser.beams > 0 ? 100.0 * static_cast<double>(laser.usable_beams) / static_cast<double>(laser.beams)
                       : 0;
   row(context, "ranges", fmt::format("{:.0f} % usable, median {:.1f} m", usable, laser.median_range_m));
   row(context, "motor",
-      fmt::format("{:.0f}° to {:.0f}°, {} whole sweeps{}", motor.least_deg, motor.most_deg,
-                  motor.whole_sweeps(),
+      fmt::format("{:.0f}° to {:.0f}°, {} whole sweeps{}", motor.min_deg, motor.max_deg, motor.whole_sweeps(),
                   motor.median_sweep_s > 0 ? fmt::format(" of {:.2f} s", motor.median_sweep_s) : ""));
   row(context, "speed",
       fmt::format("{:.0f} °/s: 1 ms is {:.2f}°", motor.median_speed_deg_s, motor.deg_per_ms()));

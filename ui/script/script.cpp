@@ -57,7 +57,7 @@ class Words {
 
 class Runner {
  public:
-  Runner(Ui& ui, double most_s) : ui_(ui), most_s_(most_s) {}
+  Runner(Ui& ui, double max_s) : ui_(ui), max_s_(max_s) {}
 
   Result<void> run(const Script::Line& line) {
     using Step = Result<void> (Runner::*)(Words&);
@@ -89,7 +89,7 @@ class Runner {
     auto done = ui_.explorer().perform(line);
     settle();
     if (!done) return done;
-    done = wait_until([&] { return !ui_.explorer().is_exporting(); }, "the file", most_s_);
+    done = wait_until([&] { return !ui_.explorer().is_exporting(); }, "the file", max_s_);
     if (auto why = ui_.explorer().take_export_failure()) return tl::unexpected(*why);
     return done;
   }
@@ -242,7 +242,7 @@ class Runner {
     std::mt19937 random(static_cast<std::uint32_t>(*seed));
     for (int i = 0; i < static_cast<int>(*actions); ++i) wander_once(random);
     // A file that could not be written was told in the window, as a person is told: no fault of the script's.
-    auto done = wait_until([&] { return !ui_.explorer().is_exporting(); }, "the file", most_s_);
+    auto done = wait_until([&] { return !ui_.explorer().is_exporting(); }, "the file", max_s_);
     (void)ui_.explorer().take_export_failure();
     return done;
   }
@@ -287,12 +287,12 @@ class Runner {
     }
   }
 
-  Result<void> wait_until(const std::function<bool()>& there, const std::string& what, double most_s) {
+  Result<void> wait_until(const std::function<bool()>& there, const std::string& what, double max_s) {
     const auto begin = std::chrono::steady_clock::now();
     while (!there()) {
       ui_.frame({}, kFrame_s);
-      if (std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() > most_s)
-        return unmet(fmt::format("{} did not come within {} s", what, most_s));
+      if (std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() > max_s)
+        return unmet(fmt::format("{} did not come within {} s", what, max_s));
       if (ui_.explorer().background().busy())
         std::this_thread::sleep_for(std::chrono::milliseconds(25));  // the work comes first
     }
@@ -303,13 +303,13 @@ class Runner {
   Result<void> wait(Words& words) {
     const Explorer& explorer = ui_.explorer();
     const std::string what = words.take();
-    const double most_s = words.any() ? number(words.take()).value_or(most_s_) : most_s_;
-    if (what == "loaded") return wait_until([&] { return !explorer.is_loading(); }, what, most_s);
+    const double max_s = words.any() ? number(words.take()).value_or(max_s_) : max_s_;
+    if (what == "loaded") return wait_until([&] { return !explorer.is_loading(); }, what, max_s);
     if (what == "estimated")
-      return wait_until([&] { return !explorer.background().has("estimate"); }, what, most_s);
+      return wait_until([&] { return !explorer.background().has("estimate"); }, what, max_s);
     if (what != "solved") return wrong("wait loaded, wait estimated or wait solved");
     ui_.frame({}, kFrame_s);
-    return wait_until([&] { return explorer.at_rest() && ui_.pictures_done(); }, what, most_s);
+    return wait_until([&] { return explorer.at_rest() && ui_.pictures_done(); }, what, max_s);
   }
 
   /// The interface as it is, its pictures drawn to the end.
@@ -364,7 +364,7 @@ class Runner {
   }
 
   Ui& ui_;
-  double most_s_;
+  double max_s_;
 };
 
 }  // namespace
@@ -384,8 +384,8 @@ Result<Script> parse_script(std::string_view text, std::string_view name, bool s
   return script;
 }
 
-Result<void> run_script(Ui& ui, const Script& script, double most_s) {
-  Runner runner(ui, most_s);
+Result<void> run_script(Ui& ui, const Script& script, double max_s) {
+  Runner runner(ui, max_s);
   ui.frame({}, kFrame_s);
   for (const Script::Line& line : script.lines) {
     const auto done = runner.run(line);

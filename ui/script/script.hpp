@@ -23,10 +23,10 @@ struct Script {
 /// Lines end at a line's end, and at ";" where `semicolons`.
 Result<Script> parse_script(std::string_view text, std::string_view name, bool semicolons = false);
 
-/// Runs it with frames of 1/60 s, at most `most_s` for each wait. The first line that fails ends it with one
+/// Runs it with frames of 1/60 s, at most `max_s` for each wait. The first line that fails ends it with one
 /// sentence that names file and line: ExitCode::kImageDiffers for an expectation, kWrongUsage for a line that
 /// cannot be understood, else what the command failed with.
-Result<void> run_script(Ui& ui, const Script& script, double most_s = 600);
+Result<void> run_script(Ui& ui, const Script& script, double max_s = 600);
 
 /// The lines that there are, for `view --help`.
 std::string script_help();

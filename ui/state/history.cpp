@@ -3,7 +3,7 @@
 namespace sweepscope::ui {
 namespace {
 
-constexpr std::size_t kMostSteps = 200;
+constexpr std::size_t kMaxSteps = 200;
 
 Settings move_between(std::vector<Settings>& from, std::vector<Settings>& to, const Settings& now) {
   if (from.empty()) return now;
@@ -20,7 +20,7 @@ void History::record(const Settings& before, const std::string& gesture) {
   if (!gesture.empty() && gesture == gesture_ && !past_.empty()) return;
   gesture_ = gesture;
   past_.push_back(before);
-  if (past_.size() > kMostSteps) past_.erase(past_.begin());
+  if (past_.size() > kMaxSteps) past_.erase(past_.begin());
 }
 
 Settings History::undo(const Settings& now) {

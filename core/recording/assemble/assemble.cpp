@@ -30,10 +30,10 @@ bool usable_increment(double increment_s) {
 /// Refuses a scan of more beams than can be told apart.
 std::optional<Error> too_many_beams(const RawRecording& raw, const RawLaser& laser) {
   for (std::size_t i = 0; i < laser.scans.size(); ++i) {
-    if (laser.scans[i].beams <= kMostBeamsAScan) continue;
+    if (laser.scans[i].beams <= kMaxBeamsAScan) continue;
     return Error{ExitCode::kUnreadableInput,
                  fmt::format("{}: scan {} on {} has {} beams, and at most {} a scan are read", raw.file,
-                             i + 1, laser.topic, laser.scans[i].beams, kMostBeamsAScan)};
+                             i + 1, laser.topic, laser.scans[i].beams, kMaxBeamsAScan)};
   }
   return std::nullopt;
 }
@@ -162,7 +162,7 @@ bool ScanAssembler::assemble() {
 /// Drivers have many units for the times of points. One misread shows, since a cloud takes about as long as
 /// from it to the next: false where it takes another time altogether.
 bool ScanAssembler::check_cloud_times(const std::vector<LaserScan>& lines) {
-  constexpr double kLeastPart = 0.02, kMostPart = 50;
+  constexpr double kMinPart = 0.02, kMaxPart = 50;
   const std::uint16_t ring = std::ranges::min(lines, {}, &LaserScan::ring).ring;
   std::vector<double> times_s, spans_s;
   for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -173,7 +173,7 @@ bool ScanAssembler::check_cloud_times(const std::vector<LaserScan>& lines) {
   std::ranges::sort(times_s);
   const double period_s = spacing(times_s, kScanGapFactor).median_s, span_s = median(spans_s);
   if (times_s.size() < 3 || !(period_s > 0)) return true;
-  if (span_s > kLeastPart * period_s && span_s < kMostPart * period_s) return true;
+  if (span_s > kMinPart * period_s && span_s < kMaxPart * period_s) return true;
   cloud_problem_ = fmt::format(
       "by their points' times clouds take {:.3g} s, and they follow every {:.3g} s: the times are in no unit "
       "that is known",
@@ -201,7 +201,7 @@ void ScanAssembler::order_lines(std::vector<LaserScan>& lines) {
 
 /// Marks what is no range with NaN, and counts it by its kind.
 void ScanAssembler::clean(const RawScan& raw, std::span<float> ranges_m) {
-  const float most_m = raw.range_max_m > 0 ? raw.range_max_m : std::numeric_limits<float>::infinity();
+  const float max_m = raw.range_max_m > 0 ? raw.range_max_m : std::numeric_limits<float>::infinity();
   constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
   for (float& range_m : ranges_m) {
     if (std::isnan(range_m)) {
@@ -212,7 +212,7 @@ void ScanAssembler::clean(const RawScan& raw, std::span<float> ranges_m) {
     } else if (range_m == 0) {
       ++report_.zero_ranges;
       range_m = kNothing;
-    } else if (range_m < 0 || range_m < raw.range_min_m || range_m > most_m) {
+    } else if (range_m < 0 || range_m < raw.range_min_m || range_m > max_m) {
       ++report_.out_of_range_ranges;
       range_m = kNothing;
     }

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kLongestTimeIncrement_s = 1.0;
 constexpr double kAlike = 1.25, kSameTime = 1.1;
-constexpr int kMostTurns = 10;  // of the mirror from one scan to the next
+constexpr int kMaxTurns = 10;  // of the mirror from one scan to the next
 constexpr double kFullTurn = 2 * std::numbers::pi;
 
 bool usable(double increment_s) {
@@ -26,9 +26,9 @@ bool alike(double a, double b, double factor = kAlike) {
 
 /// One of a driver that leaves out scans may be a turn of the mirror.
 bool plausible_scan_time(double scan_time_s, double period_s) {
-  if (!usable(scan_time_s / kMostTurns)) return false;
+  if (!usable(scan_time_s / kMaxTurns)) return false;
   if (!(period_s > 0)) return true;
-  for (int turns = 1; turns <= kMostTurns; ++turns)
+  for (int turns = 1; turns <= kMaxTurns; ++turns)
     if (alike(turns * scan_time_s, period_s)) return true;
   return false;
 }
@@ -41,7 +41,7 @@ IncrementFinding finding_of(const RawScan& scan, double period_s) {
   const double of_mirror_s = period_s * turns_a_beam;
   if (alike(increment_s, of_mirror_s)) return IncrementFinding::kSound;
   bool skips = false;
-  for (int turns = 2; turns <= kMostTurns; ++turns) {
+  for (int turns = 2; turns <= kMaxTurns; ++turns) {
     if (alike(turns * scan_time_s, period_s, kSameTime) && alike(increment_s, scan_time_s * turns_a_beam))
       return IncrementFinding::kSound;
     skips = skips || alike(turns * increment_s, of_mirror_s);
@@ -84,14 +84,14 @@ BeamTimes judge_beam_times(const RawScan& scan, double period_s, std::optional<d
 }
 
 double scan_period_s(const std::vector<RawScan>& scans, StampSource stamps) {
-  constexpr std::size_t kFewestSpacings = 8;
+  constexpr std::size_t kMinSpacings = 8;
   std::vector<std::int64_t> all_ns;
   all_ns.reserve(scans.size());
   for (const RawScan& scan : scans)
     if (const std::int64_t ns = stamp_ns(scan.stamps, stamps); ns != 0) all_ns.push_back(ns);
   std::ranges::sort(all_ns);
   all_ns.erase(std::ranges::unique(all_ns).begin(), all_ns.end());
-  if (all_ns.size() <= kFewestSpacings) return 0;
+  if (all_ns.size() <= kMinSpacings) return 0;
   std::vector<double> times_s;
   times_s.reserve(all_ns.size());
   for (const std::int64_t ns : all_ns) times_s.push_back(static_cast<double>(ns - all_ns.front()) * 1e-9);

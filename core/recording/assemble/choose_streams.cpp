@@ -11,8 +11,8 @@
 namespace sweepscope {
 namespace {
 
-constexpr double kLeastMotion_deg = 1.0;
-constexpr std::size_t kMostListed = 40;
+constexpr double kMinMotion_deg = 1.0;
+constexpr std::size_t kMaxListed = 40;
 
 double turn_deg(const RawJoint& joint, const Rig& rig) {
   double least = HUGE_VAL, most = -HUGE_VAL;
@@ -28,8 +28,8 @@ double turn_deg(const RawJoint& joint, const Rig& rig) {
 /// An indented line per choice, the first ones where there are many.
 std::string list_of(const std::vector<std::string>& lines) {
   std::string list;
-  for (std::size_t i = 0; i < lines.size() && i < kMostListed; ++i) list += "\n    " + lines[i];
-  if (lines.size() > kMostListed) list += fmt::format("\n    and {} more", lines.size() - kMostListed);
+  for (std::size_t i = 0; i < lines.size() && i < kMaxListed; ++i) list += "\n    " + lines[i];
+  if (lines.size() > kMaxListed) list += fmt::format("\n    and {} more", lines.size() - kMaxListed);
   return list;
 }
 
@@ -132,7 +132,7 @@ Result<std::size_t> choose_joint(const RawRecording& raw, const Rig& rig) {
   }
   if (!rig.motor.topic) keep_best_source(raw, usable);
   for (const std::size_t i : usable)
-    if (turn_deg(raw.joints[i], rig) > kLeastMotion_deg) moving.push_back(i);
+    if (turn_deg(raw.joints[i], rig) > kMinMotion_deg) moving.push_back(i);
   if (moving.size() == 1) return moving.front();
   if (moving.empty() && usable.size() == 1) return usable.front();
   if (!usable.empty()) {

@@ -81,9 +81,9 @@ class Cells {
     return text.empty() ? otherwise : std::string(text);
   }
   void refuse(std::size_t column, std::string_view text, std::string_view why) {
-    constexpr std::size_t kMostQuoted = 40;
+    constexpr std::size_t kMaxQuoted = 40;
     if (problem_.empty())
-      problem_ = fmt::format("{}: \"{}\" {}", table_.place(column), text.substr(0, kMostQuoted), why);
+      problem_ = fmt::format("{}: \"{}\" {}", table_.place(column), text.substr(0, kMaxQuoted), why);
   }
   const std::string& problem() const { return problem_; }
 

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t kBlock_bytes = std::size_t{1} << 18;
 constexpr std::size_t kLongestLine_bytes = std::size_t{1} << 26;
-constexpr std::size_t kMostColumns = 1000;
+constexpr std::size_t kMaxColumns = 1000;
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 }  // namespace
@@ -62,7 +62,7 @@ bool CsvTable::split_line() {
     } else if (c == '"') {
       quoted = !quoted;
     } else if (c == ',' && !quoted) {
-      if (count > kMostColumns) break;
+      if (count > kMaxColumns) break;
       cell = &next_cell();
     } else {
       *cell += c;
@@ -97,7 +97,7 @@ Result<CsvTable> CsvTable::of_lines(std::string name, std::string_view first_lin
 /// Of the present line, the first.
 Result<void> CsvTable::name_columns() {
   if (line_.starts_with(kByteOrderMark)) line_.erase(0, kByteOrderMark.size());
-  if (!split_line() || cells_.size() > kMostColumns)
+  if (!split_line() || cells_.size() > kMaxColumns)
     return unreadable(fmt::format("{} does not name columns", place()));
   columns_ = cells_;
   for (auto name = columns_.begin(); name != columns_.end(); ++name) {

@@ -34,12 +34,12 @@ JointSource source_of(MessageKind kind) {
 }  // namespace
 
 std::optional<Error> too_much(const std::string& file, std::size_t beams, std::size_t joint_samples) {
-  if (beams <= kMostBeams && joint_samples <= kMostJointSamples) return std::nullopt;
-  const bool of_beams = beams > kMostBeams;
+  if (beams <= kMaxBeams && joint_samples <= kMaxJointSamples) return std::nullopt;
+  const bool of_beams = beams > kMaxBeams;
   return Error{ExitCode::kUnreadableInput,
                fmt::format("{}: holds more than {} {}, more than are read at once; cut it into parts, or "
                            "name the topic{} in a rig file",
-                           file, of_beams ? kMostBeams : kMostJointSamples,
+                           file, of_beams ? kMaxBeams : kMaxJointSamples,
                            of_beams ? "beams" : "joint samples", of_beams ? "" : " and joint")};
 }
 
@@ -83,7 +83,7 @@ std::size_t MessageCollector::number_of(const Topic& topic) {
 /// Empty, which no message is, where it is damaged.
 Result<std::span<const std::byte>> MessageCollector::unpacked(std::span<const std::byte> message) {
   const std::uint64_t most =
-      limit_ != nullptr ? limit_->most(kMostPackedMessage_bytes) : kMostPackedMessage_bytes;
+      limit_ != nullptr ? limit_->most(kMaxPackedMessage_bytes) : kMaxPackedMessage_bytes;
   const Decompressed plain = decompress(Compression::kZstd, message, most, unpacked_);
   if (limit_ != nullptr)
     if (auto error = limit_->take(plain.bytes.size() + (plain.too_long ? 1 : 0)))
@@ -109,11 +109,11 @@ std::optional<Error> MessageCollector::add(std::size_t topic, std::int64_t recei
                      : is_motion(entry.type->kind)               ? add_motion(entry, receive_ns, message)
                                                                  : add_joints(entry, receive_ns, message);
   if (!whole && counts.malformed++ == 0) entry.first_malformed = place();
-  if (cloud_bytes_ > kMostCloudBytes)
+  if (cloud_bytes_ > kMaxCloudBytes)
     return Error{ExitCode::kUnreadableInput,
                  fmt::format("{}: holds more than {} GiB of clouds, more than are converted at once; cut it "
                              "into parts, or name the topic in a rig file",
-                             raw_.file, kMostCloudBytes >> 30)};
+                             raw_.file, kMaxCloudBytes >> 30)};
   return too_much(raw_.file, beams_, joint_samples_);
 }
 
@@ -209,7 +209,7 @@ bool MessageCollector::add_motion(const Entry& entry, std::int64_t receive_ns,
 
 bool MessageCollector::add_frames(const Entry& entry, std::int64_t receive_ns,
                                   std::span<const std::byte> message) {
-  constexpr std::size_t kMostFrames = 4096;
+  constexpr std::size_t kMaxFrames = 4096;
   if (!decode_transforms(entry.topic.encoding, message, transforms_)) return false;
   for (const DecodedTransform& decoded : transforms_) {
     if (!decoded.rotation.coeffs().allFinite() || !(decoded.rotation.norm() > 0.5)) continue;
@@ -217,7 +217,7 @@ bool MessageCollector::add_frames(const Entry& entry, std::int64_t receive_ns,
         {decoded.header_ns, receive_ns}, decoded.rotation.normalized(), decoded.translation_m};
     auto found = frames_.find(decoded.child);
     if (found == frames_.end()) {
-      if (raw_.frames.size() == kMostFrames) continue;
+      if (raw_.frames.size() == kMaxFrames) continue;
       found = frames_.emplace(decoded.child, raw_.frames.size()).first;
       raw_.frames.push_back({std::string(decoded.parent), std::string(decoded.child), pose, pose});
     }

@@ -19,12 +19,12 @@ namespace sweepscope {
 
 /// A file or topic holds no more than this of what is kept, so that a small file of highly compressed
 /// messages cannot fill the memory.
-inline constexpr std::size_t kMostBeams = std::size_t{1} << 29;
-inline constexpr std::size_t kMostJointSamples = std::size_t{1} << 27;
+inline constexpr std::size_t kMaxBeams = std::size_t{1} << 29;
+inline constexpr std::size_t kMaxJointSamples = std::size_t{1} << 27;
 /// A message that is packed holds no more than this.
-inline constexpr std::size_t kMostPackedMessage_bytes = std::size_t{1} << 28;
+inline constexpr std::size_t kMaxPackedMessage_bytes = std::size_t{1} << 28;
 /// Where clouds are kept whole, of their bytes.
-inline constexpr std::size_t kMostCloudBytes = std::size_t{1} << 33;
+inline constexpr std::size_t kMaxCloudBytes = std::size_t{1} << 33;
 
 /// The refusal of a file that holds more beams or joint samples than that; empty where it does not.
 std::optional<Error> too_much(const std::string& file, std::size_t beams, std::size_t joint_samples);

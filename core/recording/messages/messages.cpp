@@ -236,14 +236,14 @@ double DecodedCloud::value(std::size_t point, const CloudField& field) const {
 }
 
 std::optional<DecodedCloud> decode_cloud(Encoding encoding, std::span<const std::byte> message) {
-  constexpr std::uint32_t kMostFields = 256;
+  constexpr std::uint32_t kMaxFields = 256;
   Cursor cursor(encoding, message);
   DecodedCloud cloud;
   cloud.header_ns = cursor.header_ns(&cloud.frame);
   cloud.height = cursor.number<std::uint32_t>();
   cloud.width = cursor.number<std::uint32_t>();
   const auto fields = cursor.number<std::uint32_t>();
-  if (fields > kMostFields) return std::nullopt;
+  if (fields > kMaxFields) return std::nullopt;
   for (std::uint32_t i = 0; i < fields && cursor.whole(); ++i) {
     CloudField& field = cloud.fields.emplace_back();
     field.name = cursor.text();

@@ -12,9 +12,9 @@ namespace sweepscope {
 namespace {
 
 constexpr double kSlice_s = 0.010;
-constexpr std::uint32_t kMostRings = 1024;
-constexpr std::uint32_t kMostBeams_a_line = 60'000;  // features count beams in 16 bits
-constexpr std::size_t kSparsest = 8;                 // steps of the time's grid per point, at the most
+constexpr std::uint32_t kMaxRings = 1024;
+constexpr std::uint32_t kMaxBeams_a_line = 60'000;  // features count beams in 16 bits
+constexpr std::size_t kSparsest = 8;                // steps of the time's grid per point, at the most
 
 /// The first of the names that the cloud has, with a datatype that is a number.
 const CloudField* field_of(const DecodedCloud& cloud, std::initializer_list<std::string_view> names) {
@@ -56,13 +56,13 @@ double angle_between_rad(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
 /// are.
 template <typename Points>
 std::string no_line(const Points& points) {
-  constexpr double kMostApart_rad = 3 * std::numbers::pi / 180;
+  constexpr double kMaxApart_rad = 3 * std::numbers::pi / 180;
   constexpr double kOneBeam_rad = 0.1 * kRadPerDeg;  // further returns of it come at its time
   std::size_t apart = 0;
   for (std::size_t i = 1; i < points.size(); ++i) {
     const bool at_once = points[i].time == points[i - 1].time;
-    const double most_rad = at_once ? kOneBeam_rad : kMostApart_rad;
-    if (angle_between_rad(points[i - 1].p_m, points[i].p_m) > most_rad) ++apart;
+    const double max_rad = at_once ? kOneBeam_rad : kMaxApart_rad;
+    if (angle_between_rad(points[i - 1].p_m, points[i].p_m) > max_rad) ++apart;
   }
   if (4 * apart < points.size()) return "";
   return "its points have no field that says which beam each is of (ring, line or channel), and neighbours "
@@ -92,7 +92,7 @@ bool CloudReader::read_points(const DecodedCloud& cloud) {
     if (!point.p_m.allFinite() || point.p_m.isZero() || !std::isfinite(point.time)) continue;
     if (ring != nullptr) {
       const double number = cloud.value(i, *ring);
-      if (!(number >= 0 && number < kMostRings)) continue;
+      if (!(number >= 0 && number < kMaxRings)) continue;
       point.ring = static_cast<std::uint32_t>(number);
     }
     if (intensity != nullptr) point.intensity = static_cast<float>(cloud.value(i, *intensity));
@@ -128,7 +128,7 @@ std::size_t CloudReader::beams_before(double azimuth_rad, double step_rad) {
   if (!cut_rad_) cut_rad_ = azimuth_rad - std::copysign(kMargin_rad, step_rad);
   const double since_cut_rad = step_rad > 0 ? azimuth_rad - *cut_rad_ : *cut_rad_ - azimuth_rad;
   const double turned_rad = std::fmod(since_cut_rad + 2 * kTurn, kTurn);
-  return static_cast<std::size_t>(std::min(turned_rad / std::abs(step_rad), double{kMostBeams_a_line} / 2));
+  return static_cast<std::size_t>(std::min(turned_rad / std::abs(step_rad), double{kMaxBeams_a_line} / 2));
 }
 
 /// The points of one line, ascending in time. `origin`: the time of the stamp, as points' times are recorded.
@@ -136,8 +136,7 @@ void CloudReader::add_line(std::span<const Point> points, const RawScan& common,
                            RawLaser& laser) {
   double step = median_step(points), last_time = points.empty() ? 0 : points.front().time;
   if (points.size() < 3 || !(step > 0)) return;
-  const double most_steps =
-      std::min(double{kMostBeams_a_line}, static_cast<double>(kSparsest * points.size()));
+  const double max_steps = std::min(double{kMaxBeams_a_line}, static_cast<double>(kSparsest * points.size()));
   RawScan line = common;
   line.first_range = laser.ranges_m.size();
   std::vector<Eigen::Vector3f> directions;
@@ -150,7 +149,7 @@ void CloudReader::add_line(std::span<const Point> points, const RawScan& common,
     if (!beams.empty() && steps < 1) continue;  // a second return
     place += steps;
     before_time = point.time;
-    if (place >= most_steps) break;
+    if (place >= max_steps) break;
     const auto beam = static_cast<std::uint32_t>(place);
     last_time = point.time;
     ranges_m.resize(beam, std::nanf(""));
@@ -211,7 +210,7 @@ bool CloudReader::add(Encoding encoding, std::span<const std::byte> message, std
   if (!has_ring_)
     for (Point& point : points_)
       point.ring = static_cast<std::uint32_t>(
-          std::min(std::floor((point.time - first.time) / slice), double{kMostRings - 1}));
+          std::min(std::floor((point.time - first.time) / slice), double{kMaxRings - 1}));
   for (auto begin = points_.begin(); begin != points_.end();) {
     const auto end =
         std::find_if(begin, points_.end(), [&](const Point& p) { return p.ring != begin->ring; });

@@ -17,31 +17,31 @@ constexpr std::size_t kFirstBuffer_bytes = std::size_t{1} << 20;
 /// nothing.
 class Output {
  public:
-  Output(std::vector<std::byte>& buffer, std::size_t most_bytes) : buffer_(buffer), most_bytes_(most_bytes) {}
+  Output(std::vector<std::byte>& buffer, std::size_t max_bytes) : buffer_(buffer), max_bytes_(max_bytes) {}
 
   std::span<std::byte> free_space() {
     if (used_ == buffer_.size()) {
-      const std::size_t bytes = std::min(most_bytes_, std::max(kFirstBuffer_bytes, 2 * buffer_.size()));
+      const std::size_t bytes = std::min(max_bytes_, std::max(kFirstBuffer_bytes, 2 * buffer_.size()));
       buffer_.reserve(bytes);  // exactly, where resize() alone would take up to twice what was there
       buffer_.resize(bytes);
     }
-    return std::span(buffer_).first(std::min(buffer_.size(), most_bytes_)).subspan(used_);
+    return std::span(buffer_).first(std::min(buffer_.size(), max_bytes_)).subspan(used_);
   }
   void take(std::size_t bytes) { used_ += bytes; }
-  bool full() const { return used_ == most_bytes_; }
+  bool full() const { return used_ == max_bytes_; }
   std::span<const std::byte> bytes() const { return std::span(buffer_).first(used_); }
 
  private:
   std::vector<std::byte>& buffer_;
-  std::size_t most_bytes_;
+  std::size_t max_bytes_;
   std::size_t used_ = 0;
 };
 
-std::string too_long(std::size_t most_bytes) {
-  return fmt::format("it unpacks to more than {} bytes", most_bytes);
+std::string too_long(std::size_t max_bytes) {
+  return fmt::format("it unpacks to more than {} bytes", max_bytes);
 }
 
-Decompressed unpack_bz2(std::span<const std::byte> block, std::size_t most_bytes,
+Decompressed unpack_bz2(std::span<const std::byte> block, std::size_t max_bytes,
                         std::vector<std::byte>& buffer) {
   bz_stream stream{};
   if (BZ2_bzDecompressInit(&stream, 0, 0) != BZ_OK) return {{}, "bz2 could not be started"};
@@ -49,7 +49,7 @@ Decompressed unpack_bz2(std::span<const std::byte> block, std::size_t most_bytes
   // libbz2 reads from next_in only, though its type does not say so.
   stream.next_in = const_cast<char*>(reinterpret_cast<const char*>(block.data()));
   stream.avail_in = static_cast<unsigned>(block.size());
-  Output output(buffer, most_bytes);
+  Output output(buffer, max_bytes);
   while (true) {
     // Once full, one byte more tells an end that is due from a block that is longer than it may be.
     char overflow = 0;
@@ -60,7 +60,7 @@ Decompressed unpack_bz2(std::span<const std::byte> block, std::size_t most_bytes
     stream.avail_out = static_cast<unsigned>(space.size());
     const int code = BZ2_bzDecompress(&stream);
     const std::size_t written = space.size() - stream.avail_out;
-    if (full && written > 0) return {output.bytes(), too_long(most_bytes), true};
+    if (full && written > 0) return {output.bytes(), too_long(max_bytes), true};
     output.take(written);
     if (code == BZ_STREAM_END) return {output.bytes(), ""};
     if (code != BZ_OK) return {output.bytes(), "its bz2 data is damaged"};
@@ -68,14 +68,14 @@ Decompressed unpack_bz2(std::span<const std::byte> block, std::size_t most_bytes
   }
 }
 
-Decompressed unpack_lz4(std::span<const std::byte> block, std::size_t most_bytes,
+Decompressed unpack_lz4(std::span<const std::byte> block, std::size_t max_bytes,
                         std::vector<std::byte>& buffer) {
   LZ4F_dctx* context = nullptr;
   if (LZ4F_isError(LZ4F_createDecompressionContext(&context, LZ4F_VERSION)))
     return {{}, "lz4 could not be started"};
   const std::unique_ptr<LZ4F_dctx, LZ4F_errorCode_t (*)(LZ4F_dctx*)> end(context,
                                                                          LZ4F_freeDecompressionContext);
-  Output output(buffer, most_bytes);
+  Output output(buffer, max_bytes);
   while (true) {
     char overflow = 0;
     const bool full = output.full();
@@ -86,7 +86,7 @@ Decompressed unpack_lz4(std::span<const std::byte> block, std::size_t most_bytes
     // Not LZ4F_decompressOptions_t::stableDst: the buffer moves as it grows.
     const std::size_t hint = LZ4F_decompress(context, space.data(), &written, block.data(), &eaten, nullptr);
     if (LZ4F_isError(hint)) return {output.bytes(), "its lz4 data is damaged"};
-    if (full && written > 0) return {output.bytes(), too_long(most_bytes), true};
+    if (full && written > 0) return {output.bytes(), too_long(max_bytes), true};
     output.take(written);
     block = block.subspan(eaten);
     if (hint == 0) return {output.bytes(), ""};
@@ -94,11 +94,11 @@ Decompressed unpack_lz4(std::span<const std::byte> block, std::size_t most_bytes
   }
 }
 
-Decompressed unpack_zstd(std::span<const std::byte> block, std::size_t most_bytes,
+Decompressed unpack_zstd(std::span<const std::byte> block, std::size_t max_bytes,
                          std::vector<std::byte>& buffer) {
   const std::unique_ptr<ZSTD_DCtx, std::size_t (*)(ZSTD_DCtx*)> context(ZSTD_createDCtx(), ZSTD_freeDCtx);
   if (!context) return {{}, "zstd could not be started"};
-  Output output(buffer, most_bytes);
+  Output output(buffer, max_bytes);
   ZSTD_inBuffer input{block.data(), block.size(), 0};
   while (true) {
     char overflow = 0;
@@ -109,7 +109,7 @@ Decompressed unpack_zstd(std::span<const std::byte> block, std::size_t most_byte
     const std::size_t eaten_before = input.pos;
     const std::size_t hint = ZSTD_decompressStream(context.get(), &written, &input);
     if (ZSTD_isError(hint)) return {output.bytes(), "its zstd data is damaged"};
-    if (full && written.pos > 0) return {output.bytes(), too_long(most_bytes), true};
+    if (full && written.pos > 0) return {output.bytes(), too_long(max_bytes), true};
     output.take(written.pos);
     if (hint == 0 && input.pos == input.size) return {output.bytes(), ""};
     if (input.pos == eaten_before && written.pos == 0)
@@ -126,17 +126,17 @@ std::optional<Compression> compression_named(std::string_view name) {
   return std::nullopt;
 }
 
-Decompressed decompress(Compression compression, std::span<const std::byte> block, std::size_t most_bytes,
+Decompressed decompress(Compression compression, std::span<const std::byte> block, std::size_t max_bytes,
                         std::vector<std::byte>& buffer) {
   switch (compression) {
     case Compression::kNone:
       return {block, ""};
     case Compression::kBz2:
-      return unpack_bz2(block, most_bytes, buffer);
+      return unpack_bz2(block, max_bytes, buffer);
     case Compression::kLz4:
-      return unpack_lz4(block, most_bytes, buffer);
+      return unpack_lz4(block, max_bytes, buffer);
     case Compression::kZstd:
-      return unpack_zstd(block, most_bytes, buffer);
+      return unpack_zstd(block, max_bytes, buffer);
   }
   return {{}, "its compression is unknown"};
 }

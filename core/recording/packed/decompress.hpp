@@ -21,13 +21,13 @@ std::optional<Compression> compression_named(std::string_view name);
 struct Decompressed {
   std::span<const std::byte> bytes;
   std::string problem;
-  bool too_long = false;  // more than `most_bytes` would have come out
+  bool too_long = false;  // more than `max_bytes` would have come out
 };
 
 /// Decompresses `block` (bz2, or the frame formats of LZ4 and Zstandard) into `buffer`, which grows with what
-/// really comes out and never beyond `most_bytes`. The result points into `buffer`, or into `block` where
+/// really comes out and never beyond `max_bytes`. The result points into `buffer`, or into `block` where
 /// that is not compressed.
-Decompressed decompress(Compression compression, std::span<const std::byte> block, std::size_t most_bytes,
+Decompressed decompress(Compression compression, std::span<const std::byte> block, std::size_t max_bytes,
                         std::vector<std::byte>& buffer);
 
 /// Where a record of a bag is, in words that a person can follow with a hex editor.

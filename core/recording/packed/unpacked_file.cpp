@@ -36,7 +36,7 @@ struct UnpackingEnd {
   std::uint64_t unpacked_bytes;
 };
 
-UnpackingEnd unpack_into(std::FILE* output, InputFile& input, std::uint64_t most_bytes, const Job& job) {
+UnpackingEnd unpack_into(std::FILE* output, InputFile& input, std::uint64_t max_bytes, const Job& job) {
   const Context context(ZSTD_createDCtx(), ZSTD_freeDCtx);
   if (!context) throw std::bad_alloc();
   std::vector<std::byte> packed(ZSTD_DStreamInSize()), plain(ZSTD_DStreamOutSize());
@@ -51,7 +51,7 @@ UnpackingEnd unpack_into(std::FILE* output, InputFile& input, std::uint64_t most
       hint = ZSTD_decompressStream(context.get(), &out, &in);
       if (ZSTD_isError(hint)) return {Unpacking::kDamaged, unpacked_bytes};
       unpacked_bytes += out.pos;
-      if (unpacked_bytes > most_bytes) return {Unpacking::kTooLong, unpacked_bytes};
+      if (unpacked_bytes > max_bytes) return {Unpacking::kTooLong, unpacked_bytes};
       if (std::fwrite(plain.data(), 1, out.pos, output) != out.pos)
         return {Unpacking::kNoRoom, unpacked_bytes};
       more = in.pos < in.size || (out.pos == out.size && hint != 0);
@@ -69,13 +69,13 @@ bool begins_zstd(std::span<const std::byte> bytes) {
          std::memcmp(bytes.data(), kZstdMagic.data(), kZstdMagic.size()) == 0;
 }
 
-Result<UnpackedFile> UnpackedFile::unpack(const fs::path& packed, const Job& job, std::uint64_t most_bytes) {
+Result<UnpackedFile> UnpackedFile::unpack(const fs::path& packed, const Job& job, std::uint64_t max_bytes) {
   UnpackingLimit limit(packed);
-  return unpack(packed, limit, job, most_bytes);
+  return unpack(packed, limit, job, max_bytes);
 }
 
 Result<UnpackedFile> UnpackedFile::unpack(const fs::path& packed, UnpackingLimit& limit, const Job& job,
-                                          std::uint64_t most_bytes) {
+                                          std::uint64_t max_bytes) {
   auto input = InputFile::open(packed);
   if (!input) return tl::unexpected(input.error());
   auto temporary = TemporaryFile::create();
@@ -83,14 +83,14 @@ Result<UnpackedFile> UnpackedFile::unpack(const fs::path& packed, UnpackingLimit
   UnpackedFile file(std::move(*temporary));
   Output output(std::fopen(file.path().c_str(), "wb"), std::fclose);
   if (!output) return no_room(packed, file.path());
-  const auto [end, unpacked_bytes] = unpack_into(output.get(), *input, limit.most(most_bytes), job);
+  const auto [end, unpacked_bytes] = unpack_into(output.get(), *input, limit.most(max_bytes), job);
   if (auto error = limit.take(unpacked_bytes)) return tl::unexpected(std::move(*error));
   if (end == Unpacking::kInterrupted)
     return failure(ExitCode::kInterrupted, fmt::format("{}: reading was interrupted", packed.string()));
   if (end == Unpacking::kTooLong)
     return unreadable(
         fmt::format("{}: unpacks to more than {} bytes, more than is unpacked; cut it into parts",
-                    packed.string(), most_bytes));
+                    packed.string(), max_bytes));
   if (end == Unpacking::kNoRoom || std::fclose(output.release()) != 0) return no_room(packed, file.path());
   if (end == Unpacking::kDamaged) file.problem_ = "its zstd data is damaged; what comes before was read";
   if (end == Unpacking::kTooShort) file.problem_ = "its zstd data ends too early; what is there was read";

@@ -17,19 +17,19 @@ namespace sweepscope {
 bool begins_zstd(std::span<const std::byte> bytes);
 
 /// A packed file may hold no more than this, however small it is itself.
-inline constexpr std::uint64_t kMostUnpackedFile_bytes = std::uint64_t{64} << 30;
+inline constexpr std::uint64_t kMaxUnpackedFile_bytes = std::uint64_t{64} << 30;
 
 /// What a file packed by Zstandard holds: a file in the folder for temporary files (TMPDIR), which goes with
 /// this object.
 class UnpackedFile {
  public:
   /// Streamed, with a few MiB of memory. Refuses what cannot be read (ExitCode::kUnreadableInput) or
-  /// written (kWrongUsage: a full disk), and what holds more than `most_bytes`.
+  /// written (kWrongUsage: a full disk), and what holds more than `max_bytes`.
   static Result<UnpackedFile> unpack(const std::filesystem::path& packed, const Job& job,
-                                     std::uint64_t most_bytes = kMostUnpackedFile_bytes);
+                                     std::uint64_t max_bytes = kMaxUnpackedFile_bytes);
   /// The same for a file that is one layer of several.
   static Result<UnpackedFile> unpack(const std::filesystem::path& packed, UnpackingLimit& limit,
-                                     const Job& job, std::uint64_t most_bytes = kMostUnpackedFile_bytes);
+                                     const Job& job, std::uint64_t max_bytes = kMaxUnpackedFile_bytes);
 
   const std::filesystem::path& path() const { return file_.path(); }
   /// What was wrong with the packed file; empty where it was whole. What came before the damage is there.

@@ -21,8 +21,8 @@ UnpackingLimit::UnpackingLimit(const fs::path& file)
     : UnpackingLimit(file.string(), size_of(file) + size_of(file.string() + "-wal")) {}
 
 std::uint64_t UnpackingLimit::limit_bytes() const {
-  const std::uint64_t per_packed = std::min(packed_bytes_, kMostUnpacked_bytes) * kMostUnpackedPerPacked;
-  return std::min(kMostUnpacked_bytes, std::max(kAlwaysUnpacked_bytes, per_packed));
+  const std::uint64_t per_packed = std::min(packed_bytes_, kMaxUnpacked_bytes) * kMaxUnpackedPerPacked;
+  return std::min(kMaxUnpacked_bytes, std::max(kAlwaysUnpacked_bytes, per_packed));
 }
 
 std::uint64_t UnpackingLimit::most(std::uint64_t part_bytes) const {

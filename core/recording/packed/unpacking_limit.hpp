@@ -11,10 +11,10 @@
 namespace sweepscope {
 
 /// A file of a recording unpacks to no more than this, over all layers of compression ...
-inline constexpr std::uint64_t kMostUnpacked_bytes = std::uint64_t{1} << 40;
+inline constexpr std::uint64_t kMaxUnpacked_bytes = std::uint64_t{1} << 40;
 /// ... and, beyond this, to no more than so many times its own size. Recordings of scans stay below 20.
 inline constexpr std::uint64_t kAlwaysUnpacked_bytes = std::uint64_t{256} << 20;
-inline constexpr std::uint64_t kMostUnpackedPerPacked = 250;
+inline constexpr std::uint64_t kMaxUnpackedPerPacked = 250;
 
 /// Counts what a file's packed parts, one within the other, have unpacked to: a few kilobytes can be made to
 /// unpack for hours.

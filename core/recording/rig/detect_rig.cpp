@@ -71,7 +71,7 @@ void note_increment(const RawScan& first, const Recording& recording, DetectedRi
 
 void note_motor(const RawJoint& joint, const MotorSummary& motor, DetectedRig& detected) {
   detected.motor_note = fmt::format("{} samples, {:.1f} Hz, {:.1f} to {:.1f} deg", motor.used,
-                                    motor.rate_hz(), motor.least_deg, motor.most_deg);
+                                    motor.rate_hz(), motor.min_deg, motor.max_deg);
   if (motor.median_sweep_s > 0)
     detected.motor_note += fmt::format(", {:.3f} s a sweep", motor.median_sweep_s);
   if (joint.source != JointSource::kNumber) return;
@@ -178,7 +178,7 @@ Result<DetectedRig> detect_rig(const std::filesystem::path& path, const ReadOpti
     if (topic.type.ends_with("/Imu") || topic.type.ends_with("/Odometry"))
       detected.motion_topics.push_back(topic);
   detected.laser_note = fmt::format("{} scans of {} beams, {:.2f} Hz{}", summary.laser.used,
-                                    summary.laser.most_beams, summary.laser.rate_hz(),
+                                    summary.laser.max_beams, summary.laser.rate_hz(),
                                     evidence->laser_frame.empty() ? "" : ", frame " + evidence->laser_frame);
   judge_stamp(*recording, summary.laser, options.rig && options.rig->laser.stamp_at != StampAt::kFirstBeam,
               detected);

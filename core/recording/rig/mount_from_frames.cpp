@@ -8,7 +8,7 @@ namespace sweepscope {
 namespace {
 
 constexpr double kTurns_rad = 1.0 * kRadPerDeg;
-constexpr std::size_t kMostFrames = 64;  // between the laser and the motor
+constexpr std::size_t kMaxFrames = 64;  // between the laser and the motor
 
 /// ROS 1 wrote frames with and without a leading slash.
 std::string plain(const std::string& frame) {
@@ -39,7 +39,7 @@ std::optional<FrameMount> mount_from_frames(const std::vector<RawFrame>& frames,
   mount.chain.push_back(plain(laser_frame));
   const RawFrame* frame = find_child(frames, laser_frame);
   if (laser_frame.empty() || frame == nullptr) return std::nullopt;
-  for (; frame != nullptr && mount.chain.size() < kMostFrames; frame = find_child(frames, frame->parent)) {
+  for (; frame != nullptr && mount.chain.size() < kMaxFrames; frame = find_child(frames, frame->parent)) {
     if (frame->turned_rad > kTurns_rad) {
       mount.parent = plain(frame->parent);
       mount.turning = *frame;

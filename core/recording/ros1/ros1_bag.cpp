@@ -15,7 +15,7 @@ namespace sweepscope {
 namespace {
 
 constexpr std::string_view kMagic = "#ROSBAG V2.0\n";
-constexpr std::size_t kMostWarnings = 20;
+constexpr std::size_t kMaxWarnings = 20;
 
 /// Whether a record has the fields that its op code asks for; a damaged op code has others.
 bool fits_its_op(const BagFields& fields) {
@@ -86,7 +86,7 @@ class BagReader {
 };
 
 void BagReader::warn(const std::string& what) {
-  if (warnings_.size() >= kMostWarnings) {
+  if (warnings_.size() >= kMaxWarnings) {
     ++warnings_left_out_;
     return;
   }
@@ -110,7 +110,7 @@ bool BagReader::read_header(Header& header) {
   };
   if (file_.read(length) != length.size()) return stop_cut();
   const std::uint64_t header_bytes = load<std::uint32_t>(length);
-  if (header_bytes > kMostHeader_bytes) return stop("there is no record");
+  if (header_bytes > kMaxHeader_bytes) return stop("there is no record");
   if (header_bytes > file_.left()) return stop_cut();
   header.bytes.resize(header_bytes);
   if (file_.read(header.bytes) != header_bytes) return stop_cut();
@@ -136,10 +136,10 @@ std::optional<Error> BagReader::read_record(const Header& header) {
   const auto op = fields.op();
   if (op == BagOp::kBagHeader) return read_bag_header(fields);
   if (op != BagOp::kChunk && op != BagOp::kConnection && op != BagOp::kMessage) return std::nullopt;
-  if (header.data_bytes > kMostChunk_bytes) {
+  if (header.data_bytes > kMaxChunk_bytes) {
     warn(fmt::format(
         "the record at {} claims {} bytes, more than the {} that are read at once, and was skipped",
-        place.text(), header.data_bytes, kMostChunk_bytes));
+        place.text(), header.data_bytes, kMaxChunk_bytes));
     return std::nullopt;
   }
   if (op == BagOp::kChunk) return read_chunk(header, fields);
@@ -193,7 +193,7 @@ void BagReader::learn_from_index() {
   Header header;
   while (read_header(header)) {
     const BagFields fields = *BagFields::parse(header.bytes);
-    if (fields.op() != BagOp::kConnection || header.data_bytes > kMostHeader_bytes) break;
+    if (fields.op() != BagOp::kConnection || header.data_bytes > kMaxHeader_bytes) break;
     const std::span<const std::byte> data = read_data(header);
     if (data.size() < header.data_bytes) break;
     add_connection(fields, data, {header.at, std::nullopt});
@@ -219,7 +219,7 @@ std::optional<Error> BagReader::read_chunk(const Header& header, const BagFields
   }
   const std::span<const std::byte> packed = read_data(header);
   const bool whole = packed.size() == header.data_bytes;
-  const Decompressed unpacked = decompress(*compression, packed, limit_.most(kMostChunk_bytes), unpacked_);
+  const Decompressed unpacked = decompress(*compression, packed, limit_.most(kMaxChunk_bytes), unpacked_);
   if (*compression != Compression::kNone)
     if (auto error = limit_.take(unpacked.bytes.size() + (unpacked.too_long ? 1 : 0))) return error;
   const auto claimed_bytes = fields.number<std::uint32_t>("size");

@@ -19,8 +19,8 @@ namespace sweepscope {
 /// index at the end is not needed, so bags that were cut short or never closed read like any other. No size
 /// in the file is trusted: what a record claims is held against what the file still has, and against these
 /// limits.
-inline constexpr std::uint64_t kMostChunk_bytes = std::uint64_t{256} << 20;  // packed or unpacked
-inline constexpr std::uint64_t kMostHeader_bytes = std::uint64_t{1} << 20;
+inline constexpr std::uint64_t kMaxChunk_bytes = std::uint64_t{256} << 20;  // packed or unpacked
+inline constexpr std::uint64_t kMaxHeader_bytes = std::uint64_t{1} << 20;
 
 /// One publisher of a topic. Several connections may share a topic.
 struct BagConnection {

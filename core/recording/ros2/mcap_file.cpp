@@ -14,7 +14,7 @@
 namespace sweepscope {
 namespace {
 
-constexpr std::size_t kMostWarnings = 20;
+constexpr std::size_t kMaxWarnings = 20;
 
 struct RecordHeader {
   std::uint64_t at = 0;
@@ -98,7 +98,7 @@ class McapReader {
 };
 
 void McapReader::warn(const std::string& what) {
-  if (warnings_.size() < kMostWarnings)
+  if (warnings_.size() < kMaxWarnings)
     warnings_.push_back(what);
   else
     ++warnings_left_out_;
@@ -135,10 +135,10 @@ std::optional<Error> McapReader::read_record(const RecordHeader& header) {
     if (header.content_bytes <= file_.left()) check_unused(header);
     return std::nullopt;
   }
-  if (header.content_bytes > kMostMcapChunk_bytes) {
+  if (header.content_bytes > kMaxMcapChunk_bytes) {
     warn(fmt::format(
         "the record at {} claims {} bytes, more than the {} that are read at once, and was skipped",
-        place.text(), header.content_bytes, kMostMcapChunk_bytes));
+        place.text(), header.content_bytes, kMaxMcapChunk_bytes));
     return std::nullopt;
   }
   const auto content = read_content(header.content_bytes);
@@ -200,7 +200,7 @@ std::optional<Error> McapReader::read_chunk(std::span<const std::byte> content, 
     return std::nullopt;
   }
   const Decompressed unpacked =
-      decompress(*compression, chunk.records, limit_.most(kMostMcapChunk_bytes), unpacked_);
+      decompress(*compression, chunk.records, limit_.most(kMaxMcapChunk_bytes), unpacked_);
   if (*compression != Compression::kNone)
     if (auto error = limit_.take(unpacked.bytes.size() + (unpacked.too_long ? 1 : 0))) return error;
   const bool sound = whole && unpacked.problem.empty();
@@ -307,7 +307,7 @@ void McapReader::learn_from_summary() {
   file_.seek(file_.size() - std::min<std::uint64_t>(file_.size(), kEnd_bytes));
   if (read_header(header) && header.op == McapOp::kFooter && file_.read(footer) == footer.size()) {
     const auto summary_at = McapFields(footer).number<std::uint64_t>();
-    if (summary_at > here && summary_at < header.at && header.at - summary_at <= kMostMcapSummary_bytes) {
+    if (summary_at > here && summary_at < header.at && header.at - summary_at <= kMaxMcapSummary_bytes) {
       file_.seek(summary_at);
       const auto records = read_content(header.at - summary_at);
       in_summary_ = true;

@@ -20,8 +20,8 @@ namespace sweepscope {
 /// footer are not needed, so files that were cut short or never closed read like any other; where there is a
 /// summary, its channels help to read what a damaged chunk introduced. No size in the file is trusted: what a
 /// record claims is held against what the file still has, and against these limits.
-inline constexpr std::uint64_t kMostMcapChunk_bytes = std::uint64_t{256} << 20;  // packed or unpacked
-inline constexpr std::uint64_t kMostMcapSummary_bytes = std::uint64_t{16} << 20;
+inline constexpr std::uint64_t kMaxMcapChunk_bytes = std::uint64_t{256} << 20;  // packed or unpacked
+inline constexpr std::uint64_t kMaxMcapSummary_bytes = std::uint64_t{16} << 20;
 
 struct McapChannel {
   std::string topic;

@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kMetadata = "metadata.yaml";
-constexpr std::uint64_t kMostMetadata_bytes = std::uint64_t{16} << 20;
+constexpr std::uint64_t kMaxMetadata_bytes = std::uint64_t{16} << 20;
 
 /// "cdr" or "ros1"; messages of other encodings are only counted.
 MessageCollector::Topic topic_of(const std::string& name, const std::string& type,
@@ -65,7 +65,7 @@ std::string unpacked_beginning(std::span<const std::byte> packed) {
 }
 
 std::optional<StoredFile> stored_as(const fs::path& path) {
-  constexpr std::size_t kMostZstdBlock_bytes = std::size_t{1} << 18;
+  constexpr std::size_t kMaxZstdBlock_bytes = std::size_t{1} << 18;
   std::error_code ignored;
   if (!fs::is_regular_file(path, ignored)) return std::nullopt;
   auto file = InputFile::open(path);
@@ -75,7 +75,7 @@ std::optional<StoredFile> stored_as(const fs::path& path) {
   const bool packed = begins_zstd(bytes);
   if (packed) {
     file->seek(0);
-    bytes.resize(kMostZstdBlock_bytes);
+    bytes.resize(kMaxZstdBlock_bytes);
     bytes.resize(file->read(bytes));
   }
   const auto storage =
@@ -146,7 +146,7 @@ Result<std::vector<fs::path>> named_files(const fs::path& folder) {
       files.push_back(folder / name);
     }
   };
-  return yaml::read_file(folder / kMetadata, "a ROS 2 bag's metadata", kMostMetadata_bytes, read).map([&] {
+  return yaml::read_file(folder / kMetadata, "a ROS 2 bag's metadata", kMaxMetadata_bytes, read).map([&] {
     return std::move(files);
   });
 }

@@ -109,7 +109,7 @@ class SqliteReader {
   const Job& job_;
   Database database_{nullptr, sqlite3_close};
   std::map<std::int64_t, SqliteTopic> topics_;
-  std::int64_t last_id_ = 0, visited_ = 0, most_ids_ = 0;
+  std::int64_t last_id_ = 0, visited_ = 0, max_ids_ = 0;
   std::size_t orphans_ = 0;
   std::vector<std::string> warnings_;
 };
@@ -126,7 +126,7 @@ bool SqliteReader::open(Opening opening) {
                                    SQLITE_OPEN_READONLY | SQLITE_OPEN_URI | SQLITE_OPEN_NOMUTEX, nullptr);
   database_.reset(database);
   if (code != SQLITE_OK) return false;
-  sqlite3_limit(database, SQLITE_LIMIT_LENGTH, kMostSqliteMessage_bytes);
+  sqlite3_limit(database, SQLITE_LIMIT_LENGTH, kMaxSqliteMessage_bytes);
   sqlite3_db_config(database, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
   sqlite3_db_config(database, SQLITE_DBCONFIG_ENABLE_TRIGGER, 0, nullptr);
   sqlite3_db_config(database, SQLITE_DBCONFIG_ENABLE_VIEW, 0, nullptr);
@@ -208,15 +208,15 @@ std::optional<Error> SqliteReader::visit_row(sqlite3_stmt* row) {
 std::optional<Error> SqliteReader::read_messages() {
   if (const Statement last = prepare("SELECT max(rowid) FROM messages");
       last && sqlite3_step(last.get()) == SQLITE_ROW) {
-    most_ids_ = sqlite3_column_int64(last.get(), 0);
+    max_ids_ = sqlite3_column_int64(last.get(), 0);
   }
   const Statement rows = prepare("SELECT rowid, topic_id, timestamp, data FROM messages ORDER BY rowid");
   if (!rows) return unreadable_because(fmt::format("its table of messages cannot be read: {}", problem()));
   int code = 0;
   while ((code = sqlite3_step(rows.get())) == SQLITE_ROW) {
     if (auto error = visit_row(rows.get())) return error;
-    if (visited_ % 512 == 0 && most_ids_ > 0)
-      job_.report("reading", std::min(1.0, static_cast<double>(last_id_) / static_cast<double>(most_ids_)));
+    if (visited_ % 512 == 0 && max_ids_ > 0)
+      job_.report("reading", std::min(1.0, static_cast<double>(last_id_) / static_cast<double>(max_ids_)));
     if (interrupted()) return unreadable_because("");
   }
   if (interrupted()) return unreadable_because("");

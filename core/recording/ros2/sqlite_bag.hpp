@@ -17,7 +17,7 @@ namespace sweepscope {
 /// ROS 2 bags in SQLite databases (rosbag2's storage "sqlite3"): a table of topics and one of messages. The
 /// database is opened for reading only, and nothing in it is run: its schema is not trusted. No file is made
 /// or changed beside it; a write-ahead journal that its recorder left is read with it.
-inline constexpr int kMostSqliteMessage_bytes = 256 << 20;
+inline constexpr int kMaxSqliteMessage_bytes = 256 << 20;
 
 struct SqliteTopic {
   std::string name;

@@ -40,7 +40,7 @@ Neighbours patch(double out_m) {
 
 PatchOptions three_lines() {
   PatchOptions options;
-  options.least_lines = 3;
+  options.min_lines = 3;
   return options;
 }
 

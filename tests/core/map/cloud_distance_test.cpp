@@ -25,10 +25,10 @@ MapCloud scattered(int points, double size_m, std::uint64_t seed) {
 std::vector<float> by_trying_all(const MapCloud& from, const MapCloud& to, float cap_m) {
   std::vector<float> distances_m;
   for (const MapPoint& p : from) {
-    float least_m2 = cap_m * cap_m;
+    float min_m2 = cap_m * cap_m;
     for (const MapPoint& q : to)
-      least_m2 = std::min(least_m2, (p.getVector3fMap() - q.getVector3fMap()).squaredNorm());
-    distances_m.push_back(std::sqrt(least_m2));
+      min_m2 = std::min(min_m2, (p.getVector3fMap() - q.getVector3fMap()).squaredNorm());
+    distances_m.push_back(std::sqrt(min_m2));
   }
   return distances_m;
 }

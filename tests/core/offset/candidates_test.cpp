@@ -65,7 +65,7 @@ std::optional<double> hyperbola_m(double offset_ms) {
 }
 
 CriterionOptimum fitted(const std::vector<CurvePoint>& curve, double reach_s = 3 * kMs) {
-  return fitted_extremum(curve, &CurvePoint::e_m, index_of_least(curve, &CurvePoint::e_m), reach_s);
+  return fitted_extremum(curve, &CurvePoint::e_m, index_of_min(curve, &CurvePoint::e_m), reach_s);
 }
 
 TEST(FittedExtremum, OfADistanceIsExactOnAHyperbola) {
@@ -78,7 +78,7 @@ TEST(FittedExtremum, OfMatchesIsExactOnAParabola) {
   std::vector<CurvePoint> curve = curve_of(hyperbola_m);
   for (CurvePoint& point : curve) point.n = 30000 - 1e6 * *point.e_m * *point.e_m;
   const CriterionOptimum most =
-      fitted_extremum(curve, &CurvePoint::n, index_of_greatest(curve, &CurvePoint::n), 3 * kMs);
+      fitted_extremum(curve, &CurvePoint::n, index_of_max(curve, &CurvePoint::n), 3 * kMs);
   EXPECT_NEAR(most.offset_s, 23.8 * kMs, 1e-12);
   EXPECT_EQ(most.value, 30000 - 1e6 * *hyperbola_m(24) * *hyperbola_m(24));
 }
@@ -123,7 +123,7 @@ TEST(FittedExtremum, StaysInsideItsPoints) {
 
 TEST(FitOfExtremum, GoesThroughPointsThatLieOnAHyperbola) {
   const std::vector<CurvePoint> curve = curve_of(hyperbola_m);
-  const auto fit = fit_of_extremum(curve, &CurvePoint::e_m, index_of_least(curve, &CurvePoint::e_m), 3 * kMs);
+  const auto fit = fit_of_extremum(curve, &CurvePoint::e_m, index_of_min(curve, &CurvePoint::e_m), 3 * kMs);
   ASSERT_TRUE(fit);
   EXPECT_NEAR(fit->from_s, 21 * kMs, 1e-12);
   EXPECT_NEAR(fit->to_s, 27 * kMs, 1e-12);
@@ -151,11 +151,11 @@ TEST(FitBehind, ThereIsNoneBehindAnAnswerFromElsewhere) {
 TEST(Extremum, AFailedCandidateNeverWins) {
   const auto curve =
       curve_of([](double offset_ms) { return offset_ms == 24 ? std::nullopt : hyperbola_m(offset_ms); });
-  EXPECT_DOUBLE_EQ(curve[index_of_least(curve, &CurvePoint::e_m)].offset_s, 23 * kMs);
-  EXPECT_DOUBLE_EQ(curve[index_of_greatest(curve, &CurvePoint::e_m)].offset_s, 29 * kMs);
+  EXPECT_DOUBLE_EQ(curve[index_of_min(curve, &CurvePoint::e_m)].offset_s, 23 * kMs);
+  EXPECT_DOUBLE_EQ(curve[index_of_max(curve, &CurvePoint::e_m)].offset_s, 29 * kMs);
   const auto none = curve_of([](double) { return std::nullopt; });
-  EXPECT_EQ(index_of_least(none, &CurvePoint::e_m), none.size());
-  EXPECT_EQ(index_of_greatest(none, &CurvePoint::e_m), none.size());
+  EXPECT_EQ(index_of_min(none, &CurvePoint::e_m), none.size());
+  EXPECT_EQ(index_of_max(none, &CurvePoint::e_m), none.size());
 }
 
 CurvePoint wavy(double offset_s, const Job&) {

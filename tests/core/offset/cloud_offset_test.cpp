@@ -32,13 +32,13 @@ EstimateOptions direct() {
 }
 
 /// Within three of its own sigmas, and those worth having.
-void expect_answer(const Estimate& found, RigKind kind, double truth_s, double most_sigma_ms) {
+void expect_answer(const Estimate& found, RigKind kind, double truth_s, double max_sigma_ms) {
   ASSERT_TRUE(found.offset_s) << reasons(found);
   ASSERT_TRUE(found.sigma_s);
   testing::Test::RecordProperty("error_ms", fmt::format("{:.4f}", (*found.offset_s - truth_s) * 1e3));
   testing::Test::RecordProperty("sigma_ms", fmt::format("{:.4f}", *found.sigma_s * 1e3));
   EXPECT_EQ(found.kind, kind);
-  EXPECT_LT(*found.sigma_s * 1e3, most_sigma_ms);
+  EXPECT_LT(*found.sigma_s * 1e3, max_sigma_ms);
   EXPECT_NEAR(*found.offset_s * 1e3, truth_s * 1e3, 3 * *found.sigma_s * 1e3);
 }
 

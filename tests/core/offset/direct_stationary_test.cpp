@@ -72,7 +72,7 @@ TEST(DirectStationary, NoOptionAsksForMoreNeighboursThanThereIsRoomFor) {
   StillPatchOptions many = still_patch_options(problem), most = many;
   many.lines_per_side = 1000;
   most.lines_per_side = StillNeighbours::kMaxLinesPerSide;
-  many.least_gap_rad = most.least_gap_rad = 0;
+  many.min_gap_rad = most.min_gap_rad = 0;
   many.reach_rad = most.reach_rad = 3;
   const std::size_t line = points.lines() / 2, bin = points.bins / 2;
   ASSERT_NE(points.sweep[line], kNoSweep);

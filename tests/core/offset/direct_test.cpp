@@ -40,7 +40,7 @@ TEST(Direct, AnswersWhereTheLastStepsGoToAndFroByLessThanTheUncertainty) {
 
 // Truth, sweep, noise and the most that the answer may be off.
 struct Standing {
-  double truth_s, sweep_s, noise_m, most_error_s;
+  double truth_s, sweep_s, noise_m, max_error_s;
 };
 
 class DirectInARoom : public testing::TestWithParam<Standing> {};
@@ -56,9 +56,9 @@ TEST_P(DirectInARoom, FindsTheOffsetAndKnowsHowWell) {
   EXPECT_EQ(found.method, Method::kDirect);
   EXPECT_EQ(found.kind, RigKind::kStationary);
   ASSERT_TRUE(found.identifiable) << testing::PrintToString(found.reasons);
-  EXPECT_NEAR(*found.offset_s, given.truth_s, given.most_error_s);
+  EXPECT_NEAR(*found.offset_s, given.truth_s, given.max_error_s);
   EXPECT_GT(*found.sigma_s, 0);
-  EXPECT_LT(*found.sigma_s, given.most_error_s);
+  EXPECT_LT(*found.sigma_s, given.max_error_s);
   ASSERT_EQ(found.criteria.size(), 1u);
   EXPECT_EQ(found.criteria[0].name, "direct");
   EXPECT_EQ(found.criteria[0].offset_s, *found.offset_s);

@@ -62,7 +62,7 @@ TEST(JointWalk, TheSameForOneAndTwoThreads) {
 
 TEST(JointWalk, WithoutMatchesThereIsNone) {
   JointWalkOptions options;
-  options.least_matches = 1000000;
+  options.min_matches = 1000000;
   EXPECT_FALSE(solved(test::simulated("metro-station", 0.024, 40).recording, 0.024, options));
 }
 

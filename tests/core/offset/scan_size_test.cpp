@@ -56,7 +56,7 @@ void expect_ends(const Recording& recording) {
 }
 
 TEST(ScanSize, TheMostBeamsAScanAreWorkedWith) {
-  expect_ends(recording_of(std::vector<std::uint32_t>(45, kMostBeamsAScan), 1.5 * std::numbers::pi));
+  expect_ends(recording_of(std::vector<std::uint32_t>(45, kMaxBeamsAScan), 1.5 * std::numbers::pi));
 }
 
 TEST(ScanSize, AFieldOfViewBeyondAFullTurnIsWorkedWith) {
@@ -66,7 +66,7 @@ TEST(ScanSize, AFieldOfViewBeyondAFullTurnIsWorkedWith) {
 
 TEST(ScanSize, AFewLongScansAmongShortOnesTakeNoRoomInAllOfThem) {
   std::vector<std::uint32_t> beams(3000, 12);
-  beams[7] = kMostBeamsAScan;
+  beams[7] = kMaxBeamsAScan;
   const Recording recording = recording_of(beams, 3);
   const OffsetProblem problem = problem_for(prepare(recording, FeatureOptions(), Job()).value(), 0, 0);
   const StillGrid grid = still_grid(problem);

@@ -96,8 +96,8 @@ class ScansCovered : public testing::Test {
     for (int i = 0; i < 20; ++i) recording_.scans.push_back({0.1 * i, 1e-4, 0, 0, 0, 101});
     recording_.motor = test::track_of([](double t_s) { return t_s; }, 0.299, 1.519);
   }
-  std::ptrdiff_t covered(double least_s, double greatest_s) const {
-    const std::vector<char> used = scans_covered(recording_, least_s, greatest_s);
+  std::ptrdiff_t covered(double min_s, double max_s) const {
+    const std::vector<char> used = scans_covered(recording_, min_s, max_s);
     return std::count(used.begin(), used.end(), 1);
   }
   Recording recording_;

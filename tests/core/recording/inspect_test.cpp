@@ -11,8 +11,8 @@ using test::recording_of, test::track, test::triangle_rad;
 
 TEST(Inspect, MeasuresTheMotor) {
   const MotorSummary motor = inspect(recording_of(track(5.2, 0.01, triangle_rad))).motor;
-  EXPECT_NEAR(motor.least_deg, -57.3, 0.1);
-  EXPECT_NEAR(motor.most_deg, 57.3, 0.1);
+  EXPECT_NEAR(motor.min_deg, -57.3, 0.1);
+  EXPECT_NEAR(motor.max_deg, 57.3, 0.1);
   EXPECT_NEAR(motor.median_speed_deg_s, 229.18, 0.5);
   EXPECT_NEAR(motor.deg_per_ms(), 0.22918, 5e-4);
   EXPECT_EQ(motor.reversals, 10U);
@@ -25,7 +25,7 @@ TEST(Inspect, MeasuresTheMotor) {
 TEST(Inspect, MeasuresTheLaser) {
   const LaserSummary laser = inspect(recording_of(track(5, 0.01, triangle_rad))).laser;
   EXPECT_EQ(laser.used, 100U);
-  EXPECT_EQ(laser.most_beams, 3U);
+  EXPECT_EQ(laser.max_beams, 3U);
   EXPECT_NEAR(laser.first_beam_deg, -90, 1e-9);
   EXPECT_NEAR(laser.last_beam_deg, 90, 1e-9);
   EXPECT_NEAR(laser.scan_s, 0.002, 1e-12);

@@ -71,11 +71,11 @@ TEST_P(Walks, RunIntoNothing) {
 
 TEST_P(Walks, DifferWithTheSeedOnlyInTheirSwaying) {
   const Trajectory other(spec_, 2);
-  double most_m = 0;
+  double max_m = 0;
   for (double t_s = 0; t_s < GetParam().duration_s; t_s += 1.3)
-    most_m = std::max(most_m, (trajectory_.at(t_s).position_m - other.at(t_s).position_m).norm());
-  EXPECT_GT(most_m, 0.005);
-  EXPECT_LT(most_m, 0.5);
+    max_m = std::max(max_m, (trajectory_.at(t_s).position_m - other.at(t_s).position_m).norm());
+  EXPECT_GT(max_m, 0.005);
+  EXPECT_LT(max_m, 0.5);
 }
 
 INSTANTIATE_TEST_SUITE_P(Paper, Walks,

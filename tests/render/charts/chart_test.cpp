@@ -189,15 +189,15 @@ TEST(Chart, AnUncertaintyBandIsShadedAndStaysInThePlot) {
 }
 
 /// e of a walk whose least value lies between two candidates.
-Estimate walk(double least_ms, std::optional<double> sigma_s) {
+Estimate walk(double min_ms, std::optional<double> sigma_s) {
   Estimate estimate;
   estimate.identifiable = true;
   for (int ms = 19; ms <= 29; ++ms) {
     estimate.curve.emplace_back().offset_s = ms * kMs;
-    estimate.curve.back().e_m = std::hypot(0.02, 0.01 * (ms - least_ms)) + 1e-5 * (ms % 3);
+    estimate.curve.back().e_m = std::hypot(0.02, 0.01 * (ms - min_ms)) + 1e-5 * (ms % 3);
   }
   CriterionOptimum optimum = fitted_extremum(estimate.curve, &CurvePoint::e_m,
-                                             index_of_least(estimate.curve, &CurvePoint::e_m), 3 * kMs);
+                                             index_of_min(estimate.curve, &CurvePoint::e_m), 3 * kMs);
   optimum.name = "e";
   estimate.criteria = {optimum};
   estimate.offset_s = optimum.offset_s;

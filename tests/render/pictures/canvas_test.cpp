@@ -28,7 +28,7 @@ TEST(Canvas, TheNullOneGivesTheBackgroundWithoutDrawing) {
 
 TEST(Canvas, EveryBackEndRefusesTheSameSizes) {
   Picture huge = small_picture();
-  huge.width_px = kGreatestPictureSidePx + 1;
+  huge.width_px = kMaxPictureSidePx + 1;
   for (const Backend one : {Backend::kOffscreen, Backend::kNull}) {
     EXPECT_EQ(make_canvas(one).value()->draw(huge).error().code, ExitCode::kWrongUsage);
   }

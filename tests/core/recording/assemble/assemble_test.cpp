@@ -281,14 +281,14 @@ TEST(Assemble, ATimeIncrementLongerThanTheScansSpacingWarns) {
 }
 
 TEST(Assemble, AScanOfMoreBeamsThanCanBeToldApartIsRefused) {
-  for (const std::uint32_t beams : {kMostBeamsAScan, kMostBeamsAScan + 1, 1'000'000U}) {
+  for (const std::uint32_t beams : {kMaxBeamsAScan, kMaxBeamsAScan + 1, 1'000'000U}) {
     RawRecording raw = sample();
     raw.lasers[0].scans.clear();
     raw.lasers[0].ranges_m.clear();
     for (int i = 0; i < 2; ++i)
       add_scan(raw.lasers[0], 0.25 + 0.025 * i, std::vector<float>(i == 0 ? 5 : beams, 2.0F));
     const auto recording = assemble(std::move(raw), {}, {});
-    EXPECT_EQ(recording.has_value(), beams == kMostBeamsAScan);
+    EXPECT_EQ(recording.has_value(), beams == kMaxBeamsAScan);
     if (recording) continue;
     EXPECT_EQ(recording.error().code, ExitCode::kUnreadableInput);
     EXPECT_EQ(recording.error().message, "folder/sample.bag: scan 2 on /scan has " + std::to_string(beams) +

@@ -44,8 +44,8 @@ TEST_F(GuardianTilt, HoldsTheScansAndSamplesThatItIsKnownToHold) {
 
 TEST_F(GuardianTilt, MotorTurnsAsItIsKnownTo) {
   const RecordingSummary summary = inspect(read());
-  EXPECT_NEAR(summary.motor.least_deg, -0.505 * 57.2958, 0.1);
-  EXPECT_NEAR(summary.motor.most_deg, 1.002 * 57.2958, 0.1);
+  EXPECT_NEAR(summary.motor.min_deg, -0.505 * 57.2958, 0.1);
+  EXPECT_NEAR(summary.motor.max_deg, 1.002 * 57.2958, 0.1);
   EXPECT_NEAR(summary.motor.median_speed_deg_s, 18.9, 0.3);
   EXPECT_NEAR(summary.motor.rate_hz(), 50, 0.1);
   EXPECT_NEAR(2 * summary.motor.median_sweep_s, 9.64, 0.05);

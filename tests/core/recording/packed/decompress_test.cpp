@@ -53,14 +53,14 @@ TEST_P(Decompress, AcceptsExactlyTheLimit) {
 }
 
 TEST_P(Decompress, NeverTakesMoreThanTheLimit) {
-  constexpr std::size_t kMost_bytes = 3'000'000;
+  constexpr std::size_t kMax_bytes = 3'000'000;
   const Bytes bomb = pack(GetParam(), Bytes(20'000'000));
   ASSERT_LT(bomb.size(), 400'000U);
   Bytes buffer;
-  const auto result = decompress(GetParam(), bomb, kMost_bytes, buffer);
+  const auto result = decompress(GetParam(), bomb, kMax_bytes, buffer);
   EXPECT_EQ(result.problem, "it unpacks to more than 3000000 bytes");
-  EXPECT_EQ(result.bytes.size(), kMost_bytes);
-  EXPECT_LE(buffer.capacity(), kMost_bytes);
+  EXPECT_EQ(result.bytes.size(), kMax_bytes);
+  EXPECT_LE(buffer.capacity(), kMax_bytes);
 }
 
 TEST_P(Decompress, GivesWhatCameBeforeTheCut) {

@@ -28,9 +28,9 @@ class UnpackedFiles : public testing::Test {
   }
   void TearDown() override { unsetenv("TMPDIR"); }
   Result<UnpackedFile> unpack(const std::string& packed, const Job& job = Job(),
-                              std::uint64_t most_bytes = kMostUnpackedFile_bytes) const {
+                              std::uint64_t max_bytes = kMaxUnpackedFile_bytes) const {
     test::write_file(folder_ / "packed", packed);
-    return UnpackedFile::unpack(folder_ / "packed", job, most_bytes);
+    return UnpackedFile::unpack(folder_ / "packed", job, max_bytes);
   }
   bool nothing_left() const { return std::filesystem::is_empty(folder_ / "tmp"); }
 

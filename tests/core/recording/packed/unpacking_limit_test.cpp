@@ -27,10 +27,10 @@ TEST(UnpackingLimit, SmallFilesMayUnpackFarBeyondTheirSize) {
 TEST(UnpackingLimit, LargeFilesMayUnpackToAMultipleOfTheirSize) {
   constexpr std::uint64_t kPacked_bytes = 10'000'000;
   UnpackingLimit limit("a.bag", kPacked_bytes);
-  EXPECT_FALSE(limit.take(kMostUnpackedPerPacked * kPacked_bytes));
+  EXPECT_FALSE(limit.take(kMaxUnpackedPerPacked * kPacked_bytes));
   EXPECT_TRUE(limit.take(1));
-  UnpackingLimit endless("a.bag", kMostUnpacked_bytes);
-  EXPECT_FALSE(endless.take(kMostUnpacked_bytes));
+  UnpackingLimit endless("a.bag", kMaxUnpacked_bytes);
+  EXPECT_FALSE(endless.take(kMaxUnpacked_bytes));
   EXPECT_TRUE(endless.take(1));
 }
 

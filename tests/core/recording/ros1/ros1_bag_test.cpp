@@ -289,10 +289,10 @@ std::string packed_zeros(std::size_t mebibytes) {
 
 TEST(Ros1Bag, ACompressionBombStopsAtTheLimit) {
   const test::ScratchFolder folder;
-  const std::string bomb = packed_zeros((kMostChunk_bytes >> 20) + 1);
+  const std::string bomb = packed_zeros((kMaxChunk_bytes >> 20) + 1);
   ASSERT_LT(bomb.size(), 2U << 20);
   const Reading reading =
-      read_records(folder, RawBag::chunk("lz4", kMostChunk_bytes, bomb) + sample_chunk_records());
+      read_records(folder, RawBag::chunk("lz4", kMaxChunk_bytes, bomb) + sample_chunk_records());
   EXPECT_EQ(reading.messages.size(), 2U);
   EXPECT_NE(reading.all_warnings().find("it unpacks to more than 268435456 bytes"), std::string::npos)
       << reading.all_warnings();

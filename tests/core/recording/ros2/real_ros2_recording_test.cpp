@@ -44,8 +44,8 @@ TEST_F(LidarServo, HoldsWhatItIsKnownToHoldAsFolderAndAsFile) {
 TEST_F(LidarServo, ItsFaultsAreTold) {
   const Recording recording = read(bag_);
   const RecordingSummary summary = inspect(recording);
-  EXPECT_NEAR(summary.motor.least_deg, 60 - 90, 1e-9);
-  EXPECT_NEAR(summary.motor.most_deg, 119 - 90, 1e-9);
+  EXPECT_NEAR(summary.motor.min_deg, 60 - 90, 1e-9);
+  EXPECT_NEAR(summary.motor.max_deg, 119 - 90, 1e-9);
   EXPECT_GT(summary.laser.gaps, 0U);
   EXPECT_NEAR(summary.laser.longest_gap_s, 11.8, 0.3);
   EXPECT_NEAR(double(summary.laser.zero) / double(summary.laser.beams), 0.25, 0.08);
