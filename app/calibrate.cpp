@@ -26,9 +26,8 @@ struct Options {
 };
 
 constexpr const char* kLines =
-    "\nThe lines on standard input are those of a CSV recording's two tables, mixed as they come, with the "
-    "word "
-    "scan or motor before each. The first of each word names its columns:\n"
+    "\nStandard input holds the lines of a CSV recording's two tables in the order in which they arrive, "
+    "each with the word scan or motor in front. The first line of each kind names its columns:\n"
     "  scan,stamp_s,angle_min_rad,angle_increment_rad,time_increment_s,ranges_m\n"
     "  motor,stamp_s,angle_rad\n"
     "  motor,1700000000.000,0.0131\n"
@@ -37,8 +36,7 @@ constexpr const char* kLines =
     "angle_increment_rad, ranges_m in m with spaces between them [intensities, time_increment_s, "
     "scan_time_s, "
     "range_min_m, range_max_m, topic]; angle_rad, angle_deg or position [topic, joint]. Empty lines and "
-    "those "
-    "that begin with # are left aside.";
+    "lines that begin with # are ignored.";
 
 Result<std::unique_ptr<LiveSource>> open_source(const Options& options) {
   if (options.source == "-")
@@ -162,7 +160,7 @@ ExitCode run(Options& options) {
 
 void add_calibrate(CLI::App& app, ExitCode& exit_code) {
   CLI::App* command = app.add_subcommand(
-      "calibrate", "Find the offset of a running rig that stands still: t_motor = t_laser + offset");
+      "calibrate", "Find the offset of a running, stationary rig: t_motor = t_laser + offset");
   const auto options = std::make_shared<Options>();
   const bool ros = ros_source_is_built();
   const std::string sources =
@@ -172,22 +170,22 @@ void add_calibrate(CLI::App& app, ExitCode& exit_code) {
       ->required()
       ->check(CLI::IsMember(ros ? std::vector<std::string>{"-", "ros"} : std::vector<std::string>{"-"}));
   command
-      ->add_option("--seconds", options->calibration.seconds,
-                   "Listen to so many seconds of scans, by their stamps")
+      ->add_option("--seconds", options->calibration.seconds, "How long to listen, in seconds of scan stamps")
       ->check(finite_number())
       ->check(CLI::Range(0.5, 600.0))
       ->capture_default_str()
       ->type_name("S");
   command
       ->add_option("--silence-s", options->calibration.silence_s,
-                   "End listening after so many seconds without a scan stamped later than those before")
+                   "Stop listening after this many seconds without a newer scan")
       ->check(finite_number())
       ->check(CLI::Range(0.1, 3600.0))
       ->capture_default_str()
       ->type_name("S");
   command
-      ->add_option("--record", options->record,
-                   "Keep what was heard: OUT.bag, OUT.mcap, or OUT for a folder with scans.csv and motor.csv")
+      ->add_option(
+          "--record", options->record,
+          "Record what was received: OUT.bag, OUT.mcap, or OUT for a folder with scans.csv and motor.csv")
       ->type_name("OUT");
   command
       ->add_option("--rig", options->recording.rig,
@@ -199,7 +197,7 @@ void add_calibrate(CLI::App& app, ExitCode& exit_code) {
           [options](const std::string& text) {
             options->recording.stamps = text == "header" ? StampSource::kHeader : StampSource::kReceive;
           },
-          "Stamps of both streams: header or receive (default: the rig's, else header)")
+          "Stamps to use for both streams: header or receive (default: the rig file's, else header)")
       ->type_name("S")
       ->check(CLI::IsMember({"header", "receive"}));
   command
@@ -208,12 +206,10 @@ void add_calibrate(CLI::App& app, ExitCode& exit_code) {
           [options](const std::string& text) {
             options->calibration.estimate.method = text == "direct" ? Method::kDirect : Method::kStationary;
           },
-          "direct (default) or stationary, as of estimate")
+          "direct (default) or stationary, as in estimate")
       ->type_name("M")
       ->check(CLI::IsMember({"direct", "stationary"}));
-  command
-      ->add_option("--threads", options->recording.threads,
-                   "Threads (default: as many as there are processors)")
+  command->add_option("--threads", options->recording.threads, "Number of threads (default: all processors)")
       ->type_name("N")
       ->check(CLI::Range(1, 1024));
   options->output.declare(*command);

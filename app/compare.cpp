@@ -201,27 +201,25 @@ void declare(CLI::App& command, CompareOptions& options) {
   command.add_option("-o,--output", options.output, "The picture to write: .png, .svg or .pdf")->required();
   command
       .add_option("--offsets-ms", options.offsets_ms,
-                  "The offsets to map a recording at in milliseconds, such as 19,24; with maps: those that "
+                  "Offsets in milliseconds to map a recording at, such as 19,24; with maps: the offsets that "
                   "they were made at")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(finite_number());
   command.add_option("--curve", options.curve,
-                     "An estimate (JSON) whose criteria are drawn below the maps; default with a recording: "
-                     "computed by 1 ms from 5 ms below the offsets to 5 ms above");
-  command.add_flag("--no-curve", options.no_curve, "Leave the criteria out");
+                     "An estimate (JSON) whose criteria are drawn below the maps (default with a recording: "
+                     "computed in steps of 1 ms from 5 ms below the offsets to 5 ms above)");
+  command.add_flag("--no-curve", options.no_curve, "Do not draw the criteria");
   command
       .add_option("--poses", options.poses,
-                  "Where the rig went (TUM), instead of solving for it; the map is in that frame")
+                  "Trajectory of the rig (TUM), used instead of solving for it; the map is in its frame")
       ->type_name("F");
   command
       .add_option("--path-height-m", options.path_height_m,
-                  "With maps: the sensor's height in the map frame, which slabs refer to")
+                  "With maps: the sensor's height in the map frame, to which slabs refer")
       ->check(finite_number())
       ->capture_default_str();
-  command
-      .add_option("--draw-in", options.draw_in,
-                  "offscreen, or window, where a picture is seen as it is drawn")
+  command.add_option("--draw-in", options.draw_in, "offscreen, or window to watch the picture being drawn")
       ->capture_default_str()
       ->check(CLI::IsMember({"offscreen", "window"}));
   options.look.declare(command);
@@ -230,7 +228,8 @@ void declare(CLI::App& command, CompareOptions& options) {
 }  // namespace
 
 void add_compare(CLI::App& app, ExitCode& exit_code) {
-  CLI::App* command = app.add_subcommand("compare", "Maps side by side, seen alike, with the criteria below");
+  CLI::App* command =
+      app.add_subcommand("compare", "Draw maps side by side with the same camera, and the criteria below");
   auto options = std::make_shared<CompareOptions>();
   declare(*command, *options);
   command->callback([options, command, &exit_code] {

@@ -76,8 +76,8 @@ ExitCode run(const Options& options) {
 }  // namespace
 
 void add_convert(CLI::App& app, ExitCode& exit_code) {
-  CLI::App* command = app.add_subcommand(
-      "convert", "Write the scans and the motor's samples as a recording of another format");
+  CLI::App* command =
+      app.add_subcommand("convert", "Convert the scans and the motor samples to another recording format");
   auto options = std::make_shared<Options>();
   command->add_option("REC", options->recording, std::string("The recording: ") + kRecordings)->required();
   command
@@ -85,20 +85,20 @@ void add_convert(CLI::App& app, ExitCode& exit_code) {
                    "OUT.bag, OUT.mcap, or OUT for a folder with scans.csv and motor.csv")
       ->required()
       ->type_name("OUT");
-  command->add_option("--to", options->to, "csv, ros1 or mcap (default: as OUT is named)")
+  command->add_option("--to", options->to, "csv, ros1 or mcap (default: by the name of OUT)")
       ->type_name("FORMAT")
       ->check([](const std::string& name) {
         return recording_format(name) ? std::string() : name + ": the formats are csv, ros1 and mcap";
       });
   command
       ->add_option("--compression", options->compression,
-                   "Of chunks: none; bz2 or lz4 (ros1); lz4 or zstd (mcap)")
+                   "Chunk compression: none; bz2 or lz4 (ros1); lz4 or zstd (mcap)")
       ->capture_default_str()
       ->type_name("C")
       ->check(CLI::IsMember({"none", "bz2", "lz4", "zstd"}));
   command
       ->add_option("--rig", options->rig,
-                   "Rig file that names the laser and the motor, where that is not plain")
+                   "Rig file that names the laser and the motor, where that is ambiguous")
       ->type_name("F");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }

@@ -140,24 +140,24 @@ ExitCode run(const Options& options, std::vector<std::string> deciding) {
 
 void declare_poses(CLI::App& command, Options& options) {
   command
-      .add_option("--poses", options.poses,
-                  "A moving rig's trajectory from elsewhere (TUM, the base frame's poses), which the walk is "
-                  "expected to be near. Its clock's time shift is found and reported: added to its stamps it "
-                  "gives the laser's clock")
+      .add_option(
+          "--poses", options.poses,
+          "Trajectory of a moving rig from another source (TUM, poses of the base frame), used as a prior. "
+          "The time shift of its clock is estimated and reported: t_laser = t_poses + time shift")
       ->type_name("T.tum");
   command.add_flag("--trust-poses", options.trust_poses,
-                   "Take --poses as the truth: the offset and the time shift are the only unknowns");
+                   "Treat --poses as the truth: the offset and the time shift are the only unknowns");
 }
 
 void declare_candidates(CLI::App& command, Options& options) {
   command
       .add_option("--resume", options.resume,
-                  "Keep finished candidates in F as they come; what is in it is not computed again")
+                  "Keep finished candidates in F; those already in F are not computed again")
       ->type_name("F");
   command
       .add_option_function<std::string>(
           "--shard", [&options](const std::string& text) { options.shard = parse_shard(text); },
-          "Compute part K of N of the candidates of --range or --around alone, into the file of --resume "
+          "Compute part K of N of the candidates of --range or --around only, into the file of --resume "
           "(default: REC.K-of-N.candidates here); `merge` makes the result")
       ->type_name("K/N")
       ->check([](const std::string& text) {

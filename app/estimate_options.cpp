@@ -77,7 +77,8 @@ void EstimateInput::declare(CLI::App& app) {
 void EstimateOutput::declare(CLI::App& app) {
   app.add_option("--json", json, "Write the result as JSON; - for stdout")->type_name("F");
   app.add_option("--csv", csv, "Write the criteria over the offset as CSV; - for stdout")->type_name("F");
-  app.add_flag("--no-timing", no_timing, "cpu_s and wall_s are null: the same bytes run after run");
+  app.add_flag("--no-timing", no_timing,
+               "Write cpu_s and wall_s as null, so that equal runs give equal bytes");
 }
 
 Result<void> EstimateOutput::check(std::vector<std::filesystem::path> inputs,

@@ -38,7 +38,7 @@ ExitCode run(const Options& options) {
 /// The recipe's keys, for those who write one.
 std::string recipe_keys() {
   std::string text =
-      "A recipe is YAML with these keys, names being yours:\n"
+      "A recipe is a YAML file with these keys; NAME is any name of yours:\n"
       "  recordings: {NAME: {file: REC, rig: F, stamps: header|receive, window_s: [A, B]}}\n"
       "        or  {NAME: {simulate: SCENE, offset_ms, seed, duration_s, noise_mm, dropout, sweep_s}}\n"
       "  estimates:  {NAME: {recording: NAME, method, assume, fit, scoring, ranges_ms: [[FROM, TO, STEP], "
@@ -49,12 +49,12 @@ std::string recipe_keys() {
       "                   estimate: its criteria below; each-own-view: true for maps of different places\n"
       "    kind: curves   estimates: NAME or [NAME, ...]; criteria: [d, e, n, roll]\n"
       "    kind: profile  maps; at_m: [X, Y], normal_deg, length_m, heights_m: [FROM, TO] above the path\n"
-      "                   (without at_m the wall that shows the offset best is looked for)\n"
+      "                   (without at_m: the wall that shows the offset best)\n"
       "    kind: scan     recording, at_s\n"
       "  tables:     {NAME: {title, estimates: [NAME, ...], columns: [{title, unit, decimals, and\n"
       "                   value: offset|sigma|offset-by-d|d|offset-by-n|offset-by-e|truth|difference,\n"
       "                   or values: [a text for each row]}]}}\n"
-      "  look:       how all figures look, unless one says otherwise:\n";
+      "  look:       default look of all figures:\n";
   for (const LookOption& option : look_options()) {
     text += fmt::format("    {:<14} {:<18} {}\n", option.name,
                         option.type.empty() ? "true|false" : option.type, option.help);
@@ -65,22 +65,20 @@ std::string recipe_keys() {
 }  // namespace
 
 void add_figures(CLI::App& app, ExitCode& exit_code) {
-  CLI::App* command = app.add_subcommand("figures", "Make the figures and tables that a recipe lists");
+  CLI::App* command = app.add_subcommand("figures", "Make the figures and tables of a recipe");
   command->footer(recipe_keys);
   auto options = std::make_shared<Options>();
   command->add_option("RECIPE", options->recipe, "A recipe (YAML), such as assets/figures/quick.yaml")
       ->required();
   command
       ->add_option("-o,--output", options->folder,
-                   "The folder for pictures and tables; its folder cache keeps the estimates")
+                   "Folder for pictures and tables; estimates are kept in its folder cache")
       ->type_name("DIR")
       ->required();
-  command
-      ->add_option("--draw-in", options->draw_in,
-                   "offscreen, or window, where pictures are seen as they are drawn")
+  command->add_option("--draw-in", options->draw_in, "offscreen, or window to watch the pictures being drawn")
       ->capture_default_str()
       ->check(CLI::IsMember({"offscreen", "window"}));
-  command->add_option("--threads", options->threads, "Threads (default: as many as there are processors)")
+  command->add_option("--threads", options->threads, "Number of threads (default: all processors)")
       ->type_name("N")
       ->check(CLI::Range(1, 1024));
   command->callback([options, &exit_code] { exit_code = run(*options); });

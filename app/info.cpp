@@ -126,7 +126,7 @@ std::string stream_text(const StreamSummary& stream, const std::string& where = 
   if (stream.gaps > 0) gaps = fmt::format("{} gaps, the longest {:.3f} s", stream.gaps, stream.longest_gap_s);
   return row("stamps", stamps) +
          row("rate", fmt::format("{:.2f} Hz over {:.3f} s, {}", stream.rate_hz(), stream.duration_s, gaps)) +
-         row("order", fmt::format("{} out of order, {} doubled, {} dropped", stream.out_of_order,
+         row("order", fmt::format("{} out of order, {} duplicated, {} dropped", stream.out_of_order,
                                   stream.doubled, stream.dropped));
 }
 

@@ -57,7 +57,7 @@ ExitCode run(const Options& options) {
   if (options.remove_outliers) map->cloud = without_outliers(map->cloud);
   if (options.voxel_m > 0) map->cloud = thinned(map->cloud, options.voxel_m);
   if (!map->warning.empty()) say("warning: {}\n", map->warning);
-  if (map->lost) say("warning: LOAM lost track at this offset: the map is not to be trusted\n");
+  if (map->lost) say("warning: tracking was lost at this offset: do not trust the map\n");
   if (const auto written = write_cloud(options.output, *map->cloud); !written) return fail(written.error());
   if (!options.trajectory.empty()) {
     const auto written = write_tum(options.trajectory, map->trajectory, built->epoch_ns);
@@ -86,16 +86,15 @@ void add_map(CLI::App& app, ExitCode& exit_code) {
         return path.ends_with(".pcd") || path.ends_with(".ply") ? std::string()
                                                                 : path + ": a map is written as .pcd or .ply";
       });
-  command->add_option("--trajectory", options->trajectory, "Write where the rig went, as TUM")
-      ->type_name("F");
+  command->add_option("--trajectory", options->trajectory, "Write the trajectory, as TUM")->type_name("F");
   command
       ->add_option("--poses", options->poses,
-                   "Where the rig went (TUM), instead of solving for it; the map is in that frame")
+                   "Trajectory of the rig (TUM), used instead of solving for it; the map is in its frame")
       ->type_name("F");
   command->add_option("--voxel-m", options->voxel_m, "Keep one point per cube of this size (default: all)")
       ->check(finite_number())
       ->check(CLI::PositiveNumber);
-  command->add_flag("--remove-outliers", options->remove_outliers, "Leave out stray points");
+  command->add_flag("--remove-outliers", options->remove_outliers, "Remove outliers");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

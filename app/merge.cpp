@@ -80,17 +80,16 @@ ExitCode run(const Options& options) {
 }  // namespace
 
 void add_merge(CLI::App& app, ExitCode& exit_code) {
-  CLI::App* command =
-      app.add_subcommand("merge", "Put the parts of `estimate --shard` together: the result of one run");
+  CLI::App* command = app.add_subcommand("merge", "Combine the parts of `estimate --shard` into one result");
   auto options = std::make_shared<Options>();
-  command->add_option("PART", options->parts, "Files of candidates of one search")->required()->expected(-1);
+  command->add_option("PART", options->parts, "Candidate files of one search")->required()->expected(-1);
   command
       ->add_option("--recording", options->recording,
-                   "Where the recording is; it is read again (default: as the parts name it)")
+                   "Path of the recording, which is read again (default: as named in the parts)")
       ->type_name("REC");
-  command->add_option("--rig", options->rig, "Where the rig file is (default: as the parts name it)")
+  command->add_option("--rig", options->rig, "Path of the rig file (default: as named in the parts)")
       ->type_name("F");
-  command->add_option("--threads", options->threads, "Threads (default: as many as there are processors)")
+  command->add_option("--threads", options->threads, "Number of threads (default: all processors)")
       ->type_name("N")
       ->check(CLI::Range(1, 1024));
   options->output.declare(*command);

@@ -49,24 +49,25 @@ void RecordingOptions::declare_reading(CLI::App& app) {
          [this](const std::string& text) {
            stamps = text == "header" ? StampSource::kHeader : StampSource::kReceive;
          },
-         "Stamps of both streams: header or receive (default: the rig's, else header)")
+         "Stamps to use for both streams: header or receive (default: the rig file's, else header)")
       ->type_name("S")
       ->check(CLI::IsMember({"header", "receive"}));
   app.add_option_function<std::string>(
          "--window", [this](const std::string& text) { window = parse_window(text); },
-         "Use only A to B, in seconds since the first scan")
+         "Use only the part from A to B, in seconds since the first scan")
       ->type_name("A:B")
       ->check([](const std::string& text) {
         return parse_window(text) ? std::string()
-                                  : "--window wants A:B in seconds, A less than B, and got " + text;
+                                  : "--window needs A:B in seconds, A less than B, and got " + text;
       });
 }
 
 void RecordingOptions::declare_computing(CLI::App& app) {
-  app.add_option("--assume", assume, "Take the rig as stationary or moving (default: the motion test says)")
+  app.add_option("--assume", assume,
+                 "Treat the rig as stationary or moving (default: decided by the motion test)")
       ->type_name("A")
       ->check(CLI::IsMember({"stationary", "moving"}));
-  app.add_option("--threads", threads, "Threads (default: as many as there are processors)")
+  app.add_option("--threads", threads, "Number of threads (default: all processors)")
       ->type_name("N")
       ->check(CLI::Range(1, 1024));
 }

@@ -84,7 +84,8 @@ std::string quoted_options(const CLI::App& command) {
 }  // namespace
 
 void add_report(CLI::App& app, ExitCode& exit_code) {
-  CLI::App* command = app.add_subcommand("report", "Write one HTML page: the offset, its evidence, the maps");
+  CLI::App* command =
+      app.add_subcommand("report", "Write a self-contained HTML page: the offset, its evidence and the maps");
   auto options = std::make_shared<Options>();
   options->recording.declare(*command);
   options->recording.declare_computing(*command);

@@ -49,15 +49,15 @@ ExitCode run(const Options& options) {
 
 void add_rig(CLI::App& app, ExitCode& exit_code) {
   CLI::App* command = app.add_subcommand(
-      "rig", "Write a rig file with what a recording tells of its rig, ready to edit and for --rig");
+      "rig", "Write a rig file with what was detected in a recording, to edit and to give with --rig");
   auto options = std::make_shared<Options>();
   command->add_option("REC", options->recording, std::string("The recording: ") + kRecordings)->required();
   command->add_option("-o,--output", options->output, "The rig file (default: stdout)")
       ->type_name("OUT.yaml");
   command
       ->add_option("--rig", options->rig,
-                   "Rig file with what is known already, or that names the laser and the motor where that is "
-                   "not plain")
+                   "Rig file with what is already known, or that names the laser and the motor where that is "
+                   "ambiguous")
       ->type_name("F");
   command
       ->add_option_function<std::string>(
@@ -65,7 +65,7 @@ void add_rig(CLI::App& app, ExitCode& exit_code) {
           [options](const std::string& text) {
             options->stamps = text == "header" ? StampSource::kHeader : StampSource::kReceive;
           },
-          "Stamps of both streams: header or receive (default: the rig's, else header)")
+          "Stamps to use for both streams: header or receive (default: the rig file's, else header)")
       ->type_name("S")
       ->check(CLI::IsMember({"header", "receive"}));
   command->callback([options, &exit_code] { exit_code = run(*options); });

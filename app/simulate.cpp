@@ -143,12 +143,12 @@ void declare_own_scene(CLI::App& app, CLI::Option* scene, Typed& typed) {
           ->group(group)
           ->needs(mesh);
   app.add_option("--trajectory-at", typed.at_m,
-                 "Where the mean of its positions is put (default: it stays where it is)")
+                 "Move the mean of its positions to this point (default: not moved)")
       ->type_name("X,Y,Z")
       ->group(group)
       ->needs(mesh);
   app.add_option("--trajectory-yaw-deg", own.placement.yaw_deg,
-                 "Turn it about the vertical through that point")
+                 "Rotate it about the vertical through that point")
       ->capture_default_str()
       ->group(group)
       ->needs(mesh);
@@ -160,11 +160,11 @@ void declare_own_scene(CLI::App& app, CLI::Option* scene, Typed& typed) {
                "Mount the rig so that it is level on average, whatever frame was recorded")
       ->group(group)
       ->needs(trajectory);
-  app.add_option("--trajectory-from-s", own.from_s, "Leave its first seconds out")
+  app.add_option("--trajectory-from-s", own.from_s, "Skip its first seconds")
       ->capture_default_str()
       ->group(group)
       ->needs(trajectory);
-  app.add_option("--trajectory-smoothing-ms", typed.smoothing_ms, "Between the knots of the spline")
+  app.add_option("--trajectory-smoothing-ms", typed.smoothing_ms, "Time between the knots of the spline")
       ->capture_default_str()
       ->group(group)
       ->needs(trajectory);
@@ -175,32 +175,35 @@ void declare_faults(CLI::App& app, Typed& typed) {
     return app.add_option(name, value, help)->capture_default_str()->group("Faults of real rigs");
   };
   fault("--mixed-pixels", typed.options.mixed_pixels,
-        "Part of the beams at an edge that return a range in between");
+        "Fraction of beams at an edge that return a range in between");
   fault("--grazing-bias-mm", typed.grazing_bias_mm,
-        "Added to a range, the more the more the beam grazes the surface");
+        "Range bias at grazing incidence; none at perpendicular incidence");
   fault("--stamp-jitter-ms", typed.stamp_jitter_ms, "Standard deviation added to every header stamp");
   fault("--backlash-deg", typed.options.backlash_deg, "Play between the encoder and the laser");
   fault("--clock-drift-ppm", typed.options.clock_drift_ppm, "How much faster the motor's clock runs");
-  fault("--nudge-mm", typed.nudge_mm, "Push the rig aside by this, one second after the start");
+  fault("--nudge-mm", typed.nudge_mm, "Push the rig sideways, one second after the start");
   fault("--noise-per-m-mm", typed.noise_per_m_mm, "Added to the noise for every metre of range");
   fault("--grazing-dropout", typed.options.grazing_dropout,
-        "Part of the beams lost on grazed surfaces, and on dark ones; none on bright ones met squarely");
-  fault("--mount-error-deg", typed.mount_error_deg, "How the laser is turned on the motor: roll, pitch, yaw")
+        "Fraction of beams lost at grazing incidence and on dark surfaces");
+  fault("--mount-error-deg", typed.mount_error_deg,
+        "Rotation error of the laser on the motor: roll, pitch, yaw")
       ->type_name("R,P,Y");
-  fault("--mount-error-mm", typed.mount_error_mm, "How the laser is moved on the motor")->type_name("X,Y,Z");
+  fault("--mount-error-mm", typed.mount_error_mm, "Translation error of the laser on the motor")
+      ->type_name("X,Y,Z");
   fault("--eccentricity-deg", typed.options.eccentricity_deg,
-        "The encoder shows angle + this sin(angle + phase)");
-  fault("--eccentricity-phase-deg", typed.options.eccentricity_phase_deg, "The phase of that");
-  fault("--uneven-motor", typed.options.uneven_motor, "The motor's speed varies slowly by at most this part");
-  fault("--people", typed.options.people, "How many people walk about");
-  fault("--glass", typed.options.glass, "Part of the upright surfaces that are panes of glass");
+        "Amplitude A of the encoder's eccentricity: it shows angle + A sin(angle + phase)");
+  fault("--eccentricity-phase-deg", typed.options.eccentricity_phase_deg, "Phase of the eccentricity");
+  fault("--uneven-motor", typed.options.uneven_motor,
+        "Fraction by which the motor's speed varies slowly, at most");
+  fault("--people", typed.options.people, "Number of people who walk through the scene");
+  fault("--glass", typed.options.glass, "Fraction of the upright surfaces that are glass");
 }
 
 }  // namespace
 
 void add_simulate(CLI::App& app, ExitCode& exit_code) {
   CLI::App* simulate =
-      app.add_subcommand("simulate", "Make a recording whose offset is known, as a ROS 1 bag");
+      app.add_subcommand("simulate", "Simulate a recording with a known offset, as a ROS 1 bag");
   const auto typed = std::make_shared<Typed>();
   SimulationOptions& options = typed->options;
   CLI::Option* scene = simulate
@@ -214,18 +217,18 @@ void add_simulate(CLI::App& app, ExitCode& exit_code) {
     return simulate->add_option(name, value, help)->capture_default_str();
   };
   option("--offset-ms", typed->offset_ms, "t_motor = t_laser + offset");
-  option("--seed", options.seed, "Of all that is random; equal seeds give equal bytes");
+  option("--seed", options.seed, "Random seed; the same seed gives the same file");
   simulate->add_option("--duration-s", options.duration_s,
-                       "The first seconds only (default: the whole walk, 4.5 in a room)");
-  option("--noise-mm", typed->noise_mm, "Standard deviation of a range");
-  option("--dropout", options.dropout, "Part of the beams that return nothing");
-  option("--sweep-s", options.sweep_s, "One half turn of the motor");
+                       "Length of the recording (default: the whole walk, 4.5 s in a room)");
+  option("--noise-mm", typed->noise_mm, "Standard deviation of the range noise");
+  option("--dropout", options.dropout, "Fraction of beams without a return");
+  option("--sweep-s", options.sweep_s, "Duration of one half turn of the motor");
   option("--motor", typed->motor, "triangle, trapezoid, sine, one-way or stuck");
   option("--encoder-step-deg", options.encoder_step_deg, "The encoder's resolution");
   option("--encoder-hz", options.encoder_hz, "Motor samples per second");
   option("--encoder-jitter-ms", typed->encoder_jitter_ms, "Standard deviation of the sampling instants");
   CLI::Option* imu = simulate->add_flag("--imu", options.imu,
-                                        "Record a gyroscope on the base besides, as sensor_msgs/Imu on /imu");
+                                        "Also record a gyroscope on the base, as sensor_msgs/Imu on /imu");
   option("--imu-shift-ms", typed->imu_shift_ms, "t_laser = t_imu + time shift")->needs(imu);
   declare_own_scene(*simulate, scene, *typed);
   declare_faults(*simulate, *typed);

@@ -106,7 +106,7 @@ Result<void> view(const ViewOptions& options) {
   if (!options.poses.empty()) first += " " + ui::quoted(options.poses);
   if (!options.headless)
     return ui::run_in_window(std::move(*with), size->width_px, size->height_px, first, *scripts);
-  if (scripts->empty()) return failure(ExitCode::kWrongUsage, "--headless wants --script F or --run 'LINES'");
+  if (scripts->empty()) return failure(ExitCode::kWrongUsage, "--headless needs --script F or --run 'LINES'");
   auto context = gl::make_offscreen_context(size->width_px, size->height_px);
   if (!context) return tl::unexpected(context.error());
   return ui::run_headless(**context, std::move(*with), first, *scripts);
@@ -120,18 +120,16 @@ void declare(CLI::App& command, ViewOptions& options) {
                                               "A recording, or a session (.json); default: the start page");
   command
       .add_option("--poses", options.poses,
-                  "Where the rig went (TUM), instead of solving for it; maps are in that frame")
+                  "Trajectory of the rig (TUM), used instead of solving for it; the maps are in its frame")
       ->type_name("F")
       ->needs(recording);
-  command.add_flag("--headless", options.headless,
-                   "Without a display: runs a script on the very same interface");
-  command.add_option("--size", options.size, "Of the window, in pixels")->capture_default_str();
-  command.add_option("--scale", options.scale, "1 is 100 %, 2 is 200 %; default: as the display asks")
+  command.add_flag("--headless", options.headless, "Run a script on the same interface without a display");
+  command.add_option("--size", options.size, "Window size in pixels")->capture_default_str();
+  command.add_option("--scale", options.scale, "1 is 100 %, 2 is 200 % (default: the display's)")
       ->check(finite_number())
       ->check(CLI::Range(0.5, 4.0));
-  command.add_option("--script", options.script, "Lines to carry out: see below")->type_name("F");
-  command
-      .add_option("--run", options.run, "The same, given here, with ; between the lines; after the script's")
+  command.add_option("--script", options.script, "Script to run: see below")->type_name("F");
+  command.add_option("--run", options.run, "Script lines, separated by ;, run after those of --script")
       ->type_name("LINES");
   command.footer([] { return "\n" + ui::script_help(); });
 }
@@ -140,7 +138,7 @@ void declare(CLI::App& command, ViewOptions& options) {
 
 void add_view(CLI::App& app, ExitCode& exit_code) {
   CLI::App* command =
-      app.add_subcommand("view", "The explorer: turn the offset, see the map come into focus");
+      app.add_subcommand("view", "Open the explorer: change the offset and watch the map come into focus");
   auto options = std::make_shared<ViewOptions>();
   declare(*command, *options);
   command->callback([options, &exit_code] {

@@ -23,7 +23,8 @@ struct FeatureOptions {
   int edges_per_region = 2;             // sharpest edge points to match in each of the scan line's regions
   int map_edges_per_region = 5;         // edge points to build the map from, likewise
   int regions = 4;
-  double axis_sine = 0.05;  // beams within this sine of the motor's axis have no lever and are left out
+  double axis_sine =
+      0.05;  // beams within this sine of the motor's axis have does not constrain the offset and are left out
 };
 
 /// A feature, in the frame that turns with the motor, so that it does not depend on the offset.

@@ -41,9 +41,8 @@ Remark rotation_reason(const std::vector<CurvePoint>& curve, double speed_rad_s)
   const double slope = (sxy - sx * sy / n) / spread / (2 * speed_rad_s);
   if (slope >= 0.3) return std::nullopt;
   return fmt::format(
-      "The scene gives no lever: turning the motor's angle by 1 deg turns the registered sweeps by {:.2f} "
-      "deg "
-      "only.",
+      "The scene does not constrain the offset: turning the motor by 1 deg turns the registered sweeps by "
+      "only {:.2f} deg.",
       slope);
 }
 
@@ -134,8 +133,8 @@ void add_extrema(Answer& answer, const OffsetSearch& search, std::size_t best) {
   }
   if (curve.size() > 2 && (best == 0 || best + 1 == curve.size()))
     answer.reasons.push_back(
-        fmt::format("The least {} lies on the edge of the searched range, at {:.1f} ms: the offset "
-                    "lies beyond it, or nowhere.",
+        fmt::format("The least {} lies on the edge of the searched range, at {:.1f} ms: the offset lies "
+                    "beyond it, or nowhere.",
                     moving ? "e" : "d", least.offset_s * 1e3));
 }
 

@@ -71,7 +71,7 @@ double motion_sigma_s(const MotionTest& motion, double lever_m, double speed_rad
 Remark motion_reason(double sigma_s, const SearchScale& scale) {
   if (sigma_s < scale.unit_s) return std::nullopt;
   return fmt::format(
-      "The rig moved too far from sweep to sweep to be treated as stationary: that alone leaves the offset "
+      "The rig moved too far from sweep to sweep to be treated as stationary: this leaves the offset "
       "uncertain by +- {:.1f} ms.",
       sigma_s * 1e3);
 }
@@ -125,8 +125,8 @@ Remark sway_warning(double sway_rad) {
   if (sway_rad < kUsual_rad) return std::nullopt;
   return fmt::format(
       "The trajectory turns to and fro in step with the motor, by {:.1f} deg from sweep to sweep: the rig "
-      "swayed like that, or the sweeps have too little in common. Another pace or another "
-      "motor speed would make the answer surer.",
+      "swayed like that, or the sweeps have too little in common. Another pace or another motor speed would "
+      "make the answer surer.",
       sway_rad * kDegPerRad);
 }
 

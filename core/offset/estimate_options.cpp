@@ -80,51 +80,46 @@ EstimateOption number(std::string name, std::string help, Number value, bool zer
 
 std::vector<EstimateOption> declared() {
   const std::string gates = fmt::format(" (default: {})", MappingOptions().edge_gate_m);
-  return {
-      choice(
-          "method", "M",
-          "direct: the offset as an unknown of a least squares, for stationary and moving rigs; stationary: "
-          "the offset at which odometry sees the least motion (d); moving: the offset at which the map is "
-          "sharpest (n, e). Default: direct; with --range, --around or another option of the paper's "
-          "methods, "
-          "stationary or moving, as the motion test decides",
-          {"stationary", "moving", "direct"},
-          [](EstimateOptions& options, std::size_t i) {
-            options.method = std::array{Method::kStationary, Method::kMoving, Method::kDirect}[i];
-          }),
-      choice("fit", "F",
-             "none: the best candidate; parabola: fitted to those within 3 ms of it (default: parabola for "
-             "moving "
-             "rigs and for slow motors, else none)",
-             {"none", "parabola"},
-             [](EstimateOptions& options, std::size_t i) {
-               options.fit = i == 0 ? Fit::kNone : Fit::kParabola;
-             }),
-      choice("scoring", "S",
-             "two-stage: count matches along the one trajectory that fits the recording best (default); "
-             "loam: at "
-             "LOAM's own poses, tracked at each candidate, as the paper did",
-             {"two-stage", "loam"},
-             [](EstimateOptions& options, std::size_t i) {
-               options.scoring = i == 0 ? Scoring::kTwoStage : Scoring::kLoam;
-             }),
-      number("weight-c", "c of d = sqrt(t^2 + c theta^2) (default: 1)", &EstimateOptions::weight_c, true),
-      number("edge-gate-m", "delta_E: an edge match is nearer than this" + gates,
-             &EstimateOptions::edge_gate_m, false),
-      number("plane-gate-m", "delta_H: a plane match is nearer than this" + gates,
-             &EstimateOptions::plane_gate_m, false),
-      {"range",
-       "FROM:TO:STEP",
-       "Candidates in milliseconds, such as 19:29:1; repeatable (default: coarse to fine about 0)",
-       {},
-       true,
-       set_range},
-      {"around",
-       "INITIAL:ACCURACY:STEPS",
-       "The paper's search in milliseconds: 24:0.1:40 tries 24 and 20 steps of 0.1 to either side",
-       {},
-       false,
-       set_around}};
+  return {choice("method", "M",
+                 "direct: the offset as an unknown of a least squares, for stationary and moving rigs; "
+                 "stationary: the offset at which odometry sees the least motion (d); moving: the offset at "
+                 "which the map is sharpest (n, e). Default: direct; with --range, --around or another "
+                 "option of the paper's methods, stationary or moving, as the motion test decides",
+                 {"stationary", "moving", "direct"},
+                 [](EstimateOptions& options, std::size_t i) {
+                   options.method = std::array{Method::kStationary, Method::kMoving, Method::kDirect}[i];
+                 }),
+          choice("fit", "F",
+                 "none: the best candidate; parabola: fitted to those within 3 ms of it (default: parabola "
+                 "for moving rigs and for slow motors, else none)",
+                 {"none", "parabola"},
+                 [](EstimateOptions& options, std::size_t i) {
+                   options.fit = i == 0 ? Fit::kNone : Fit::kParabola;
+                 }),
+          choice("scoring", "S",
+                 "two-stage: count matches along the one trajectory that fits the recording best (default); "
+                 "loam: at LOAM's own poses, tracked at each candidate, as the paper did",
+                 {"two-stage", "loam"},
+                 [](EstimateOptions& options, std::size_t i) {
+                   options.scoring = i == 0 ? Scoring::kTwoStage : Scoring::kLoam;
+                 }),
+          number("weight-c", "c of d = sqrt(t^2 + c theta^2) (default: 1)", &EstimateOptions::weight_c, true),
+          number("edge-gate-m", "delta_E: an edge match is nearer than this" + gates,
+                 &EstimateOptions::edge_gate_m, false),
+          number("plane-gate-m", "delta_H: a plane match is nearer than this" + gates,
+                 &EstimateOptions::plane_gate_m, false),
+          {"range",
+           "FROM:TO:STEP",
+           "Candidates in milliseconds, such as 19:29:1; repeatable (default: coarse to fine about 0)",
+           {},
+           true,
+           set_range},
+          {"around",
+           "INITIAL:ACCURACY:STEPS",
+           "The paper's search in milliseconds: 24:0.1:40 tries 24 and 20 steps of 0.1 to either side",
+           {},
+           false,
+           set_around}};
 }
 
 }  // namespace

@@ -122,8 +122,8 @@ Estimate judged(Estimate result, const OffsetSearch& search, const KindDecision&
   const std::size_t min_sweeps = std::size_t(search.options.mapping.settling_sweeps) + 12;
   if (search.as_moving() && result.sweeps < min_sweeps)
     result.reasons.push_back(
-        fmt::format("{}The recording is too short for a moving rig: {} sweeps, at least {} are "
-                    "needed, and 40 s of walking for a good answer.",
+        fmt::format("{}The recording is too short for a moving rig: {} sweeps, at least {} are needed, and "
+                    "40 s of walking for a good answer.",
                     seen_moving ? moved_text(search.motion) + " " : "", result.sweeps, min_sweeps));
   return result;
 }

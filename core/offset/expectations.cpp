@@ -16,8 +16,8 @@ std::vector<std::string> obstacles(const LaserSummary& laser, const MotorSummary
   if (!motor.turns) return {"The motor does not turn: there is no offset to see."};
   if (motor.one_way)
     return {
-        "The motor turns one way only: the offset cannot be told from the encoder's zero. Record it turning "
-        "back and forth."};
+        "The motor turns one way only: the offset cannot be distinguished from the encoder's zero. Record it "
+        "turning back and forth."};
   if (motor.reversals == 0) return {"The motor never turns back: there are no two sweeps to compare."};
   if (laser.used == laser.scans_without_motor)
     return {"No scan has motor samples around it at offset 0: choose other stamps."};
@@ -86,7 +86,7 @@ std::vector<std::string> expectations(const Recording& recording, const Recordin
   const Remark refused = refusal(recording, motor);
   add(refused ? *refused : accuracy(recording, motor));
   add(fmt::format(
-      "Offsets up to {:.4g} ms to either side can be told apart (a quarter of the motor's period).",
+      "Offsets up to {:.4g} ms to either side can be distinguished (a quarter of the motor's period).",
       1e3 * search_scale(motor).max_half_width_s));
   if (!refused) add(sparse_samples(recording, motor));
   add(few_sweeps(summary.motor.whole_sweeps()));

@@ -59,9 +59,8 @@ Remark flat_reason(const std::vector<CurvePoint>& coarse, std::size_t best) {
   const double min_m = *coarse[best].capped_cost_m, median_m = median_cost(coarse);
   if (median_m - min_m > kMinDepth * median_m) return std::nullopt;
   return fmt::format(
-      "The scene gives no lever: sweeps of opposite directions fit each other about equally well at every "
-      "offset "
-      "({:.1f} mm apart at the best, {:.1f} mm at the median).",
+      "The scene does not constrain the offset: sweeps of opposite directions fit each other about equally "
+      "well at every offset ({:.1f} mm apart at best, {:.1f} mm at the median).",
       min_m * 1e3, median_m * 1e3);
 }
 
@@ -105,9 +104,8 @@ Remark lever_reason(double lever_m, double reach_m) {
   constexpr double kMinLever = 0.05;
   if (lever_m > kMinLever * reach_m) return std::nullopt;
   return fmt::format(
-      "The scene gives no lever: turning the motor's angle by 1 deg lifts the points off their surfaces by "
-      "{:.1f} mm "
-      "only.",
+      "The scene does not constrain the offset: turning the motor by 1 deg moves the points only {:.1f} mm "
+      "away from their surfaces.",
       lever_m * kRadPerDeg * 1e3);
 }
 
@@ -190,9 +188,9 @@ Remark sampling_reason(const MotorTrack& track, const MotorMotion& motor, const 
 }
 
 Remark sigma_reason(std::optional<double> sigma_s, const SearchScale& scale) {
-  if (!sigma_s) return std::string("There is too little information to tell how sure an answer would be.");
+  if (!sigma_s) return std::string("There is too little information to estimate an uncertainty.");
   if (*sigma_s < scale.unit_s) return std::nullopt;
-  return fmt::format("There is too little information: the offset could be told to +- {:.1f} ms only.",
+  return fmt::format("There is too little information: the offset would be uncertain by +- {:.1f} ms.",
                      *sigma_s * 1e3);
 }
 
@@ -240,8 +238,7 @@ Remark long_sweeps_warning(const MotorMotion& motor, double unseen_s, double sig
   // The motor would turn faster, too.
   return fmt::format(
       "A sweep takes {:.2f} s, long enough for the rig to sway within it: that alone leaves +- {:.2f} ms. "
-      "Sweeps "
-      "of {:.1f} s would leave +- {:.2f} ms.",
+      "Sweeps of {:.1f} s would leave +- {:.2f} ms.",
       motor.median_sweep_s, unseen_s * 1e3, kShortSweep_s, unseen_s / (longer * squared_length(motor)) * 1e3);
 }
 
@@ -249,10 +246,8 @@ Remark smooth_motor_warning(double sway_s, double sigma_s) {
   if (sway_s < sigma_s / 2) return std::nullopt;
   return fmt::format(
       "The motor slows down before it turns back, so a sway of the rig in step with it looks like an offset: "
-      "that "
-      "alone leaves +- {:.2f} ms. A motor that turns at constant speed and reverses at once does not have "
-      "this "
-      "limit.",
+      "that alone leaves +- {:.2f} ms. A motor that turns at constant speed and reverses at once does not "
+      "have this limit.",
       sway_s * 1e3);
 }
 

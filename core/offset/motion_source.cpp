@@ -25,13 +25,12 @@ bool overlap(const Recording& recording, const GivenMotion& motion) {
 
 Error no_overlap(const Recording& recording, const MotionSource& source) {
   const double first_s = recording.scans.front().first_beam_s;
-  return {
-      ExitCode::kUnreadableInput,
-      fmt::format("{}: the poses do not overlap the recording {}: counted from its first scan they last {}, "
-                  "the scans {}, and no time shift makes their turns those of the rig.",
-                  source.name, recording.name,
-                  span_text(source.motion.begin_s() - first_s, source.motion.end_s() - first_s),
-                  span_text(0, recording.scans.back().last_beam_s() - first_s))};
+  return {ExitCode::kUnreadableInput,
+          fmt::format("{}: the poses do not overlap the recording {}: counted from its first scan they last "
+                      "{}, the scans {}, and no time shift makes their turns those of the rig.",
+                      source.name, recording.name,
+                      span_text(source.motion.begin_s() - first_s, source.motion.end_s() - first_s),
+                      span_text(0, recording.scans.back().last_beam_s() - first_s))};
 }
 
 // One way to follow the walk, for its turns alone.

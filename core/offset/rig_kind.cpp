@@ -31,7 +31,7 @@ KindDecision decide_kind(const MotionTest& test, const EstimateOptions& options)
     decision.kind = test.moving() ? RigKind::kMoving : RigKind::kStationary;
     decision.reason = pairs_text(test);
   } else {
-    decision.reason = "Too short to tell whether the rig stood still: it is taken to have stood still.";
+    decision.reason = "Too short to decide whether the rig moved: it is treated as stationary.";
     if (options.method != Method::kMoving) decision.warnings.push_back(decision.reason);
   }
   return decision;

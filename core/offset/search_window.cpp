@@ -45,8 +45,8 @@ Result<std::vector<double>> checked_offsets(const std::vector<OffsetRange>& rang
     return failure(
         ExitCode::kWrongUsage,
         fmt::format(
-            "The range of offsets is {:.1f} ms to either side of its middle; this motor allows {:.1f} ms, "
-            "a quarter of its period: an offset wrong by one sweep gives a perfect mirror image.",
+            "The range of offsets is {:.1f} ms to either side of its middle; this motor allows {:.1f} ms, a "
+            "quarter of its period: an offset wrong by one sweep gives a perfect mirror image.",
             half_width_s * 1e3, scale.max_half_width_s * 1e3));
   return offsets_s;
 }
@@ -57,10 +57,10 @@ std::vector<std::string> motor_reasons(const MotorTrack& track, const MotorMotio
     return {fmt::format("The motor does not move: its angle stays within {:.2f} deg.",
                         motor.range_rad / kRadPerDeg)};
   if (motor.sweeps.size() < 2)
-    return {fmt::format(
-        "The motor turns one way only ({:.0f} deg in {:.1f} s): an offset cannot be told from the "
-        "encoder's zero.",
-        motor.range_rad / kRadPerDeg, track.time_s.back() - track.time_s.front())};
+    return {
+        fmt::format("The motor turns one way only ({:.0f} deg in {:.1f} s): an offset cannot be "
+                    "distinguished from the encoder's zero.",
+                    motor.range_rad / kRadPerDeg, track.time_s.back() - track.time_s.front())};
   return {};
 }
 

@@ -35,10 +35,9 @@ void warn_of_wrong_unit(std::span<const MessageStamps> stamps, const std::string
   const double decades = std::log10(speed);
   const double thousands = 3 * std::round(decades / 3);
   const bool unit = thousands != 0 && std::abs(decades - thousands) < 0.1;
-  warnings.push_back(
-      fmt::format("the header stamps of {} run {:.4g} times as fast as its receive times{}; "
-                  "consider --stamps receive",
-                  topic, speed, unit ? ", as if they were in another unit" : ""));
+  warnings.push_back(fmt::format(
+      "the header stamps of {} run {:.4g} times as fast as its receive times{}; consider --stamps receive",
+      topic, speed, unit ? ", as if they were in another unit" : ""));
 }
 
 void measure_delay(std::span<const MessageStamps> stamps, StreamStamps& stream) {

@@ -7,8 +7,8 @@
 
 namespace sweepscope {
 
-/// One half turn of the motor: from reversal to reversal, or, first and last, the part of one that was
-/// recorded. Times are on the motor's clock, so sweeps do not depend on the offset.
+/// Duration of one half turn of the motor: from reversal to reversal, or, first and last, the part of one
+/// that was recorded. Times are on the motor's clock, so sweeps do not depend on the offset.
 struct Sweep {
   double begin_s = 0;  // of the half turn, at the reversal
   double end_s = 0;

@@ -168,10 +168,10 @@ bool is_ours(std::string_view text) {
 Result<void> check_header(std::string_view line, std::string_view name) {
   if (!line.starts_with(kOurs)) return unreadable(fmt::format("{}: not a file of candidates", name));
   if (line.substr(kOurs.find("sweepscope")).starts_with(fmt::format("{}\"", kSchema))) return {};
-  return unreadable(fmt::format(
-      "{}: line 1: another version of sweepscope wrote this file of candidates. Delete it and run the "
-      "estimate again",
-      name));
+  return unreadable(
+      fmt::format("{}: line 1: another version of sweepscope wrote this file of candidates. Delete it and "
+                  "run the estimate again",
+                  name));
 }
 
 }  // namespace
@@ -395,10 +395,9 @@ std::optional<Error> MergedCandidates::missing() const {
     if (std::none_of(files_.begin(), files_.end(), is_it))
       parts += fmt::format("{} {}/{}", parts.empty() ? "; no file holds shard" : ",", number, count);
   }
-  return Error{ExitCode::kUnreadableInput,
-               fmt::format("{} candidates are missing, the first at {:g} ms{}: run the estimate again that "
-                           "was to compute them",
-                           missing_s_.size(), first_s * 1e3, parts)};
+  return Error{ExitCode::kUnreadableInput, fmt::format("{} candidates are missing, the first at {:g} ms{}: "
+                                                       "run the estimate again that was to compute them",
+                                                       missing_s_.size(), first_s * 1e3, parts)};
 }
 
 }  // namespace sweepscope

@@ -105,11 +105,9 @@ Result<std::vector<Person>> place_people(int count, std::uint64_t seed, const Ra
       if (has_room(person, scene) && !meets_rig(person, rig_at, duration_s)) found = person;
     }
     if (!found)
-      return failure(
-          ExitCode::kWrongUsage,
-          fmt::format("the scene has no room for person {} of {}: every circle that was tried meets "
-                      "a surface or the rig",
-                      number + 1, count));
+      return failure(ExitCode::kWrongUsage, fmt::format("the scene has no room for person {} of {}: every "
+                                                        "circle that was tried meets a surface or the rig",
+                                                        number + 1, count));
     people.push_back(*found);
   }
   return people;

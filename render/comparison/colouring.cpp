@@ -35,8 +35,9 @@ std::vector<float> in_millimetres(std::vector<float> metres) {
 
 Result<std::vector<float>> feature_values(const ComparedMap& map) {
   if (map.feature_kinds.size() != map.size()) {
-    return failure(ExitCode::kWrongUsage,
-                   "Colours by features want a recording: a map file does not say which points are features");
+    return failure(
+        ExitCode::kWrongUsage,
+        "--colour-by features needs a recording: a map file does not say which points are features");
   }
   std::vector<float> values;
   for (const FeatureKind kind : map.feature_kinds) values.push_back(static_cast<float>(kind));
@@ -44,7 +45,7 @@ Result<std::vector<float>> feature_values(const ComparedMap& map) {
 }
 
 Result<std::vector<float>> distance_values(const ComparedMap& map, const ComparedMap* other) {
-  if (other == nullptr) return failure(ExitCode::kWrongUsage, "Colours by distance want two maps at least");
+  if (other == nullptr) return failure(ExitCode::kWrongUsage, "--colour-by distance needs at least two maps");
   if (map.size() == 0 || other->size() == 0) return std::vector<float>(map.size(), kNoValue);
   return in_millimetres(distances_to_m(*map.cloud, *other->cloud, {}));
 }

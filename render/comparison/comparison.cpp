@@ -240,7 +240,7 @@ std::string seen_from(const ComparisonOptions& options) {
   if (options.viewpoint == Viewpoint::kTop) return "Seen from above" + how;
   if (options.viewpoint == Viewpoint::kFront) return "Seen along y" + how;
   if (options.viewpoint == Viewpoint::kRight) return "Seen against x" + how;
-  return options.perspective ? "Seen from aside in perspective" : "Isometric view";
+  return options.perspective ? "Side view in perspective" : "Isometric view";
 }
 
 std::string how_it_is_seen(const Prepared& prepared, const ComparisonOptions& options) {

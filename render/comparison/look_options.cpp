@@ -145,8 +145,8 @@ std::vector<LookOption> declare() {
        set_background},
       {"colour-by", "NAME",
        "elevation, intensity, time, direction (which way the motor turned), features (edge and plane "
-       "points), blur (the thickness of the surface around a point) or distance (to the other map) "
-       "(default: elevation)",
+       "points), blur (the thickness of the surface around a point) or distance (to the other map) (default: "
+       "elevation)",
        false, [](Options& o, const std::string& text) { return assign(o.colour_by, colour_by(text)); }},
       {"colour-table", "NAME", "viridis, cividis, turbo or grey (default: viridis)", false,
        [](Options& o, const std::string& text) {

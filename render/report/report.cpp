@@ -71,7 +71,8 @@ std::string answer(const Estimate& estimate) {
   if (!estimate.identifiable || !estimate.offset_s) {
     std::string reasons;
     for (const std::string& reason : estimate.reasons) reasons += html::element("li", html::escape(reason));
-    return "<div class=\"answer refused\"><div><b>This recording does not tell the offset.</b></div>" +
+    return "<div class=\"answer refused\"><div><b>The offset cannot be determined from this "
+           "recording.</b></div>" +
            html::element("ul", reasons) + "</div>\n";
   }
   return fmt::format(

@@ -114,8 +114,8 @@ Result<std::string> encode_svg(const Picture& picture, std::span<const PngText> 
   std::string svg = fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
       "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" "
-      "width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" "
-      "font-family=\"'DejaVu Sans', Verdana, sans-serif\" xml:space=\"preserve\">\n",
+      "width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" font-family=\"'DejaVu Sans', Verdana, "
+      "sans-serif\" xml:space=\"preserve\">\n",
       picture.width_px, picture.height_px);
   svg += metadata_of(texts);
   if (picture.background.alpha > 0) {

@@ -96,11 +96,10 @@ TEST_F(CalibrateCommand, WhatDoesNotAdvanceEndsItWithTheTrueReason) {
       << "grep -m 1 ^motor stream.csv; grep -m 1 ^scan stream.csv\n"
          "line=$(grep \"^$1,1\" stream.csv | head -n 1); while echo \"$line\" 2>&-; do :; done\n";
   const auto reason = [&](const std::string& word) {
-    const std::string command =
-        "cd '" + folder_.string() + "' && bash endless.sh " + word +
-        " | '" SWEEPSCOPE_EXECUTABLE
-        "' calibrate - --silence-s 0.5 --seconds 600 --json said.json >said.out 2>said.err; "
-        "exit ${PIPESTATUS[1]}";
+    const std::string command = "cd '" + folder_.string() + "' && bash endless.sh " + word +
+                                " | '" SWEEPSCOPE_EXECUTABLE
+                                "' calibrate - --silence-s 0.5 --seconds 600 --json said.json >said.out "
+                                "2>said.err; exit ${PIPESTATUS[1]}";
     std::ofstream(folder_ / "calibrate.sh") << command;
     const int status = std::system(("bash '" + (folder_ / "calibrate.sh").string() + "'").c_str());
     EXPECT_EQ(WEXITSTATUS(status), 4) << test::contents_of(folder_ / "said.err");

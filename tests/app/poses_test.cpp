@@ -31,11 +31,10 @@ TEST_F(Poses, OfAnotherTimeAreExitCode4WithBothSpans) {
         "view r.bag --poses other.tum --headless --run 'wait solved; screenshot out.png'"}) {
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.exit_code, 4) << arguments << ": " << outcome.err;
-    EXPECT_NE(
-        outcome.err.find("r.bag: no scan lies within the time of the poses: the poses are from 100.000 to "
-                         "110.000 s, the scans from " +
-                         std::to_string(begin_s_)),
-        std::string::npos)
+    EXPECT_NE(outcome.err.find("r.bag: no scan lies within the time of the poses: the poses are from 100.000 "
+                               "to 110.000 s, the scans from " +
+                               std::to_string(begin_s_)),
+              std::string::npos)
         << outcome.err;
     EXPECT_FALSE(exists("out.pcd") || exists("out.png"));
   }

@@ -185,8 +185,8 @@ TEST_F(Shards, RunUnderGnuParallel) {
                                    std::string(kSearch) + "--threads 1 --shard {}/4 ::: 1 2 3 4");
   ASSERT_EQ(four.exit_code, 0) << four.err;
   expect_done(
-      "merge room.1-of-4.candidates room.2-of-4.candidates room.3-of-4.candidates "
-      "room.4-of-4.candidates --no-timing --json merged.json");
+      "merge room.1-of-4.candidates room.2-of-4.candidates room.3-of-4.candidates room.4-of-4.candidates "
+      "--no-timing --json merged.json");
   EXPECT_EQ(file("merged.json"), file("one.json"));
 }
 

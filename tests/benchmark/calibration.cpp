@@ -217,8 +217,7 @@ void run(const Family& family, const Arguments& arguments, Table& table) {
       if (arguments.lines)
         fmt::print(stderr,
                    "{} {} {}: {:.1f} s sweep {} noise {:.0f} mm step {} hz {} jit {:.1f} offset {:+.2f}: err "
-                   "{:+.4f} "
-                   "sigma {:.4f} z {:+.2f} {}\n",
+                   "{:+.4f} sigma {:.4f} z {:+.2f} {}\n",
                    family.name, options.scene, name, *options.duration_s, options.sweep_s,
                    options.noise_m * 1e3, options.encoder_step_deg, options.encoder_hz,
                    options.stamp_jitter_s * 1e3, options.offset_s * 1e3, outcome.error_s * 1e3,

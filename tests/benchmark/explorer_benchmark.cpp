@@ -1,5 +1,5 @@
 // How long the explorer lets a person wait, in the very interface, without a display. Run by hand, on a quiet
-// machine: tests/benchmark/explorer, which adds what wants a window.
+// machine: tests/benchmark/explorer, which adds what needs a window.
 #include <fmt/format.h>
 #include <unistd.h>
 

@@ -166,8 +166,8 @@ int run(const std::vector<std::string>& words) {
   if (is("row", 4)) return print_row(words[1], words[2], words[3], words[4]);
   if (is("head", 0)) return print_head(), 0;
   fmt::print(stderr,
-             "walk_tools mesh SCENE OUT.ply | distance CLOUD MESH | error TRUTH.tum TRAJECTORY.tum | "
-             "row NAME TRUTH_STEM ESTIMATE.json TRAJECTORY.tum | head\n");
+             "walk_tools mesh SCENE OUT.ply | distance CLOUD MESH | error TRUTH.tum TRAJECTORY.tum | row "
+             "NAME TRUTH_STEM ESTIMATE.json TRAJECTORY.tum | head\n");
   return 2;
 }
 

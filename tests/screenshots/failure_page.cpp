@@ -48,8 +48,8 @@ Result<void> write_failure_page(const std::filesystem::path& folder, const Failu
   for (const char* picture : {"actual", "expected", "difference"}) {
     if (!std::filesystem::exists(folder / fmt::format("{}.png", picture))) continue;
     page += fmt::format(
-        "<figure><figcaption>{0}</figcaption><a href=\"{0}.png\"><img src=\"{0}.png\" alt=\"{0}\"></a>"
-        "</figure>\n",
+        "<figure><figcaption>{0}</figcaption><a href=\"{0}.png\"><img src=\"{0}.png\" "
+        "alt=\"{0}\"></a></figure>\n",
         picture);
   }
   page += fmt::format("</div>\n<pre>{}</pre>\n<pre>{}</pre>\n</body></html>\n",

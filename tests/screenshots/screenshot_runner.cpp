@@ -114,9 +114,11 @@ Verdict judge(const std::string& name, const Screenshot& picture, const std::str
   fs::copy_file(baseline, folder / "expected.png", none);
   if (!actual) return {false, actual.error().message};
   if (none) {
-    return {false, fmt::format("There is no baseline screenshots/{0}.png. Look at actual.png; ./check "
-                               "--accept {0} takes it.",
-                               name)};
+    return {
+        false,
+        fmt::format(
+            "There is no baseline screenshots/{0}.png. Look at actual.png; ./check --accept {0} takes it.",
+            name)};
   }
   const auto expected = read_png(baseline);
   if (!expected) return {false, expected.error().message};

@@ -99,7 +99,7 @@ Result<void> Explorer::act(const Call& call) {
   if (auto checked = check_outputs_of(call); !checked) return checked;
   const auto action = kActions.find(call.command->name);
   if (action != kActions.end()) return action->second(*this, call);
-  return at_window ? at_window(call) : not_now(fmt::format("\"{}\" wants a window", call.command->name));
+  return at_window ? at_window(call) : not_now(fmt::format("\"{}\" needs a window", call.command->name));
 }
 
 void Explorer::cancel() {

@@ -60,24 +60,20 @@ std::vector<Chart> charts_of(const PaneContext& context) {
 std::string meaning(const std::string& title) {
   if (title.starts_with("Motion"))
     return "d = √(t² + c θ²), equation 3: the motion that odometry sees between sweeps of a rig that stood "
-           "still, "
-           "from the translation t (equation 1) and the rotation θ (equation 2). Least at the offset.";
+           "still, from the translation t (equation 1) and the rotation θ (equation 2). Least at the offset.";
   if (title.starts_with("Mean distance"))
     return "e, equation 7: the mean distance of the matches from their line or plane on the map. Least at "
            "the offset.";
   if (title.starts_with("Matches"))
     return "n, equation 6: edge and plane points that lie on the map, nearer than the gates of equations 4 "
-           "and 5. "
-           "Greatest at the offset.";
+           "and 5. Greatest at the offset.";
   if (title.starts_with("Alternating"))
     return "The roll by which sweeps to and fro disagree: twice the motor's speed times the offset's error. "
-           "Zero at "
-           "the offset.";
+           "Zero at the offset.";
   if (title.starts_with("Distance between"))
     return "The coarse search of the direct method: the mean distance between what sweeps of both directions "
            "measured at equal motor angles, each at most a cap. Least near the offset, which the least "
-           "squares "
-           "then finds to a fraction of a millisecond.";
+           "squares then finds to a fraction of a millisecond.";
   return "Estimate the offset to see the criteria over the candidates here.";
 }
 

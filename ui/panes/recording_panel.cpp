@@ -125,7 +125,7 @@ void answer(const PaneContext& context, const Estimate& estimate) {
     button(context, "Take it for map B", "take-found");
   } else {
     ImGui::PushFont(context.fonts.heading);
-    ImGui::TextUnformatted("None: it cannot be told");
+    ImGui::TextUnformatted("Not determined");
     ImGui::PopFont();
     for (const std::string& reason : estimate.reasons)
       ImGui::TextWrapped("%s", printable_line(reason).c_str());

@@ -128,7 +128,7 @@ class Runner {
     if (words.peek() == "at") {
       words.take();
       const auto x = number(words.take()), y = number(words.take());
-      if (!x || !y) return wrong("\"at\" wants two shares, such as 0.2 0.5");
+      if (!x || !y) return wrong("\"at\" needs two fractions, such as 0.2 0.5");
       across = *x;
       down = *y;
     }
@@ -412,8 +412,7 @@ std::string script_help() {
       "  expect NAME is|contains TEXT, expect NAME near VALUE WITHIN, expect NAME above|below VALUE\n"
       "  expect picture FILE.png                           the same picture, within the limits for pictures\n"
       "  wander ACTIONS [SEED]                             tries everything, in an order that the seed "
-      "decides; "
-      "what\n"
+      "decides; what\n"
       "                                                    it exports lands in the working folder\n"
       "What can be expected:\n";
   for (const auto& [name, meaning] : Explorer::observables())

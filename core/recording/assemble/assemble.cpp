@@ -284,7 +284,7 @@ void ScanAssembler::warn_of_overlap() {
   if (times_s.size() > 2 && duration_s > 1.05 * spaced.median_s) {
     report_.warnings.push_back(
         fmt::format("a scan on {} takes {:.4g} s by its time_increment, and scans follow every {:.4g} s: its "
-                    "time_increment is too long, or scans are doubled",
+                    "time_increment is too long, or scans are duplicated",
                     raw_.topic, duration_s, spaced.median_s));
   }
 }
@@ -352,11 +352,10 @@ void compare_streams(Recording& recording) {
   }
   if (report.laser_stamps.used != report.motor_stamps.used) {
     const bool laser_by_header = report.laser_stamps.used == StampSource::kHeader;
-    report.warnings.push_back(
-        fmt::format("the laser goes by {} and the motor by {}: the offset then holds the delays of "
-                    "this one recording",
-                    laser_by_header ? "header stamps" : "receive times",
-                    laser_by_header ? "receive times" : "header stamps"));
+    report.warnings.push_back(fmt::format(
+        "the laser goes by {} and the motor by {}: the offset then holds the delays of this one recording",
+        laser_by_header ? "header stamps" : "receive times",
+        laser_by_header ? "receive times" : "header stamps"));
   }
   const double start_s = recording.scans.front().first_beam_s, end_s = recording.scans.back().last_beam_s();
   if (motor.time_s.front() > end_s || motor.time_s.back() < start_s) {
@@ -375,7 +374,7 @@ void warn_of_source(const RawJoint& joint, Recording& recording) {
   if (joint.source != JointSource::kNumber) return;
   recording.report.warnings.push_back(
       fmt::format("{} holds plain numbers: they are taken times {:.6g} (the rig's motor.scale) as rad, and "
-                  "whether they are measured angles or commands is not said",
+                  "whether they are measured angles or commands is not known",
                   joint.topic, recording.rig.motor.scale));
 }
 

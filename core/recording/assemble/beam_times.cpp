@@ -130,8 +130,8 @@ std::string BeamTimesReport::unusable() const {
 std::string BeamTimesReport::warning(const Seen& seen, const std::string& topic, double period_s) const {
   const double recorded_s = double{seen.scan.time_increment_s}, used_s = seen.times.time_increment_s;
   const std::string what = fmt::format(
-      "{} scans on {} have a time_increment of {:.4g} s, by which a scan takes {:.4g} s of the "
-      "{:.4g} s from scan to scan",
+      "{} scans on {} have a time_increment of {:.4g} s, by which a scan takes {:.4g} s of the {:.4g} s from "
+      "scan to scan",
       seen.scans, topic, recorded_s, recorded_s * (seen.scan.beams - 1.0), period_s);
   if (seen.times.of_rig) return fmt::format("{}; the rig file's {:.4g} s is used instead", what, used_s);
   constexpr const char* kHelp = "give laser.time_increment_s in a rig file";
@@ -141,13 +141,13 @@ std::string BeamTimesReport::warning(const Seen& seen, const std::string& topic,
                          what, recorded_s > used_s ? "long" : "short", used_s, kHelp);
     case IncrementFinding::kSkipsOrTooShort:
       return fmt::format(
-          "{}: the driver leaves out scans, or the increment is too short and should be "
-          "{:.4g} s, that of a mirror that turns once a scan ({})",
+          "{}: the driver leaves out scans, or the increment is too short and should be {:.4g} s, that of a "
+          "mirror that turns once a scan ({})",
           what, seen.times.other_s, kHelp);
     case IncrementFinding::kWholePeriodOrTooLong:
       return fmt::format(
-          "{}: a scan takes its whole period, or the increment is too long and should be "
-          "{:.4g} s, that of a mirror that turns once a scan ({})",
+          "{}: a scan takes its whole period, or the increment is too long and should be {:.4g} s, that of a "
+          "mirror that turns once a scan ({})",
           what, seen.times.other_s, kHelp);
     default:
       return fmt::format(

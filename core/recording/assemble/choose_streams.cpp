@@ -105,8 +105,8 @@ Result<std::size_t> choose_laser(const RawRecording& raw, const Rig& rig) {
   if (usable.size() == 1) return usable.front();
   if (usable.size() > 1) {
     return unreadable(fmt::format(
-        "{}: has {} topics of scans, and which to use is not plain; name one in a rig file "
-        "(laser: {{topic: {}}}, given with --rig):{}",
+        "{}: has {} topics of scans, and it is ambiguous which to use; name one in a rig file (laser: "
+        "{{topic: {}}}, given with --rig):{}",
         raw.file, usable.size(), raw.lasers[usable.front()].topic, list_of_topics(raw, "/LaserScan")));
   }
   const std::string any = list_of_topics(raw, "/LaserScan");
@@ -138,7 +138,7 @@ Result<std::size_t> choose_joint(const RawRecording& raw, const Rig& rig) {
   if (!usable.empty()) {
     const auto& choices = moving.empty() ? usable : moving;
     return unreadable(
-        fmt::format("{}: {} of {} joints move, and which of them turns the scanner is not plain; name it "
+        fmt::format("{}: {} of {} joints move, and it is ambiguous which of them turns the scanner; name it "
                     "in a rig file (motor: {{topic: {}, joint: {}}}, given with --rig):{}",
                     raw.file, moving.size(), usable.size(), raw.joints[choices.front()].topic,
                     raw.joints[choices.front()].joint, list_of_joints(raw, choices, rig)));

@@ -115,7 +115,7 @@ Result<void> check_columns(const CsvTable& table, const std::vector<Names>& need
   for (const std::string& name : table.columns())
     if (std::ranges::find(known, name) == known.end()) unknown.push_back(name);
   if (!unknown.empty()) {
-    raw.warnings.push_back(fmt::format("{} has columns that are not known and were left aside: {}", file,
+    raw.warnings.push_back(fmt::format("{} has columns that are not known and were ignored: {}", file,
                                        fmt::join(unknown, ", ")));
   }
   return {};

@@ -62,7 +62,7 @@ Result<void> TableReader::read(CsvTable& table, const std::function<std::string(
       return failure(ExitCode::kInterrupted, fmt::format("{}: reading was interrupted", path_.string()));
   }
   if (cut || table.cut_short()) {
-    raw_.warnings.push_back(fmt::format("{} is cut short in line {}, which was left aside",
+    raw_.warnings.push_back(fmt::format("{} is cut short in line {}, which was ignored",
                                         path_.filename().string(), table.line()));
   }
   return {};
@@ -97,8 +97,8 @@ std::string quoted(const std::string& name) {
 
 Result<void> write_scans(const RawLaser& laser, AtomicFile& file, const Job& job) {
   std::string line =
-      "stamp_s,receive_s,angle_min_rad,angle_increment_rad,time_increment_s,scan_time_s,range_min_m,"
-      "range_max_m,topic,ranges_m,intensities\n";
+      "stamp_s,receive_s,angle_min_rad,angle_increment_rad,time_increment_s,scan_time_s,range_min_m,range_"
+      "max_m,topic,ranges_m,intensities\n";
   for (std::size_t i = 0; i < laser.scans.size(); ++i) {
     const RawScan& scan = laser.scans[i];
     line += fmt::format("{},{},{},{},{},{},{},{},{},", stamp_text(scan.stamps.header_ns),

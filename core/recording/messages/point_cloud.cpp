@@ -66,8 +66,7 @@ std::string no_line(const Points& points) {
   }
   if (4 * apart < points.size()) return "";
   return "its points have no field that says which beam each is of (ring, line or channel), and neighbours "
-         "in "
-         "time lie far apart";
+         "in time lie far apart";
 }
 
 }  // namespace

@@ -35,10 +35,10 @@ void judge_stamp(const Recording& recording, const LaserSummary& laser, bool giv
   if (given) {
     detected.stamp_at_note = "as the rig file given says";
   } else if (recording.rig.laser.stamp != StampSource::kHeader) {
-    detected.stamp_at_note = "not told by the recording; receive times are those of an arrival";
+    detected.stamp_at_note = "not in the recording; receive times are arrival times";
     detected.rig.laser.stamp_at = StampAt::kArrival;
   } else if (!delay_s || *delay_s < 0 || *delay_s > kSameClock_s) {
-    detected.stamp_at_note = "not told by the recording; a driver's manual may";
+    detected.stamp_at_note = "not in the recording; see the driver's manual";
   } else {
     const bool too_early = *delay_s < 0.95 * laser.scan_s;
     if (too_early) detected.rig.laser.stamp_at = StampAt::kLastBeam;
@@ -59,8 +59,7 @@ void note_increment(const RawScan& first, const Recording& recording, DetectedRi
   }
   if (recording.report.beam_time_doubt_s > 0) {
     detected.increment_note =
-        "not recorded, and not told: scan_time / beams would be too long where the "
-        "scanner has a blind part";
+        "not recorded, and not known: scan_time / beams would be too long where the scanner has a blind part";
   } else if (!detected.rig.laser.time_increment_s) {
     detected.rig.laser.time_increment_s = recording.scans.front().time_increment_s;
     detected.increment_note = "not recorded: scan_time / beams, too long where the scanner has a blind part";
@@ -99,7 +98,7 @@ void take_mount(const FrameMount& found, const Recording& recording, DetectedRig
   if (!found.turning) {
     detected.rig.mount = rig_mount(found, 0, 1);
     detected.mount_found = true;
-    detected.mount_note = fmt::format("{} in {}, by transforms; the axis is not told ({})",
+    detected.mount_note = fmt::format("{} in {}, by transforms; the axis is not known ({})",
                                       found.chain.front(), found.chain.back(), kAxes);
     return;
   }
@@ -184,7 +183,7 @@ Result<DetectedRig> detect_rig(const std::filesystem::path& path, const ReadOpti
               detected);
   note_increment(evidence->first_scan, *recording, detected);
   note_motor(evidence->joint, summary.motor, detected);
-  detected.mount_note = fmt::format("not told by the recording: {}", kAxes);
+  detected.mount_note = fmt::format("not in the recording: {}", kAxes);
   if (mount_given) {
     detected.mount_note = "as the rig file given says";
   } else if (evidence->mount) {

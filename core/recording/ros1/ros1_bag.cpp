@@ -279,11 +279,11 @@ void BagReader::describe(BagConnection connection, const BagPlace& place) {
   if (is_new || (before.topic == connection.topic && before.type == connection.type &&
                  before.md5sum == connection.md5sum))
     return;
-  warn(fmt::format(
-      "the connection at {} is of topic {}, type {} and md5sum {}, and the bag describes the same "
-      "one as of topic {}, type {} and md5sum {}: one of the two is damaged",
-      place.text(), connection.topic, connection.type, connection.md5sum, before.topic, before.type,
-      before.md5sum));
+  warn(
+      fmt::format("the connection at {} is of topic {}, type {} and md5sum {}, and the bag describes the "
+                  "same one as of topic {}, type {} and md5sum {}: one of the two is damaged",
+                  place.text(), connection.topic, connection.type, connection.md5sum, before.topic,
+                  before.type, before.md5sum));
   before = std::move(connection);
 }
 
@@ -308,8 +308,8 @@ void BagReader::warn_of_end(std::uint64_t at, std::uint64_t end) {
   cut_short_ = true;
   if (ends_whole_) {
     return warn(
-        fmt::format("the length of the record at byte {} is damaged: it would end at byte {}, and the "
-                    "file is whole and ends at byte {}; what follows in it was not read",
+        fmt::format("the length of the record at byte {} is damaged: it would end at byte {}, and the file "
+                    "is whole and ends at byte {}; what follows in it was not read",
                     at, end, file_.size()));
   }
   warn(
@@ -322,10 +322,10 @@ void BagReader::check_end() {
   if (!index_at_) return warn("it has no bag header; what is whole in it was read");
   if (*index_at_ == 0) return warn("it was never closed (it has no index); what is whole in it was read");
   if (!cut_short_ && *index_at_ >= file_.size()) {
-    warn(fmt::format(
-        "it is cut short: its index should be at byte {} and the file ends at byte {}; what is whole in it "
-        "was read",
-        *index_at_, file_.size()));
+    warn(
+        fmt::format("it is cut short: its index should be at byte {} and the file ends at byte {}; what is "
+                    "whole in it was read",
+                    *index_at_, file_.size()));
   }
 }
 

@@ -151,10 +151,9 @@ std::optional<Error> McapReader::read_record(const RecordHeader& header) {
 void McapReader::check_unused(const RecordHeader& header) {
   const auto number = static_cast<unsigned>(header.op);
   if (!is_known(header.op)) {
-    return warn(
-        fmt::format("the record at byte {} has op code {:#04x}, which MCAP does not have, and was "
-                    "skipped: it is damaged",
-                    header.at, number));
+    return warn(fmt::format(
+        "the record at byte {} has op code {:#04x}, which MCAP does not have, and was skipped: it is damaged",
+        header.at, number));
   }
   bool fits = header.op != McapOp::kDataEnd || header.content_bytes == sizeof(std::uint32_t);
   if (header.op == McapOp::kMessageIndex) {
@@ -236,10 +235,10 @@ std::optional<Error> McapReader::read_unpacked(std::span<const std::byte> record
       return std::nullopt;
     }
     if (!in_summary_ && !is_of_chunks(op)) {
-      warn(fmt::format(
-          "the record at {} has op code {:#04x}, which no record in a chunk has, and was skipped: "
-          "it is damaged",
-          place.text(), static_cast<unsigned>(op)));
+      warn(
+          fmt::format("the record at {} has op code {:#04x}, which no record in a chunk has, and was "
+                      "skipped: it is damaged",
+                      place.text(), static_cast<unsigned>(op)));
     }
     if (auto error = take(op, fields.rest().first(bytes), place)) return error;
     at += kMcapRecordHeader_bytes + bytes;
@@ -326,10 +325,10 @@ void McapReader::end_early(const RecordHeader& header, std::uint64_t left) {
   cut_short_ = !ends_whole_;
   if (cut_short_) return;
   stopped_ = true;
-  warn(fmt::format(
-      "the length of the record at byte {} is damaged: it claims {} bytes, and the file, which is "
-      "not cut short, has {} more; those were not read",
-      header.at, header.content_bytes, left));
+  warn(
+      fmt::format("the length of the record at byte {} is damaged: it claims {} bytes, and the file, which "
+                  "is not cut short, has {} more; those were not read",
+                  header.at, header.content_bytes, left));
 }
 
 bool McapReader::ends_whole() {

@@ -121,8 +121,8 @@ Result<std::vector<std::string>> collect(const fs::path& path, MessageCollector&
   }
   if (const auto file = InputFile::open(path); !file) return tl::unexpected(file.error());
   return unreadable(
-      fmt::format("{}: byte 0 begins neither an SQLite database nor an MCAP file, as the files "
-                  "of ROS 2 bags do, nor one that is packed by zstd",
+      fmt::format("{}: byte 0 begins neither an SQLite database nor an MCAP file, as the files of ROS 2 bags "
+                  "do, nor one that is packed by zstd",
                   path.string()));
 }
 
@@ -135,8 +135,8 @@ Result<std::vector<fs::path>> named_files(const fs::path& folder) {
     if (const YAML::Node packed = bag["compression_format"];
         packed && packed.IsScalar() && !packed.Scalar().empty() && packed.Scalar() != "none" &&
         packed.Scalar() != "zstd") {
-      yaml::refuse(packed, fmt::format("the bag is compressed as {}, and zstd alone is read; decompress it "
-                                       "with `ros2 bag convert`",
+      yaml::refuse(packed, fmt::format("the bag is compressed as {}, and only zstd is supported; decompress "
+                                       "it with `ros2 bag convert`",
                                        packed.Scalar()));
     }
     const YAML::Node paths = bag["relative_file_paths"];

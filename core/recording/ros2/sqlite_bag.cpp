@@ -222,8 +222,7 @@ std::optional<Error> SqliteReader::read_messages() {
   if (interrupted()) return unreadable_because("");
   if (code == SQLITE_DONE) return std::nullopt;
   warnings_.push_back(
-      fmt::format("its table of messages is damaged after message {} ({}); what comes before "
-                  "was read",
+      fmt::format("its table of messages is damaged after message {} ({}); what comes before was read",
                   last_id_, problem()));
   return std::nullopt;
 }
@@ -232,10 +231,10 @@ Result<std::vector<std::string>> SqliteReader::read() {
   if (!begin()) return tl::unexpected(unreadable_because(problem()));
   if (must_be_taken_back()) {
     const std::string name = path_.filename().string();
-    return tl::unexpected(unreadable_because(fmt::format(
-        "its recorder was ended within a write, which {}-journal takes back; copy both files to a "
-        "folder that can be written to, run `sqlite3 {} .schema` there, and read that copy",
-        name, name)));
+    return tl::unexpected(unreadable_because(
+        fmt::format("its recorder was ended within a write, which {}-journal takes back; copy both files to "
+                    "a folder that can be written to, run `sqlite3 {} .schema` there, and read that copy",
+                    name, name)));
   }
   if (!has_table("topics") || !has_table("messages")) {
     const int code = sqlite3_errcode(database_.get());

@@ -230,7 +230,7 @@ TEST(DirectRefuses, ASceneWithoutALever) {
   bench.noise_m = 0.01;
   EstimateOptions options;
   options.assume = RigKind::kStationary;
-  expect_refused(directly(bench.record(), options), "no lever");
+  expect_refused(directly(bench.record(), options), "does not constrain the offset");
 }
 
 TEST(DirectRefuses, NothingOnGoodRecordings) {

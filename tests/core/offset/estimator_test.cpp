@@ -241,7 +241,7 @@ TEST(Refused, ASceneWithoutALever) {
   EstimateOptions options = over(-5, 5, 1);
   EXPECT_FALSE(estimated(recording, options).identifiable);
   options.assume = RigKind::kStationary;
-  expect_refused(estimated(recording, options), "no lever");
+  expect_refused(estimated(recording, options), "does not constrain the offset");
 }
 
 TEST(Estimate, ARangeWiderThanTheMotorAllowsIsWrongUsage) {

@@ -40,8 +40,8 @@ TEST(Expectations, SaysWhatFewSamplesOfTheMotorCost) {
     return expectations(recording_of(track(5.2, period_s, triangle_rad)));
   };
   EXPECT_EQ(sampled_every(0.01).find("is sampled"), std::string::npos);
-  EXPECT_NE(sampled_every(0.1).find("sampled 5.0 times a sweep only, which costs accuracy: sample it every "
-                                    "0.031 s."),
+  EXPECT_NE(sampled_every(0.1).find(
+                "sampled 5.0 times a sweep only, which costs accuracy: sample it every 0.031 s."),
             std::string::npos)
       << sampled_every(0.1);
   EXPECT_NE(sampled_every(0.2).find("Expect a refusal: the motor is sampled 2.5 times"), std::string::npos);

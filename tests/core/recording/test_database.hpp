@@ -17,14 +17,12 @@ class TestDatabase {
     EXPECT_EQ(sqlite3_open(path.c_str(), &database_), SQLITE_OK);
     run("PRAGMA synchronous = OFF; PRAGMA journal_mode = " + journal_mode);
     if (!tables) return;
-    run("CREATE TABLE schema(schema_version INTEGER PRIMARY KEY,ros_distro TEXT NOT NULL);"
-        "CREATE TABLE metadata(id INTEGER PRIMARY KEY,metadata_version INTEGER NOT NULL,"
-        "metadata TEXT NOT NULL);"
-        "CREATE TABLE topics(id INTEGER PRIMARY KEY,name TEXT NOT NULL,type TEXT NOT NULL,"
-        "serialization_format TEXT NOT NULL,offered_qos_profiles TEXT NOT NULL);"
-        "CREATE TABLE messages(id INTEGER PRIMARY KEY,topic_id INTEGER NOT NULL,"
-        "timestamp INTEGER NOT NULL, data BLOB NOT NULL);"
-        "CREATE INDEX timestamp_idx ON messages (timestamp ASC);");
+    run("CREATE TABLE schema(schema_version INTEGER PRIMARY KEY,ros_distro TEXT NOT NULL);CREATE TABLE "
+        "metadata(id INTEGER PRIMARY KEY,metadata_version INTEGER NOT NULL,metadata TEXT NOT NULL);CREATE "
+        "TABLE topics(id INTEGER PRIMARY KEY,name TEXT NOT NULL,type TEXT NOT NULL,serialization_format TEXT "
+        "NOT NULL,offered_qos_profiles TEXT NOT NULL);CREATE TABLE messages(id INTEGER PRIMARY KEY,topic_id "
+        "INTEGER NOT NULL,timestamp INTEGER NOT NULL, data BLOB NOT NULL);CREATE INDEX timestamp_idx ON "
+        "messages (timestamp ASC);");
     if (journal_mode == "DELETE") run("BEGIN");
   }
   ~TestDatabase() {

@@ -146,8 +146,9 @@ TEST_F(CandidateFiles, AChangedLineIsRefusedWithItsNumberAndUntouched) {
 }
 
 constexpr const char* kVersion1 =
-    "{\"schema\":\"sweepscope.candidates/1\",\"program\":\"p\",\"recording\":\"walk.bag\",\"recording_hash\":"
-    "\"h\",\"rig\":\"\",\"rig_hash\":\"\",\"options\":[\"--range=1:3:1\"],\"shard\":[1,2]}\n"
+    "{\"schema\":\"sweepscope.candidates/"
+    "1\",\"program\":\"p\",\"recording\":\"walk.bag\",\"recording_hash\":\"h\",\"rig\":\"\",\"rig_hash\":"
+    "\"\",\"options\":[\"--range=1:3:1\"],\"shard\":[1,2]}\n"
     "{\"offset_ns\":1000000,\"n\":12345.0,\"e_m\":0.5}\n";
 
 TEST_F(CandidateFiles, AnotherVersionIsRefusedWithWhatToDo) {

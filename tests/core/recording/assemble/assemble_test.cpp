@@ -157,8 +157,8 @@ TEST(Assemble, HeaderStampsInAnotherUnitWarn) {
   for (MessageStamps& stamps : raw.joints[0].stamps)
     stamps.header_ns = kStart_ns + (stamps.header_ns - kStart_ns) / 1000;
   EXPECT_TRUE(warns(assembled(raw),
-                    "the header stamps of /joints run 0.001 times as fast as its receive times, as if "
-                    "they were in another unit"));
+                    "the header stamps of /joints run 0.001 times as fast as its receive times, as if they "
+                    "were in another unit"));
 }
 
 TEST(Assemble, ClocksThatDoNotOverlapWarn) {
@@ -267,10 +267,10 @@ TEST(Assemble, ScansThatNeverSayHowLongTheyTakeAreRefused) {
   const auto recording = assemble(raw, {}, {});
   ASSERT_FALSE(recording);
   EXPECT_EQ(recording.error().code, ExitCode::kUnreadableInput);
-  EXPECT_NE(recording.error().message.find(
-                "none of the 40 scans on /scan can be used: 40 have neither a time_increment "
-                "nor a scan_time"),
-            std::string::npos)
+  EXPECT_NE(
+      recording.error().message.find(
+          "none of the 40 scans on /scan can be used: 40 have neither a time_increment nor a scan_time"),
+      std::string::npos)
       << recording.error().message;
 }
 

@@ -48,10 +48,9 @@ TEST(ChooseLaser, TakesTheOnlyOneOrTheOneThatTheRigNames) {
 
 TEST(ChooseLaser, RefusesSeveralAndListsThem) {
   EXPECT_EQ(refusal(choose_laser(with_lasers({"/a", "/b"}), {})),
-            "a.bag: has 2 topics of scans, and which to use is not plain; name one in a rig file (laser: "
-            "{topic: /a}, "
-            "given with --rig):\n    /a   sensor_msgs/LaserScan   1 messages\n    /b   sensor_msgs/LaserScan "
-            "  1 messages");
+            "a.bag: has 2 topics of scans, and it is ambiguous which to use; name one in a rig file (laser: "
+            "{topic: /a}, given with --rig):\n    /a   sensor_msgs/LaserScan   1 messages\n    /b   "
+            "sensor_msgs/LaserScan   1 messages");
 }
 
 TEST(ChooseLaser, RefusesATopicThatIsNotThereAndListsTheOthers) {
@@ -94,12 +93,11 @@ TEST(ChooseJoint, TheRigsScaleDecidesWhatMoves) {
 }
 
 TEST(ChooseJoint, RefusesSeveralThatMoveAndListsThem) {
-  EXPECT_EQ(
-      refusal(choose_joint(with_joints({{"roll", 3.0}, {"idle", 0}, {"left_wheel", 9.0}}), {})),
-      "a.bag: 2 of 3 joints move, and which of them turns the scanner is not plain; name it in a rig file "
-      "(motor: {topic: /joints, joint: roll}, given with --rig):\n"
-      "    roll         turns over 171.9 deg   3 samples   on /joints\n"
-      "    left_wheel   turns over 515.7 deg   3 samples   on /joints");
+  EXPECT_EQ(refusal(choose_joint(with_joints({{"roll", 3.0}, {"idle", 0}, {"left_wheel", 9.0}}), {})),
+            "a.bag: 2 of 3 joints move, and it is ambiguous which of them turns the scanner; name it in a "
+            "rig file (motor: {topic: /joints, joint: roll}, given with --rig):\n"
+            "    roll         turns over 171.9 deg   3 samples   on /joints\n"
+            "    left_wheel   turns over 515.7 deg   3 samples   on /joints");
 }
 
 TEST(ChooseJoint, RefusesSeveralThatAllStandStill) {

@@ -68,7 +68,7 @@ TEST_F(CsvRecording, TakesWhatSpreadsheetsAndOtherSystemsWrite) {
   EXPECT_EQ(raw->joints[1].joint, "pan");
   EXPECT_EQ(raw->joints[0].source, JointSource::kNumber);
   ASSERT_EQ(raw->warnings.size(), 1U);
-  EXPECT_EQ(raw->warnings[0], "scans.csv has columns that are not known and were left aside: note");
+  EXPECT_EQ(raw->warnings[0], "scans.csv has columns that are not known and were ignored: note");
 }
 
 TEST_F(CsvRecording, DegreesBecomeRadians) {
@@ -120,7 +120,7 @@ TEST_F(CsvRecording, ALastLineThatWasCutShortIsLeftAside) {
     EXPECT_EQ(raw->lasers[0].scans.size(), 2U);
     EXPECT_EQ(raw->lasers[0].ranges_m.size(), 6U);
     ASSERT_EQ(raw->warnings.size(), 1U);
-    EXPECT_EQ(raw->warnings[0], "scans.csv is cut short in line 4, which was left aside");
+    EXPECT_EQ(raw->warnings[0], "scans.csv is cut short in line 4, which was ignored");
   }
 }
 

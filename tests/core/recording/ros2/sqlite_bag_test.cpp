@@ -159,8 +159,7 @@ TEST_F(SqliteBag, AWriteThatIsHalfDoneIsRefusedWithWhatToDo) {
   }
   const auto before = test::files_in(folder_ / "left");
   EXPECT_NE(refusal("left/a.db3")
-                .find("a.db3: its recorder was ended within a write, which a.db3-journal "
-                      "takes back"),
+                .find("a.db3: its recorder was ended within a write, which a.db3-journal takes back"),
             std::string::npos)
       << refusal("left/a.db3");
   EXPECT_TRUE(test::files_in(folder_ / "left") == before);
@@ -215,9 +214,9 @@ TEST_F(SqliteBag, WhatIsNoBagIsRefusedWithTheReason) {
 TEST_F(SqliteBag, AViewInThePlaceOfATableIsNotRun) {
   TestDatabase database(folder_ / "a.db3", "DELETE", false);
   database.run(
-      "CREATE TABLE topics(id INTEGER, name, type, serialization_format);"
-      "CREATE VIEW messages AS WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n)"
-      " SELECT i AS id, 1 AS topic_id, i AS timestamp, x'00' AS data FROM n");
+      "CREATE TABLE topics(id INTEGER, name, type, serialization_format);CREATE VIEW messages AS WITH "
+      "RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n) SELECT i AS id, 1 AS topic_id, i AS "
+      "timestamp, x'00' AS data FROM n");
   EXPECT_NE(refusal("a.db3").find("without the tables topics and messages"), std::string::npos);
 }
 
