@@ -61,7 +61,7 @@ TEST_F(Poses, AreRefusedWhereTheyMakeNoSense) {
   EXPECT_NE(alone.err.find("--trust-poses needs --poses"), std::string::npos) << alone.err;
   const Outcome moving = run("estimate r.bag --poses whole.tum --method moving");
   EXPECT_EQ(moving.exit_code, 2);
-  EXPECT_NE(moving.err.find("--poses is used by the direct method alone"), std::string::npos) << moving.err;
+  EXPECT_NE(moving.err.find("--poses is used by the direct method only"), std::string::npos) << moving.err;
   const Outcome standing = run("estimate r.bag --poses whole.tum");
   EXPECT_EQ(standing.exit_code, 2);
   EXPECT_NE(standing.err.find("the rig stood still"), std::string::npos) << standing.err;

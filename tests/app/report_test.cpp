@@ -18,7 +18,8 @@ TEST_F(ReportCommand, IsOnePageWithTheAnswerAndItsEvidence) {
   const std::string html = page();
   for (const char* part : {"t_motor = t_laser + offset", "7.0", "What was recorded", "Warnings", "<svg",
                            "data:image/png;base64,", "sweepscope " SWEEPSCOPE_VERSION,
-                           "sweepscope report 'a &lt;room&gt;.bag' -o report"}) {
+                           "sweepscope report 'a &lt;room&gt;.bag' -o report", "<td>direct</td>",
+                           "<td>d</td>", "The criteria over the offset"}) {
     EXPECT_NE(html.find(part), std::string::npos) << part;
   }
   EXPECT_EQ(html.find("<room>"), std::string::npos) << "names are escaped";
@@ -55,7 +56,7 @@ TEST_F(ReportCommand, ARecordingThatCannotAnswerGetsThePageWithTheReasons) {
   ASSERT_EQ(run("simulate room-1 -o stuck.bag --motor stuck --duration-s 3").exit_code, 0);
   const Outcome outcome = run("report stuck.bag -o out");
   EXPECT_EQ(outcome.exit_code, 4);
-  EXPECT_NE(page().find("does not tell the offset"), std::string::npos);
+  EXPECT_NE(page().find("cannot be determined from this recording"), std::string::npos);
   EXPECT_NE(page().find("The motor does not move"), std::string::npos);
 }
 
