@@ -6,7 +6,6 @@
 #include "app/commands.hpp"
 #include "app/estimate_options.hpp"
 #include "app/interrupt.hpp"
-#include "app/offset_texts.hpp"
 #include "app/progress.hpp"
 #include "app/say.hpp"
 #include "core/live/calibration.hpp"
@@ -203,11 +202,12 @@ void add_calibrate(CLI::App& app, ExitCode& exit_code) {
           "Stamps of both streams: header or receive (default: the rig's, else header)")
       ->type_name("S")
       ->check(CLI::IsMember({"header", "receive"}));
-  options->calibration.estimate.method = Method::kDirect;
   command
       ->add_option_function<std::string>(
           "--method",
-          [options](const std::string& text) { options->calibration.estimate.method = parse_method(text); },
+          [options](const std::string& text) {
+            options->calibration.estimate.method = text == "direct" ? Method::kDirect : Method::kStationary;
+          },
           "direct (default) or stationary, as of estimate")
       ->type_name("M")
       ->check(CLI::IsMember({"direct", "stationary"}));

@@ -10,7 +10,6 @@
 #include "app/commands.hpp"
 #include "app/estimate_options.hpp"
 #include "app/look_texts.hpp"
-#include "app/offset_texts.hpp"
 #include "app/progress.hpp"
 #include "app/recording_options.hpp"
 #include "core/io/cloud_file.hpp"
@@ -86,13 +85,14 @@ struct Compared {
 
 /// The paper's criteria of that kind of recording, whatever method an estimate would take. Finished
 /// candidates are kept beside the picture.
-Result<Estimate> curve_about(const Recording& recording, bool moving, const CompareOptions& options,
-                             CandidateFile& kept, const Job& job) {
+Result<Estimate> curve_about(const PreparedRecording& prepared, const OffsetMap& map,
+                             const CompareOptions& options, CandidateFile& kept, const Job& job) {
   const auto [least, greatest] = std::minmax_element(options.offsets_ms.begin(), options.offsets_ms.end());
   EstimateOptions wanted;
-  wanted.method = moving ? Method::kMoving : Method::kStationary;
+  wanted.method = map.moving ? Method::kMoving : Method::kStationary;
+  wanted.walk = map.walk;
   wanted.ranges = {{(*least - 5) * 1e-3, (*greatest + 5) * 1e-3, 1e-3}};
-  auto curve = estimate(recording, wanted, kept, {}, job);
+  auto curve = estimate(prepared, wanted, {&kept, {}}, job);
   if (curve && curve->interrupted) curve = failure(ExitCode::kInterrupted, "interrupted");
   if (!curve) return tl::unexpected(ended(curve.error(), kept));
   return curve;
@@ -100,7 +100,7 @@ Result<Estimate> curve_about(const Recording& recording, bool moving, const Comp
 
 Result<Compared> from_recording(const CompareOptions& options, bool by_features) {
   if (options.offsets_ms.size() < 2 || options.offsets_ms.size() > 4)
-    return wrong_usage("compare of a recording wants two to four offsets, such as --offsets-ms 19,24");
+    return wrong_usage("compare of a recording needs two to four offsets, such as --offsets-ms 19,24");
   const Progress progress;
   RecordingOptions reading = options.recording;
   reading.recording = options.inputs.front();
@@ -109,21 +109,17 @@ Result<Compared> from_recording(const CompareOptions& options, bool by_features)
   std::vector<double> offsets_s;
   for (const double offset_ms : options.offsets_ms) offsets_s.push_back(offset_ms * 1e-3);
   MapOptions map_options;
-  map_options.assume = parse_method(options.recording.assume);
+  map_options.assume = options.recording.assumed_kind();
   if (!options.poses.empty()) {
     auto poses = read_tum(options.poses, recording->epoch_ns);
     if (!poses) return tl::unexpected(poses.error());
     map_options.poses = std::move(*poses);
   }
   warn_of_memory(*recording, offsets_s.size(), progress);
-  auto built = build_maps(*recording, offsets_s, map_options, progress.job());
+  const auto prepared = prepare(*recording, map_options.features, progress.job());
+  if (!prepared) return tl::unexpected(prepared.error());
+  auto built = build_maps(*prepared, offsets_s, map_options, progress.job());
   if (!built) return tl::unexpected(built.error());
-  std::optional<FeatureSet> features;
-  if (by_features) {
-    auto extracted = extract_features(*recording, FeatureOptions(), progress.job());
-    if (!extracted) return tl::unexpected(extracted.error());
-    features = std::move(*extracted);
-  }
   if (!built->front().warning.empty()) progress.say("warning: " + built->front().warning);
   Compared compared;
   for (OffsetMap& map : *built) {
@@ -131,13 +127,13 @@ Result<Compared> from_recording(const CompareOptions& options, bool by_features)
     next.offset_s = map.offset_s;
     next.cloud = map.cloud;
     next.path = std::move(map.trajectory);
-    if (features) next.feature_kinds = feature_kinds(*features, *map.cloud);
+    if (by_features) next.feature_kinds = feature_kinds(*prepared->features, *map.cloud);
   }
   if (!options.curve.empty() || options.no_curve) return compared;
   auto kept = keep_while_working(kept_candidates(options), reading, options.given);
   if (!kept) return tl::unexpected(kept.error());
   compared.kept = std::move(*kept);
-  auto curve = curve_about(*recording, built->front().moving, options, *compared.kept, progress.job());
+  auto curve = curve_about(*prepared, built->front(), options, *compared.kept, progress.job());
   if (!curve) return tl::unexpected(curve.error());
   compared.estimate = std::move(*curve);
   return compared;

@@ -1,13 +1,10 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
 #include <charconv>
 #include <memory>
 
 #include "app/commands.hpp"
 #include "app/estimate_options.hpp"
-#include "app/offset_texts.hpp"
 #include "app/progress.hpp"
 #include "app/say.hpp"
 #include "core/io/trajectory_file.hpp"
@@ -77,19 +74,23 @@ ExitCode conclude_search(const Options& options, const Estimate& found, Candidat
   return ordered ? code : fail(ordered.error());
 }
 
+bool keeps(const Options& options) {
+  return options.shard || !options.resume.empty();
+}
+
 /// What makes no sense together is refused before a file for candidates is begun.
 Result<void> check_options(const Options& options) {
   const EstimateOptions& search = options.input.estimate;
   const auto refuse = [](const char* why) { return failure(ExitCode::kWrongUsage, why); };
   if (options.trust_poses && options.poses.empty()) return refuse("--trust-poses needs --poses T.tum");
-  if (!options.poses.empty() && search.method != Method::kDirect)
+  if (!options.poses.empty() && method_of(search, RigKind::kMoving, keeps(options)) != Method::kDirect)
     return refuse(
-        "--poses is used by the direct method alone: leave out --method and the options of candidates");
+        "--poses is used by the direct method only: leave out --method and the options of candidates");
   if (options.shard && (!options.output.json.empty() || !options.output.csv.empty()))
     return refuse("--shard computes candidates; merge takes --json and --csv");
   if (options.shard && search.ranges.empty() && !search.around)
-    return refuse("--shard wants --range or --around: the default search decides where to look as it goes");
-  if (search.method == Method::kDirect && (options.shard || !options.resume.empty()))
+    return refuse("--shard needs --range or --around: the default search decides where to look as it goes");
+  if (search.method == Method::kDirect && keeps(options))
     return refuse("the direct method keeps no candidates: it has no use for --shard and --resume");
   return {};
 }
@@ -120,7 +121,7 @@ ExitCode run(const Options& options, std::vector<std::string> deciding) {
     const auto recording = options.input.recording.read(progress.job());
     if (!recording) return fail(recording.error());
     EstimateOptions estimate_options = options.input.estimate;
-    estimate_options.assume = parse_method(options.input.recording.assume);
+    estimate_options.assume = options.input.recording.assumed_kind();
     auto poses = read_poses(options, *recording);
     if (!poses) return fail(poses.error());
     estimate_options.poses = std::move(*poses);
@@ -128,7 +129,7 @@ ExitCode run(const Options& options, std::vector<std::string> deciding) {
       auto opened = open_candidates(options, path, std::move(deciding));
       if (!opened) return fail(opened.error());
       candidates = std::move(*opened);
-      found = estimate(*recording, estimate_options, *candidates, options.shard, progress.job());
+      found = estimate(*recording, estimate_options, {candidates.get(), options.shard}, progress.job());
     } else {
       found = estimate(*recording, estimate_options, progress.job());
     }
@@ -160,16 +161,8 @@ void declare_candidates(CLI::App& command, Options& options) {
           "(default: REC.K-of-N.candidates here); `merge` makes the result")
       ->type_name("K/N")
       ->check([](const std::string& text) {
-        return parse_shard(text) ? std::string() : "--shard wants K/N, K from 1 to N, and got " + text;
+        return parse_shard(text) ? std::string() : "--shard needs K/N, K from 1 to N, and got " + text;
       });
-}
-
-/// Whether something was asked for that only the paper's methods have: candidates, or their criteria.
-bool asks_for_candidates(const CLI::App& command) {
-  constexpr std::array kTheirs{"--range",       "--around",       "--fit",   "--scoring", "--weight-c",
-                               "--edge-gate-m", "--plane-gate-m", "--shard", "--resume"};
-  return std::any_of(kTheirs.begin(), kTheirs.end(),
-                     [&](const char* name) { return command.count(name) > 0; });
 }
 
 }  // namespace
@@ -182,11 +175,8 @@ void add_estimate(CLI::App& app, ExitCode& exit_code) {
   options->output.declare(*command);
   declare_poses(*command, *options);
   declare_candidates(*command, *options);
-  command->callback([options, command, &exit_code] {
-    auto& method = options->input.estimate.method;
-    if (!method && !asks_for_candidates(*command)) method = Method::kDirect;
-    exit_code = run(*options, deciding_options(*command));
-  });
+  command->callback(
+      [options, command, &exit_code] { exit_code = run(*options, deciding_options(*command)); });
 }
 
 }  // namespace sweepscope::app

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 
-#include "app/offset_texts.hpp"
 #include "app/say.hpp"
 #include "core/io/estimate_json.hpp"
 #include "core/io/program_hash.hpp"
@@ -45,87 +44,27 @@ void print_answer(const Estimate& estimate) {
     print("offset   cannot be determined from this recording\n");
     for (const std::string& reason : estimate.reasons) print("  why: {}\n", reason);
   }
-  print("method   {}, {} sweeps, {} scans, {} candidates\n", estimate.method, estimate.sweeps, estimate.scans,
-        estimate.curve.size());
-  if (!estimate.kind.empty()) print("kind     {}: {}\n", estimate.kind, estimate.kind_reason);
+  print("method   {}, {} sweeps, {} scans, {} candidates\n", to_text(estimate.method), estimate.sweeps,
+        estimate.scans, estimate.curve.size());
+  if (estimate.kind) print("kind     {}: {}\n", to_text(*estimate.kind), estimate.kind_reason);
   if (estimate.motion) print("{}\n", motion_line(*estimate.motion));
   for (const CriterionOptimum& criterion : estimate.criteria) print("{}\n", criterion_line(criterion));
   for (const std::string& warning : estimate.warnings) say("warning: {}\n", warning);
 }
 
-void declare_method(CLI::App& command, EstimateOptions& estimate) {
-  command
-      .add_option_function<std::string>(
-          "--method", [&estimate](const std::string& text) { estimate.method = parse_method(text); },
-          "direct: the offset as an unknown of the least squares, for rigs that stood still and for walks; "
-          "stationary: where odometry sees least motion (d); moving: where the map is clearest (n, e). "
-          "Default: direct; with --range, --around or another option of the paper's methods, stationary or "
-          "moving, as the motion test says")
-      ->type_name("M")
-      ->check(CLI::IsMember({"stationary", "moving", "direct"}));
-  command
-      .add_option_function<std::string>(
-          "--fit",
-          [&estimate](const std::string& text) {
-            estimate.fit = text == "none" ? Fit::kNone : Fit::kParabola;
-          },
-          "none: the best candidate; parabola: through those within 3 ms of it (default: parabola for moving "
-          "and for slow motors, else "
-          "none)")
-      ->type_name("F")
-      ->check(CLI::IsMember({"none", "parabola"}));
-  command
-      .add_option_function<std::string>(
-          "--scoring",
-          [&estimate](const std::string& text) {
-            estimate.scoring = text == "loam" ? Scoring::kLoam : Scoring::kTwoStage;
-          },
-          "two-stage: count matches along the one trajectory that fits the recording best (default); loam: "
-          "at "
-          "LOAM's own poses, tracked at each candidate, as the paper did")
-      ->type_name("S")
-      ->check(CLI::IsMember({"two-stage", "loam"}));
-  command.add_option("--weight-c", estimate.weight_c, "c of d = sqrt(t^2 + c theta^2)")
-      ->check(finite_number())
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
-  command
-      .add_option("--edge-gate-m", estimate.mapping.edge_gate_m, "delta_E: an edge match is nearer than this")
-      ->check(finite_number())
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  command
-      .add_option("--plane-gate-m", estimate.mapping.plane_gate_m,
-                  "delta_H: a plane match is nearer than this")
-      ->check(finite_number())
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-}
-
-void declare_search(CLI::App& command, EstimateOptions& estimate) {
-  command
-      .add_option_function<std::vector<std::string>>(
-          "--range",
-          [&estimate](const std::vector<std::string>& texts) {
-            for (const std::string& text : texts) estimate.ranges.push_back(*parse_range_ms(text));
-          },
-          "Candidates in milliseconds, such as 19:29:1; repeatable (default: coarse to fine about 0)")
-      ->type_name("FROM:TO:STEP")
-      ->allow_extra_args(false)
-      ->check([](const std::string& text) {
-        return parse_range_ms(text) ? std::string()
-                                    : "--range wants FROM:TO:STEP in milliseconds, and got " + text;
-      });
-  command
-      .add_option_function<std::string>(
-          "--around", [&estimate](const std::string& text) { estimate.around = parse_around_ms(text); },
-          "The paper's search in milliseconds: 24:0.1:40 tries 24 and 20 steps of 0.1 to either side")
-      ->type_name("INITIAL:ACCURACY:STEPS")
-      ->check([](const std::string& text) {
-        return parse_around_ms(text)
-                   ? std::string()
-                   : "--around wants INITIAL:ACCURACY:STEPS in milliseconds, and got " + text;
-      });
+void declare_options(CLI::App& command, EstimateOptions& estimate) {
+  for (const EstimateOption& option : estimate_options()) {
+    const auto set = [&estimate, &option](const std::vector<std::string>& texts) {
+      for (const std::string& text : texts)
+        if (const auto done = option.set(estimate, text); !done)
+          throw CLI::ValidationError("--" + option.name + " " + done.error().message + ", and got " + text);
+    };
+    command.add_option_function<std::vector<std::string>>("--" + option.name, set, option.help)
+        ->type_name(option.type)
+        ->type_size(1)
+        ->expected(option.repeats ? CLI::detail::expected_max_vector_size : 1)
+        ->allow_extra_args(false);
+  }
 }
 
 }  // namespace
@@ -133,8 +72,7 @@ void declare_search(CLI::App& command, EstimateOptions& estimate) {
 void EstimateInput::declare(CLI::App& app) {
   recording.declare(app);
   recording.declare_computing(app);
-  declare_method(app, estimate);
-  declare_search(app, estimate);
+  declare_options(app, estimate);
 }
 
 void EstimateOutput::declare(CLI::App& app) {

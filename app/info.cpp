@@ -185,9 +185,10 @@ ExitCode run(const RecordingOptions& options, const std::string& json) {
     const auto recording = options.read(progress.job());
     if (!recording) return tl::unexpected(recording.error());
     RecordingSummary found = inspect(*recording);
-    const auto motion = test_motion(*recording, progress.job());
-    if (!motion) return tl::unexpected(motion.error());
-    if (motion->answered()) found.motion = motion->moving() ? "moving" : "stationary";
+    const auto prepared = prepare(*recording, FeatureOptions(), progress.job());
+    if (!prepared) return tl::unexpected(prepared.error());
+    const MotionTest motion = test_motion(*prepared);
+    if (motion.answered()) found.motion = motion.moving() ? "moving" : "stationary";
     return found;
   }();
   if (!summary) return fail(summary.error());

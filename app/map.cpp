@@ -3,7 +3,6 @@
 #include <memory>
 
 #include "app/commands.hpp"
-#include "app/offset_texts.hpp"
 #include "app/progress.hpp"
 #include "app/recording_options.hpp"
 #include "app/say.hpp"
@@ -33,7 +32,7 @@ Result<Built> build(const Options& options) {
   const auto recording = options.recording.read(progress.job());
   if (!recording) return tl::unexpected(recording.error());
   MapOptions map_options;
-  map_options.assume = parse_method(options.recording.assume);
+  map_options.assume = options.recording.assumed_kind();
   if (!options.poses.empty()) {
     auto poses = read_tum(options.poses, recording->epoch_ns);
     if (!poses) return tl::unexpected(poses.error());

@@ -5,7 +5,6 @@
 
 #include "app/commands.hpp"
 #include "app/estimate_options.hpp"
-#include "app/offset_texts.hpp"
 #include "app/progress.hpp"
 
 namespace sweepscope::app {
@@ -61,8 +60,8 @@ Result<Estimate> merge(const Options& options, MergedCandidates& candidates) {
   if (!recording) return tl::unexpected(recording.error());
   recording->name = std::filesystem::path(search.recording).filename().string();
   EstimateOptions estimate_options = (*input)->estimate;
-  estimate_options.assume = parse_method((*input)->recording.assume);
-  auto found = estimate(*recording, estimate_options, candidates, std::nullopt, progress.job());
+  estimate_options.assume = (*input)->recording.assumed_kind();
+  auto found = estimate(*recording, estimate_options, {&candidates, {}}, progress.job());
   if (!found) return found;
   if (found->interrupted) return failure(ExitCode::kInterrupted, "interrupted");
   if (const auto missing = candidates.missing()) return tl::unexpected(*missing);

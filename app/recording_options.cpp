@@ -71,6 +71,11 @@ void RecordingOptions::declare_computing(CLI::App& app) {
       ->check(CLI::Range(1, 1024));
 }
 
+std::optional<RigKind> RecordingOptions::assumed_kind() const {
+  if (!assume) return std::nullopt;
+  return *assume == "moving" ? RigKind::kMoving : RigKind::kStationary;
+}
+
 std::unique_ptr<tbb::global_control> RecordingOptions::limit_threads() const {
   return threads <= 0 ? nullptr : app::limit_threads(std::size_t(threads));
 }

@@ -11,6 +11,7 @@
 #include "app/progress.hpp"
 #include "core/error.hpp"
 #include "core/job.hpp"
+#include "core/offset/estimate.hpp"
 #include "core/recording/read_recording.hpp"
 
 namespace sweepscope::app {
@@ -28,7 +29,7 @@ struct RecordingOptions {
   std::optional<std::filesystem::path> rig;
   std::optional<StampSource> stamps;
   std::optional<Window> window;       // seconds since the first scan
-  std::optional<std::string> assume;  // "stationary" or "moving"; empty: the motion test says
+  std::optional<std::string> assume;  // "stationary" or "moving"; empty: the motion test decides
   bool keep_intensities = true;       // of the beams; false where nothing comes of them
   int threads = 0;                    // 0: as many as there are processors
 
@@ -40,6 +41,8 @@ struct RecordingOptions {
   void declare_computing(CLI::App& app);
   /// The files that these options read: the recording's and the rig file.
   std::vector<std::filesystem::path> input_files() const;
+  /// --assume, where it is given.
+  std::optional<RigKind> assumed_kind() const;
   /// Holds the program to `threads` while the returned object lives.
   std::unique_ptr<tbb::global_control> limit_threads() const;
   /// The recording that they name, cut to the window.

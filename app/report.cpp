@@ -9,7 +9,6 @@
 
 #include "app/commands.hpp"
 #include "app/estimate_options.hpp"
-#include "app/offset_texts.hpp"
 #include "app/progress.hpp"
 #include "app/recording_options.hpp"
 #include "app/say.hpp"
@@ -39,8 +38,9 @@ Result<ReportContent> make(const Options& options) {
   if (const auto made = make_report_folder(options.folder); !made) return tl::unexpected(made.error());
   const auto kept = keep_while_working(kept_candidates(options), options.recording, options.given);
   if (!kept) return tl::unexpected(kept.error());
-  auto content =
-      gather_report(*recording, parse_method(options.recording.assume), kept->get(), progress.job());
+  auto content = prepare(*recording, FeatureOptions(), progress.job()).and_then([&](const auto& prepared) {
+    return gather_report(prepared, options.recording.assumed_kind(), kept->get(), progress.job());
+  });
   if (!content) return tl::unexpected(ended(content.error(), **kept));
   content->command = report_command(recording->name, options.quoted);
   if (const auto written = write_report(*content, options.folder); !written)

@@ -9,7 +9,6 @@
 
 #include "app/commands.hpp"
 #include "app/interrupt.hpp"
-#include "app/offset_texts.hpp"
 #include "app/recording_options.hpp"
 #include "core/io/atomic_file.hpp"
 #include "core/io/shell_word.hpp"
@@ -49,7 +48,7 @@ Result<Size> parse_size(const std::string& text) {
 
 Result<ui::Ui::Options> ui_options(const ViewOptions& options) {
   ui::Ui::Options out;
-  out.explorer.assume = parse_method(options.reading.assume);
+  out.explorer.assume = options.reading.assumed_kind();
   out.explorer.reading.stamps = options.reading.stamps;
   if (options.reading.rig) {
     auto rig = read_rig(*options.reading.rig);

@@ -26,7 +26,7 @@ constexpr std::array<Quantity, 6> kQuantities{{
     {"e", &CurvePoint::e_m, "e", "Mean distance per match", "mm", 1e3, false},
     {"n", &CurvePoint::n, "n", "Matches", "1", 1, false},
     {"roll", &CurvePoint::signed_rotation_rad, "roll", "Alternating roll", "°", 180 / M_PI, true},
-    {"capped_cost", &CurvePoint::capped_cost_m, "c", "Capped cost", "mm", 1e3, false},
+    {"capped_cost", &CurvePoint::capped_cost_m, "c", "Capped distance", "mm", 1e3, false},
 }};
 constexpr const Quantity &kD = kQuantities[0], &kTheta = kQuantities[1], &kRoll = kQuantities[4],
                          &kCappedCost = kQuantities[5];
@@ -73,14 +73,14 @@ const CriterionOptimum* optimum_of(const Estimate& estimate, std::string_view cr
   return nullptr;
 }
 
-/// The parabola behind an optimum as a smooth curve over the points that it was fitted to.
-ChartSeries series_of_fit(const Parabola& parabola, double factor, Colour colour) {
+/// The fit behind an optimum as a smooth curve over the points that it was fitted to.
+ChartSeries series_of_fit(const ExtremumFit& fit, double factor, Colour colour) {
   constexpr int kSteps = 64;
-  ChartSeries series{"parabola", {}, {}, colour, MarkerShape::kNone, true};
+  ChartSeries series{"fit", {}, {}, colour, MarkerShape::kNone, true};
   for (int i = 0; i <= kSteps; ++i) {
-    const double offset_s = parabola.from_s + (parabola.to_s - parabola.from_s) * i / kSteps;
+    const double offset_s = fit.from_s + (fit.to_s - fit.from_s) * i / kSteps;
     series.x.push_back(offset_s * 1e3);
-    series.y.push_back(parabola.at(offset_s) * factor);
+    series.y.push_back(fit.at(offset_s) * factor);
   }
   return series;
 }
@@ -97,8 +97,8 @@ Chart chart_of(const Estimate& estimate, const Quantity& quantity, const Style& 
     chart.series.push_back(std::move(theta));
   }
   if (const CriterionOptimum* optimum = optimum_of(estimate, quantity.key)) {
-    if (const auto parabola = parabola_behind(estimate.curve, quantity.value, *optimum))
-      chart.series.push_back(series_of_fit(*parabola, quantity.factor, style.second_curve));
+    if (const auto fit = fit_behind(estimate.curve, quantity.value, *optimum))
+      chart.series.push_back(series_of_fit(*fit, quantity.factor, style.second_curve));
     chart.markers.push_back({optimum->offset_s * 1e3, optimum->value * quantity.factor, style.highlight});
   }
   return chart;
@@ -178,6 +178,15 @@ Chart marked_chart(const Estimate& estimate, const Quantity& quantity, std::span
   return chart;
 }
 
+/// The coarse search of the direct method, whose least squares has no candidates.
+Chart coarse_chart(const Estimate& estimate, std::span<const MarkedOffset> marked, const Style& style) {
+  Estimate coarse = estimate;
+  std::erase_if(coarse.curve, [](const CurvePoint& point) { return point.e_m || !point.capped_cost_m; });
+  Chart chart = marked_chart(coarse, kCappedCost, marked, style);
+  chart.title = "Distance between sweeps c [mm]";
+  return chart;
+}
+
 Error without_value(std::string_view criterion) {
   return {ExitCode::kWrongUsage,
           fmt::format("None of the estimates has a value of the criterion \"{}\"", criterion)};
@@ -197,6 +206,8 @@ std::string offset_label_ms(double offset_s) {
 
 std::vector<Chart> curve_charts(const Estimate& estimate, std::span<const MarkedOffset> marked,
                                 const Style& style) {
+  if (estimate.method == Method::kDirect && has_any(estimate, kCappedCost))
+    return {coarse_chart(estimate, marked, style)};
   std::vector<Chart> charts;
   for (const Quantity& quantity : kQuantities) {
     if (quantity.value == kTheta.value || !has_any(estimate, quantity)) continue;

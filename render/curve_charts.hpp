@@ -17,11 +17,11 @@ struct MarkedOffset {
   Colour colour;
 };
 
-/// The criteria over the offset as charts: d with theta and the alternating roll (stationary), or e, n and
-/// the alternating roll (moving), or the capped cost where there is nothing else (direct). Only criteria that
+/// The criteria over the offset as charts: d with theta and the alternating roll (stationary), e, n and the
+/// alternating roll (moving), or the capped cost of the coarse search (direct). Only criteria that
 /// have a value somewhere get a chart. The marked offsets are lines across each, the offset found is a dashed
 /// one in a band of its uncertainty (none without one), a criterion's own optimum is a diamond, and the
-/// parabola that gave it is dashed.
+/// fit that gave it is dashed.
 std::vector<Chart> curve_charts(const Estimate& estimate, std::span<const MarkedOffset> marked,
                                 const Style& style);
 

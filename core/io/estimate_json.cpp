@@ -1,7 +1,10 @@
 #include "core/io/estimate_json.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -54,6 +57,9 @@ Json curve_to_json(const std::vector<CurvePoint>& curve) {
   return points;
 }
 
+constexpr std::array kMethodNames{"direct", "stationary", "moving"};  // by Method
+constexpr std::array kKindNames{"stationary", "moving"};              // by RigKind
+
 /// What is wrong with a document, as a place and a reason.
 struct BadValue : std::runtime_error {
   using std::runtime_error::runtime_error;
@@ -72,6 +78,14 @@ T required(const Json& object, const char* key, const std::string& where = "") {
   } catch (const Json::exception&) {
     throw BadValue(where + key + " has the wrong type");
   }
+}
+
+/// The value of an enum whose names are these.
+template <typename T>
+T named(const std::string& name, const auto& names, const char* key) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) throw BadValue(fmt::format("{} is none of {}", key, fmt::join(names, ", ")));
+  return static_cast<T>(found - names.begin());
 }
 
 std::size_t required_count(const Json& object, const char* key) {
@@ -158,6 +172,34 @@ std::optional<UsedMotion> motion_from_json(const Json& document) {
   return motion;
 }
 
+Json fit_to_json(const FitEvidence& fit) {
+  return {{"converged", fit.converged},
+          {"iterations", fit.iterations},
+          {"features", fit.features},
+          {"matches", fit.matches},
+          {"residual_m", number(fit.residual_m)},
+          {"lever_m", number(fit.lever_m)},
+          {"reach_m", number(fit.reach_m)}};
+}
+
+std::optional<FitEvidence> fit_from_json(const Json& document) {
+  constexpr std::int64_t kMaxIterations = 1'000'000;
+  const auto found = document.find("fit");
+  if (found == document.end() || found->is_null()) return std::nullopt;
+  if (!found->is_object()) throw BadValue("fit is not an object");
+  FitEvidence fit;
+  fit.converged = required<bool>(*found, "converged", "fit.");
+  const auto iterations = whole_number(member(*found, "iterations", "fit."), 0, kMaxIterations);
+  if (!iterations) throw BadValue("fit.iterations is no whole number");
+  fit.iterations = static_cast<int>(*iterations);
+  fit.features = required_count(*found, "features");
+  fit.matches = required_count(*found, "matches");
+  fit.residual_m = required<double>(*found, "residual_m", "fit.");
+  fit.lever_m = required<double>(*found, "lever_m", "fit.");
+  fit.reach_m = required<double>(*found, "reach_m", "fit.");
+  return fit;
+}
+
 std::vector<CriterionOptimum> criteria_from_json(const Json& criteria) {
   if (!criteria.is_object()) throw BadValue("criteria is not an object");
   std::vector<CriterionOptimum> optima;
@@ -186,15 +228,17 @@ Estimate estimate_from_json(const Json& document) {
   }
   Estimate estimate;
   estimate.recording = required<std::string>(document, "recording");
-  estimate.method = required<std::string>(document, "method");
+  estimate.method = named<Method>(required<std::string>(document, "method"), kMethodNames, "method");
   estimate.identifiable = required<bool>(document, "identifiable");
   estimate.offset_s = optional_seconds(document, "offset_ms");
   estimate.sigma_s = optional_seconds(document, "sigma_ms");
   estimate.drift_ppm = optional_number(document, "drift_ppm");
-  estimate.kind = optional_text(document, "kind");
+  if (const std::string kind = optional_text(document, "kind"); !kind.empty())
+    estimate.kind = named<RigKind>(kind, kKindNames, "kind");
   estimate.kind_reason = optional_text(document, "kind_reason");
   estimate.lost = intervals_from_json(document, "lost_s");
   estimate.motion = motion_from_json(document);
+  estimate.fit = fit_from_json(document);
   estimate.warnings = required<std::vector<std::string>>(document, "warnings");
   estimate.reasons = required<std::vector<std::string>>(document, "reasons");
   estimate.criteria = criteria_from_json(member(document, "criteria", ""));
@@ -208,18 +252,26 @@ Estimate estimate_from_json(const Json& document) {
 
 }  // namespace
 
+const char* to_text(Method method) {
+  return kMethodNames[static_cast<std::size_t>(method)];
+}
+
+const char* to_text(RigKind kind) {
+  return kKindNames[static_cast<std::size_t>(kind)];
+}
+
 std::string estimate_to_json(const Estimate& estimate, Timing timing) {
   Json document;
   document["schema"] = kSchema;
   document["recording"] = estimate.recording;
-  document["method"] = estimate.method;
+  document["method"] = to_text(estimate.method);
   document["equation"] = "t_motor = t_laser + offset";
   document["identifiable"] = estimate.identifiable;
   const bool found = estimate.identifiable;
   document["offset_ms"] = found ? milliseconds_or_null(estimate.offset_s) : Json(nullptr);
   document["sigma_ms"] = found ? milliseconds_or_null(estimate.sigma_s) : Json(nullptr);
   document["drift_ppm"] = number_or_null(estimate.drift_ppm);
-  document["kind"] = estimate.kind.empty() ? Json(nullptr) : Json(estimate.kind);
+  document["kind"] = estimate.kind ? Json(to_text(*estimate.kind)) : Json(nullptr);
   document["kind_reason"] = estimate.kind_reason.empty() ? Json(nullptr) : Json(estimate.kind_reason);
   document["lost_s"] = Json::array();
   for (const Interval& lost : estimate.lost)
@@ -232,6 +284,7 @@ std::string estimate_to_json(const Estimate& estimate, Timing timing) {
     document["criteria"][optimum.name] = {{"offset_ms", to_ms(optimum.offset_s)},
                                           {"value", number(optimum.value)}};
   }
+  if (estimate.fit) document["fit"] = fit_to_json(*estimate.fit);
   document["curve"] = curve_to_json(estimate.curve);
   document["sweeps"] = estimate.sweeps;
   document["scans"] = estimate.scans;

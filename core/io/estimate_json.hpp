@@ -12,9 +12,14 @@ namespace sweepscope {
 /// Whether an output names the time that was spent. Without it the same input gives the same bytes.
 enum class Timing { kWritten, kNull };
 
+/// As they are written in JSON and on command lines: "direct", "stationary", "moving".
+const char* to_text(Method method);
+const char* to_text(RigKind kind);
+
 /// The estimate as a JSON object (schema "sweepscope.estimate/1"), keys in a fixed order, offsets in
 /// milliseconds, null where a value is absent, with a line end; "poses" only where a motion from elsewhere
-/// was used. Offsets keep 1e-9 ms. An estimate that is not identifiable has offset_ms and sigma_ms null.
+/// was used, "fit" only of the direct method. Offsets keep 1e-9 ms. An estimate that is not identifiable has
+/// offset_ms and sigma_ms null.
 std::string estimate_to_json(const Estimate& estimate, Timing timing = Timing::kWritten);
 
 /// Reads what estimate_to_json wrote; keys that it does not know are passed over. `name` stands for the file

@@ -4,10 +4,9 @@
 
 #include <algorithm>
 #include <future>
-#include <numbers>
 #include <optional>
 
-#include "core/offset/motion_test.hpp"
+#include "core/offset/rig_kind.hpp"
 #include "core/recording/assemble.hpp"
 
 namespace sweepscope {
@@ -83,7 +82,6 @@ class Silence {
 Estimate refused(const RawRecording& raw, std::string reason) {
   Estimate estimate;
   estimate.recording = raw.name;
-  estimate.method = "direct";
   estimate.warnings = raw.warnings;
   estimate.reasons = {std::move(reason)};
   return estimate;
@@ -149,24 +147,20 @@ Result<Estimate> calibrate(RawRecording heard, const CalibrationOptions& options
   if (so_far.motor_samples == 0) return refused(heard, "No angles of a motor were heard.");
   const auto recording = assemble(std::move(heard), options.rig, options.stamps);
   if (!recording) return tl::unexpected(recording.error());
-  const auto motion = test_motion(*recording, job);
-  if (!motion) return tl::unexpected(motion.error());
-  const bool moved = motion->answered() && motion->moving();
-  const std::string seen = fmt::format(
-      "{} of {} pairs of sweeps of the same direction lie apart; at the median by {:.3f} m and "
-      "{:.2f} deg.",
-      motion->moved, motion->pairs, motion->median_translation_m,
-      motion->median_rotation_rad * 180 / std::numbers::pi);
+  const auto prepared = prepare(*recording, options.estimate.features, job);
+  if (!prepared) return tl::unexpected(prepared.error());
+  const MotionTest motion = test_motion(*prepared);
+  const bool moved = motion.answered() && motion.moving();
   EstimateOptions estimate_options = options.estimate;
-  estimate_options.assume = Method::kStationary;
-  auto found = estimate(*recording, estimate_options, job);
-  if (!found || !motion->answered()) return found;
-  if (!found->kind.empty()) {
-    found->kind = moved ? "moving" : "stationary";
-    found->kind_reason = seen;
+  estimate_options.assume = RigKind::kStationary;
+  auto found = estimate(*prepared, estimate_options, {}, job);
+  if (!found || !motion.answered()) return found;
+  if (found->kind) {
+    found->kind = moved ? RigKind::kMoving : RigKind::kStationary;
+    found->kind_reason = pairs_text(motion);
   }
   if (moved) {
-    found->reasons.push_back("The rig moved: a calibration wants it to stand still.");
+    found->reasons.push_back("The rig moved: a calibration needs a rig that stands still.");
     found->identifiable = false;
     found->offset_s.reset();
     found->sigma_s.reset();

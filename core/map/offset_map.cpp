@@ -161,48 +161,70 @@ std::uint64_t map_memory_bytes(const Recording& recording, std::size_t maps) {
   return beams * (kOfFeatures_a_beam + maps * (kOfMap_a_beam + sizeof(MapPoint)));
 }
 
-Result<std::vector<OffsetMap>> build_maps(const Recording& recording, std::span<const double> offsets_s,
-                                          const MapOptions& options, const Job& job) {
-  const auto [least, greatest] = std::minmax_element(offsets_s.begin(), offsets_s.end());
-  const auto problem = prepare_problem(recording, *least, *greatest, options.features, job);
-  if (!problem) return tl::unexpected(problem.error());
-  const std::vector<std::string> reasons = motor_reasons(recording.motor, problem->motor);
+namespace {
+
+// Whether the rig is taken to have moved.
+bool taken_for_moving(const OffsetProblem& problem, double offset_s, const MapOptions& options) {
+  if (options.assume) return *options.assume == RigKind::kMoving;
+  if (!options.poses.empty() || options.walk) return true;
+  return test_motion(still_grid(problem), offset_s).moving();
+}
+
+// Why no map can be built at all.
+Result<void> check_scans(const OffsetProblem& problem, double offset_s) {
+  const Recording& recording = *problem.recording;
+  const std::vector<std::string> reasons = motor_reasons(recording.motor, problem.motor);
   if (!reasons.empty())
     return failure(ExitCode::kNotIdentifiable, fmt::format("{}: {}", recording.name, reasons.front()));
   PlacedSweep any;
-  if (!SweepPlacer(*problem, *least).next(any))
-    return failure(
-        ExitCode::kNotIdentifiable,
-        fmt::format("{}: no scan is covered by the motor's samples at these offsets.", recording.name));
-  const auto moves = [&] { return test_motion(still_grid(*problem), *least).moving(); };
-  const bool moving = options.assume           ? *options.assume == Method::kMoving
-                      : !options.poses.empty() ? true
-                                               : moves();
+  if (SweepPlacer(problem, offset_s).next(any)) return {};
+  return failure(
+      ExitCode::kNotIdentifiable,
+      fmt::format("{}: no scan is covered by the motor's samples at these offsets.", recording.name));
+}
+
+}  // namespace
+
+Result<std::vector<OffsetMap>> build_maps(const PreparedRecording& prepared,
+                                          std::span<const double> offsets_s, const MapOptions& options,
+                                          const Job& job) {
+  const auto [least, greatest] = std::minmax_element(offsets_s.begin(), offsets_s.end());
+  const OffsetProblem problem = problem_for(prepared, *least, *greatest);
+  if (const auto checked = check_scans(problem, *least); !checked) return tl::unexpected(checked.error());
+  const bool moving = taken_for_moving(problem, *least, options);
   std::string warning;
   if (!options.poses.empty()) {
-    auto covered = check_pose_coverage(recording, options.poses, problem->scan_used);
+    auto covered = check_pose_coverage(*prepared.recording, options.poses, problem.scan_used);
     if (!covered) return tl::unexpected(covered.error());
     warning = std::move(*covered);
   }
-  SolvedWalk walk;
-  if (moving && options.poses.empty()) {
-    auto solved = find_walk(*problem, (*least + *greatest) / 2, options.mapping, job);
+  std::shared_ptr<const SolvedWalk> walk = options.walk;
+  if (moving && options.poses.empty() && !walk) {
+    auto solved = find_walk(problem, (*least + *greatest) / 2, options.mapping, job);
     if (!solved) return failure(ExitCode::kInterrupted, "interrupted while building the map");
-    walk = std::move(*solved);
+    walk = std::make_shared<const SolvedWalk>(std::move(*solved));
   }
   std::vector<OffsetMap> maps(offsets_s.size());
   for_each_index(offsets_s.size(), [&](std::size_t i) {
     if (!options.poses.empty())
-      maps[i] = build_along(*problem, offsets_s[i], options);
+      maps[i] = build_along(problem, offsets_s[i], options);
     else
       maps[i] =
-          build_one(*problem, offsets_s[i], moving ? walk.sweeps : standing_poses(*problem, offsets_s[i]));
+          build_one(problem, offsets_s[i], moving ? walk->sweeps : standing_poses(problem, offsets_s[i]));
+    if (moving) maps[i].walk = walk;
     maps[i].moving = moving;
-    maps[i].lost = walk.lost;
+    maps[i].lost = moving && walk && walk->lost;
     maps[i].warning = warning;
   });
   if (job.cancelled()) return failure(ExitCode::kInterrupted, "interrupted while building the map");
   return maps;
+}
+
+Result<std::vector<OffsetMap>> build_maps(const Recording& recording, std::span<const double> offsets_s,
+                                          const MapOptions& options, const Job& job) {
+  const auto prepared = prepare(recording, options.features, job);
+  if (!prepared) return tl::unexpected(prepared.error());
+  return build_maps(*prepared, offsets_s, options, job);
 }
 
 }  // namespace sweepscope

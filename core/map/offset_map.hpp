@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -10,19 +11,21 @@
 #include "core/geometry/pose.hpp"
 #include "core/job.hpp"
 #include "core/map/map_cloud.hpp"
-#include "core/offset/estimator.hpp"
+#include "core/offset/estimate.hpp"
+#include "core/offset/prepared.hpp"
 #include "core/recording/recording.hpp"
 
 namespace sweepscope {
 
 struct MapOptions {
-  std::optional<Method> assume;  // the kind of recording, instead of the motion test
+  std::optional<RigKind> assume;  // instead of the motion test
   /// Where the base frame went, instead of LOAM's answer; ascending in time. Between them the pose goes
   /// linearly; scans before the first and after the last are left out, with a warning, and where that is all
   /// of them nothing is built (ExitCode::kNotIdentifiable). The map frame is theirs.
   std::vector<StampedPose> poses;
+  /// A moving rig's trajectory where it is known already, such as an estimate's; null: it is solved for.
+  std::shared_ptr<const SolvedWalk> walk;
   FeatureOptions features;
-  OdometryOptions odometry;
   MappingOptions mapping;
 };
 
@@ -31,8 +34,9 @@ struct MapOptions {
 struct OffsetMap {
   double offset_s = 0;
   MapCloud::Ptr cloud;
-  std::vector<StampedPose> trajectory;  // two poses a sweep, ascending in time
-  std::vector<SweepPose> sweeps;        // the poses that the beams were placed along
+  std::vector<StampedPose> trajectory;     // two poses a sweep, ascending in time
+  std::vector<SweepPose> sweeps;           // the poses that the beams were placed along
+  std::shared_ptr<const SolvedWalk> walk;  // of a moving rig whose trajectory was solved for
   bool moving = false;
   bool lost = false;    // LOAM lost track: the map is not to be trusted
   std::string warning;  // of poses that do not cover every scan; empty where they do
@@ -43,6 +47,10 @@ struct OffsetMap {
 /// trajectory is the one that fits best together with the best offset (see SolvedWalk), the same for all
 /// maps: one solved for at a wrong offset would hide it. A motor that does not turn to and fro is
 /// ExitCode::kNotIdentifiable.
+Result<std::vector<OffsetMap>> build_maps(const PreparedRecording& prepared,
+                                          std::span<const double> offsets_s, const MapOptions& options,
+                                          const Job& job);
+/// The same of a recording that nothing else is asked of.
 Result<std::vector<OffsetMap>> build_maps(const Recording& recording, std::span<const double> offsets_s,
                                           const MapOptions& options, const Job& job);
 

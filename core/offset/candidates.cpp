@@ -62,6 +62,14 @@ bool Curve::compute(const std::vector<double>& offsets_s, const Job& job) {
   return !job.cancelled();
 }
 
+std::vector<CurvePoint> united(std::vector<CurvePoint> curve, const std::vector<CurvePoint>& more) {
+  for (const CurvePoint& point : more)
+    if (std::none_of(curve.begin(), curve.end(), [&](const auto& p) { return p.offset_s == point.offset_s; }))
+      curve.push_back(point);
+  std::sort(curve.begin(), curve.end(), [](const auto& a, const auto& b) { return a.offset_s < b.offset_s; });
+  return curve;
+}
+
 std::size_t index_of_least(const std::vector<CurvePoint>& curve, CurveValue value) {
   std::size_t best = curve.size();
   for (std::size_t i = 0; i < curve.size(); ++i)
@@ -76,9 +84,10 @@ std::size_t index_of_greatest(const std::vector<CurvePoint>& curve, CurveValue v
   return best;
 }
 
-double Parabola::at(double offset_s) const {
+double ExtremumFit::at(double offset_s) const {
   const double x = (offset_s - centre_s) / reach_s;
-  return scale * (c0 + (c1 + c2 * x) * x);
+  const double fitted = c0 + (c1 + c2 * x) * x;
+  return scale * (of_squares ? std::sqrt(std::max(0.0, fitted)) : fitted);
 }
 
 namespace {
@@ -116,8 +125,8 @@ Span fitted_span(const std::vector<CurvePoint>& curve, CurveValue value, std::si
 
 }  // namespace
 
-std::optional<Parabola> fitted_parabola(const std::vector<CurvePoint>& curve, CurveValue value,
-                                        std::size_t best, double reach_s) {
+std::optional<ExtremumFit> fit_of_extremum(const std::vector<CurvePoint>& curve, CurveValue value,
+                                           std::size_t best, double reach_s) {
   const double centre_s = curve[best].offset_s;
   const auto [first, last] = fitted_span(curve, value, best, reach_s);
   const auto count = static_cast<Eigen::Index>(last - first + 1);
@@ -125,24 +134,25 @@ std::optional<Parabola> fitted_parabola(const std::vector<CurvePoint>& curve, Cu
   Eigen::MatrixXd powers(count, 3);
   Eigen::VectorXd values(count);
   const double best_value = *(curve[best].*value), scale = best_value == 0 ? 1.0 : best_value;
+  const bool of_squares = value != &CurvePoint::n;
   for (Eigen::Index i = 0; i < count; ++i) {
     const CurvePoint& point = curve[first + std::size_t(i)];
     const double x = (point.offset_s - centre_s) / reach_s;
     powers.row(i) << 1, x, x * x;
-    values[i] = *(point.*value) / scale;
+    const double scaled = *(point.*value) / scale;
+    values[i] = of_squares ? scaled * scaled : scaled;
   }
   const Eigen::Vector3d c = powers.colPivHouseholderQr().solve(values);
-  const bool is_least = value != &CurvePoint::n;
-  if (!(is_least ? c[2] > 0 : c[2] < 0)) return std::nullopt;
-  const Parabola parabola{
-      centre_s, reach_s, scale, c[0], c[1], c[2], curve[first].offset_s, curve[last].offset_s};
-  const double offset_s = parabola.extremum_s();
-  if (offset_s < parabola.from_s || offset_s > parabola.to_s) return std::nullopt;
-  return parabola;
+  if (!(of_squares ? c[2] > 0 : c[2] < 0)) return std::nullopt;
+  const ExtremumFit fit{
+      of_squares, centre_s, reach_s, scale, c[0], c[1], c[2], curve[first].offset_s, curve[last].offset_s};
+  const double offset_s = fit.extremum_s();
+  if (offset_s < fit.from_s || offset_s > fit.to_s) return std::nullopt;
+  return fit;
 }
 
-std::optional<Parabola> parabola_behind(const std::vector<CurvePoint>& curve, CurveValue value,
-                                        const CriterionOptimum& optimum) {
+std::optional<ExtremumFit> fit_behind(const std::vector<CurvePoint>& curve, CurveValue value,
+                                      const CriterionOptimum& optimum) {
   constexpr double kUsualReach_s = 3e-3, kSame_s = 1e-10, kSameGridPoint_s = 2e-12;
   const std::size_t best =
       value == &CurvePoint::n ? index_of_greatest(curve, value) : index_of_least(curve, value);
@@ -152,8 +162,8 @@ std::optional<Parabola> parabola_behind(const std::vector<CurvePoint>& curve, Cu
   for (const CurvePoint& point : curve) reaches_s.push_back(std::abs(point.offset_s - curve[best].offset_s));
   for (const double reach_s : reaches_s) {
     if (!(reach_s > 0)) continue;
-    const auto parabola = fitted_parabola(curve, value, best, reach_s);
-    if (parabola && std::abs(parabola->extremum_s() - optimum.offset_s) <= kSame_s) return parabola;
+    const auto fit = fit_of_extremum(curve, value, best, reach_s);
+    if (fit && std::abs(fit->extremum_s() - optimum.offset_s) <= kSame_s) return fit;
   }
   return std::nullopt;
 }
@@ -161,14 +171,14 @@ std::optional<Parabola> parabola_behind(const std::vector<CurvePoint>& curve, Cu
 CriterionOptimum fitted_extremum(const std::vector<CurvePoint>& curve, CurveValue value, std::size_t best,
                                  double reach_s) {
   CriterionOptimum optimum{"", curve[best].offset_s, *(curve[best].*value)};
-  const auto parabola = fitted_parabola(curve, value, best, reach_s);
-  if (!parabola) return optimum;
-  optimum.offset_s = parabola->extremum_s();
-  // The curve's own value there: the parabola is to find the place, and cuts the corner of a sharp valley.
+  const auto fit = fit_of_extremum(curve, value, best, reach_s);
+  if (!fit) return optimum;
+  optimum.offset_s = fit->extremum_s();
+  // The curve's own value there: the fit is to find the place.
   double nearest_s = std::numeric_limits<double>::max();
   for (const CurvePoint& point : curve) {
     const double away_s = std::abs(point.offset_s - optimum.offset_s);
-    const bool inside = point.offset_s >= parabola->from_s && point.offset_s <= parabola->to_s;
+    const bool inside = point.offset_s >= fit->from_s && point.offset_s <= fit->to_s;
     if (!inside || !(away_s < nearest_s)) continue;
     nearest_s = away_s;
     optimum.value = *(point.*value);

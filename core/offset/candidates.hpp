@@ -47,13 +47,19 @@ class Curve {
   std::vector<CurvePoint> points_;
 };
 
+/// Both curves as one, ascending; where both have an offset the first one's point.
+std::vector<CurvePoint> united(std::vector<CurvePoint> curve, const std::vector<CurvePoint>& more);
+
 /// The index of the least (or greatest) present value; points().size() where there is none.
 using CurveValue = std::optional<double> CurvePoint::*;
 std::size_t index_of_least(const std::vector<CurvePoint>& curve, CurveValue value);
 std::size_t index_of_greatest(const std::vector<CurvePoint>& curve, CurveValue value);
 
-/// A parabola over a part of a curve: value = scale (c0 + c1 x + c2 x^2) with x = (offset - centre) / reach.
-struct Parabola {
+/// A second-degree fit over a part of a curve, with x = (offset - centre) / reach. n falls off as a parabola,
+/// n = scale (c0 + c1 x + c2 x^2). Distances go as a hyperbola, sqrt(floor^2 + (slope (offset - best))^2): d,
+/// e and the capped cost are fitted by their squares, value = scale sqrt(c0 + c1 x + c2 x^2).
+struct ExtremumFit {
+  bool of_squares = false;
   double centre_s = 0, reach_s = 1;
   double scale = 1, c0 = 0, c1 = 0, c2 = 0;
   double from_s = 0, to_s = 0;  // the first and last offset of the points that it was fitted to
@@ -62,19 +68,19 @@ struct Parabola {
   double extremum_s() const { return centre_s - c1 / (2 * c2) * reach_s; }
 };
 
-/// The parabola from which `fitted_extremum` takes its answer; none where that is the grid point.
-std::optional<Parabola> fitted_parabola(const std::vector<CurvePoint>& curve, CurveValue value,
-                                        std::size_t best, double reach_s);
+/// The fit from which `fitted_extremum` takes its answer; none where that is the grid point.
+std::optional<ExtremumFit> fit_of_extremum(const std::vector<CurvePoint>& curve, CurveValue value,
+                                           std::size_t best, double reach_s);
 
-/// The parabola that gave this optimum of the curve, looked for among all reaches (an estimate does not hold
-/// its own). None where no parabola has its extremum there: then the optimum is a grid point.
-std::optional<Parabola> parabola_behind(const std::vector<CurvePoint>& curve, CurveValue value,
-                                        const CriterionOptimum& optimum);
+/// The fit that gave this optimum of the curve, looked for among all reaches (an estimate does not hold its
+/// own). None where no fit has its extremum there: then the optimum is a grid point.
+std::optional<ExtremumFit> fit_behind(const std::vector<CurvePoint>& curve, CurveValue value,
+                                      const CriterionOptimum& optimum);
 
-/// The extremum of the parabola fitted to the contiguous present values within `reach_s` of point `best` (the
-/// authors' 2018 follow-up), with the value of the point nearest to it. They reach as far to one side as to
-/// the other, unless fewer than 5 would be left. The grid point itself where they are fewer than 5, or the
-/// parabola bends the wrong way or has its extremum outside them.
+/// The extremum of the second-degree fit to the contiguous present values within `reach_s` of point `best`
+/// (the authors' 2018 follow-up), with the value of the point nearest to it. They reach as far to one side as
+/// to the other, unless fewer than 5 would be left. The grid point itself where they are fewer than 5, or the
+/// fit bends the wrong way or has its extremum outside them.
 CriterionOptimum fitted_extremum(const std::vector<CurvePoint>& curve, CurveValue value, std::size_t best,
                                  double reach_s);
 

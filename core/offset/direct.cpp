@@ -6,81 +6,57 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/offset/candidates.hpp"
 #include "core/offset/direct_moving.hpp"
 #include "core/offset/direct_stationary.hpp"
 #include "core/offset/identifiability.hpp"
+#include "core/offset/motion_source.hpp"
 #include "core/offset/uncertainty.hpp"
 
 namespace sweepscope {
 namespace {
 
-constexpr std::size_t kCoarseSweeps = 40;
-
 void add(std::vector<std::string>& to, const Remark& remark) {
   if (remark) to.push_back(*remark);
 }
 
-double duration_s(const OffsetProblem& problem) {
-  const auto& scans = problem.recording->scans;
-  return scans.back().first_beam_s - scans.front().first_beam_s;
-}
+// Where neighbours in time err together, their scatter hides it, and the halves disagree.
+struct HalvesCheck {
+  std::optional<double> sigma_s;  // widened where they do
+  Remark warning;
+};
 
-// Every second of the window's candidates, then those beside the best.
-std::vector<double> every_second(const std::vector<double>& offsets_s) {
-  std::vector<double> chosen_s;
-  for (std::size_t i = 0; i < offsets_s.size(); i += 2) chosen_s.push_back(offsets_s[i]);
-  if (chosen_s.back() != offsets_s.back()) chosen_s.push_back(offsets_s.back());
-  return chosen_s;
-}
-
-void sort_into(std::vector<CurvePoint>& curve, const std::vector<CurvePoint>& more) {
-  for (const CurvePoint& point : more)
-    if (std::none_of(curve.begin(), curve.end(), [&](const auto& p) { return p.offset_s == point.offset_s; }))
-      curve.push_back(point);
-  std::sort(curve.begin(), curve.end(), [](const auto& a, const auto& b) { return a.offset_s < b.offset_s; });
-}
-
-// Between neighbouring candidates the halves must agree, or the scatter hides something.
-std::optional<double> widened_by_halves(std::optional<double> sigma_s, const std::vector<double>& series_s,
-                                        Estimate& result) {
-  if (!sigma_s || series_s.size() < 4) return sigma_s;
+HalvesCheck check_halves(std::optional<double> sigma_s, const std::vector<double>& series_s) {
+  if (!sigma_s || series_s.size() < 4) return {sigma_s, {}};
   double halves_s[2] = {0, 0};
   const std::size_t middle = series_s.size() / 2;
   for (std::size_t i = 0; i < series_s.size(); ++i)
     halves_s[i < middle ? 0 : 1] += series_s[i] / double(i < middle ? middle : series_s.size() - middle);
   const double half_apart_s = std::abs(halves_s[1] - halves_s[0]) / 2;
-  if (half_apart_s < 3 * *sigma_s) return sigma_s;
-  result.warnings.push_back(fmt::format("The halves of the recording disagree: {:.3f} ms and {:.3f} ms.",
-                                        halves_s[0] * 1e3, halves_s[1] * 1e3));
-  return half_apart_s;
+  if (half_apart_s < 3 * *sigma_s) return {sigma_s, {}};
+  return {half_apart_s, fmt::format("The halves of the recording disagree: {:.3f} ms and {:.3f} ms.",
+                                    halves_s[0] * 1e3, halves_s[1] * 1e3)};
 }
 
-void answer(double offset_s, std::optional<double> sigma_s, double value, const SearchScale& scale,
-            const std::vector<double>& window_s, Estimate& result) {
-  result.criteria.push_back({"direct", offset_s, value});
-  if (offset_s < window_s.front() || offset_s > window_s.back())
-    result.reasons.push_back(fmt::format(
+// The answer with its offset, where nothing speaks against one.
+Answer concluded(Answer answer, double offset_s, std::optional<double> sigma_s, double value,
+                 const OffsetSearch& search) {
+  answer.criteria.push_back({"direct", offset_s, value});
+  const auto& window = search.coarse.curve;
+  if (offset_s < window.front().offset_s || offset_s > window.back().offset_s)
+    answer.reasons.push_back(fmt::format(
         "The offset would lie beyond the edge of the searched range, at {:.1f} ms.", offset_s * 1e3));
-  add(result.reasons, sigma_reason(sigma_s, scale));
-  result.identifiable = result.reasons.empty();
-  if (!result.identifiable) return;
-  result.offset_s = offset_s;
-  result.sigma_s = sigma_s;
-}
-
-void judge_drift(const std::optional<Trend>& trend, double recorded_s, std::optional<double> sigma_s,
-                 Estimate& result) {
-  if (!trend) return;
-  result.drift_ppm = trend->slope * 1e6;
-  add(result.reasons, drift_reason(*trend, recorded_s, sigma_s.value_or(0)));
+  add(answer.reasons, sigma_reason(sigma_s, search.scale));
+  if (!answer.reasons.empty()) return answer;
+  answer.offset_s = offset_s;
+  answer.sigma_s = sigma_s;
+  return answer;
 }
 
 // Matches come and go, so that the last steps may go to and fro: by less than sigma they leave an answer.
-void judge_convergence(bool converged, double last_step_s, double sigma_s, Estimate& result) {
+void judge_convergence(Answer& answer, bool converged, double last_step_s, double sigma_s) {
   if (converged) return;
   const bool small = std::abs(last_step_s) < sigma_s;
-  (small ? result.warnings : result.reasons).push_back("The least squares did not converge.");
+  (small ? answer.warnings : answer.reasons).push_back("The least squares did not converge.");
 }
 
 // What the motion of a rig that is treated as stationary leaves uncertain. From one sweep to the next it
@@ -100,55 +76,58 @@ Remark motion_reason(double sigma_s, const SearchScale& scale) {
       sigma_s * 1e3);
 }
 
-void estimate_standing(const OffsetProblem& problem, double coarse_s, const std::vector<double>& window_s,
-                       const SearchScale& scale, const MotionTest& motion, const Job& job, Estimate& result) {
-  const StillGrid grid = still_grid(problem);
-  const StationaryDirect found = solve_stationary(grid, coarse_s, {}, job);
-  if (job.cancelled()) return;
+Answer of_stationary(const OffsetSearch& search, Answer answer, const Job& job) {
+  const Recording& recording = *search.problem.recording;
+  const StationaryDirect found = solve_stationary(search.grid, search.coarse.offset_s(), {}, job);
+  if (job.cancelled()) return answer;
+  answer.fit = FitEvidence{found.converged,  found.iterations, found.features, found.matches,
+                           found.residual_m, found.lever_m,    found.reach_m};
   if (found.matches < StationaryDirectOptions().least_matches) {
-    result.reasons.push_back(fmt::format("Only {} of {} points lie on surfaces that the other direction saw.",
+    answer.reasons.push_back(fmt::format("Only {} of {} points lie on surfaces that the other direction saw.",
                                          found.matches, found.features));
-    return;
+    return answer;
   }
-  add(result.reasons, lever_reason(found.lever_m, found.reach_m));
-  add(result.warnings, few_matches_warning(found.matches, found.features));
-  std::optional<double> sigma_s = sigma_of(found, *problem.recording);
-  judge_convergence(found.converged, found.step_s, sigma_s.value_or(0), result);
+  add(answer.reasons, lever_reason(found.lever_m, found.reach_m));
+  add(answer.warnings, few_matches_warning(found.matches, found.features));
+  std::optional<double> sigma_s = sigma_of(found, recording);
+  judge_convergence(answer, found.converged, found.step_s, sigma_s.value_or(0));
   if (sigma_s)
-    sigma_s = std::hypot(*sigma_s, unseen_sigma_s(*problem.recording, problem.motor, found.offset_s));
-  const double of_motion_s = motion_sigma_s(motion, found.lever_m, problem.motor.median_speed_rad_s);
-  if (const auto moved_far = motion_reason(of_motion_s, scale))
-    result.reasons.push_back(*moved_far);
+    sigma_s = std::hypot(*sigma_s, unseen_sigma_s(recording, search.problem.motor, found.offset_s));
+  const double of_motion_s =
+      motion_sigma_s(search.motion, found.lever_m, search.problem.motor.median_speed_rad_s);
+  if (const auto moved_far = motion_reason(of_motion_s, search.scale))
+    answer.reasons.push_back(*moved_far);
   else if (sigma_s)
     sigma_s = std::hypot(*sigma_s, of_motion_s);
-  judge_drift(trend_of(found.block_s, found.block_offset_s), duration_s(problem), sigma_s, result);
-  sigma_s = widened_by_halves(sigma_s, found.block_offset_s, result);
-  answer(found.offset_s, sigma_s, found.residual_m, scale, window_s, result);
+  if (const auto trend = trend_of(found.block_s, found.block_offset_s)) {
+    answer.drift_ppm = trend->slope * 1e6;
+    add(answer.reasons, drift_reason(*trend, search.recorded_s(), sigma_s.value_or(0)));
+  }
+  const HalvesCheck halves = check_halves(sigma_s, found.block_offset_s);
+  add(answer.warnings, halves.warning);
+  return concluded(std::move(answer), found.offset_s, halves.sigma_s, found.residual_m, search);
 }
 
-void judge_walk(const MovingDirect& found, Estimate& result) {
-  const JointWalk& walk = *found.walk.joint;
-  judge_convergence(found.converged, walk.step_s, walk.sigma_s, result);
-  add(result.reasons, lever_reason(walk.lever_m, walk.reach_m));
-  const auto &below = found.curve.front().e_m, &here = found.curve[1].e_m, &above = found.curve.back().e_m;
-  if (!here)
-    result.reasons.push_back("The map holds no matches at the offset that fits the walk best.");
-  else if ((below && *below < *here) || (above && *above < *here))
-    result.reasons.push_back(fmt::format(
-        "The map is not clearest at the offset that fits the walk best: e is {:.1f} mm there, and {:.1f} and "
-        "{:.1f} mm to its sides.",
-        *here * 1e3, below.value_or(0) * 1e3, above.value_or(0) * 1e3));
+// The map must be clearest at the offset that fits the walk best.
+Remark clearest_reason(const std::vector<CurvePoint>& sides) {
+  const auto &below = sides.front().e_m, &here = sides[1].e_m, &above = sides.back().e_m;
+  if (!here) return "The map holds no matches at the offset that fits the walk best.";
+  if ((!below || *below >= *here) && (!above || *above >= *here)) return std::nullopt;
+  return fmt::format(
+      "The map is not clearest at the offset that fits the walk best: e is {:.1f} mm there, and {:.1f} and "
+      "{:.1f} mm to its sides.",
+      *here * 1e3, below.value_or(0) * 1e3, above.value_or(0) * 1e3);
 }
 
 // A body that sways in step with the motor looks much like an offset.
-void warn_of_sway(double sway_rad, Estimate& result) {
+Remark sway_warning(double sway_rad) {
   constexpr double kUsual_rad = 0.014;  // of any walk: the sweeps' own scatter
-  if (sway_rad < kUsual_rad) return;
-  result.warnings.push_back(fmt::format(
+  if (sway_rad < kUsual_rad) return std::nullopt;
+  return fmt::format(
       "The trajectory turns to and fro in step with the motor, by {:.1f} deg from sweep to sweep: the rig "
       "swayed like that, or the sweeps have too little in common. Another pace or another "
       "motor speed would make the answer surer.",
-      sway_rad * 180 / std::numbers::pi));
+      sway_rad * 180 / std::numbers::pi);
 }
 
 // Why nothing can be said of a walk.
@@ -168,98 +147,96 @@ Remark left_out_warning(const std::vector<Interval>& lost, const std::optional<M
       source->name, lost.size(), lost.front().begin_s, lost.front().end_s);
 }
 
-void estimate_walking(const OffsetProblem& problem, double coarse_s, const std::vector<double>& window_s,
-                      const SearchScale& scale, const MappingOptions& mapping,
-                      const std::optional<MotionSource>& source, const Job& job, Estimate& result) {
-  const auto solved = solve_moving(problem, coarse_s, {walk_options(mapping, scale), 3 * scale.unit_s}, job);
-  if (!solved) return;
-  const MovingDirect& found = *solved;
-  result.lost = lost_times(found.walk.sweeps, *problem.recording);
-  if (found.walk.lost || !found.walk.joint) {
-    result.reasons.push_back(missing_reason(problem, found.walk, source));
-    return;
+std::vector<double> offsets_of_parts(const JointWalk& walk) {
+  std::vector<double> offsets_s;
+  for (const JointWalkPart& part : walk.parts) offsets_s.push_back(part.offset_s);
+  return offsets_s;
+}
+
+// Of a rig whose trajectory goes by `source`, as far as it is in `mapping`.
+Answer of_walk(const OffsetSearch& search, const MappingOptions& mapping,
+               const std::optional<MotionSource>& source, Answer answer, const Job& job) {
+  const OffsetProblem& problem = search.problem;
+  const SearchScale& scale = search.scale;
+  const auto solved =
+      solve_moving(problem, search.coarse.offset_s(), {walk_options(mapping, scale), 3 * scale.unit_s}, job);
+  if (!solved) return answer;
+  answer.walk = solved->walk;
+  answer.lost = lost_times(answer.walk->sweeps, *problem.recording);
+  if (answer.walk->lost || !answer.walk->joint) {
+    answer.reasons.push_back(missing_reason(problem, *answer.walk, source));
+    return answer;
   }
-  add(result.warnings, left_out_warning(result.lost, source));
-  const JointWalk& walk = *found.walk.joint;
+  add(answer.warnings, left_out_warning(answer.lost, source));
+  const JointWalk& walk = *answer.walk->joint;
   if (source && walk.time_shift)
-    result.motion = source->used(walk.time_shift);
+    answer.motion = source->used(walk.time_shift);
   else if (source && mapping.given)
-    result.warnings.push_back(
+    answer.warnings.push_back(
         fmt::format("{} is not used: the rig deviates from it less smoothly than it moves.", source->name));
-  sort_into(result.curve, found.curve);
-  judge_walk(found, result);
-  std::vector<double> parts_offset_s;
-  for (const JointWalkPart& part : walk.parts) parts_offset_s.push_back(part.offset_s);
-  if (!source || !source->motion.is_truth()) warn_of_sway(found.sway_rad, result);
-  std::optional<double> sigma_s =
+  answer.curve = united(std::move(answer.curve), solved->curve);
+  const double e_m = solved->curve[1].e_m.value_or(0);
+  answer.fit =
+      FitEvidence{solved->converged, 0, walk.features, walk.matches, e_m, walk.lever_m, walk.reach_m};
+  judge_convergence(answer, solved->converged, walk.step_s, walk.sigma_s);
+  add(answer.reasons, lever_reason(walk.lever_m, walk.reach_m));
+  add(answer.reasons, clearest_reason(solved->curve));
+  if (!source || !source->motion.is_truth()) add(answer.warnings, sway_warning(solved->sway_rad));
+  add(answer.warnings, long_sweeps_warning(problem.motor, walk.unseen_sigma_s, walk.sigma_s));
+  add(answer.warnings, smooth_motor_warning(walk.sway_sigma_s, walk.sigma_s));
+  const std::optional<double> sigma_s =
       std::hypot(walk.sigma_s, unseen_sigma_s(*problem.recording, problem.motor, walk.offset_s));
   // Parts that tell nothing scatter as if the clocks drifted apart.
-  if (!sigma_reason(sigma_s, scale)) judge_drift(drift_of(walk), duration_s(problem), walk.sigma_s, result);
-  sigma_s = widened_by_halves(sigma_s, parts_offset_s, result);
-  add(result.warnings, few_matches_warning(walk.matches, walk.features));
-  answer(walk.offset_s, sigma_s, found.curve[1].e_m.value_or(0), scale, window_s, result);
+  const auto drift = sigma_reason(sigma_s, scale) ? std::nullopt : drift_of(walk);
+  if (drift) {
+    answer.drift_ppm = drift->slope * 1e6;
+    add(answer.reasons, drift_reason(*drift, search.recorded_s(), walk.sigma_s));
+  }
+  const HalvesCheck halves = check_halves(sigma_s, offsets_of_parts(walk));
+  add(answer.warnings, halves.warning);
+  add(answer.warnings, few_matches_warning(walk.matches, walk.features));
+  return concluded(std::move(answer), walk.offset_s, halves.sigma_s, e_m, search);
+}
+
+Result<Answer> of_moving(const OffsetSearch& search, Answer answer, const Job& job) {
+  const auto source = motion_source(*search.problem.recording, search.options.poses);
+  MappingOptions mapping = mapping_of(search.options);
+  if (source) {
+    auto aligned = align_motion(search.problem, search.coarse.offset_s(), mapping, *source, job);
+    if (!aligned) return tl::unexpected(aligned.error());
+    mapping.given = aligned->motion;
+    for (std::string& warning : aligned->warnings) answer.warnings.push_back(std::move(warning));
+    answer.motion = source->used(aligned->shift);
+  }
+  return of_walk(search, mapping, source, std::move(answer), job);
 }
 
 }  // namespace
 
-CoarseSearch search_coarsely(const OffsetProblem& problem, const std::vector<double>& window_s,
-                             const SearchScale& scale, const Job& job) {
-  const double middle_s = (window_s.front() + window_s.back()) / 2;
-  const OffsetProblem part = beginning_of(problem, middle_s, kCoarseSweeps);
-  const StillGrid grid = still_grid(part);
-  CoarseSearch search;
-  const auto compute = [&](const std::vector<double>& offsets_s) {
-    sort_into(search.curve, stationary_coarse_curve(grid, offsets_s, job));
-    const std::size_t best = index_of_least(search.curve, &CurvePoint::capped_cost_m);
-    if (best < search.curve.size()) search.best = best;
-  };
-  const std::vector<double> all_s = offsets_of({{window_s.front(), window_s.back(), scale.unit_s}});
-  compute(every_second(all_s));
-  if (!search.best) return search;
-  const double best_s = search.offset_s();
-  std::vector<double> beside_s;
-  for (const double offset_s : all_s)
-    if (std::abs(offset_s - best_s) < 1.5 * scale.unit_s) beside_s.push_back(offset_s);
-  compute(beside_s);
-  return search;
-}
-
-Result<void> estimate_directly(const OffsetProblem& problem, const CoarseSearch& coarse, bool moving,
-                               const MotionTest& motion, const MappingOptions& mapping,
-                               const std::optional<MotionSource>& source, const Job& job, Estimate& result) {
-  const SearchScale scale = search_scale(problem.motor);
-  result.curve = coarse.curve;
+Result<Answer> answer_directly(const OffsetSearch& search, const Job& job) {
+  const Recording& recording = *search.problem.recording;
+  const MotorMotion& motor = search.problem.motor;
+  const CoarseSearch& coarse = search.coarse;
+  Answer answer;
+  answer.curve = coarse.curve;
   if (!coarse.best) {
-    result.reasons.push_back(
+    answer.reasons.push_back(
         "Sweeps of opposite directions hardly see the same surfaces at any candidate offset.");
-    return {};
+    return answer;
   }
-  const std::vector<double> window_s{coarse.curve.front().offset_s, coarse.curve.back().offset_s};
-  add(result.reasons, beam_times_reason(*problem.recording, scale));
+  add(answer.reasons, beam_times_reason(recording, search.scale));
   // A walk blurs the valley of the coarse search: only the least squares tells whether there is one.
-  if (!moving) {
-    add(result.reasons, edge_reason(coarse.curve, *coarse.best));
-    add(result.reasons, flat_reason(coarse.curve, *coarse.best));
-    add(result.reasons, rival_reason(coarse.curve, *coarse.best, scale));
+  if (!search.as_moving()) {
+    add(answer.reasons, edge_reason(coarse.curve, *coarse.best));
+    add(answer.reasons, flat_reason(coarse.curve, *coarse.best));
+    add(answer.reasons, rival_reason(coarse.curve, *coarse.best, search.scale));
   }
-  add(result.warnings, aliased_warning(*problem.recording, problem.motor));
-  add(result.warnings, encoder_warning(problem.recording->motor));
-  add(result.warnings, slow_motor_warning(problem.motor));
-  if (!result.reasons.empty()) return {};
-  if (!moving) {
-    estimate_standing(problem, coarse.offset_s(), window_s, scale, motion, job, result);
-    return {};
-  }
-  MappingOptions guided = mapping;
-  if (source) {
-    auto aligned = align_motion(problem, coarse.offset_s(), mapping, *source, job);
-    if (!aligned) return tl::unexpected(aligned.error());
-    guided.given = aligned->motion;
-    for (std::string& warning : aligned->warnings) result.warnings.push_back(std::move(warning));
-    result.motion = source->used(aligned->shift);
-  }
-  estimate_walking(problem, coarse.offset_s(), window_s, scale, guided, source, job, result);
-  return {};
+  add(answer.warnings, aliased_warning(recording, motor));
+  add(answer.warnings, encoder_warning(recording.motor));
+  add(answer.warnings, slow_motor_warning(motor));
+  if (!answer.reasons.empty()) return answer;
+  return search.as_moving() ? of_moving(search, std::move(answer), job)
+                            : of_stationary(search, std::move(answer), job);
 }
 
 }  // namespace sweepscope

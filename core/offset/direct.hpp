@@ -1,34 +1,15 @@
 #pragma once
 
-#include <vector>
-
+#include "core/error.hpp"
 #include "core/job.hpp"
-#include "core/loam/mapping.hpp"
-#include "core/offset/estimate.hpp"
-#include "core/offset/motion_source.hpp"
-#include "core/offset/motion_test.hpp"
-#include "core/offset/search_window.hpp"
-#include "core/offset/still_points.hpp"
+#include "core/offset/offset_search.hpp"
 
 namespace sweepscope {
 
-/// The least of the coarse cost over a window of candidates, by unit steps, each candidate computed once. The
-/// cost compares the ranges of neighbouring sweeps at equal motor angle and beam, as if nothing had moved: on
-/// a walk the motion blurs the valley, but leaves it where it is. On the first `most_sweeps` of the
-/// recording.
-struct CoarseSearch {
-  std::vector<CurvePoint> curve;  // ascending; capped_cost_m
-  std::optional<std::size_t> best;
-  double offset_s() const { return curve[*best].offset_s; }
-};
-CoarseSearch search_coarsely(const OffsetProblem& problem, const std::vector<double>& window_s,
-                             const SearchScale& scale, const Job& job);
-
-/// The direct method: writes answer, evidence, warnings and reasons into `result`, which knows its recording,
-/// sweeps and scans already. `motion` is what the motion test found, however the rig is treated. A moving
-/// rig's trajectory goes by `source`, where there is one; for its errors see align_motion.
-Result<void> estimate_directly(const OffsetProblem& problem, const CoarseSearch& coarse, bool moving,
-                               const MotionTest& motion, const MappingOptions& mapping,
-                               const std::optional<MotionSource>& source, const Job& job, Estimate& result);
+/// The direct method: the offset as an unknown of a least squares, with its uncertainty. Of a stationary rig
+/// see direct_stationary.hpp, of a moving one walk.hpp; a moving rig's trajectory goes by the poses of the
+/// options or by the recording's own odometry or IMU, where there are any (for the errors see align_motion).
+/// Unfinished where the job is cancelled.
+Result<Answer> answer_directly(const OffsetSearch& search, const Job& job);
 
 }  // namespace sweepscope

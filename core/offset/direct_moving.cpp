@@ -22,25 +22,18 @@ std::vector<CurvePoint> sides(const OffsetProblem& problem, const SolvedWalk& wa
 
 }  // namespace
 
-OffsetProblem beginning_of(const OffsetProblem& problem, double offset_s, std::size_t most_sweeps) {
-  OffsetProblem part = problem;
-  const std::vector<std::size_t> sweep_of = assign_sweeps(part.recording->scans, part.motor.sweeps, offset_s);
-  for (std::size_t i = 0; i < part.scan_used.size(); ++i)
-    if (sweep_of[i] != kNoSweep && sweep_of[i] >= most_sweeps) part.scan_used[i] = 0;
-  return part;
-}
-
 std::optional<MovingDirect> solve_moving(const OffsetProblem& problem, double first_offset_s,
                                          const MovingDirectOptions& options, const Job& job) {
   auto walk = solve_walk(problem, first_offset_s, options.walk, job);
   if (!walk) return std::nullopt;
   MovingDirect result;
-  result.walk = std::move(*walk);
-  if (!result.walk.joint) return result;
-  result.converged = result.walk.near && result.walk.joint->converged;
-  const Eigen::Vector3d axis = problem.recording->rig.mount.axis.normalized();
-  result.sway_rad = alternating_sway_rad(result.walk.joint->sweeps, axis);
-  result.curve = sides(problem, result.walk, options);
+  if (walk->joint) {
+    result.converged = walk->near && walk->joint->converged;
+    const Eigen::Vector3d axis = problem.recording->rig.mount.axis.normalized();
+    result.sway_rad = alternating_sway_rad(walk->joint->sweeps, axis);
+    result.curve = sides(problem, *walk, options);
+  }
+  result.walk = std::make_shared<const SolvedWalk>(std::move(*walk));
   if (job.cancelled()) return std::nullopt;
   return result;
 }

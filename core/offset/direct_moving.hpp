@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -18,14 +19,11 @@ struct MovingDirectOptions {
 };
 
 struct MovingDirect {
-  SolvedWalk walk;
+  std::shared_ptr<const SolvedWalk> walk;
   bool converged = false;
   double sway_rad = 0;            // in step with the motor, see alternating_sway_rad
   std::vector<CurvePoint> curve;  // n, e and capped cost along the walk: below, at and above the answer
 };
-
-/// The problem cut down to its first sweeps.
-OffsetProblem beginning_of(const OffsetProblem& problem, double offset_s, std::size_t most_sweeps);
 
 /// Absent where the job was cancelled.
 std::optional<MovingDirect> solve_moving(const OffsetProblem& problem, double first_offset_s,

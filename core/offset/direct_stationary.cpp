@@ -52,14 +52,9 @@ std::optional<double> coarse_cost_m(const StillGrid& grid, const StillPatchOptio
   return total.sum_m / double(total.count);
 }
 
-struct Residual {
-  double jacobian_m_s = 0, distance_m = 0;
-  float lever_m = 0, reach_m = 0;
-};
-
 // One line's points against the other direction's patches.
 struct LineResiduals {
-  std::vector<Residual> residuals;
+  std::vector<PatchDistance> residuals;
   std::size_t features = 0;
 };
 
@@ -117,12 +112,8 @@ class Linearisation {
       ++found.features;
       const StillPatch patch = neighbours.patch(points_.angle_rad[cell], bin, grid_.range_m[cell]);
       if (!patch.found) continue;
-      const Eigen::Vector3d& p_m = points_.p_m[cell];
-      const Eigen::Vector3d turned_m = axis_.cross(p_m);
-      const double lever_m = patch.normal.dot(turned_m);
-      found.residuals.push_back({(points_.speed_rad_s[cell] - patch.speed_rad_s) * lever_m,
-                                 patch.normal.dot(p_m - patch.centre_m), float(lever_m),
-                                 float(turned_m.norm())});
+      found.residuals.push_back(
+          distance_to_patch(patch, points_.p_m[cell], points_.speed_rad_s[cell], axis_));
     }
     return found;
   }
@@ -136,7 +127,8 @@ class Linearisation {
 double robust_deviation_m(const std::vector<LineResiduals>& lines) {
   std::vector<float> sizes_m;
   for (const LineResiduals& line : lines)
-    for (const Residual& residual : line.residuals) sizes_m.push_back(float(std::abs(residual.distance_m)));
+    for (const PatchDistance& residual : line.residuals)
+      sizes_m.push_back(float(std::abs(residual.distance_m)));
   if (sizes_m.empty()) return 0;
   const auto middle = sizes_m.begin() + std::ptrdiff_t(sizes_m.size() / 2);
   std::nth_element(sizes_m.begin(), middle, sizes_m.end());
@@ -150,7 +142,7 @@ struct Sums {
   void add(const LineResiduals& line, double loss_width_m) {
     features += line.features;
     matches += line.residuals.size();
-    for (const Residual& residual : line.residuals) {
+    for (const PatchDistance& residual : line.residuals) {
       const double weight = cauchy_weight(residual.distance_m, loss_width_m);
       jj += weight * residual.jacobian_m_s * residual.jacobian_m_s;
       jr += weight * residual.jacobian_m_s * residual.distance_m;
@@ -265,7 +257,7 @@ void fill_blocks(const Linearisation& at, const StillGrid& grid, double loss_wid
 void fill_levers(const std::vector<LineResiduals>& lines, StationaryDirect& result) {
   double lever_m2 = 0, reach_m2 = 0;
   for (const LineResiduals& line : lines) {
-    for (const Residual& residual : line.residuals) {
+    for (const PatchDistance& residual : line.residuals) {
       lever_m2 += double(residual.lever_m) * residual.lever_m;
       reach_m2 += double(residual.reach_m) * residual.reach_m;
     }
@@ -290,6 +282,14 @@ void resample(const StillGrid& grid, const Linearisation& at, const std::vector<
 }
 
 }  // namespace
+
+PatchDistance distance_to_patch(const StillPatch& patch, const Eigen::Vector3d& p_m, double speed_rad_s,
+                                const Eigen::Vector3d& motor_axis) {
+  const Eigen::Vector3d turned_m = motor_axis.cross(p_m);
+  const double lever_m = patch.normal.dot(turned_m);
+  return {(speed_rad_s - patch.speed_rad_s) * lever_m, patch.normal.dot(p_m - patch.centre_m), float(lever_m),
+          float(turned_m.norm())};
+}
 
 std::vector<CurvePoint> stationary_coarse_curve(const StillGrid& grid, const std::vector<double>& offsets_s,
                                                 const Job& job) {

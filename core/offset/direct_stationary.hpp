@@ -25,6 +25,14 @@ struct StationaryDirectOptions {
   std::size_t least_matches = 100;
 };
 
+/// A point against a patch of the other direction, at one offset.
+struct PatchDistance {
+  double jacobian_m_s = 0, distance_m = 0;  // dr / d offset and r
+  float lever_m = 0, reach_m = 0;           // n . (a x p) and |a x p|
+};
+PatchDistance distance_to_patch(const StillPatch& patch, const Eigen::Vector3d& p_m, double speed_rad_s,
+                                const Eigen::Vector3d& motor_axis);
+
 /// Mean difference of range between the directions at each candidate offset, each at most a cap: needs no
 /// registration and so is right far from the valley too. Absent where the directions hardly overlap.
 std::vector<CurvePoint> stationary_coarse_curve(const StillGrid& grid, const std::vector<double>& offsets_s,

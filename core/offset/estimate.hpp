@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,6 +9,15 @@
 #include "core/loam/mapping.hpp"
 
 namespace sweepscope {
+
+struct SolvedWalk;
+
+/// What the rig did while it was recorded.
+enum class RigKind { kStationary, kMoving };
+
+/// How an offset is found: as an unknown of a least squares, or by the criteria of the paper's sections 3.2
+/// and 3.3 at candidate offsets.
+enum class Method { kDirect, kStationary, kMoving };
 
 /// What was computed at one candidate offset. A value is absent where the method has no such criterion or
 /// where the registration failed; a candidate that failed never wins.
@@ -40,12 +50,22 @@ struct UsedMotion {
   std::optional<double> time_shift_s, time_shift_sigma_s;
 };
 
+/// What the least squares of the direct method rests on.
+struct FitEvidence {
+  bool converged = false;
+  int iterations = 0;  // 0: of a walk, where each part has its own
+  std::size_t features = 0, matches = 0;
+  double residual_m = 0;  // robust deviation of the distances; of a walk, their mean (e)
+  double lever_m = 0,
+         reach_m = 0;  // rms of n . (a x p) and of |a x p|: how far a turn of 1 rad moves the points
+};
+
 /// The answer to "what is the offset?", with its evidence. t_motor = t_laser + offset.
 struct Estimate {
   std::string recording;
-  std::string method;  // "stationary", "moving" or "direct"
-  std::string kind;  // what the rig was taken for: "stationary" or "moving"; empty where that was not judged
-  std::string kind_reason;  // why: a sentence
+  Method method = Method::kDirect;
+  std::optional<RigKind> kind;  // what the rig was taken for; none where that was not judged
+  std::string kind_reason;      // why: a sentence
   bool identifiable = false;
   std::optional<double> offset_s;
   std::optional<double> sigma_s;
@@ -60,7 +80,11 @@ struct Estimate {
   double cpu_s = 0;
   double wall_s = 0;
   std::optional<UsedMotion> motion;  // what a moving rig's trajectory went by, besides the scans
-  bool interrupted = false;          // the curve holds what was finished until then
+  std::optional<FitEvidence> fit;    // of the direct method
+  /// A moving rig's trajectory, by which all of this was judged; null in an estimate that was read from a
+  /// file.
+  std::shared_ptr<const SolvedWalk> walk;
+  bool interrupted = false;  // the curve holds what was finished until then
 };
 
 }  // namespace sweepscope

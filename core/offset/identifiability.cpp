@@ -231,10 +231,43 @@ Remark aliased_warning(const Recording& recording, const MotorMotion& motor) {
       std::round(scans_a_sweep(recording, motor)));
 }
 
+namespace {
+
+constexpr double kShortSweep_s = 0.5;  // shorter ones leave no less in doubt
+
+double squared_length(const MotorMotion& motor) {
+  const double longer = std::max(1.0, motor.median_sweep_s / kShortSweep_s);
+  return longer * longer;
+}
+
+}  // namespace
+
+Remark long_sweeps_warning(const MotorMotion& motor, double unseen_s, double sigma_s) {
+  const double longer = motor.median_sweep_s / kShortSweep_s;
+  if (longer < 1.2 || unseen_s < sigma_s / 2) return std::nullopt;
+  // The motor would turn faster, too.
+  return fmt::format(
+      "A sweep takes {:.2f} s, long enough for the rig to sway within it: that alone leaves +- {:.2f} ms. "
+      "Sweeps "
+      "of {:.1f} s would leave +- {:.2f} ms.",
+      motor.median_sweep_s, unseen_s * 1e3, kShortSweep_s, unseen_s / (longer * squared_length(motor)) * 1e3);
+}
+
+Remark smooth_motor_warning(double sway_s, double sigma_s) {
+  if (sway_s < sigma_s / 2) return std::nullopt;
+  return fmt::format(
+      "The motor slows down before it turns back, so a sway of the rig in step with it looks like an offset: "
+      "that "
+      "alone leaves +- {:.2f} ms. A motor that turns at constant speed and reverses at once does not have "
+      "this "
+      "limit.",
+      sway_s * 1e3);
+}
+
 double unseen_of_part_s(const Recording& recording, const MotorMotion& motor, std::size_t sweeps) {
   constexpr double kUnseen_rad = 0.6e-3, kUnseenOfSameAngles_rad = 1.7e-3;
-  return (sees_same_angles(recording, motor, sweeps) ? kUnseenOfSameAngles_rad : kUnseen_rad) /
-         motor.median_speed_rad_s;
+  return (sees_same_angles(recording, motor, sweeps) ? kUnseenOfSameAngles_rad : kUnseen_rad) *
+         squared_length(motor) / motor.median_speed_rad_s;
 }
 
 Remark encoder_warning(const MotorTrack& track) {

@@ -62,8 +62,14 @@ Remark sigma_reason(std::optional<double> sigma_s, const SearchScale& scale);
 
 /// What a part of a walk errs by beside its own sigma, as the parts of the walks of tuning/ in
 /// tests/benchmark/walks scatter. Where all its sweeps see the same few angles, a path that is bent alike in
-/// each of them fits nearly as well as the true one.
+/// each of them fits nearly as well as the true one. The longer a sweep, the more a path may bend within it:
+/// the first 55 walks of tests/benchmark/random_walks err like the square of a sweep's duration beyond 0.5 s.
 double unseen_of_part_s(const Recording& recording, const MotorMotion& motor, std::size_t sweeps);
+/// The sweeps of a moving rig are long enough to decide how sure the answer is; with how sure shorter ones
+/// would make it. `unseen_s`: what bends of the path within the sweeps leave uncertain, of `sigma_s`.
+Remark long_sweeps_warning(const MotorMotion& motor, double unseen_s, double sigma_s);
+/// A motor that slows down before it turns back leaves a sway in step with it in doubt.
+Remark smooth_motor_warning(double sway_s, double sigma_s);
 /// Whether a sweep takes so nearly a whole number of scans that so many sweeps all see the same angles.
 bool sees_same_angles(const Recording& recording, const MotorMotion& motor, std::size_t sweeps);
 /// All sweeps do: few surfaces are seen twice.

@@ -31,12 +31,16 @@ double haste_in_the_middle(const OffsetProblem& problem) {
 
 }  // namespace
 
+bool turns_back_smoothly(const OffsetProblem& problem) {
+  constexpr double kSmooth = 1.25;
+  return haste_in_the_middle(problem) > kSmooth;
+}
+
 Eigen::Vector2d jerk_sigma(const OffsetProblem& problem, const std::vector<SweepPose>& sweeps,
                            const JointWalkOptions& options) {
-  constexpr double kSmooth = 1.25;
-  const bool smooth = haste_in_the_middle(problem) > kSmooth;
-  const Eigen::Vector2d seen =
-      smooth ? options.jerk_factor_of_smooth_motors * jerk(sweeps, 1) : options.jerk_factor * jerk(sweeps, 2);
+  const Eigen::Vector2d seen = turns_back_smoothly(problem)
+                                   ? options.jerk_factor_of_smooth_motors * jerk(sweeps, 1)
+                                   : options.jerk_factor * jerk(sweeps, 2);
   return seen.cwiseMax(options.min_jerk);
 }
 

@@ -15,6 +15,10 @@ namespace sweepscope {
 Eigen::Vector2d jerk_sigma(const OffsetProblem& problem, const std::vector<SweepPose>& sweeps,
                            const JointWalkOptions& options);
 
+/// Whether the motor slows down well before it turns back, as a sine does: a wrong offset then shows in a
+/// roll as smooth as a body's sway, and in no jump.
+bool turns_back_smoothly(const OffsetProblem& problem);
+
 /// The jerk of a path by its knots, times their spacing cubed: this times four knots in a row.
 constexpr std::array<double, 4> kJerkStencil{-1, 3, -3, 1};
 /// It, for every four knots in a row: rotation vectors and translations.

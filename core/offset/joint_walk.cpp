@@ -433,6 +433,14 @@ void summarise(JointWalk& walk) {
   walk.sigma_s *= std::sqrt(std::max(1.0, scatter2 / (double(walk.parts.size() - 1) + kPriorParts)));
 }
 
+// What a sway in step with a motor that turns back smoothly may have been taken for: this share of the sway
+// that was found, as the walks with such motors among the first 55 of tests/benchmark/random_walks err.
+double sway_sigma_s(const OffsetProblem& problem, const Sweeps& sweeps) {
+  constexpr double kShare = 0.4;
+  const Vector3d axis = problem.recording->rig.mount.axis.normalized();
+  return kShare * alternating_sway_rad(sweeps, axis) / (2 * problem.motor.median_speed_rad_s);
+}
+
 }  // namespace
 
 std::optional<JointWalk> solve_joint_walk(const OffsetProblem& problem, const std::vector<SweepPose>& tracked,
@@ -461,6 +469,12 @@ std::optional<JointWalk> solve_joint_walk(const OffsetProblem& problem, const st
   }
   if (walk.parts.empty()) return std::nullopt;
   summarise(walk);
+  if (!held)
+    walk.unseen_sigma_s = unseen_of_part_s(*problem.recording, problem.motor, cuts.front().size()) /
+                          std::sqrt(double(walk.parts.size()));
+  if (!options.mapping.given && turns_back_smoothly(problem))
+    walk.sway_sigma_s = sway_sigma_s(problem, walk.sweeps);
+  walk.sigma_s = std::hypot(walk.sigma_s, walk.sway_sigma_s);
   return walk;
 }
 

@@ -49,7 +49,10 @@ struct JointWalkPart {
 struct JointWalk {
   double step_s = 0;    // what the last steps of parts that did not converge move the mean by, at most
   double offset_s = 0;  // weighted mean of the parts
-  double sigma_s = 0;   // from the parts' own, widened where they scatter more
+  double sigma_s = 0;   // from the parts' own, widened where they scatter more, and the two below
+  double unseen_sigma_s =
+      0;                    // of it: what bends of the path within the sweeps may hide, see unseen_of_part_s
+  double sway_sigma_s = 0;  // of it: what a sway in step with a motor that turns back smoothly may hide
   std::vector<JointWalkPart> parts;  // those with enough matches
   std::vector<SweepPose> sweeps;     // along the smooth walk; those of parts left out as they were given
   std::size_t features = 0, matches = 0;

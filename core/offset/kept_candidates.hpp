@@ -3,7 +3,8 @@
 #include <optional>
 #include <vector>
 
-#include "core/offset/estimator.hpp"
+#include "core/error.hpp"
+#include "core/offset/estimate.hpp"
 
 namespace sweepscope {
 
@@ -30,11 +31,10 @@ struct Shard {
   }
 };
 
-/// As `estimate` without a store, with its bytes; candidates come from the store where they are there. With a
-/// shard only its candidates are computed and nothing is concluded. ExitCode::kWrongUsage too for the direct
-/// method, which keeps no candidates, and for a shard of the default search, which decides where to look as
-/// it goes.
-Result<Estimate> estimate(const Recording& recording, const EstimateOptions& options, CandidateStore& store,
-                          std::optional<Shard> shard, const Job& job);
+/// Where the candidates of a search come from and go to.
+struct KeptCandidates {
+  CandidateStore* store = nullptr;  // null: every candidate is computed
+  std::optional<Shard> shard;       // of the candidates, with a store; nothing is concluded
+};
 
 }  // namespace sweepscope

@@ -2,9 +2,7 @@
 
 #include <cstddef>
 
-#include "core/error.hpp"
-#include "core/job.hpp"
-#include "core/recording/recording.hpp"
+#include "core/offset/prepared.hpp"
 
 namespace sweepscope {
 
@@ -25,8 +23,7 @@ struct MotionTest {
   bool moved_slowly() const { return far_pairs >= 2 && 5 * far_moved > 3 * far_pairs; }
 };
 
-/// Compares up to 16 pairs spread over the recording, and up to 4 of its ends, with default options. Fails
-/// only where the job is cancelled.
-Result<MotionTest> test_motion(const Recording& recording, const Job& job);
+/// Compares up to 16 pairs spread over the recording, and up to 4 of its ends.
+MotionTest test_motion(const PreparedRecording& prepared);
 
 }  // namespace sweepscope

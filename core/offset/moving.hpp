@@ -4,7 +4,6 @@
 
 #include "core/loam/mapping.hpp"
 #include "core/offset/estimate.hpp"
-#include "core/offset/estimator.hpp"
 
 namespace sweepscope {
 

@@ -19,23 +19,14 @@ double rounded_up(double value) {
   return 10 * decade;
 }
 
-double median_spacing_s(const std::vector<double>& times_s) {
-  std::vector<double> spacings_s;
-  for (std::size_t i = 1; i < times_s.size(); ++i) spacings_s.push_back(times_s[i] - times_s[i - 1]);
-  if (spacings_s.empty()) return 0.0;
-  std::nth_element(spacings_s.begin(), spacings_s.begin() + std::ptrdiff_t(spacings_s.size() / 2),
-                   spacings_s.end());
-  return spacings_s[spacings_s.size() / 2];
-}
-
 }  // namespace
 
 SearchScale search_scale(const MotorMotion& motor) {
   SearchScale scale;
-  scale.most_half_width_s = motor.median_sweep_s / 2;
+  scale.max_half_width_s = motor.median_sweep_s / 2;
   scale.unit_s = rounded_up(std::max(1e-3, 0.36 * kDegree / motor.median_speed_rad_s));
   scale.half_width_s =
-      std::min(scale.most_half_width_s, std::max(0.060, 5 * kDegree / motor.median_speed_rad_s));
+      std::min(scale.max_half_width_s, std::max(0.060, 5 * kDegree / motor.median_speed_rad_s));
   return scale;
 }
 
@@ -51,13 +42,13 @@ Result<std::vector<double>> checked_offsets(const std::vector<OffsetRange>& rang
   const std::vector<double> offsets_s = offsets_of(ranges);
   if (offsets_s.empty()) return failure(ExitCode::kWrongUsage, "The ranges hold no candidate offset.");
   const double half_width_s = (offsets_s.back() - offsets_s.front()) / 2;
-  if (half_width_s > scale.most_half_width_s + 1e-9)
+  if (half_width_s > scale.max_half_width_s + 1e-9)
     return failure(
         ExitCode::kWrongUsage,
         fmt::format(
             "The range of offsets is {:.1f} ms to either side of its middle; this motor allows {:.1f} ms, "
             "a quarter of its period: an offset wrong by one sweep gives a perfect mirror image.",
-            half_width_s * 1e3, scale.most_half_width_s * 1e3));
+            half_width_s * 1e3, scale.max_half_width_s * 1e3));
   return offsets_s;
 }
 
@@ -72,32 +63,6 @@ std::vector<std::string> motor_reasons(const MotorTrack& track, const MotorMotio
         "encoder's zero.",
         motor.range_rad / kDegree, track.time_s.back() - track.time_s.front())};
   return {};
-}
-
-std::vector<char> scans_covered(const Recording& recording, double least_s, double greatest_s) {
-  const double most_gap_s = std::max(0.05, 5 * median_spacing_s(recording.motor.time_s));
-  std::vector<char> covered(recording.scans.size(), 0);
-  for (std::size_t i = 0; i < recording.scans.size(); ++i)
-    covered[i] = recording.motor.covers(recording.scans[i].first_beam_s + least_s,
-                                        recording.scans[i].last_beam_s() + greatest_s, most_gap_s);
-  return covered;
-}
-
-Result<OffsetProblem> prepare_problem(const Recording& recording, double least_s, double greatest_s,
-                                      const FeatureOptions& options, const Job& job) {
-  auto features = extract_features(recording, options, job);
-  if (!features) return tl::unexpected(features.error());
-  OffsetProblem problem;
-  problem.recording = &recording;
-  problem.feature_options = options;
-  problem.features = std::make_shared<const FeatureSet>(std::move(*features));
-  problem.motor = find_sweeps(recording.motor);
-  problem.scan_used = scans_covered(recording, least_s, greatest_s);
-  std::vector<double> stamps_s;
-  for (const LaserScan& scan : recording.scans)
-    if (scan.ring == recording.scans.front().ring) stamps_s.push_back(scan.first_beam_s);
-  problem.line_spacing_rad = problem.motor.median_speed_rad_s * median_spacing_s(stamps_s);
-  return problem;
 }
 
 }  // namespace sweepscope

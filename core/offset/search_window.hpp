@@ -13,8 +13,8 @@ namespace sweepscope {
 struct SearchScale {
   double unit_s =
       0;  // 1 ms, or more for a motor that turns less than 0.36 deg in it: what the data can resolve
-  double half_width_s = 0;       // of the default window about 0
-  double most_half_width_s = 0;  // a quarter of the motor's period: beyond, a mirror image fits as well
+  double half_width_s = 0;      // of the default window about 0
+  double max_half_width_s = 0;  // a quarter of the motor's period: beyond, a mirror image fits as well
 };
 SearchScale search_scale(const MotorMotion& motor);
 
@@ -24,14 +24,5 @@ Result<std::vector<double>> checked_offsets(const std::vector<OffsetRange>& rang
 
 /// Why no offset can be told from such a motor; empty where it can.
 std::vector<std::string> motor_reasons(const MotorTrack& track, const MotorMotion& motor);
-
-/// Per scan 1 where the motor track covers it, without a gap, at every offset from `least_s` to `greatest_s`:
-/// all candidates must use the same scans, or the criteria count scans instead of sharpness.
-std::vector<char> scans_covered(const Recording& recording, double least_s, double greatest_s);
-
-/// Everything about a recording that does not depend on the offset, for offsets from `least_s` to
-/// `greatest_s`. The recording must outlive it.
-Result<OffsetProblem> prepare_problem(const Recording& recording, double least_s, double greatest_s,
-                                      const FeatureOptions& options, const Job& job);
 
 }  // namespace sweepscope

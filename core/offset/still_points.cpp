@@ -155,10 +155,11 @@ StillNeighbours::Pair StillNeighbours::bracket(double angle_rad, std::size_t bin
 // Adds the points of the lines on one side of the angle; gives how many lines had any.
 int StillNeighbours::collect(double angle_rad, std::size_t bin, int step) {
   const std::size_t first_bin = bin > 0 ? bin - 1 : bin, last_bin = std::min(bin + 1, points_.bins - 1);
+  const int max_lines = std::min(options_.lines_per_side, kMaxLinesPerSide);
   int lines = 0;
   double last_rad = 0;
-  for (std::size_t place = step > 0 ? next_ : next_ - 1;
-       place < pool_.size() && lines < options_.lines_per_side; place += std::size_t(step)) {
+  for (std::size_t place = step > 0 ? next_ : next_ - 1; place < pool_.size() && lines < max_lines;
+       place += std::size_t(step)) {
     const double away_rad = step * (points_.angle_rad[cell(place, bin)] - angle_rad);
     if (away_rad > options_.reach_rad) break;
     if (lines > 0 && away_rad - last_rad < options_.least_gap_rad) continue;

@@ -59,9 +59,9 @@ std::vector<LinePool> pools_by_sweep(const StillPoints& points);
 /// How a point's neighbours are chosen. Lines as near to each other as encoder steps tell nothing of a
 /// surface's slope, so they keep a distance.
 struct StillPatchOptions {
-  double least_gap_rad = 0;  // between neighbouring lines of a patch
-  double reach_rad = 0;      // of lines to either side of the point
-  int lines_per_side = 3;
+  double least_gap_rad = 0;        // between neighbouring lines of a patch
+  double reach_rad = 0;            // of lines to either side of the point
+  int lines_per_side = 3;          // at most StillNeighbours::kMaxLinesPerSide
   double thickness_m = 0.006;      // a patch's points lie this near to its plane (rms) ...
   double thickness_slope = 0.003;  // ... or this much of the range
 };
@@ -77,6 +77,8 @@ struct StillPatch {
 /// Goes through a line's cells in order and finds each one's neighbours among the lines of a pool.
 class StillNeighbours {
  public:
+  static constexpr int kMaxLinesPerSide = 4;  // options that ask for more get these
+
   /// Of a scanner with rings only the lines of the given line's own ring: their bins lie beside each other.
   StillNeighbours(const StillPoints& points, const LinePool& pool, std::size_t line,
                   const StillPatchOptions& options);
@@ -96,12 +98,12 @@ class StillNeighbours {
   std::size_t cell(std::size_t place, std::size_t bin) const { return pool_[place] * points_.bins + bin; }
   int collect(double angle_rad, std::size_t bin, int step);
 
-  static constexpr int kMostPoints = 24;
   const StillPoints& points_;
   std::span<const std::uint32_t> pool_;  // of the line's own ring
   const StillPatchOptions& options_;
   std::size_t next_ = 0;  // the first of the pool's lines at or above the angle
-  std::array<std::size_t, kMostPoints> near_;
+  static constexpr int kBinsPerLine = 3;
+  std::array<std::size_t, 2 * kMaxLinesPerSide * kBinsPerLine> near_;
   int count_ = 0;
 };
 

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "core/loam/given_motion.hpp"
-#include "core/offset/direct.hpp"
+#include "core/offset/coarse_search.hpp"
 
 namespace sweepscope {
 
@@ -54,10 +54,10 @@ std::optional<SolvedWalk> solve_walk(const OffsetProblem& problem, double first_
 std::optional<SolvedWalk> find_walk(const OffsetProblem& problem, double middle_s,
                                     const MappingOptions& mapping, const Job& job) {
   const SearchScale scale = search_scale(problem.motor);
-  const std::vector<double> window_s{middle_s - scale.half_width_s, middle_s + scale.half_width_s};
-  const CoarseSearch coarse = search_coarsely(problem, window_s, scale, job);
+  const CoarseSearch coarse =
+      search_coarsely(problem, middle_s - scale.half_width_s, middle_s + scale.half_width_s, scale, job);
   if (job.cancelled()) return std::nullopt;
-  return solve_walk(problem, coarse.best ? coarse.offset_s() : middle_s, walk_options(mapping, scale), job);
+  return solve_walk(problem, coarse.offset_or(middle_s), walk_options(mapping, scale), job);
 }
 
 namespace {

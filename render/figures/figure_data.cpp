@@ -34,7 +34,11 @@ int number_of(const std::optional<T>& choice) {
 
 std::string canonical(const EstimateOptions& o) {
   std::string text = fmt::format("estimate {} {} {} {} {}", number_of(o.method), number_of(o.assume),
-                                 number_of(o.fit), static_cast<int>(o.scoring), o.weight_c);
+                                 number_of(o.fit), number_of(o.scoring), o.weight_c.value_or(1));
+  if (o.edge_gate_m) text += fmt::format(" edge {}", *o.edge_gate_m);
+  if (o.plane_gate_m) text += fmt::format(" plane {}", *o.plane_gate_m);
+  if (o.around)
+    text += fmt::format(" around {}:{}:{}", o.around->initial_s, o.around->accuracy_s, o.around->steps);
   for (const OffsetRange& range : o.ranges) {
     text += fmt::format(" {}:{}:{}", range.from_s, range.to_s, range.step_s);
   }
@@ -128,7 +132,7 @@ Result<Estimate> FigureData::compute(const std::string& name, const EstimateSpec
   const auto data = recording(spec.recording);
   if (!data) return tl::unexpected(data.error());
   said_("estimate " + name);
-  if (spec.options.method == Method::kDirect) {
+  if (method_of(spec.options, RigKind::kStationary) == Method::kDirect) {
     auto computed = sweepscope::estimate(**data, spec.options, job_);
     if (computed && computed->interrupted)
       return failure(ExitCode::kInterrupted, "interrupted in estimate " + name);
@@ -139,7 +143,7 @@ Result<Estimate> FigureData::compute(const std::string& name, const EstimateSpec
   search.recording_hash = key;
   const auto kept = CandidateFile::open_while_working(candidates_of(key), search);
   if (!kept) return tl::unexpected(kept.error());
-  auto computed = sweepscope::estimate(**data, spec.options, **kept, {}, job_);
+  auto computed = sweepscope::estimate(**data, spec.options, {kept->get(), {}}, job_);
   if (computed && computed->interrupted)
     return failure(ExitCode::kInterrupted, (*kept)->interrupted_in_words());
   return computed;

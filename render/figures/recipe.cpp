@@ -171,41 +171,46 @@ class RecipeReader {
     return name;
   }
 
+  /// Members for all options of an estimate; what they set goes to `options`.
+  static Members estimate_members(EstimateOptions& options, const std::string& name) {
+    Members members;
+    for (const EstimateOption& option : estimate_options()) {
+      members[option.name] = [&options, &option, name](const Node& node) {
+        const std::vector<Node> values = option.repeats ? read_list(node) : std::vector<Node>{node};
+        for (const Node& value : values) {
+          const std::string text = read_text(value, name + ": " + option.name);
+          if (const auto set = option.set(options, text); !set)
+            refuse(value,
+                   fmt::format("{}: {} {}, and got \"{}\"", name, option.name, set.error().message, text));
+        }
+      };
+    }
+    return members;
+  }
+
   EstimateSpec read_estimate(const Node& node, const std::string& name) {
     EstimateSpec spec;
     EstimateOptions& options = spec.options;
-    const std::map<std::string, Method> kinds{{"stationary", Method::kStationary},
-                                              {"moving", Method::kMoving}};
-    std::map<std::string, Method> methods = kinds;
-    methods["direct"] = Method::kDirect;
-    read_members(
-        node, name,
-        {{"recording",
-          [&](const Node& v) { spec.recording = read_reference(v, recipe_.recordings, "recording"); }},
-         {"file", [&](const Node& v) { spec.file = folder_ / read_text(v, name + ": file"); }},
-         {"method",
-          [&](const Node& v) { options.method = read_choice<Method>(v, name + ": method", methods); }},
-         {"assume",
-          [&](const Node& v) { options.assume = read_choice<Method>(v, name + ": assume", kinds); }},
-         {"fit",
-          [&](const Node& v) {
-            options.fit =
-                read_choice<Fit>(v, name + ": fit", {{"none", Fit::kNone}, {"parabola", Fit::kParabola}});
-          }},
-         {"scoring",
-          [&](const Node& v) {
-            options.scoring = read_choice<Scoring>(
-                v, name + ": scoring", {{"two-stage", Scoring::kTwoStage}, {"loam", Scoring::kLoam}});
-          }},
-         {"ranges_ms", [&](const Node& v) {
-            for (const Node& one : read_list(v)) {
-              const auto range = read_numbers(one, name + ": a range of ranges_ms", 3);
-              if (!(range[0] <= range[1]) || !(range[2] > 0)) {
-                refuse(one, name + ": a range must be [from, to, step] with from <= to and step > 0");
-              }
-              options.ranges.push_back({range[0] * 1e-3, range[1] * 1e-3, range[2] * 1e-3});
-            }
-          }}});
+    const std::map<std::string, RigKind> kinds{{"stationary", RigKind::kStationary},
+                                               {"moving", RigKind::kMoving}};
+    Members members = estimate_members(options, name);
+    members["recording"] = [&](const Node& v) {
+      spec.recording = read_reference(v, recipe_.recordings, "recording");
+    };
+    members["file"] = [&](const Node& v) { spec.file = folder_ / read_text(v, name + ": file"); };
+    members["assume"] = [&](const Node& v) {
+      options.assume = read_choice<RigKind>(v, name + ": assume", kinds);
+    };
+    members["ranges_ms"] = [&](const Node& v) {
+      for (const Node& one : read_list(v)) {
+        const auto range = read_numbers(one, name + ": a range of ranges_ms", 3);
+        if (!(range[0] <= range[1]) || !(range[2] > 0)) {
+          refuse(one, name + ": a range must be [from, to, step] with from <= to and step > 0");
+        }
+        options.ranges.push_back({range[0] * 1e-3, range[1] * 1e-3, range[2] * 1e-3});
+      }
+    };
+    read_members(node, name, members);
     if (spec.recording.empty()) refuse(node, name + " needs a recording");
     if (!spec.file.empty() && node.size() > 2)
       refuse(node, name + ": a file is not computed: it has no options");

@@ -9,6 +9,7 @@
 #include "core/io/estimate_json.hpp"
 #include "core/map/offset_map.hpp"
 #include "core/offset/motion_test.hpp"
+#include "core/offset/prepared.hpp"
 #include "core/recording/inspect.hpp"
 
 namespace sweepscope {
@@ -17,21 +18,15 @@ namespace {
 constexpr double kOff_s = 0.005;
 constexpr double kLeastRatio = 1.3;  // of a wall's widths: a face that shows no difference tells nothing
 
-/// The kind of rig that an estimate was made for.
-std::optional<Method> kind_of(const Estimate& estimate) {
-  if (estimate.kind == "moving") return Method::kMoving;
-  if (estimate.kind == "stationary") return Method::kStationary;
-  return std::nullopt;
-}
-
 /// The maps 5 ms off and at the answer, and the face between them that tells most.
-Result<void> add_maps(ReportContent& content, const Recording& recording, std::optional<Method> assume,
-                      const Job& job) {
+Result<void> add_maps(ReportContent& content, const PreparedRecording& prepared, const Job& job) {
+  const Recording& recording = *prepared.recording;
   const double offset_s = std::round(*content.estimate.offset_s * 1e5) / 1e5;  // as it is printed
   const std::vector<double> offsets_s{offset_s - kOff_s, offset_s};
   MapOptions options;
-  options.assume = assume;
-  auto built = build_maps(recording, offsets_s, options, job);
+  options.assume = content.estimate.kind;
+  options.walk = content.estimate.walk;
+  auto built = build_maps(prepared, offsets_s, options, job);
   if (!built) return tl::unexpected(built.error());
   std::vector<MapOnPath> on_paths;
   for (OffsetMap& map : *built) {
@@ -49,37 +44,37 @@ Result<void> add_maps(ReportContent& content, const Recording& recording, std::o
   return {};
 }
 
-/// What the direct method says of the same recording.
-Result<void> add_direct(ReportContent& content, const Recording& recording, const Job& job) {
+/// The paper's criteria of the same recording, along the same trajectory: evidence beside the answer.
+Result<void> add_criteria(ReportContent& content, const PreparedRecording& prepared, CandidateStore* kept,
+                          const Job& job) {
   EstimateOptions wanted;
-  wanted.method = Method::kDirect;
-  wanted.assume = kind_of(content.estimate);
-  auto found = estimate(recording, wanted, job);
+  wanted.method = content.estimate.kind == RigKind::kMoving ? Method::kMoving : Method::kStationary;
+  wanted.assume = content.estimate.kind;
+  wanted.walk = content.estimate.walk;
+  auto found = estimate(prepared, wanted, {kept, {}}, job);
   if (!found) return tl::unexpected(found.error());
-  if (found->interrupted) return failure(ExitCode::kInterrupted, "interrupted in the direct method");
-  if (found->identifiable) content.direct = std::move(*found);
+  if (found->interrupted) return failure(ExitCode::kInterrupted, "interrupted while computing the criteria");
+  content.criteria = std::move(*found);
   return {};
 }
 
 }  // namespace
 
-Result<ReportContent> gather_report(const Recording& recording, std::optional<Method> assume,
+Result<ReportContent> gather_report(const PreparedRecording& prepared, std::optional<RigKind> assume,
                                     CandidateStore* kept, const Job& job) {
   ReportContent content;
-  content.recording = inspect(recording);
-  const auto motion = test_motion(recording, job);
-  if (!motion) return tl::unexpected(motion.error());
-  if (motion->answered()) content.recording.motion = motion->moving() ? "moving" : "stationary";
-  EstimateOptions wanted;
-  wanted.assume = assume;
-  auto found =
-      kept != nullptr ? estimate(recording, wanted, *kept, {}, job) : estimate(recording, wanted, job);
+  content.recording = inspect(*prepared.recording);
+  const MotionTest motion = test_motion(prepared);
+  if (motion.answered()) content.recording.motion = motion.moving() ? "moving" : "stationary";
+  EstimateOptions options;
+  options.assume = assume;
+  auto found = estimate(prepared, options, {}, job);
   if (!found) return tl::unexpected(found.error());
   if (found->interrupted) return failure(ExitCode::kInterrupted, "interrupted while looking for the offset");
   content.estimate = std::move(*found);
-  if (!content.estimate.identifiable || !content.estimate.offset_s) return content;
-  return add_direct(content, recording, job)
-      .and_then([&] { return add_maps(content, recording, assume, job); })
+  if (!content.estimate.identifiable) return content;
+  return add_criteria(content, prepared, kept, job)
+      .and_then([&] { return add_maps(content, prepared, job); })
       .map([&] { return std::move(content); });
 }
 

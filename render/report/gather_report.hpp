@@ -6,15 +6,15 @@
 #include "core/job.hpp"
 #include "core/offset/estimator.hpp"
 #include "core/offset/kept_candidates.hpp"
-#include "core/recording/recording.hpp"
 #include "render/report/report.hpp"
 
 namespace sweepscope {
 
-/// All that a report tells of a recording: its offset by the method that the motion test names (or `assume`),
-/// what the direct method says, and the maps at the answer and 5 ms off. Long work; an interruption is
-/// ExitCode::kInterrupted. Finished candidates are kept in the store, where there is one.
-Result<ReportContent> gather_report(const Recording& recording, std::optional<Method> assume,
+/// All that a report tells of a recording: the offset, as `estimate` finds it with default options; the
+/// paper's criteria for that kind of rig as evidence; and the maps at the answer and 5 ms off, all along one
+/// trajectory. Long work; an interruption is ExitCode::kInterrupted. Finished candidates are kept in the
+/// store, if any.
+Result<ReportContent> gather_report(const PreparedRecording& prepared, std::optional<RigKind> assume,
                                     CandidateStore* kept, const Job& job);
 
 /// Makes the folder that a report goes to, where it is not there.

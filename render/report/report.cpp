@@ -55,15 +55,16 @@ std::string offset_text(double offset_s, const std::optional<double>& sigma_s) {
 }
 
 std::string method_text(const Estimate& estimate) {
-  if (estimate.method == "stationary")
-    return "the offset at which the odometry of a rig that stands still registers least motion (d)";
-  if (estimate.method == "moving")
-    return "the offset at which the points match the map best: least mean distance per match (e), confirmed "
-           "by "
-           "the number of matches (n)";
-  if (estimate.method == "direct")
-    return "the offset as an unknown of the least squares between the sweeps of both directions";
-  return estimate.method;
+  switch (estimate.method) {
+    case Method::kStationary:
+      return "the offset at which the odometry of a stationary rig registers the least motion (d)";
+    case Method::kMoving:
+      return "the offset at which the points match the map best: the least mean distance per match (e), "
+             "confirmed by the number of matches (n)";
+    case Method::kDirect:
+      return "an unknown of the least squares between the sweeps of both directions";
+  }
+  return "";
 }
 
 std::string answer(const Estimate& estimate) {
@@ -82,23 +83,20 @@ std::string answer(const Estimate& estimate) {
 
 std::string criteria_table(const ReportContent& content) {
   std::vector<CriterionOptimum> criteria = content.estimate.criteria;
-  if (content.direct) {
-    for (const CriterionOptimum& one : content.direct->criteria) {
-      if (one.name == "direct") criteria.push_back(one);
-    }
-  }
+  if (content.criteria)
+    criteria.insert(criteria.end(), content.criteria->criteria.begin(), content.criteria->criteria.end());
   if (criteria.empty()) return "";
   std::string rows =
       "<tr><th>criterion</th><th class=\"number-cell\">offset</th><th "
       "class=\"number-cell\">value</th></tr>\n";
   for (const CriterionOptimum& one : criteria) {
-    const std::string value = one.name == "e"   ? fmt::format("{:.2f} mm", one.value * 1e3)
-                              : one.name == "n" ? fmt::format("{:.0f} matches", one.value)
-                                                : fmt::format("{:.4g}", one.value);
+    const std::string value = one.name == "n"   ? fmt::format("{:.0f} matches", one.value)
+                              : one.name == "d" ? fmt::format("{:.4g}", one.value)
+                                                : fmt::format("{:.2f} mm", one.value * 1e3);
     rows += fmt::format(
         "<tr><td>{}</td><td class=\"number-cell\">{}</td><td class=\"number-cell\">{}</td></tr>\n",
         html::escape(one.name),
-        offset_text(one.offset_s, one.name == "direct" ? content.direct->sigma_s : std::nullopt), value);
+        offset_text(one.offset_s, one.name == "direct" ? content.estimate.sigma_s : std::nullopt), value);
   }
   return html::element("table", rows);
 }
@@ -152,10 +150,10 @@ std::string figure(const std::string& picture, const std::string& caption) {
 
 Result<std::string> curves(const ReportContent& content) {
   const Style style = style_of(Background::kWhite);
-  std::vector<MarkedOffset> answer;  // of the direct method
-  if (content.direct && content.direct->offset_s) answer = {{*content.direct->offset_s, style.maps[1]}};
+  std::vector<MarkedOffset> answer;
+  if (content.estimate.offset_s) answer = {{*content.estimate.offset_s, style.maps[1]}};
   std::string pictures;
-  for (const Chart& chart : curve_charts(content.estimate, answer, style)) {
+  for (const Chart& chart : curve_charts(content.criteria.value_or(content.estimate), answer, style)) {
     ComparisonOptions look;
     look.background = Background::kWhite;
     look.width_px = 520;
@@ -167,7 +165,7 @@ Result<std::string> curves(const ReportContent& content) {
   if (pictures.empty()) return pictures;
   return html::element("h2", "The criteria over the offset") + "<div class=\"charts\">" + pictures +
          "</div>\n<p class=\"caption\">Each point is one candidate offset; a larger mark is the criterion's "
-         "best; the blue line is the direct method's answer.</p>\n";
+         "best; the blue line is the answer.</p>\n";
 }
 
 Result<std::string> maps(const ReportContent& content) {

@@ -18,7 +18,8 @@ struct ReportContent {
   std::string command;  // by report_command()
   RecordingSummary recording;
   Estimate estimate;
-  std::optional<Estimate> direct;  // what the direct method answers, beside the paper's criteria
+  std::optional<Estimate>
+      criteria;  // the paper's criteria over the offset, as evidence; none without an answer
   std::vector<ComparedMap> maps;
   std::optional<CrossSection> section;  // the face that shows the offset best, where there is one
 };

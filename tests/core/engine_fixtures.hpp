@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "core/geometry/sweeps.hpp"
+#include "core/offset/prepared.hpp"
 #include "core/offset/search_window.hpp"
 #include "core/simulation/mesh.hpp"
 #include "core/simulation/motor.hpp"
@@ -113,7 +114,7 @@ inline simulation::Mesh hall() {
 
 /// Everything about a recording that offsets within 60 ms of 0 are tried on. The recording must outlive it.
 inline OffsetProblem problem_of(const Recording& recording) {
-  return prepare_problem(recording, -0.06, 0.06, FeatureOptions(), Job()).value();
+  return problem_for(prepare(recording, FeatureOptions(), Job()).value(), -0.06, 0.06);
 }
 
 }  // namespace sweepscope::test

@@ -11,9 +11,7 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "%s\n", recording.error().message.c_str());
     return static_cast<int>(recording.error().code);
   }
-  sweepscope::EstimateOptions options;
-  options.method = sweepscope::Method::kDirect;
-  const auto found = sweepscope::estimate(*recording, options, job);
+  const auto found = sweepscope::estimate(*recording, {}, job);
   if (!found || !found->identifiable) return static_cast<int>(sweepscope::ExitCode::kNotIdentifiable);
   std::printf("t_motor = t_laser + %.3f ms\n", *found->offset_s * 1e3);
 }

@@ -194,7 +194,7 @@ Estimate walk(double least_ms, std::optional<double> sigma_s) {
   estimate.identifiable = true;
   for (int ms = 19; ms <= 29; ++ms) {
     estimate.curve.emplace_back().offset_s = ms * kMs;
-    estimate.curve.back().e_m = 0.02 + 0.001 * std::pow(ms - least_ms, 2) + 1e-5 * (ms % 3);
+    estimate.curve.back().e_m = std::hypot(0.02, 0.01 * (ms - least_ms)) + 1e-5 * (ms % 3);
   }
   CriterionOptimum optimum = fitted_extremum(estimate.curve, &CurvePoint::e_m,
                                              index_of_least(estimate.curve, &CurvePoint::e_m), 3 * kMs);
@@ -205,22 +205,22 @@ Estimate walk(double least_ms, std::optional<double> sigma_s) {
   return estimate;
 }
 
-TEST(CurveCharts, ShowTheParabolaThatGaveTheAnswer) {
+TEST(CurveCharts, ShowTheFitThatGaveTheAnswer) {
   const Estimate estimate = walk(23.8, std::nullopt);
   const auto charts = curve_charts(estimate, {}, kDarkStyle);
   ASSERT_EQ(charts.size(), 1U);
   ASSERT_EQ(charts[0].series.size(), 2U);
-  const ChartSeries& parabola = charts[0].series[1];
-  EXPECT_EQ(parabola.name, "parabola");
-  EXPECT_TRUE(parabola.dashed);
-  EXPECT_NEAR(parabola.x.front(), 21, 1e-9);  // three steps to either side of 24
-  EXPECT_NEAR(parabola.x.back(), 27, 1e-9);
-  const auto least = std::min_element(parabola.y.begin(), parabola.y.end());
-  const double step_ms = parabola.x[1] - parabola.x[0];
-  EXPECT_NEAR(parabola.x[std::size_t(least - parabola.y.begin())], *estimate.offset_s * 1e3, step_ms);
+  const ChartSeries& fit = charts[0].series[1];
+  EXPECT_EQ(fit.name, "fit");
+  EXPECT_TRUE(fit.dashed);
+  EXPECT_NEAR(fit.x.front(), 21, 1e-9);  // three steps to either side of 24
+  EXPECT_NEAR(fit.x.back(), 27, 1e-9);
+  const auto least = std::min_element(fit.y.begin(), fit.y.end());
+  const double step_ms = fit.x[1] - fit.x[0];
+  EXPECT_NEAR(fit.x[std::size_t(least - fit.y.begin())], *estimate.offset_s * 1e3, step_ms);
 }
 
-TEST(CurveCharts, AGridPointHasNoParabola) {
+TEST(CurveCharts, AGridPointHasNoFit) {
   Estimate estimate = walk(23.8, std::nullopt);
   estimate.criteria[0].offset_s = 24 * kMs;  // as with no fit
   EXPECT_EQ(curve_charts(estimate, {}, kDarkStyle)[0].series.size(), 1U);

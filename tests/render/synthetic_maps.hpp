@@ -88,7 +88,7 @@ class HallMap {
 inline Estimate stationary_curve() {
   Estimate estimate;
   estimate.recording = "hall.bag";
-  estimate.method = "stationary";
+  estimate.method = Method::kStationary;
   estimate.identifiable = true;
   estimate.offset_s = 0.024;
   estimate.sigma_s = 0.00006;
@@ -111,7 +111,7 @@ inline Estimate stationary_curve() {
 /// Likewise for the moving method.
 inline Estimate moving_curve() {
   Estimate estimate = stationary_curve();
-  estimate.method = "moving";
+  estimate.method = Method::kMoving;
   estimate.offset_s = 0.0241;
   estimate.sigma_s.reset();
   for (CurvePoint& point : estimate.curve) {

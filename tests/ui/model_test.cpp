@@ -262,7 +262,7 @@ TEST_F(InARoom, AnEstimateFromAFileIsShownAsIfItHadBeenMadeHere) {
   const std::string path = scratch("estimate.json").string();
   Estimate estimate;
   estimate.recording = "room-1";
-  estimate.method = "stationary";
+  estimate.method = Method::kStationary;
   estimate.identifiable = true;
   estimate.offset_s = 0.0235;
   ASSERT_TRUE(write_estimate_json(path, estimate, Timing::kNull));

@@ -135,7 +135,7 @@ TEST(Session, ComesBackAsItWas) {
   Session session{"sample room-1", unusual(), {}};
   Estimate estimate;
   estimate.recording = "room-1";
-  estimate.method = "stationary";
+  estimate.method = Method::kStationary;
   estimate.identifiable = true;
   estimate.offset_s = 0.0240123;
   estimate.curve.emplace_back().offset_s = 0.024;

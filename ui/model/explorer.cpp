@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/offset/estimator.hpp"
 #include "ui/model/view_camera.hpp"
 
 namespace sweepscope::ui {
@@ -14,15 +15,12 @@ tl::unexpected<Error> not_now(std::string why) {
   return failure(ExitCode::kWrongUsage, std::move(why));
 }
 
-EstimateOptions estimate_options(const Settings& settings, std::optional<Method> assume) {
+EstimateOptions estimate_options(const Settings& settings, std::optional<RigKind> assume) {
   EstimateOptions options;
   options.assume = assume;
-  if (settings.method != SearchMethod::kAutomatic)
-    options.method = settings.method == SearchMethod::kMoving   ? Method::kMoving
-                     : settings.method == SearchMethod::kDirect ? Method::kDirect
-                                                                : Method::kStationary;
-  if (settings.fit != SearchFit::kAutomatic)
-    options.fit = settings.fit == SearchFit::kNone ? Fit::kNone : Fit::kParabola;
+  // Commands take no other values than these options do.
+  if (settings.method != "automatic") (void)find_estimate_option("method")->set(options, settings.method);
+  if (settings.fit != "automatic") (void)find_estimate_option("fit")->set(options, settings.fit);
   if (settings.search == Search::kRange) {
     options.ranges = {
         {settings.search_from_ms * 1e-3, settings.search_to_ms * 1e-3, settings.search_step_ms * 1e-3}};
@@ -133,8 +131,11 @@ Result<void> Explorer::start_estimate() {
   const EstimateOptions options = estimate_options(settings_, options_.assume);
   background_.start("estimate", "estimate", "Estimating the offset",
                     [this, options, loaded = loaded_](const Job& job) -> Background::Finish {
+                      EstimateOptions along = options;
+                      along.walk = loaded->walk->get();
                       auto found = std::make_shared<Result<Estimate>>(
-                          sweepscope::estimate(loaded->recording, options, job));
+                          sweepscope::estimate(loaded->prepared, along, {}, job));
+                      if (*found && (*found)->walk) loaded->walk->keep((*found)->walk);
                       return [this, found] {
                         if (*found) return take(std::move(**found));
                         say(Message::Kind::kError, found->error().message);

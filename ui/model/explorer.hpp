@@ -62,7 +62,7 @@ class Explorer {
  public:
   struct Options {
     ReadOptions reading;
-    std::optional<Method> assume;
+    std::optional<RigKind> assume;
     std::string shell_options;   // " --rig F ...", repeated in command lines that are copied
     std::string report_options;  // the same as reports quote them: files without their folders
     std::vector<std::filesystem::path> input_files;  // read before anything is opened: rig file, scripts
@@ -73,7 +73,7 @@ class Explorer {
   const Settings& settings() const { return settings_; }
   const Loaded* loaded() const { return loaded_.get(); }
   /// Edge and plane points of the recording; null until someone wanted them and they were found.
-  const FeatureSet* features() const { return features_.get(); }
+  const FeatureSet* features() const { return loaded_ ? loaded_->prepared.features.get() : nullptr; }
   const Estimate* estimate() const { return estimate_ ? &*estimate_ : nullptr; }
   const Pane& pane(Side side) const { return panes_[static_cast<std::size_t>(side)]; }
   const std::optional<Message>& message() const { return message_; }
@@ -156,7 +156,7 @@ class Explorer {
   void fit_view();
 
   static constexpr const char* kExport = "export";
-  static bool stands(const Loaded& loaded, const std::optional<Method>& assume);
+  static bool stands(const Loaded& loaded, const std::optional<RigKind>& assume);
   bool without_solving() const;
   double offset_s(Side side) const;
   SolvedMapPtr solved_at(double offset_s) const;
@@ -168,7 +168,6 @@ class Explorer {
   void show(Side side, CloudRequest request);
   void start_full(Side side);
   void update_solving();
-  void update_features();
   void keep_solved(std::int64_t offset_ns, Result<SolvedMapPtr> solved);
 
   Options options_;
@@ -182,7 +181,6 @@ class Explorer {
   std::set<std::int64_t> cancelled_;        // by a person: not taken up again by itself
   std::vector<std::int64_t> solved_order_;  // oldest first
   SolvedMapPtr provisional_;
-  std::shared_ptr<const FeatureSet> features_;
   CloudLook look_;
   ColourSpan span_;  // of the colouring, for the two maps below
   ColourBy span_colouring_ = ColourBy::kElevation;

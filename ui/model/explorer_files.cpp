@@ -22,7 +22,7 @@ tl::unexpected<Error> not_now(std::string why) {
 /// What a pane shows, in the order of time.
 MapCloud cloud_of(const CloudRequest& request, const PlacedCloud& placed) {
   const Beams& beams = request.placement.loaded->beams;
-  const auto sweep_of = assign_sweeps(beams.recording->scans, request.placement.loaded->motor.sweeps,
+  const auto sweep_of = assign_sweeps(beams.recording->scans, request.placement.loaded->prepared.motor.sweeps,
                                       request.placement.offset_s);
   std::vector<std::size_t> order(placed.beams.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -141,7 +141,6 @@ void Explorer::close() {
   unsolvable_.clear();
   cancelled_.clear();
   provisional_ = nullptr;
-  features_ = nullptr;
   span_maps_ = {nullptr, nullptr};
   panes_ = {};
   b_was_set_ = false;
@@ -250,7 +249,7 @@ Result<void> Explorer::export_report(const std::string& folder) {
   start_export(
       "Writing a report",
       [loaded = loaded_, assume = options_.assume, folder, command](const Job& job) -> Result<void> {
-        auto content = gather_report(loaded->recording, assume, nullptr, job);
+        auto content = gather_report(loaded->prepared, assume, nullptr, job);
         if (!content) return tl::unexpected(content.error());
         content->command = command;
         job.report("drawing", 0);

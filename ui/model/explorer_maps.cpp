@@ -38,8 +38,8 @@ Placed place_fully(const CloudRequest& request, const FeatureSet* features) {
 
 }  // namespace
 
-bool Explorer::stands(const Loaded& loaded, const std::optional<Method>& assume) {
-  if (assume) return *assume == Method::kStationary;
+bool Explorer::stands(const Loaded& loaded, const std::optional<RigKind>& assume) {
+  if (assume) return *assume == RigKind::kStationary;
   return !loaded.moving.value_or(false);
 }
 
@@ -99,7 +99,6 @@ void Explorer::update(double seconds_since_last) {
   }
   update_panes(seconds_since_last);
   update_solving();
-  update_features();
 }
 
 void Explorer::update_panes(double seconds_since_last) {
@@ -148,34 +147,21 @@ void Explorer::show(Side side, CloudRequest request) {
 void Explorer::start_full(Side side) {
   Pane& pane = pane_of(side);
   std::string& key = placing_[static_cast<std::size_t>(side)];
-  const bool lacks_features = settings_.colouring == ColourBy::kFeatures && !features_;
-  if (pane.full || !pane.request || lacks_features || (!key.empty() && background_.has(key))) return;
+  if (pane.full || !pane.request || (!key.empty() && background_.has(key))) return;
   key = "place " + std::to_string(++placings_);
   const std::string title = side == Side::kA ? "Placing all points of A" : "Placing all points of B";
-  background_.start("place", key, title,
-                    [this, side, request = *pane.request, features = features_](const Job&) {
-                      auto placed = std::make_shared<Placed>(place_fully(request, features.get()));
-                      return [this, side, request, placed] {
-                        Pane& target = pane_of(side);
-                        if (target.request != request) return;
-                        target.full = placed->full;
-                        target.slow = placed->slow;
-                        target.slow_colouring = request.look.colouring;
-                        if (placed->coarse) target.coarse = placed->coarse;
-                      };
-                    });
-}
-
-void Explorer::update_features() {
-  const bool wanted = settings_.scan_view || settings_.colouring == ColourBy::kFeatures;
-  if (!wanted || features_ || background_.has("features")) return;
-  background_.start("features", "features", "Picking edge and plane points",
-                    [this, loaded = loaded_](const Job& job) -> Background::Finish {
-                      auto found = extract_features(loaded->recording, FeatureOptions(), job);
-                      if (!found) return {};
-                      auto features = std::make_shared<const FeatureSet>(std::move(*found));
-                      return [this, features] { features_ = features; };
-                    });
+  background_.start("place", key, title, [this, side, request = *pane.request](const Job&) {
+    const auto& features = request.placement.loaded->prepared.features;
+    auto placed = std::make_shared<Placed>(place_fully(request, features.get()));
+    return [this, side, request, placed] {
+      Pane& target = pane_of(side);
+      if (target.request != request) return;
+      target.full = placed->full;
+      target.slow = placed->slow;
+      target.slow_colouring = request.look.colouring;
+      if (placed->coarse) target.coarse = placed->coarse;
+    };
+  });
 }
 
 void Explorer::update_solving() {

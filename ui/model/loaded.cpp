@@ -30,14 +30,15 @@ void find_intensities(Loaded& loaded) {
 Result<LoadedPtr> finish(std::shared_ptr<Loaded> loaded, const Job& job) {
   job.report("looking at it", 0);
   loaded->summary = inspect(loaded->recording);
-  loaded->motor = find_sweeps(loaded->recording.motor);
   loaded->beams = collect_beams(loaded->recording);
   find_intensities(*loaded);
-  const auto motion = test_motion(loaded->recording, job);
-  if (!motion) return tl::unexpected(motion.error());
-  if (motion->answered()) {
-    loaded->moving = motion->moving();
-    loaded->summary.motion = motion->moving() ? "moving" : "stationary";
+  auto prepared = prepare(loaded->recording, FeatureOptions(), job);
+  if (!prepared) return tl::unexpected(prepared.error());
+  loaded->prepared = std::move(*prepared);
+  const MotionTest motion = test_motion(loaded->prepared);
+  if (motion.answered()) {
+    loaded->moving = motion.moving();
+    loaded->summary.motion = motion.moving() ? "moving" : "stationary";
   }
   return LoadedPtr(std::move(loaded));
 }

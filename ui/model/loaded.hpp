@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,11 +10,29 @@
 #include "core/geometry/pose.hpp"
 #include "core/job.hpp"
 #include "core/map/replace_points.hpp"
-#include "core/offset/estimator.hpp"
+#include "core/offset/prepared.hpp"
+#include "core/offset/walk.hpp"
 #include "core/recording/inspect.hpp"
 #include "core/recording/read_recording.hpp"
 
 namespace sweepscope::ui {
+
+/// A moving rig's trajectory, from the first time that it is solved for: every map is placed along it.
+class KnownWalk {
+ public:
+  std::shared_ptr<const SolvedWalk> get() const {
+    const std::lock_guard lock(mutex_);
+    return walk_;
+  }
+  void keep(std::shared_ptr<const SolvedWalk> walk) {
+    const std::lock_guard lock(mutex_);
+    if (!walk_) walk_ = std::move(walk);
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::shared_ptr<const SolvedWalk> walk_;
+};
 
 /// A recording that is open, and what is worked out once for it.
 struct Loaded {
@@ -21,7 +40,8 @@ struct Loaded {
   std::string shell;   // how a shell names it: REC of the command line; empty for a sample
   Recording recording;
   RecordingSummary summary;
-  MotorMotion motor;
+  PreparedRecording prepared;  // of this->recording
+  std::shared_ptr<KnownWalk> walk = std::make_shared<KnownWalk>();
   Beams beams;                     // of this->recording
   std::optional<bool> moving;      // what the motion test said; empty: too short to tell
   std::optional<double> truth_s;   // of a simulation

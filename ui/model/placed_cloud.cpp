@@ -98,7 +98,7 @@ double distance_mm(const std::array<float, 3>& a, const std::array<float, 3>& b)
 
 /// +1 or -1 for each scan, by the sweep that it lies in; 0 outside.
 std::vector<int> directions(const Placement& placement) {
-  const auto& sweeps = placement.loaded->motor.sweeps;
+  const auto& sweeps = placement.loaded->prepared.motor.sweeps;
   const auto& scans = placement.loaded->recording.scans;
   const auto sweep_of = assign_sweeps(scans, sweeps, placement.offset_s);
   std::vector<int> all(scans.size(), 0);
@@ -118,7 +118,7 @@ WholeMap whole_map(const Placement& placement) {
   const Places places = place_beams(placement, nullptr);
   const Beams& beams = placement.loaded->beams;
   const auto sweep_of =
-      assign_sweeps(beams.recording->scans, placement.loaded->motor.sweeps, placement.offset_s);
+      assign_sweeps(beams.recording->scans, placement.loaded->prepared.motor.sweeps, placement.offset_s);
   WholeMap map;
   for (std::uint32_t i = 0; i < places.size(); ++i) {
     if (!std::isfinite(places[i][0])) continue;

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <array>
 
-#include "core/offset/search_window.hpp"
+#include "core/map/offset_map.hpp"
+#include "core/offset/prepared.hpp"
 #include "render/comparison_points.hpp"
 
 namespace sweepscope::ui {
@@ -56,16 +57,18 @@ void describe_points(const Loaded& loaded, SolvedMap& map) {
 
 }  // namespace
 
-Result<SolvedMapPtr> solve_map(const Loaded& loaded, double offset_s, std::optional<Method> assume,
+Result<SolvedMapPtr> solve_map(const Loaded& loaded, double offset_s, std::optional<RigKind> assume,
                                const Job& job) {
-  const bool standing = assume ? *assume == Method::kStationary : !loaded.moving.value_or(false);
+  const bool standing = assume ? *assume == RigKind::kStationary : !loaded.moving.value_or(false);
   if (standing || !loaded.poses.empty()) return map_without_solving(loaded, standing, offset_s);
   MapOptions options;
   options.assume = assume;
+  options.walk = loaded.walk->get();
   const std::array offsets_s{offset_s};
-  auto built = build_maps(loaded.recording, offsets_s, options, job);
+  auto built = build_maps(loaded.prepared, offsets_s, options, job);
   if (!built) return tl::unexpected(built.error());
   OffsetMap& solved = built->front();
+  loaded.walk->keep(solved.walk);
   auto map = std::make_shared<SolvedMap>();
   map->offset_s = offset_s;
   map->lost = solved.lost;

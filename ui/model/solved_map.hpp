@@ -28,7 +28,7 @@ struct SolvedMap {
 using SolvedMapPtr = std::shared_ptr<const SolvedMap>;
 
 /// Odometry and mapping at an offset: seconds of work for a moving rig, none for one that stood still.
-Result<SolvedMapPtr> solve_map(const Loaded& loaded, double offset_s, std::optional<Method> assume,
+Result<SolvedMapPtr> solve_map(const Loaded& loaded, double offset_s, std::optional<RigKind> assume,
                                const Job& job);
 
 /// The map of a rig that stood still, or whose poses are known; of another one what can be shown before

@@ -26,7 +26,8 @@ Colour colour_of(const PaneContext& context, Side side) {
 
 /// Before there is an estimate: what the handles can be moved over.
 Chart empty_chart(const PaneContext& context) {
-  const double reach_ms = 1e3 * std::min(search_scale(context.explorer.loaded()->motor).half_width_s, 0.06);
+  const double reach_ms =
+      1e3 * std::min(search_scale(context.explorer.loaded()->prepared.motor).half_width_s, 0.06);
   Chart chart;
   chart.title = "Criteria over the offset";
   chart.x_title = "offset [ms]";
@@ -72,7 +73,12 @@ std::string meaning(const std::string& title) {
     return "The roll by which sweeps to and fro disagree: twice the motor's speed times the offset's error. "
            "Zero at "
            "the offset.";
-  return "Estimate the offset to see d (stationary), or n and e (moving), over the candidates.";
+  if (title.starts_with("Distance between"))
+    return "The coarse search of the direct method: the mean distance between what sweeps of both directions "
+           "measured at equal motor angles, each at most a cap. Least near the offset, which the least "
+           "squares "
+           "then finds to a fraction of a millisecond.";
+  return "Estimate the offset to see the criteria over the candidates here.";
 }
 
 /// The offset at a pixel.

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "core/offset/estimate_options.hpp"
 #include "ui/state/commands.hpp"
 
 namespace sweepscope::ui {
@@ -78,6 +79,19 @@ Command table_choice() {
           {choice_of("WHICH", {"viridis", "cividis", "turbo", "grey"})},
           [](const Settings& s) { return Values{s.table}; },
           [](Settings& s, const Values& v) { s.table = std::get<std::string>(v[0]); }};
+}
+
+/// A choice that an option of estimates has, or to leave it to the program.
+Command estimate_choice(Words words, std::string Settings::*field) {
+  std::vector<std::string> choices{"automatic"};
+  const auto& theirs = find_estimate_option(words.name)->choices;
+  choices.insert(choices.end(), theirs.begin(), theirs.end());
+  return {words.name,
+          words.title,
+          words.help,
+          {choice_of("WHICH", choices)},
+          [field](const Settings& s) { return Values{s.*field}; },
+          [field](Settings& s, const Values& v) { s.*field = std::get<std::string>(v[0]); }};
 }
 
 Command camera(Words words, ViewPoint Settings::*field) {
@@ -269,16 +283,16 @@ void add_fields_of_tools(std::vector<Command>& all) {
                 s.search_to_ms = std::get<double>(v[1]);
                 s.search_step_ms = std::get<double>(v[2]);
               }});
-  all.push_back(choice(
+  all.push_back(estimate_choice(
       {"method", "Method",
        "Stationary: where odometry sees the least motion d (equation 3). Moving: where the map is "
        "clearest, by matches n and their distance e (equations 6 and 7). Direct: as an unknown of the least "
-       "squares itself. Automatic: what the motion test says."},
-      &Settings::method, {"automatic", "stationary", "moving", "direct"}));
-  all.push_back(
-      choice({"fit", "Fit",
-              "None: the best candidate. Parabola: the extremum of a parabola through those within 3 ms."},
-             &Settings::fit, {"automatic", "none", "parabola"}));
+       "squares itself. Automatic: direct."},
+      &Settings::method));
+  all.push_back(estimate_choice(
+      {"fit", "Fit",
+       "None: the best candidate. Parabola: the extremum of a parabola through those within 3 ms."},
+      &Settings::fit));
 }
 
 void add_edits(std::vector<Command>& all) {

@@ -24,8 +24,6 @@ enum class Theme { kDark, kLight };
 enum class Backdrop { kTheme, kBlack, kWhite };
 enum class Tool { kLook, kPick, kMeasure, kProfile };
 enum class Search { kAutomatic, kRange };
-enum class SearchMethod { kAutomatic, kStationary, kMoving, kDirect };
-enum class SearchFit { kAutomatic, kNone, kParabola };
 
 /// Everything that a person can set in the explorer, and that a session keeps. Data alone; each field has
 /// one command (commands.hpp) that sets it.
@@ -56,8 +54,8 @@ struct Settings {
 
   Search search = Search::kAutomatic;
   double search_from_ms = 19, search_to_ms = 29, search_step_ms = 1;
-  SearchMethod method = SearchMethod::kAutomatic;
-  SearchFit fit = SearchFit::kAutomatic;
+  std::string method = "automatic",
+              fit = "automatic";  // else a value of the option of that name (EstimateOption)
 
   Theme theme = Theme::kDark;
   bool panels = true;  // to the left and right of the maps

@@ -5,7 +5,7 @@
 
 #include "core/geometry/kinematics.hpp"
 #include "core/geometry/sweeps.hpp"
-#include "core/offset/search_window.hpp"
+#include "core/offset/prepared.hpp"
 
 namespace sweepscope {
 namespace {

@@ -8,8 +8,8 @@ namespace {
 Estimate stationary_estimate() {
   Estimate estimate;
   estimate.recording = "room-1.bag";
-  estimate.method = "stationary";
-  estimate.kind = "stationary";
+  estimate.method = Method::kStationary;
+  estimate.kind = RigKind::kStationary;
   estimate.kind_reason = "As assumed.";
   estimate.identifiable = true;
   estimate.offset_s = 0.0239;

@@ -137,7 +137,7 @@ TEST_F(Calibration, FindsTheOffsetOfWhatItHeardUntilThen) {
   const auto found = calibrate(heard_, options_, Job());
   ASSERT_TRUE(found);
   ASSERT_TRUE(found->offset_s) << found->reasons.front();
-  EXPECT_EQ(found->kind, "stationary");
+  EXPECT_EQ(found->kind, RigKind::kStationary);
   EXPECT_NE(found->kind_reason.find("0 of"), std::string::npos) << found->kind_reason;
   EXPECT_NEAR(*found->offset_s * 1e3, 13.7, 0.1);
 }
@@ -179,7 +179,7 @@ TEST_F(Calibration, ARigThatMovedIsRefused) {
   ASSERT_TRUE(found);
   EXPECT_FALSE(found->identifiable);
   EXPECT_FALSE(found->offset_s);
-  EXPECT_EQ(found->kind, "moving");
+  EXPECT_EQ(found->kind, RigKind::kMoving);
   EXPECT_EQ(found->reasons.back(), "The rig moved: a calibration wants it to stand still.");
 }
 

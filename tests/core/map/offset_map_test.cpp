@@ -152,7 +152,7 @@ TEST_F(StandingInTheHall, PosesOfAPartOfTheTimeLeaveScansOutWithAWarning) {
 
 TEST(OffsetMap, AnotherKindOfRecordingCanBeAssumed) {
   MapOptions options;
-  options.assume = Method::kStationary;
+  options.assume = RigKind::kStationary;
   const std::vector<double> offsets_s = {kTruth_s};
   const auto maps =
       build_maps(test::simulated("metro-station", kTruth_s, 4).recording, offsets_s, options, Job());

@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "core/map/offset_map.hpp"
-#include "core/offset/search_window.hpp"
+#include "core/offset/prepared.hpp"
 #include "tests/core/engine_fixtures.hpp"
 
 namespace sweepscope {
@@ -18,7 +18,7 @@ constexpr double kOffset_s = 0.024;
 using Places = std::vector<std::array<float, 3>>;
 
 struct Solved {
-  explicit Solved(const Recording& recording, Method assumed) : beams(collect_beams(recording)) {
+  explicit Solved(const Recording& recording, RigKind assumed) : beams(collect_beams(recording)) {
     MapOptions options;
     options.assume = assumed;
     const std::array offsets_s{kOffset_s};
@@ -36,12 +36,12 @@ struct Solved {
 };
 
 const Solved& walk() {
-  static const Solved solved(test::simulated("metro-station", kOffset_s, 6).recording, Method::kMoving);
+  static const Solved solved(test::simulated("metro-station", kOffset_s, 6).recording, RigKind::kMoving);
   return solved;
 }
 
 const Solved& standing() {
-  static const Solved solved(test::room(kOffset_s), Method::kStationary);
+  static const Solved solved(test::room(kOffset_s), RigKind::kStationary);
   return solved;
 }
 

@@ -32,7 +32,7 @@ EstimateOptions direct() {
 }
 
 /// Within three of its own sigmas, and those worth having.
-void expect_answer(const Estimate& found, const char* kind, double truth_s, double most_sigma_ms) {
+void expect_answer(const Estimate& found, RigKind kind, double truth_s, double most_sigma_ms) {
   ASSERT_TRUE(found.offset_s) << reasons(found);
   ASSERT_TRUE(found.sigma_s);
   testing::Test::RecordProperty("error_ms", fmt::format("{:.4f}", (*found.offset_s - truth_s) * 1e3));
@@ -48,7 +48,7 @@ TEST(CloudOffset, StandingInAHall) {
   EXPECT_EQ(recording.scans.size(), 185U * 16U);
   EXPECT_TRUE(recording.report.warnings.empty()) << recording.report.warnings.front();
   EXPECT_NEAR(recording.report.laser_stamps.median_period_s, 0.1, 1e-6);
-  expect_answer(estimated(recording, direct()), "stationary", bench.offset_s, 0.5);
+  expect_answer(estimated(recording, direct()), RigKind::kStationary, bench.offset_s, 0.5);
 }
 
 TEST(CloudOffset, StandingRolledSpunTheOtherWayAndTwiceAsFast) {
@@ -60,7 +60,7 @@ TEST(CloudOffset, StandingRolledSpunTheOtherWayAndTwiceAsFast) {
   bench.sweep_s = 1.33;
   bench.beams = 360;
   bench.duration_s = 11;
-  expect_answer(estimated(bench.record(), direct()), "stationary", bench.offset_s, 1.0);
+  expect_answer(estimated(bench.record(), direct()), RigKind::kStationary, bench.offset_s, 1.0);
 }
 
 TEST(CloudOffset, StandingInAFurnishedRoom) {
@@ -77,7 +77,7 @@ TEST(CloudOffset, StandingInAFurnishedRoom) {
   bench.sweep_s = 3.1;
   bench.duration_s = 20;
   bench.noise_m = 0.02;
-  expect_answer(estimated(bench.record(), direct()), "stationary", bench.offset_s, 1.0);
+  expect_answer(estimated(bench.record(), direct()), RigKind::kStationary, bench.offset_s, 1.0);
 }
 
 TEST(CloudOffset, APlaneScannerWhoseDriverSendsClouds) {
@@ -91,7 +91,7 @@ TEST(CloudOffset, APlaneScannerWhoseDriverSendsClouds) {
   bench.swing_deg = 90;
   bench.duration_s = 4.5;
   bench.offset_s = -0.0127;
-  expect_answer(estimated(bench.record(), direct()), "stationary", bench.offset_s, 0.2);
+  expect_answer(estimated(bench.record(), direct()), RigKind::kStationary, bench.offset_s, 0.2);
 }
 
 TEST(CloudOffset, AWalkInAHall) {
@@ -101,7 +101,7 @@ TEST(CloudOffset, AWalkInAHall) {
   bench.duration_s = 42;
   bench.offset_s = -0.0186;
   const Recording recording = bench.record();
-  expect_answer(estimated(recording, direct()), "moving", bench.offset_s, 2.0);
+  expect_answer(estimated(recording, direct()), RigKind::kMoving, bench.offset_s, 2.0);
   EstimateOptions moving;
   moving.method = Method::kMoving;
   moving.ranges = {{bench.offset_s - 0.003, bench.offset_s + 0.0031, 0.001}};
@@ -115,7 +115,7 @@ TEST(CloudOffset, AWalkInAHallWithASlowerMotor) {
   CloudBench bench;
   bench.world_from_base = test::walk_in_hall;
   bench.duration_s = 50;
-  expect_answer(estimated(bench.record(), direct()), "moving", bench.offset_s, 2.0);
+  expect_answer(estimated(bench.record(), direct()), RigKind::kMoving, bench.offset_s, 2.0);
 }
 
 TEST(CloudOffset, NoLeverNoAnswer) {

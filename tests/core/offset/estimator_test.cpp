@@ -15,6 +15,12 @@ Estimate estimated(const Recording& recording, const EstimateOptions& options = 
   return estimate(recording, options, Job()).value();
 }
 
+EstimateOptions by(Method method) {
+  EstimateOptions options;
+  options.method = method;
+  return options;
+}
+
 EstimateOptions over(double from_ms, double to_ms, double step_ms) {
   EstimateOptions options;
   options.ranges = {{from_ms * kMs, to_ms * kMs, step_ms * kMs}};
@@ -40,8 +46,8 @@ class StandingInARoom : public testing::TestWithParam<std::tuple<double, double>
 
 TEST_P(StandingInARoom, TheDefaultSearchFindsTheOffset) {
   const auto [truth_s, sweep_s] = GetParam();
-  const Estimate found = estimated(test::room(truth_s, sweep_s));
-  EXPECT_EQ(found.method, "stationary");
+  const Estimate found = estimated(test::room(truth_s, sweep_s), by(Method::kStationary));
+  EXPECT_EQ(found.method, Method::kStationary);
   ASSERT_TRUE(found.identifiable) << testing::PrintToString(found.reasons);
   EXPECT_NEAR(*found.offset_s, truth_s, 0.5 * kMs);
   EXPECT_EQ(*found.offset_s, optimum_s(found, "d"));
@@ -57,7 +63,7 @@ TEST_P(WalkingThroughAStation, EAndNAreExtremeAtTheOffset) {
   const double truth_ms = GetParam();
   const Recording& recording = test::simulated("metro-station", truth_ms * kMs, 30).recording;
   const Estimate found = estimated(recording, over(truth_ms - 5, truth_ms + 5, 1));
-  EXPECT_EQ(found.method, "moving");
+  EXPECT_EQ(found.method, Method::kMoving);
   ASSERT_TRUE(found.identifiable) << testing::PrintToString(found.reasons);
   EXPECT_NEAR(optimum_s(found, "e"), truth_ms * kMs, 0.3 * kMs);
   EXPECT_NEAR(optimum_s(found, "n"), truth_ms * kMs, 1.0 * kMs);
@@ -67,8 +73,9 @@ TEST_P(WalkingThroughAStation, EAndNAreExtremeAtTheOffset) {
 INSTANTIATE_TEST_SUITE_P(Truths, WalkingThroughAStation, testing::Values(-8.0, 24.0));
 
 TEST(Estimate, TheDefaultSearchOfAWalkComesNearItsOffset) {
-  const Estimate found = estimated(test::simulated("metro-station", 0.024, 12).recording);
-  EXPECT_EQ(found.method, "moving");
+  const Estimate found =
+      estimated(test::simulated("metro-station", 0.024, 12).recording, by(Method::kMoving));
+  EXPECT_EQ(found.method, Method::kMoving);
   ASSERT_TRUE(found.offset_s) << testing::PrintToString(found.reasons);
   EXPECT_NEAR(*found.offset_s, 0.024, 1.0 * kMs);
 }
@@ -93,6 +100,25 @@ TEST_P(OtherRigs, AreEstimatedToo) {
 INSTANTIATE_TEST_SUITE_P(RollTiltYaw, OtherRigs,
                          testing::Values(Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(),
                                          Eigen::Vector3d::UnitZ()));
+
+TEST(Estimate, WithoutOptionsIsTheDirectMethods) {
+  const Estimate found = estimated(test::room(0.024)),
+                 direct = estimated(test::room(0.024), by(Method::kDirect));
+  EXPECT_EQ(found.method, Method::kDirect);
+  EXPECT_EQ(estimate_to_json(found, Timing::kNull), estimate_to_json(direct, Timing::kNull));
+  ASSERT_TRUE(found.fit);
+  EXPECT_TRUE(found.fit->converged);
+  EXPECT_GT(found.fit->iterations, 0);
+  EXPECT_GT(found.fit->matches, found.fit->features / 10);
+}
+
+TEST(Estimate, WhatWasPreparedOnceGivesTheSameBytes) {
+  const Recording& recording = test::room(0.024);
+  const PreparedRecording prepared = prepare(recording, FeatureOptions(), Job()).value();
+  for (const Method method : {Method::kDirect, Method::kStationary})
+    EXPECT_EQ(estimate_to_json(*estimate(prepared, by(method), {}, Job()), Timing::kNull),
+              estimate_to_json(estimated(recording, by(method)), Timing::kNull));
+}
 
 TEST(Estimate, AWindowOfARecordingIsEnough) {
   const Recording part = window(test::simulated("room-2", 0.024, 9).recording, 2.0, 6.5);
@@ -214,7 +240,7 @@ TEST(Refused, ASceneWithoutALever) {
   const Recording recording = bench.record();
   EstimateOptions options = over(-5, 5, 1);
   EXPECT_FALSE(estimated(recording, options).identifiable);
-  options.assume = Method::kStationary;
+  options.assume = RigKind::kStationary;
   expect_refused(estimated(recording, options), "no lever");
 }
 

@@ -4,7 +4,7 @@
 #include "core/io/estimate_json.hpp"
 #include "core/map/offset_map.hpp"
 #include "core/offset/estimator.hpp"
-#include "core/offset/motion_test.hpp"
+#include "core/offset/prepared.hpp"
 #include "tests/core/engine_fixtures.hpp"
 #include "tests/core/every_look.hpp"
 
@@ -78,12 +78,12 @@ TEST(InterruptedWork, MapsOfAWalk) {
   });
 }
 
-TEST(InterruptedWork, MotionTest) {
+TEST(InterruptedWork, Preparing) {
   test::expect_interrupted_at_every_look(100, [&](const Job& job) -> std::optional<std::string> {
-    const auto found = test_motion(standing(), job);
+    const auto found = prepare(standing(), FeatureOptions(), job);
     if (found)
-      return fmt::format("{} {} {} {}", found->pairs, found->moved, found->median_translation_m,
-                         found->median_rotation_rad);
+      return fmt::format("{} {}", found->features->edges.features.size(),
+                         found->features->planes.features.size());
     EXPECT_EQ(found.error().code, ExitCode::kInterrupted);
     return std::nullopt;
   });

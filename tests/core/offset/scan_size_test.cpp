@@ -6,7 +6,6 @@
 #include "core/map/offset_map.hpp"
 #include "core/offset/estimator.hpp"
 #include "core/offset/motion_test.hpp"
-#include "core/offset/search_window.hpp"
 #include "core/offset/still_points.hpp"
 
 namespace sweepscope {
@@ -40,19 +39,19 @@ Recording recording_of(const std::vector<std::uint32_t>& beams_of_scans, double 
 
 /// Every way through the engine; none may crash.
 void expect_ends(const Recording& recording) {
-  for (const Method method : {Method::kStationary, Method::kMoving}) {
+  for (const RigKind kind : {RigKind::kStationary, RigKind::kMoving}) {
     EstimateOptions options;
     options.method = Method::kDirect;
-    options.assume = method;
+    options.assume = kind;
     const auto found = estimate(recording, options, Job());
     ASSERT_TRUE(found) << found.error().message;
     MapOptions map;
-    map.assume = method;
+    map.assume = kind;
     const double offset_s = 0.003;
     const auto maps = build_maps(recording, {&offset_s, 1}, map, Job());
     ASSERT_TRUE(maps) << maps.error().message;
   }
-  EXPECT_TRUE(test_motion(recording, Job()));
+  test_motion(prepare(recording, FeatureOptions(), Job()).value());  // ends
 }
 
 TEST(ScanSize, TheMostBeamsAScanAreWorkedWith) {
@@ -69,9 +68,8 @@ TEST(ScanSize, AFewLongScansAmongShortOnesTakeNoRoomInAllOfThem) {
   std::vector<std::uint32_t> beams(3000, 12);
   beams[7] = kMostBeamsAScan;
   const Recording recording = recording_of(beams, 3);
-  const auto problem = prepare_problem(recording, 0, 0, {}, Job());
-  ASSERT_TRUE(problem);
-  const StillGrid grid = still_grid(*problem);
+  const OffsetProblem problem = problem_for(prepare(recording, FeatureOptions(), Job()).value(), 0, 0);
+  const StillGrid grid = still_grid(problem);
   EXPECT_LT(grid.feature.size(), 16 * recording.ranges_m.size());
   EXPECT_LT(grid.bins, 1000U);
   expect_ends(recording);

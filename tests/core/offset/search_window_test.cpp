@@ -25,7 +25,7 @@ TEST(SearchScale, LooksSixtyMillisecondsToEitherSide) {
   const SearchScale scale = search_scale(turning(0.5, 360 * kDegree));
   EXPECT_NEAR(scale.half_width_s, 60 * kMs, 1e-12);
   EXPECT_NEAR(scale.unit_s, 1 * kMs, 1e-12);
-  EXPECT_NEAR(scale.most_half_width_s, 0.25, 1e-12);
+  EXPECT_NEAR(scale.max_half_width_s, 0.25, 1e-12);
 }
 
 TEST(SearchScale, ASlowMotorIsSearchedAsFarAsItTurnsFiveDegrees) {

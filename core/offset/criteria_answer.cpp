@@ -1,0 +1,181 @@
+#include "core/offset/criteria_answer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/offset/direct_stationary.hpp"
+#include "core/offset/identifiability.hpp"
+#include "core/offset/uncertainty.hpp"
+
+namespace sweepscope {
+namespace {
+
+CriterionOptimum named(const char* name, CriterionOptimum optimum) {
+  optimum.name = name;
+  return optimum;
+}
+
+// n's curve is flat: only tracking on LOAM's own poses may leave it undecided.
+void compare_criteria(Answer& answer, double n_offset_s, double e_offset_s, const SearchScale& scale) {
+  const double apart_s = std::abs(n_offset_s - e_offset_s);
+  if (apart_s <= scale.unit_s) return;
+  (apart_s > 3 * scale.unit_s ? answer.reasons : answer.warnings)
+      .push_back(
+          fmt::format("The two criteria disagree: n is greatest at {:.2f} ms, e is least at {:.2f} ms.",
+                      n_offset_s * 1e3, e_offset_s * 1e3));
+}
+
+// A wrong offset must turn the sweeps against each other by twice the motor's speed times the error. Where
+// it does not, nothing in the scene tells the motor's angle.
+Remark rotation_reason(const std::vector<CurvePoint>& curve, double speed_rad_s) {
+  double sx = 0, sy = 0, sxx = 0, sxy = 0, n = 0;
+  for (const CurvePoint& point : curve) {
+    if (!point.signed_rotation_rad) continue;
+    const double x = point.offset_s - curve.front().offset_s, y = *point.signed_rotation_rad;
+    sx += x, sy += y, sxx += x * x, sxy += x * y, n += 1;
+  }
+  const double spread = sxx - sx * sx / std::max(1.0, n);
+  if (n < 3 || !(spread > 0)) return std::nullopt;
+  const double slope = (sxy - sx * sy / n) / spread / (2 * speed_rad_s);
+  if (slope >= 0.3) return std::nullopt;
+  return fmt::format(
+      "The scene gives no lever: turning the motor's angle by 1 deg turns the registered sweeps by {:.2f} "
+      "deg "
+      "only.",
+      slope);
+}
+
+Remark apart_reason(const CurvePoint& best) {
+  constexpr double kMaxTranslation_m = 0.15;
+  if (*best.translation_m <= kMaxTranslation_m) return std::nullopt;
+  return fmt::format("The rig moved: at the best offset the sweeps still lie {:.2f} m apart.",
+                     *best.translation_m);
+}
+
+// What the direct least squares, at the answer, says of it.
+struct Certainty {
+  std::optional<double> sigma_s;
+  std::optional<Trend> drift;  // of the offset over the recording
+  double drift_sigma_s = 0;    // of the offset that it is a drift of
+};
+
+// The spacing of the candidates about an offset.
+double step_about(const std::vector<CurvePoint>& curve, double offset_s, double unit_s) {
+  double min_s = unit_s;
+  for (const CurvePoint& point : curve)
+    if (point.offset_s != offset_s) min_s = std::min(min_s, std::abs(point.offset_s - offset_s));
+  return min_s;
+}
+
+// What each pair of sweeps says by itself scatters. Neighbouring pairs share a sweep, so the mean's
+// variance is twice that of as many independent ones; the least of a grid of candidates adds its step's.
+std::optional<double> sigma_of_pairs(const OffsetSearch& search, const SharedByCandidates& shared,
+                                     double offset_s, double step_s) {
+  std::vector<double> errors_s;
+  for (const PairMotion& motion : pair_motions(search.problem, offset_s, shared.odometry))
+    if (std::find(shared.pairs.begin(), shared.pairs.end(), motion.sweep) != shared.pairs.end())
+      errors_s.push_back(motion.signed_rotation_rad / (2 * search.problem.motor.median_speed_rad_s));
+  const double n = static_cast<double>(errors_s.size());
+  if (n < 3) return std::nullopt;
+  double mean_s = 0, squares_s2 = 0;
+  for (const double error_s : errors_s) mean_s += error_s / n;
+  for (const double error_s : errors_s) squares_s2 += (error_s - mean_s) * (error_s - mean_s);
+  return std::hypot(student_factor(n / 2) * std::sqrt(2 * squares_s2 / (n - 1) / n),
+                    step_s / std::sqrt(12.0));
+}
+
+// How far the answer lies from that of the direct least squares, and how far that one may be off. The
+// scatter of the pairs alone knows nothing of what pulls them all alike, such as lines of both directions
+// that see the same angles.
+Certainty of_stationary(const OffsetSearch& search, const SharedByCandidates& shared, double offset_s,
+                        double step_s, const Job& job) {
+  const std::optional<double> of_pairs_s = sigma_of_pairs(search, shared, offset_s, step_s);
+  const StationaryDirect direct = solve_stationary(search.grid, offset_s, {}, job);
+  const auto of_direct_s = sigma_of(direct, *search.problem.recording);
+  if (!of_pairs_s || !of_direct_s || direct.matches < StationaryDirectOptions().least_matches)
+    return {of_pairs_s, {}, 0};
+  return {std::max(*of_pairs_s, std::hypot(direct.offset_s - offset_s, *of_direct_s)),
+          trend_of(direct.block_s, direct.block_offset_s), *of_direct_s};
+}
+
+// How far the answer lies from that of the joint least squares, and how far that one may be off.
+Certainty of_walk(const SolvedWalk& walk, double offset_s) {
+  if (!walk.joint) return {};
+  return {std::hypot(walk.joint->offset_s - offset_s, walk.joint->sigma_s), drift_of(*walk.joint),
+          walk.joint->sigma_s};
+}
+
+void add(std::vector<std::string>& to, const Remark& remark) {
+  if (remark) to.push_back(*remark);
+}
+
+// A slow motor leaves d so flat that the least of many candidates is chance.
+Fit fit_of(const OffsetSearch& search) {
+  const bool slow = search.scale.unit_s > 1e-3;
+  return search.options.fit.value_or(search.as_moving() || slow ? Fit::kParabola : Fit::kNone);
+}
+
+// The criteria's extrema, the one that gives the answer first, and what they say against an answer.
+void add_extrema(Answer& answer, const OffsetSearch& search, std::size_t best) {
+  const auto& curve = answer.curve;
+  const bool moving = search.as_moving();
+  const double reach_s = fit_of(search) == Fit::kParabola ? 3 * search.scale.unit_s : 0.0;
+  const auto optimum_of = [&](const char* name, CurveValue value, std::size_t at) {
+    return answer.criteria.emplace_back(named(name, fitted_extremum(curve, value, at, reach_s)));
+  };
+  const CriterionOptimum least = optimum_of(moving ? "e" : "d", decisive(search), best);
+  if (moving) {
+    const CriterionOptimum most = optimum_of("n", &CurvePoint::n, index_of_greatest(curve, &CurvePoint::n));
+    compare_criteria(answer, most.offset_s, least.offset_s, search.scale);
+    const std::size_t cheapest = index_of_least(curve, &CurvePoint::capped_cost_m);
+    if (cheapest < curve.size()) optimum_of("capped_cost", &CurvePoint::capped_cost_m, cheapest);
+  }
+  if (curve.size() > 2 && (best == 0 || best + 1 == curve.size()))
+    answer.reasons.push_back(
+        fmt::format("The least {} lies on the edge of the searched range, at {:.1f} ms: the offset "
+                    "lies beyond it, or nowhere.",
+                    moving ? "e" : "d", least.offset_s * 1e3));
+}
+
+}  // namespace
+
+Answer judged_by_criteria(const OffsetSearch& search, const SharedByCandidates& shared, Answer answer,
+                          const Job& job) {
+  const bool moving = search.as_moving();
+  const Recording& recording = *search.problem.recording;
+  const MotorMotion& motor = search.problem.motor;
+  const std::size_t best = index_of_least(answer.curve, decisive(search));
+  if (best == answer.curve.size()) {
+    answer.reasons.push_back(
+        moving ? lost_reason(*shared.walk, recording)
+               : "The sweeps could not be registered to each other at any candidate offset.");
+    return answer;
+  }
+  add_extrema(answer, search, best);
+  if (moving && shared.walk->joint)
+    add(answer.reasons, lever_reason(shared.walk->joint->lever_m, shared.walk->joint->reach_m));
+  if (!moving) add(answer.reasons, rotation_reason(answer.curve, motor.median_speed_rad_s));
+  if (!moving) add(answer.reasons, apart_reason(answer.curve[best]));
+  if (!answer.reasons.empty()) return answer;
+  const double offset_s = answer.criteria.front().offset_s;
+  const double step_s =
+      fit_of(search) == Fit::kParabola ? 0 : step_about(answer.curve, offset_s, search.scale.unit_s);
+  const Certainty certainty =
+      moving ? of_walk(*shared.walk, offset_s) : of_stationary(search, shared, offset_s, step_s, job);
+  if (certainty.drift) {
+    answer.drift_ppm = certainty.drift->slope * 1e6;
+    add(answer.reasons, drift_reason(*certainty.drift, search.recorded_s(), certainty.drift_sigma_s));
+  }
+  if (!answer.reasons.empty()) return answer;
+  answer.offset_s = offset_s;
+  if (certainty.sigma_s)
+    answer.sigma_s = std::hypot(*certainty.sigma_s, unseen_sigma_s(recording, motor, offset_s));
+  if (moving && search.recorded_s() < 20)
+    answer.warnings.push_back(
+        "Less than 20 s of walking: the answer may be off by several tenths of a millisecond.");
+  return answer;
+}
+
+}  // namespace sweepscope

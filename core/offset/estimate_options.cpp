@@ -1,0 +1,160 @@
+#include "core/offset/estimate_options.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+namespace sweepscope {
+namespace {
+
+tl::unexpected<Error> wrong(const std::string& needed) {
+  return failure(ExitCode::kWrongUsage, needed);
+}
+
+// So many numbers with colons between them, with or without "ms" at the end.
+std::optional<std::vector<double>> numbers_of(std::string text, std::size_t count) {
+  if (text.ends_with("ms")) text.resize(text.size() - 2);
+  std::vector<double> numbers;
+  const char *at = text.data(), *end = text.data() + text.size();
+  while (numbers.size() < count) {
+    double number = 0;
+    if (at < end && *at == '+') ++at;
+    const auto [after, error] = std::from_chars(at, end, number);
+    const bool last = numbers.size() + 1 == count;
+    const bool separated = last ? after == end : after != end && *after == ':';
+    if (error != std::errc() || !separated || !std::isfinite(number)) return std::nullopt;
+    numbers.push_back(number);
+    at = after + (last ? 0 : 1);
+  }
+  return numbers;
+}
+
+Result<void> set_range(EstimateOptions& options, const std::string& text) {
+  const auto ms = numbers_of(text, 3);
+  if (!ms || !((*ms)[0] <= (*ms)[1]) || !((*ms)[2] > 0))
+    return wrong("needs FROM:TO:STEP in milliseconds, with FROM <= TO and STEP > 0");
+  options.ranges.push_back({(*ms)[0] * 1e-3, (*ms)[1] * 1e-3, (*ms)[2] * 1e-3});
+  return {};
+}
+
+Result<void> set_around(EstimateOptions& options, const std::string& text) {
+  constexpr double kMaxSteps = 100'000;
+  const auto ms = numbers_of(text, 3);
+  if (!ms || !((*ms)[1] > 0) || !((*ms)[2] >= 0) || (*ms)[2] > kMaxSteps || (*ms)[2] != std::floor((*ms)[2]))
+    return wrong(
+        "needs INITIAL:ACCURACY:STEPS in milliseconds, with ACCURACY > 0 and a whole number of steps");
+  options.around = OffsetsAround{(*ms)[0] * 1e-3, (*ms)[1] * 1e-3, static_cast<int>((*ms)[2])};
+  return {};
+}
+
+EstimateOption choice(std::string name, std::string type, std::string help, std::vector<std::string> choices,
+                      std::function<void(EstimateOptions&, std::size_t)> take) {
+  EstimateOption option{std::move(name), std::move(type), std::move(help), std::move(choices), false, {}};
+  option.set = [choices = option.choices, take = std::move(take)](EstimateOptions& options,
+                                                                  const std::string& text) -> Result<void> {
+    const auto found = std::find(choices.begin(), choices.end(), text);
+    if (found == choices.end()) return wrong(fmt::format("takes {}", fmt::join(choices, ", ")));
+    take(options, std::size_t(found - choices.begin()));
+    return {};
+  };
+  return option;
+}
+
+using Number = std::optional<double> EstimateOptions::*;
+
+EstimateOption number(std::string name, std::string help, Number value, bool zero_too) {
+  EstimateOption option{std::move(name), "FLOAT", std::move(help), {}, false, {}};
+  option.set = [value, zero_too](EstimateOptions& options, const std::string& text) -> Result<void> {
+    const auto numbers = numbers_of(text, 1);
+    if (!numbers || !(zero_too ? (*numbers)[0] >= 0 : (*numbers)[0] > 0))
+      return wrong(zero_too ? "needs a number of at least 0" : "needs a number above 0");
+    options.*value = (*numbers)[0];
+    return {};
+  };
+  return option;
+}
+
+std::vector<EstimateOption> declared() {
+  const std::string gates = fmt::format(" (default: {})", MappingOptions().edge_gate_m);
+  return {
+      choice(
+          "method", "M",
+          "direct: the offset as an unknown of a least squares, for stationary and moving rigs; stationary: "
+          "the offset at which odometry sees the least motion (d); moving: the offset at which the map is "
+          "sharpest (n, e). Default: direct; with --range, --around or another option of the paper's "
+          "methods, "
+          "stationary or moving, as the motion test decides",
+          {"stationary", "moving", "direct"},
+          [](EstimateOptions& options, std::size_t i) {
+            options.method = std::array{Method::kStationary, Method::kMoving, Method::kDirect}[i];
+          }),
+      choice("fit", "F",
+             "none: the best candidate; parabola: fitted to those within 3 ms of it (default: parabola for "
+             "moving "
+             "rigs and for slow motors, else none)",
+             {"none", "parabola"},
+             [](EstimateOptions& options, std::size_t i) {
+               options.fit = i == 0 ? Fit::kNone : Fit::kParabola;
+             }),
+      choice("scoring", "S",
+             "two-stage: count matches along the one trajectory that fits the recording best (default); "
+             "loam: at "
+             "LOAM's own poses, tracked at each candidate, as the paper did",
+             {"two-stage", "loam"},
+             [](EstimateOptions& options, std::size_t i) {
+               options.scoring = i == 0 ? Scoring::kTwoStage : Scoring::kLoam;
+             }),
+      number("weight-c", "c of d = sqrt(t^2 + c theta^2) (default: 1)", &EstimateOptions::weight_c, true),
+      number("edge-gate-m", "delta_E: an edge match is nearer than this" + gates,
+             &EstimateOptions::edge_gate_m, false),
+      number("plane-gate-m", "delta_H: a plane match is nearer than this" + gates,
+             &EstimateOptions::plane_gate_m, false),
+      {"range",
+       "FROM:TO:STEP",
+       "Candidates in milliseconds, such as 19:29:1; repeatable (default: coarse to fine about 0)",
+       {},
+       true,
+       set_range},
+      {"around",
+       "INITIAL:ACCURACY:STEPS",
+       "The paper's search in milliseconds: 24:0.1:40 tries 24 and 20 steps of 0.1 to either side",
+       {},
+       false,
+       set_around}};
+}
+
+}  // namespace
+
+Method method_of(const EstimateOptions& options, RigKind kind, bool keeps_candidates) {
+  if (options.method) return *options.method;
+  const bool of_the_paper = keeps_candidates || !options.ranges.empty() || options.around || options.fit ||
+                            options.scoring || options.weight_c || options.edge_gate_m ||
+                            options.plane_gate_m;
+  if (!of_the_paper) return Method::kDirect;
+  return kind == RigKind::kMoving ? Method::kMoving : Method::kStationary;
+}
+
+MappingOptions mapping_of(const EstimateOptions& options) {
+  MappingOptions mapping = options.mapping;
+  mapping.edge_gate_m = options.edge_gate_m.value_or(mapping.edge_gate_m);
+  mapping.plane_gate_m = options.plane_gate_m.value_or(mapping.plane_gate_m);
+  return mapping;
+}
+
+std::span<const EstimateOption> estimate_options() {
+  static const std::vector<EstimateOption> options = declared();
+  return options;
+}
+
+const EstimateOption* find_estimate_option(std::string_view name) {
+  const auto options = estimate_options();
+  const auto found = std::find_if(options.begin(), options.end(),
+                                  [&](const EstimateOption& option) { return option.name == name; });
+  return found == options.end() ? nullptr : &*found;
+}
+
+}  // namespace sweepscope

@@ -1,0 +1,40 @@
+#include "core/offset/rig_kind.hpp"
+
+#include <fmt/format.h>
+
+#include <numbers>
+
+namespace sweepscope {
+
+std::string moved_text(const MotionTest& test) {
+  if (4 * test.moved <= test.pairs && test.moved_slowly())
+    return "The rig moved: its last sweeps do not fall on its first ones.";
+  return fmt::format(
+      "The rig moved: {} of {} pairs of sweeps of the same direction do not fall on each other.", test.moved,
+      test.pairs);
+}
+
+std::string pairs_text(const MotionTest& test) {
+  return fmt::format(
+      "{} of {} pairs of sweeps of the same direction lie apart; at the median by {:.3f} m and {:.2f} deg.",
+      test.moved, test.pairs, test.median_translation_m, test.median_rotation_rad * 180 / std::numbers::pi);
+}
+
+KindDecision decide_kind(const MotionTest& test, const EstimateOptions& options) {
+  KindDecision decision;
+  if (options.assume) {
+    decision.kind = *options.assume;
+    decision.reason = "As assumed.";
+    if (decision.kind == RigKind::kStationary && test.moving())
+      decision.warnings.push_back(moved_text(test) + " It is treated as stationary, as assumed.");
+  } else if (test.answered()) {
+    decision.kind = test.moving() ? RigKind::kMoving : RigKind::kStationary;
+    decision.reason = pairs_text(test);
+  } else {
+    decision.reason = "Too short to tell whether the rig stood still: it is taken to have stood still.";
+    if (options.method != Method::kMoving) decision.warnings.push_back(decision.reason);
+  }
+  return decision;
+}
+
+}  // namespace sweepscope

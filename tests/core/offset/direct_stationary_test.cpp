@@ -1,0 +1,90 @@
+#include "core/offset/direct_stationary.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/core/engine_fixtures.hpp"
+
+namespace sweepscope {
+namespace {
+
+using test::kMs;
+
+constexpr double kOffset_s = 0.017;
+
+// A motor that turns evenly, so that all points of a patch turn at one speed.
+const Recording& hall() {
+  static const Recording recording = [] {
+    SimulationOptions options;
+    options.scene = "room-2";
+    options.motor = simulation::MotorKind::kTriangle;
+    options.offset_s = kOffset_s;
+    options.encoder_step_deg = 0;
+    options.encoder_jitter_s = 0;
+    return simulate(options, Job()).value().recording;
+  }();
+  return recording;
+}
+
+// The points of a grid against the other direction's patches at one offset, cell by cell.
+std::vector<std::optional<PatchDistance>> distances(const StillGrid& grid, double offset_s) {
+  const StillPatchOptions options = still_patch_options(*grid.problem);
+  const StillPoints points = place_still(grid, offset_s, StillDetail::kPoints);
+  const Eigen::Vector3d axis = grid.problem->recording->rig.mount.axis.normalized();
+  std::vector<std::optional<PatchDistance>> found(points.placed.size());
+  for (std::size_t line = 0; line < points.lines(); ++line) {
+    if (points.sweep[line] == kNoSweep) continue;
+    StillNeighbours neighbours(points, points.against(points.direction[line]), line, options);
+    for (std::size_t bin = 0; bin < points.bins; ++bin) {
+      const std::size_t cell = line * points.bins + bin;
+      if (!points.placed[cell]) continue;
+      const StillPatch patch = neighbours.patch(points.angle_rad[cell], bin, grid.range_m[cell]);
+      if (patch.found)
+        found[cell] = distance_to_patch(patch, points.p_m[cell], points.speed_rad_s[cell], axis);
+    }
+  }
+  return found;
+}
+
+TEST(DirectStationary, TheDerivativeByTheOffsetIsThatOfFiniteDifferences) {
+  constexpr double kStep_s = 1e-6;
+  const OffsetProblem problem = test::problem_of(hall());
+  const StillGrid grid = still_grid(problem);
+  const double offset_s = kOffset_s + 0.4 * kMs;
+  const auto here = distances(grid, offset_s), before = distances(grid, offset_s - kStep_s),
+             after = distances(grid, offset_s + kStep_s);
+  std::size_t compared = 0, alike = 0;
+  for (std::size_t cell = 0; cell < here.size(); ++cell) {
+    if (!here[cell] || !before[cell] || !after[cell]) continue;
+    const double numeric_m_s = (after[cell]->distance_m - before[cell]->distance_m) / (2 * kStep_s);
+    ++compared;
+    alike +=
+        std::abs(numeric_m_s - here[cell]->jacobian_m_s) < 0.02 * std::abs(here[cell]->jacobian_m_s) + 0.05;
+  }
+  ASSERT_GT(compared, 10000U);
+  // A few change the lines of their patch within the step.
+  EXPECT_GT(double(alike), 0.98 * double(compared));
+}
+
+TEST(DirectStationary, NoOptionAsksForMoreNeighboursThanThereIsRoomFor) {
+  const OffsetProblem problem = test::problem_of(hall());
+  const StillGrid grid = still_grid(problem);
+  const StillPoints points = place_still(grid, kOffset_s, StillDetail::kPoints);
+  StillPatchOptions many = still_patch_options(problem), most = many;
+  many.lines_per_side = 1000;
+  most.lines_per_side = StillNeighbours::kMaxLinesPerSide;
+  many.least_gap_rad = most.least_gap_rad = 0;
+  many.reach_rad = most.reach_rad = 3;
+  const std::size_t line = points.lines() / 2, bin = points.bins / 2;
+  ASSERT_NE(points.sweep[line], kNoSweep);
+  const LinePool& pool = points.against(points.direction[line]);
+  const double angle_rad = points.angle_rad[line * points.bins + bin];
+  const StillPatch of_many = StillNeighbours(points, pool, line, many).patch(angle_rad, bin, 3);
+  const StillPatch of_most = StillNeighbours(points, pool, line, most).patch(angle_rad, bin, 3);
+  EXPECT_EQ(of_many.found, of_most.found);
+  if (of_many.found) {
+    EXPECT_EQ(of_many.centre_m, of_most.centre_m);
+  }
+}
+
+}  // namespace
+}  // namespace sweepscope
