@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-#include "tests/scratch_folder.hpp"
+#include "tests/folder_test.hpp"
 
 namespace sweepscope {
 namespace {
@@ -21,10 +21,7 @@ namespace fs = std::filesystem;
 class TemporaryFiles : public test::FolderTest {
  protected:
   void SetUp() override { setenv("TMPDIR", folder_.c_str(), 1); }
-  void TearDown() override {
-    unsetenv("TMPDIR");
-    FolderTest::TearDown();
-  }
+  void TearDown() override { unsetenv("TMPDIR"); }
 
   /// Makes a temporary file in another process, which then runs `end`. Gives the file's path.
   template <typename End>

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <vtkActor.h>
+#include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkNew.h>
 #include <vtkSetGet.h>
 
