@@ -32,7 +32,7 @@ constexpr const char* kLines =
     "  motor,stamp_s,angle_rad\n"
     "  motor,1700000000.000,0.0131\n"
     "  scan,1700000000.004,-1.5708,0.004363,1.736e-5,3.21 3.20 nan 3.22\n"
-    "columns are those of the tables (docs/recordings.md): stamp_s and/or receive_s in s; angle_min_rad, "
+    "Columns are those of the tables (docs/recordings.md): stamp_s and/or receive_s in s; angle_min_rad, "
     "angle_increment_rad, ranges_m in m with spaces between them [intensities, time_increment_s, "
     "scan_time_s, "
     "range_min_m, range_max_m, topic]; angle_rad, angle_deg or position [topic, joint]. Empty lines and "
