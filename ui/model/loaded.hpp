@@ -12,6 +12,7 @@
 #include "core/map/replace_points.hpp"
 #include "core/offset/prepared.hpp"
 #include "core/offset/walk.hpp"
+#include "core/recording/formats/read_recording.hpp"
 #include "core/recording/inspect.hpp"
 
 namespace sweepscope::ui {
