@@ -3,12 +3,13 @@
 function(prove_folder_order library)
   set(folder_order_proof ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/folder_order_proof.cmake)
   file(GLOB_RECURSE files CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp ${CMAKE_CURRENT_SOURCE_DIR}/*.hpp)
+  set(proof ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/folder_order_proof.cmake)
   set(stamp ${CMAKE_CURRENT_BINARY_DIR}/folder_order.stamp)
   add_custom_command(
     OUTPUT ${stamp}
     COMMAND ${CMAKE_COMMAND} -DROOT=${PROJECT_SOURCE_DIR} -DLIBRARY=${library} "-DORDER=${ARGN}" -DSTAMP=${stamp}
-            -P ${folder_order_proof}
-    DEPENDS ${files} ${folder_order_proof} CMakeLists.txt
+            -P ${proof}
+    DEPENDS ${files} ${proof} CMakeLists.txt
     COMMENT "Proving the order of the folders of ${library}" VERBATIM)
   add_custom_target(${library}_folder_order ALL DEPENDS ${stamp})
 endfunction()

@@ -18,8 +18,8 @@ class SimulateCommand : public test::ProgramTest {
 TEST_F(SimulateCommand, WritesTheBagAndItsTruth) {
   const Outcome outcome =
       simulate("metro-station -o walk.bag --duration-s 1.5 --offset-ms -7.5 --sweep-s 0.513");
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
-  EXPECT_NE(outcome.output.find("t_motor = t_laser - 7.5 ms"), std::string::npos) << outcome.output;
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE((outcome.out + outcome.err).find("t_motor = t_laser - 7.5 ms"), std::string::npos) << outcome.err;
   EXPECT_GT(fs::file_size(folder_ / "walk.bag"), 100'000U);
   EXPECT_TRUE(fs::exists(folder_ / "walk.truth.tum"));
   const auto truth = nlohmann::json::parse(std::ifstream(folder_ / "walk.truth.json"));
@@ -36,14 +36,14 @@ TEST_F(SimulateCommand, RefusesWrongUsageAndWritesNothing) {
 }
 
 TEST_F(SimulateCommand, NamesTheScenesWhereOneIsUnknown) {
-  EXPECT_NE(simulate("hall -o a.bag").output.find("the scenes are metro-station, parking-area, cemetery"),
+  EXPECT_NE(simulate("hall -o a.bag").err.find("the scenes are metro-station, parking-area, cemetery"),
             std::string::npos);
 }
 
 TEST_F(SimulateCommand, CannotWriteIntoAFolderThatIsNotThere) {
   const Outcome outcome = simulate("room-1 -o nowhere/a.bag");
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_NE(outcome.output.find("nowhere/a.bag: cannot be created"), std::string::npos);
+  EXPECT_NE((outcome.out + outcome.err).find("nowhere/a.bag: cannot be created"), std::string::npos);
 }
 
 constexpr const char* kRoom =
@@ -63,9 +63,10 @@ TEST_F(SimulateCommand, WalksThroughASceneOfOnesOwn) {
   const Outcome outcome = simulate(
       "--mesh room.obj --trajectory walk.tum --trajectory-at -1,0.5,1.2 --trajectory-yaw-deg -90 "
       "--mount-error-deg 0.5,-1,2 --mount-error-mm=-5,0,10 -o own.bag");
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
-  EXPECT_NE(outcome.output.find("own.bag: room.obj for 2 s, 80 scans"), std::string::npos) << outcome.output;
-  EXPECT_NE(outcome.output.find("from the recorded poses (RMS)"), std::string::npos);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE((outcome.out + outcome.err).find("own.bag: room.obj for 2 s, 80 scans"), std::string::npos)
+      << outcome.err;
+  EXPECT_NE((outcome.out + outcome.err).find("from the recorded poses (RMS)"), std::string::npos);
   const auto truth = nlohmann::json::parse(std::ifstream(folder_ / "own.truth.json"));
   EXPECT_EQ(truth["own_scene"]["at_m"], nlohmann::json({-1.0, 0.5, 1.2}));
   EXPECT_EQ(truth["options"]["mount_error_mm"], nlohmann::json({-5.0, 0.0, 10.0}));
@@ -87,7 +88,7 @@ TEST_F(SimulateCommand, RefusesAnOwnSceneThatIsNotPlain) {
        {"--mesh open.obj -o a.bag", "--mesh none.ply -o a.bag",
         "--mesh room.obj --trajectory none.tum -o a.bag", "--mesh room.obj --trajectory room.obj -o a.bag"})
     EXPECT_EQ(simulate(arguments).exit_code, 3) << arguments;
-  EXPECT_NE(simulate("--mesh open.obj -o a.bag").output.find("open.obj: line 4: "), std::string::npos);
+  EXPECT_NE(simulate("--mesh open.obj -o a.bag").err.find("open.obj: line 4: "), std::string::npos);
   EXPECT_FALSE(fs::exists(folder_ / "a.bag"));
   EXPECT_FALSE(fs::exists(folder_ / "a.truth.json"));
 }
