@@ -1,7 +1,6 @@
 # prove_folder_order(LIBRARY FOLDER...): part of every build, it fails where a file includes one of a folder that is
 # named after its own. So no two folders include each other. Files of the library's top folder include only each other.
 function(prove_folder_order library)
-  set(folder_order_proof ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/folder_order_proof.cmake)
   file(GLOB_RECURSE files CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp ${CMAKE_CURRENT_SOURCE_DIR}/*.hpp)
   set(proof ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/folder_order_proof.cmake)
   set(stamp ${CMAKE_CURRENT_BINARY_DIR}/folder_order.stamp)
