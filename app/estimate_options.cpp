@@ -58,11 +58,13 @@ void declare_options(CLI::App& command, EstimateOptions& estimate) {
         if (const auto done = option.set(estimate, text); !done)
           throw CLI::ValidationError("--" + option.name + " " + done.error().message + ", and got " + text);
     };
-    command.add_option_function<std::vector<std::string>>("--" + option.name, set, option.help)
-        ->type_name(option.type)
-        ->type_size(1)
-        ->expected(option.repeats ? CLI::detail::expected_max_vector_size : 1)
-        ->allow_extra_args(false);
+    CLI::Option* declared =
+        command.add_option_function<std::vector<std::string>>("--" + option.name, set, option.help)
+            ->type_name(option.type)
+            ->type_size(1)
+            ->expected(option.repeats ? CLI::detail::expected_max_vector_size : 1)
+            ->allow_extra_args(false);
+    if (!option.choices.empty()) declared->check(CLI::IsMember(option.choices));
   }
 }
 

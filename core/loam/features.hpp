@@ -1,5 +1,7 @@
 #pragma once
 
+// The mathematics: docs/algorithms.md, section 3.
+
 #include <Eigen/Core>
 #include <cstdint>
 #include <vector>

@@ -1,5 +1,7 @@
 #pragma once
 
+// The mathematics: docs/algorithms.md, sections 5.2 and 10.
+
 #include <vector>
 
 #include "core/error.hpp"

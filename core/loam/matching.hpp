@@ -1,5 +1,7 @@
 #pragma once
 
+// The mathematics: docs/algorithms.md, section 4.
+
 #include <Eigen/Core>
 #include <optional>
 

@@ -1,5 +1,7 @@
 #pragma once
 
+// The mathematics: docs/algorithms.md, section 5.1.
+
 #include "core/loam/feature_map.hpp"
 #include "core/loam/matching.hpp"
 #include "core/loam/sweep_features.hpp"

@@ -1,5 +1,7 @@
 #pragma once
 
+// The mathematics: docs/algorithms.md, section 10.
+
 #include <Eigen/Core>
 #include <array>
 #include <span>

@@ -1,5 +1,7 @@
 #pragma once
 
+// The mathematics: docs/algorithms.md, section 6.2.
+
 #include <cstddef>
 #include <span>
 #include <vector>

@@ -1,5 +1,7 @@
 #pragma once
 
+// The mathematics: docs/algorithms.md, section 10.
+
 #include <vector>
 
 #include "core/loam/mapping_options.hpp"

@@ -1,5 +1,7 @@
 #pragma once
 
+// The mathematics: docs/algorithms.md, sections 5.3 and 13.4.
+
 #include <memory>
 #include <vector>
 

@@ -1,5 +1,7 @@
 #pragma once
 
+// The mathematics: docs/algorithms.md, section 5.2.
+
 #include "core/error.hpp"
 #include "core/job.hpp"
 #include "core/offset/kept_candidates.hpp"

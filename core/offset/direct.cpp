@@ -182,7 +182,8 @@ Answer of_walk(const OffsetSearch& search, const MappingOptions& mapping,
   add(answer.reasons, lever_reason(walk.lever_m, walk.reach_m));
   add(answer.reasons, clearest_reason(solved->curve));
   if (!source || !source->motion.is_truth()) add(answer.warnings, sway_warning(solved->sway_rad));
-  add(answer.warnings, long_sweeps_warning(problem.motor, walk.unseen_sigma_s, walk.sigma_s));
+  add(answer.warnings,
+      long_sweeps_warning(*problem.recording, problem.motor, walk.unseen_sigma_s, walk.sigma_s));
   add(answer.warnings, smooth_motor_warning(walk.sway_sigma_s, walk.sigma_s));
   const std::optional<double> sigma_s =
       std::hypot(walk.sigma_s, unseen_sigma_s(*problem.recording, problem.motor, walk.offset_s));

@@ -1,5 +1,7 @@
 #pragma once
 
+// The mathematics: docs/algorithms.md, sections 8, 11 and 14.
+
 #include "core/error.hpp"
 #include "core/job.hpp"
 #include "core/offset/offset_search.hpp"

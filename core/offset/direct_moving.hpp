@@ -1,5 +1,7 @@
 #pragma once
 
+// The mathematics: docs/algorithms.md, section 11.
+
 #include <memory>
 #include <optional>
 #include <vector>

@@ -1,5 +1,7 @@
 #pragma once
 
+// The mathematics: docs/algorithms.md, section 8.
+
 #include <optional>
 #include <vector>
 

@@ -225,21 +225,30 @@ namespace {
 
 constexpr double kShortSweep_s = 0.5;  // shorter ones leave no less in doubt
 
-double squared_length(const MotorMotion& motor) {
+// By how much more the path may bend within a sweep than within a short one.
+double bending(const Recording& recording, const MotorMotion& motor) {
+  if (has_rings(recording)) return 1;
   const double longer = std::max(1.0, motor.median_sweep_s / kShortSweep_s);
   return longer * longer;
 }
 
 }  // namespace
 
-Remark long_sweeps_warning(const MotorMotion& motor, double unseen_s, double sigma_s) {
+bool has_rings(const Recording& recording) {
+  return std::any_of(recording.scans.begin(), recording.scans.end(),
+                     [&](const LaserScan& scan) { return scan.ring != recording.scans.front().ring; });
+}
+
+Remark long_sweeps_warning(const Recording& recording, const MotorMotion& motor, double unseen_s,
+                           double sigma_s) {
   const double longer = motor.median_sweep_s / kShortSweep_s;
-  if (longer < 1.2 || unseen_s < sigma_s / 2) return std::nullopt;
+  if (has_rings(recording) || longer < 1.2 || unseen_s < sigma_s / 2) return std::nullopt;
   // The motor would turn faster, too.
   return fmt::format(
       "A sweep takes {:.2f} s, long enough for the rig to sway within it: that alone leaves +- {:.2f} ms. "
       "Sweeps of {:.1f} s would leave +- {:.2f} ms.",
-      motor.median_sweep_s, unseen_s * 1e3, kShortSweep_s, unseen_s / (longer * squared_length(motor)) * 1e3);
+      motor.median_sweep_s, unseen_s * 1e3, kShortSweep_s,
+      unseen_s / (longer * bending(recording, motor)) * 1e3);
 }
 
 Remark smooth_motor_warning(double sway_s, double sigma_s) {
@@ -254,7 +263,7 @@ Remark smooth_motor_warning(double sway_s, double sigma_s) {
 double unseen_of_part_s(const Recording& recording, const MotorMotion& motor, std::size_t sweeps) {
   constexpr double kUnseen_rad = 0.6e-3, kUnseenOfSameAngles_rad = 1.7e-3;
   return (sees_same_angles(recording, motor, sweeps) ? kUnseenOfSameAngles_rad : kUnseen_rad) *
-         squared_length(motor) / motor.median_speed_rad_s;
+         bending(recording, motor) / motor.median_speed_rad_s;
 }
 
 Remark encoder_warning(const MotorTrack& track) {

@@ -1,5 +1,7 @@
 #pragma once
 
+// The mathematics: docs/algorithms.md, sections 13.3 and 14.
+
 #include <optional>
 #include <string>
 #include <vector>
@@ -66,9 +68,13 @@ Remark sigma_reason(std::optional<double> sigma_s, const SearchScale& scale);
 double unseen_of_part_s(const Recording& recording, const MotorMotion& motor, std::size_t sweeps);
 /// The sweeps of a moving rig are long enough to decide how sure the answer is; with how sure shorter ones
 /// would make it. `unseen_s`: what bends of the path within the sweeps leave uncertain, of `sigma_s`.
-Remark long_sweeps_warning(const MotorMotion& motor, double unseen_s, double sigma_s);
+Remark long_sweeps_warning(const Recording& recording, const MotorMotion& motor, double unseen_s,
+                           double sigma_s);
 /// A motor that slows down before it turns back leaves a sway in step with it in doubt.
 Remark smooth_motor_warning(double sway_s, double sigma_s);
+/// Whether the scanner has several rings, as 3D scanners do: each of their turns sees surfaces again,
+/// whatever the motor does.
+bool has_rings(const Recording& recording);
 /// Whether a sweep takes so nearly a whole number of scans that so many sweeps all see the same angles.
 bool sees_same_angles(const Recording& recording, const MotorMotion& motor, std::size_t sweeps);
 /// All sweeps do: few surfaces are seen twice.

@@ -1,5 +1,7 @@
 #pragma once
 
+// The mathematics: docs/algorithms.md, sections 11 and 12.
+
 #include <Eigen/Core>
 #include <array>
 #include <vector>

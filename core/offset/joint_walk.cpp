@@ -472,7 +472,7 @@ std::optional<JointWalk> solve_joint_walk(const OffsetProblem& problem, const st
   if (!held)
     walk.unseen_sigma_s = unseen_of_part_s(*problem.recording, problem.motor, cuts.front().size()) /
                           std::sqrt(double(walk.parts.size()));
-  if (!options.mapping.given && turns_back_smoothly(problem))
+  if (!options.mapping.given && !has_rings(*problem.recording) && turns_back_smoothly(problem))
     walk.sway_sigma_s = sway_sigma_s(problem, walk.sweeps);
   walk.sigma_s = std::hypot(walk.sigma_s, walk.sway_sigma_s);
   return walk;

@@ -1,5 +1,7 @@
 #pragma once
 
+// The mathematics: docs/algorithms.md, sections 11 and 13.2.
+
 #include <optional>
 #include <vector>
 

@@ -1,5 +1,7 @@
 #pragma once
 
+// The mathematics: docs/algorithms.md, section 5.2.
+
 #include <span>
 
 #include "core/loam/mapping.hpp"

@@ -1,5 +1,7 @@
 #pragma once
 
+// The mathematics: docs/algorithms.md, section 1.
+
 #include <vector>
 
 #include "core/error.hpp"

@@ -1,5 +1,7 @@
 #pragma once
 
+// The mathematics: docs/algorithms.md, section 5.1.
+
 #include <optional>
 #include <vector>
 

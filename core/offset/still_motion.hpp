@@ -1,5 +1,7 @@
 #pragma once
 
+// The mathematics: docs/algorithms.md, section 9.
+
 #include "core/offset/rig_motion.hpp"
 #include "core/offset/still_points.hpp"
 

@@ -1,5 +1,7 @@
 #pragma once
 
+// The mathematics: docs/algorithms.md, section 11.
+
 #include <optional>
 #include <string>
 #include <vector>

@@ -1,5 +1,7 @@
 #pragma once
 
+// The mathematics: docs/algorithms.md, section 1.
+
 #include <cstddef>
 #include <vector>
 

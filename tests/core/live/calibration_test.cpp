@@ -180,7 +180,7 @@ TEST_F(Calibration, ARigThatMovedIsRefused) {
   EXPECT_FALSE(found->identifiable);
   EXPECT_FALSE(found->offset_s);
   EXPECT_EQ(found->kind, RigKind::kMoving);
-  EXPECT_EQ(found->reasons.back(), "The rig moved: a calibration wants it to stand still.");
+  EXPECT_EQ(found->reasons.back(), "The rig moved: a calibration needs a rig that stands still.");
 }
 
 TEST_F(Calibration, SilenceAndCancellationEndIt) {

@@ -18,7 +18,7 @@ const Recording& hall() {
     options.scene = "room-2";
     options.motor = simulation::MotorKind::kTriangle;
     options.offset_s = kOffset_s;
-    options.encoder_step_deg = 0;
+    options.encoder_step_deg = 0.0001;
     options.encoder_jitter_s = 0;
     return simulate(options, Job()).value().recording;
   }();

@@ -44,7 +44,7 @@ TEST(Colouring, DistancesAreMillimetresToTheOtherMap) {
 TEST(Colouring, WhatAMapCannotTellIsRefusedInASentence) {
   const ComparedMap map = two_points();
   EXPECT_EQ(colour_values(map, nullptr, ColourBy::kDistance).error().code, ExitCode::kWrongUsage);
-  EXPECT_NE(colour_values(map, nullptr, ColourBy::kFeatures).error().message.find("want a recording"),
+  EXPECT_NE(colour_values(map, nullptr, ColourBy::kFeatures).error().message.find("needs a recording"),
             std::string::npos);
 }
 

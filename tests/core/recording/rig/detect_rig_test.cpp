@@ -186,7 +186,7 @@ TEST_F(DetectRig, OnlyStaticTransformsGiveThePoseAndNotTheAxis) {
   const DetectedRig rig = detected();
   EXPECT_EQ(rig.rig.mount.laser_in_motor_xyz_m, Eigen::Vector3d(0.01, 0, 0.05));
   EXPECT_EQ(rig.rig.mount.axis, Eigen::Vector3d::UnitX());
-  EXPECT_NE(rig.mount_note.find("the axis is not told"), std::string::npos) << rig.mount_note;
+  EXPECT_NE(rig.mount_note.find("the axis is not known"), std::string::npos) << rig.mount_note;
 }
 
 TEST_F(DetectRig, TransformsThatDoNotFollowTheMotorAreNotUsed) {
