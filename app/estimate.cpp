@@ -8,6 +8,8 @@
 #include "app/progress.hpp"
 #include "app/say.hpp"
 #include "core/io/trajectory_file.hpp"
+#include "core/recording/rig/detect_rig.hpp"
+#include "core/rig_solve/rig_solve.hpp"
 
 namespace sweepscope::app {
 namespace {
@@ -17,7 +19,8 @@ struct Options {
   EstimateOutput output;
   std::string poses;  // a trajectory from elsewhere; empty: none
   bool trust_poses = false;
-  std::string resume;  // empty: candidates are not kept
+  std::string rig_out;  // empty: the rig is not written
+  std::string resume;   // empty: candidates are not kept
   std::optional<Shard> shard;
 };
 
@@ -65,12 +68,24 @@ ExitCode conclude_interrupted(const Options& options, const Estimate& found,
       {ExitCode::kInterrupted, candidates == nullptr ? "interrupted" : candidates->interrupted_in_words()});
 }
 
+/// The rig as it was solved for.
+Result<void> write_rig(const Options& options, const Estimate& found) {
+  if (options.rig_out.empty() || !found.rig) return {};
+  DetectedRig detected;
+  detected.rig = found.rig->rig;
+  detected.recording = found.recording;
+  detected.mount_note = found.rig->mount.identifiable ? "solved for" : "as it was";
+  detected.stamp_at_note = "as it was";
+  return write_text(options.rig_out, rig_file_text(detected));
+}
+
 ExitCode conclude_search(const Options& options, const Estimate& found, CandidateFile* candidates,
                          const std::string& path) {
   if (found.interrupted) return conclude_interrupted(options, found, candidates);
   const auto ordered = candidates == nullptr ? Result<void>() : candidates->put_in_order();
   if (options.shard) return ordered ? say_shard(options, found, *candidates, path) : fail(ordered.error());
   const ExitCode code = conclude(found, options.output);
+  if (const auto written = write_rig(options, found); !written) return fail(written.error());
   return ordered ? code : fail(ordered.error());
 }
 
@@ -86,6 +101,8 @@ Result<void> check_options(const Options& options) {
   if (!options.poses.empty() && method_of(search, RigKind::kMoving, keeps(options)) != Method::kDirect)
     return refuse(
         "--poses is used by the direct method only: leave out --method and the options of candidates");
+  if (!options.rig_out.empty() && !search.solve.any())
+    return refuse("--rig-out writes what --solve found: add --solve mount, play or encoder");
   if (options.shard && (!options.output.json.empty() || !options.output.csv.empty()))
     return refuse("--shard computes candidates; merge takes --json and --csv");
   if (options.shard && search.ranges.empty() && !search.around)
@@ -111,8 +128,9 @@ std::vector<std::filesystem::path> input_files(const Options& options) {
 ExitCode run(const Options& options, std::vector<std::string> deciding) {
   const auto threads = options.input.recording.limit_threads();
   const std::string path = options.resume.empty() && options.shard ? shard_file(options) : options.resume;
-  const auto checked =
-      check_options(options).and_then([&] { return options.output.check(input_files(options), {path}); });
+  const auto checked = check_options(options).and_then([&] {
+    return options.output.check(input_files(options), {path, options.rig_out});
+  });
   if (!checked) return fail(checked.error());
   std::unique_ptr<CandidateFile> candidates;
   Result<Estimate> found;
@@ -174,6 +192,10 @@ void add_estimate(CLI::App& app, ExitCode& exit_code) {
   options->input.declare(*command);
   options->output.declare(*command);
   declare_poses(*command, *options);
+  command
+      ->add_option("--rig-out", options->rig_out,
+                   "Write the rig file with what --solve found, to be given with --rig")
+      ->type_name("F");
   declare_candidates(*command, *options);
   command->callback(
       [options, command, &exit_code] { exit_code = run(*options, deciding_options(*command)); });

@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "app/say.hpp"
 #include "core/io/content_hash.hpp"
+#include "core/numbers.hpp"
 #include "core/results/estimate_json.hpp"
+#include "core/results/rig_json.hpp"
 
 namespace sweepscope::app {
 namespace {
@@ -34,6 +37,37 @@ std::string motion_line(const UsedMotion& motion) {
   return line + "      t_laser = t_" + kind + " + time shift";
 }
 
+std::string part_line(const char* name, const RigFinding& finding, const std::string& value) {
+  return fmt::format("{:<8} {}", name, finding.identifiable ? value : "cannot be determined");
+}
+
+void print_rig(const SolvedRig& solved) {
+  const auto sigma_deg = [&](RigUnknown i) { return std::sqrt(solved.covariance(i, i)) * kDegPerRad; };
+  if (solved.mount.solved) {
+    const Eigen::Vector3d &rpy_deg = solved.rig.mount.laser_in_motor_rpy_deg,
+                          &xyz_m = solved.rig.mount.laser_in_motor_xyz_m;
+    const MountSigma sigma = mount_sigma(solved);
+    print("{}\n",
+          part_line("mount", solved.mount,
+                    fmt::format("roll, pitch, yaw {:.4f}, {:.4f}, {:.4f} deg (+- {:.4f}, {:.4f}, {:.4f}); x, "
+                                "y, z {:.5f}, {:.5f}, {:.5f} m (+- {:.5f}, {:.5f}, {:.5f})",
+                                rpy_deg.x(), rpy_deg.y(), rpy_deg.z(), sigma.rpy_deg.x(), sigma.rpy_deg.y(),
+                                sigma.rpy_deg.z(), xyz_m.x(), xyz_m.y(), xyz_m.z(), sigma.xyz_m.x(),
+                                sigma.xyz_m.y(), sigma.xyz_m.z())));
+  }
+  if (solved.play.solved)
+    print("{}\n", part_line("play", solved.play,
+                            fmt::format("{:.4f} deg +- {:.4f}", solved.rig.gear.play_deg, sigma_deg(kPlay))));
+  if (solved.encoder.solved)
+    print("{}\n",
+          part_line("encoder", solved.encoder,
+                    fmt::format("shows the angle + {:.4f} deg sin(angle + {:.1f} deg); +- {:.4f} deg",
+                                solved.rig.gear.encoder_amplitude_deg, solved.rig.gear.encoder_phase_deg,
+                                std::max(sigma_deg(kEncoderSine), sigma_deg(kEncoderCosine)))));
+  print("surfaces {:.2f} mm thick before, {:.2f} mm after; {} of them, {} points\n",
+        solved.residual_before_m * 1e3, solved.residual_after_m * 1e3, solved.surfaces, solved.points);
+}
+
 void print_answer(const Estimate& estimate) {
   if (estimate.identifiable) {
     const std::string sigma =
@@ -46,6 +80,7 @@ void print_answer(const Estimate& estimate) {
   print("method   {}, {} sweeps, {} scans, {} candidates\n", to_text(estimate.method), estimate.sweeps,
         estimate.scans, estimate.curve.size());
   if (estimate.kind) print("kind     {}: {}\n", to_text(*estimate.kind), estimate.kind_reason);
+  if (estimate.rig) print_rig(*estimate.rig);
   if (estimate.motion) print("{}\n", motion_line(*estimate.motion));
   for (const CriterionOptimum& criterion : estimate.criteria) print("{}\n", criterion_line(criterion));
   for (const std::string& warning : estimate.warnings) say("warning: {}\n", warning);

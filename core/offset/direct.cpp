@@ -10,7 +10,7 @@
 #include "core/offset/direct_stationary.hpp"
 #include "core/offset/identifiability.hpp"
 #include "core/offset/motion_source.hpp"
-#include "core/offset/uncertainty.hpp"
+#include "core/uncertainty.hpp"
 
 namespace sweepscope {
 namespace {

@@ -8,7 +8,7 @@
 #include "core/job.hpp"
 #include "core/offset/estimate.hpp"
 #include "core/offset/still_points.hpp"
-#include "core/offset/uncertainty.hpp"
+#include "core/uncertainty.hpp"
 
 namespace sweepscope {
 

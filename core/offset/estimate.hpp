@@ -11,6 +11,7 @@
 namespace sweepscope {
 
 struct SolvedWalk;
+struct SolvedRig;
 
 /// What the rig did while it was recorded.
 enum class RigKind { kStationary, kMoving };
@@ -84,6 +85,9 @@ struct Estimate {
   /// A moving rig's trajectory, by which all of this was judged; null in an estimate that was read from a
   /// file.
   std::shared_ptr<const SolvedWalk> walk;
+  /// What of the rig was solved for beside the offset; null where nothing was, and in an estimate that was
+  /// read from a file.
+  std::shared_ptr<const SolvedRig> rig;
   bool interrupted = false;  // the curve holds what was finished until then
 };
 

@@ -51,6 +51,52 @@ Result<void> set_around(EstimateOptions& options, const std::string& text) {
   return {};
 }
 
+std::vector<std::string_view> parts_of(std::string_view text) {
+  std::vector<std::string_view> parts;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    parts.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return parts;
+}
+
+Result<void> set_solve(EstimateOptions& options, const std::string& text) {
+  const auto parts = parts_of(text);
+  for (const std::string_view part : parts) {
+    if (part == "mount")
+      options.solve.mount = true;
+    else if (part == "play")
+      options.solve.play = true;
+    else if (part == "encoder")
+      options.solve.encoder = true;
+    else if (part != "offset")
+      return wrong("takes offset, mount, play and encoder with commas between them");
+  }
+  return {};
+}
+
+Result<void> set_prior(EstimateOptions& options, const std::string& text) {
+  constexpr const char* kNeeded =
+      "needs NAME=VALUE with a value above 0, such as mount_deg=2,play_deg=0.3; the names are mount_deg, "
+      "mount_mm, play_deg and encoder_deg";
+  RigSolve& solve = options.solve;
+  const std::array<std::pair<std::string_view, double*>, 4> priors{{{"mount_deg", &solve.mount_deg},
+                                                                    {"mount_mm", &solve.mount_mm},
+                                                                    {"play_deg", &solve.play_deg},
+                                                                    {"encoder_deg", &solve.encoder_deg}}};
+  for (const std::string_view part : parts_of(text)) {
+    const auto equals = std::min(part.find('='), part.size());
+    const auto found =
+        std::ranges::find(priors, part.substr(0, equals), &std::pair<std::string_view, double*>::first);
+    const auto value =
+        equals < part.size() ? numbers_of(std::string(part.substr(equals + 1)), 1) : std::nullopt;
+    if (found == priors.end() || !value || !((*value)[0] > 0)) return wrong(kNeeded);
+    *found->second = (*value)[0];
+  }
+  return {};
+}
+
 EstimateOption choice(std::string name, std::string type, std::string help, std::vector<std::string> choices,
                       std::function<void(EstimateOptions&, std::size_t)> take) {
   EstimateOption option{std::move(name), std::move(type), std::move(help), std::move(choices), false, {}};
@@ -119,7 +165,21 @@ std::vector<EstimateOption> declared() {
            "The paper's search in milliseconds: 24:0.1:40 tries 24 and 20 steps of 0.1 to either side",
            {},
            false,
-           set_around}};
+           set_around},
+          {"solve",
+           "offset[,mount][,play][,encoder]",
+           "Solve for parts of the rig beside the offset: how the laser is mounted on the motor, the play of "
+           "the gear, the encoder's eccentricity. The rig must be stationary",
+           {},
+           false,
+           set_solve},
+          {"prior",
+           "NAME=VALUE[,...]",
+           "How far the parts that are solved for may be from the rig file, as standard deviations: "
+           "mount_deg (default: 20), mount_mm (500), play_deg (0.5), encoder_deg (1)",
+           {},
+           false,
+           set_prior}};
 }
 
 }  // namespace

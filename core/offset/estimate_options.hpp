@@ -14,6 +14,7 @@
 #include "core/offset/candidates.hpp"
 #include "core/offset/estimate.hpp"
 #include "core/offset/given_poses.hpp"
+#include "core/rig_solve/rig_solve.hpp"
 
 namespace sweepscope {
 
@@ -31,6 +32,7 @@ struct EstimateOptions {
   std::optional<double> weight_c;      // c of equation 3; none: 1
   std::optional<double> edge_gate_m;   // delta_E of equation 4; none: that of `mapping`
   std::optional<double> plane_gate_m;  // delta_H of equation 5; likewise
+  RigSolve solve;                      // of the rig, beside the offset
   FeatureOptions features;
   OdometryOptions odometry;
   MappingOptions mapping;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cmath>
 #include <ctime>
 
 #include "core/offset/criteria_search.hpp"
@@ -10,6 +11,7 @@
 #include "core/offset/identifiability.hpp"
 #include "core/offset/rig_kind.hpp"
 #include "core/offset/still_motion.hpp"
+#include "core/rig_solve/rig_solve.hpp"
 
 namespace sweepscope {
 namespace {
@@ -77,6 +79,7 @@ Result<void> check_options(const EstimateOptions& options, const KeptCandidates&
     return refuse("The direct method takes seconds and keeps no candidates.");
   if (kept.shard && options.ranges.empty() && !options.around)
     return refuse("A shard needs --range or --around: the default search decides where to look as it goes.");
+  if (options.solve.any() && !direct) return refuse("--solve is used by the direct method only.");
   if (options.poses && !direct) return refuse("Poses are used by the direct method only.");
   return {};
 }
@@ -175,6 +178,39 @@ Result<Estimate> find_offset(const PreparedRecording& prepared, const EstimateOp
   return with(std::move(result), std::move(*answer));
 }
 
+// The rig is solved for first: the recording as it then is tells the offset, which is as uncertain besides as
+// the rig leaves it.
+Result<Estimate> find_with_rig(const PreparedRecording& prepared, const EstimateOptions& options,
+                               const KeptCandidates& kept, const Job& job) {
+  const SearchScale scale = search_scale(prepared.motor);
+  const auto window = check_options(options, kept).and_then([&] { return window_of(options, scale); });
+  if (!window) return tl::unexpected(window.error());
+  const OffsetProblem problem = problem_for(prepared, window->from_s(), window->to_s());
+  Estimate result = begun(prepared, options, kept, scale);
+  if (result.reasons.empty()) result = counted(std::move(result), problem, *window);
+  if (!result.reasons.empty()) return result;
+  const CoarseSearch coarse = search_coarsely(problem, window->from_s(), window->to_s(), scale, job);
+  if (!coarse.best) return find_offset(prepared, options, kept, job);
+  const MotionTest motion = test_motion(still_grid(problem), coarse.offset_s());
+  if (decide_kind(motion, options).kind == RigKind::kMoving)
+    return refused(std::move(result),
+                   {moved_text(motion) + " The rig's parts are solved for from a "
+                                         "stationary recording: record 8 s without motion, or choose such a "
+                                         "part with --window."});
+  auto solved = std::make_shared<SolvedRig>(solve_rig(problem, coarse.offset_s(), options.solve, job));
+  if (job.cancelled()) return result;
+  const Recording corrected = with_rig(*prepared.recording, *solved);
+  const auto again = prepare(corrected, options.features, job);
+  if (!again) return result;
+  return find_offset(*again, options, kept, job).map([&](Estimate&& found) {
+    if (found.sigma_s) found.sigma_s = std::hypot(*found.sigma_s, solved->offset_sigma_s);
+    for (const RigFinding& part : {solved->mount, solved->play, solved->encoder})
+      if (!part.reason.empty()) found.warnings.push_back(part.reason);
+    found.rig = std::move(solved);
+    return std::move(found);
+  });
+}
+
 // Since it was made.
 class Stopwatch {
  public:
@@ -194,7 +230,8 @@ class Stopwatch {
 Result<Estimate> estimate(const PreparedRecording& prepared, const EstimateOptions& options,
                           const KeptCandidates& kept, const Job& job) {
   const Stopwatch stopwatch;
-  auto result = find_offset(prepared, options, kept, job);
+  auto result = options.solve.any() ? find_with_rig(prepared, options, kept, job)
+                                    : find_offset(prepared, options, kept, job);
   if (!result) return result;
   // Whatever was cut short, wherever: no answer is given once the job is cancelled.
   return stopwatch.stopped(job.cancelled() ? interrupted(std::move(*result)) : std::move(*result));

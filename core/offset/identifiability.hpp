@@ -8,7 +8,7 @@
 
 #include "core/offset/estimate.hpp"
 #include "core/offset/search_window.hpp"
-#include "core/offset/uncertainty.hpp"
+#include "core/uncertainty.hpp"
 
 namespace sweepscope {
 

@@ -8,7 +8,7 @@
 #include "core/job.hpp"
 #include "core/loam/mapping.hpp"
 #include "core/offset/time_shift.hpp"
-#include "core/offset/uncertainty.hpp"
+#include "core/uncertainty.hpp"
 
 namespace sweepscope {
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/io/yaml_members.hpp"
+#include "core/numbers.hpp"
 
 namespace sweepscope {
 namespace {
@@ -82,6 +83,22 @@ void read_mount(const YAML::Node& node, Rig::Mount& mount) {
   read_members(node, "mount", {{"axis", read_axis}, {"laser_in_motor", read_laser_pose}});
 }
 
+void read_gear(const YAML::Node& value, const std::string& name, double& at_least_0) {
+  at_least_0 = read_number(value, name);
+  if (at_least_0 < 0 || at_least_0 > 10) refuse(value, name + " must be from 0 to 10");
+}
+
+void read_encoder(const YAML::Node& node, Rig::Gear& gear) {
+  read_members(node, "encoder",
+               {{"amplitude_deg",
+                 [&](const YAML::Node& value) {
+                   read_gear(value, "encoder.amplitude_deg", gear.encoder_amplitude_deg);
+                 }},
+                {"phase_deg", [&](const YAML::Node& value) {
+                   gear.encoder_phase_deg = read_number(value, "encoder.phase_deg");
+                 }}});
+}
+
 void read_imu(const YAML::Node& node, Rig::Imu& imu) {
   read_members(node, "imu",
                {{"topic", [&](const YAML::Node& value) { imu.topic = read_name(value, "imu.topic"); }},
@@ -102,12 +119,19 @@ Rig read_document(const YAML::Node& document) {
                {{"laser", [&](const YAML::Node& node) { read_laser(node, rig.laser); }},
                 {"motor", [&](const YAML::Node& node) { read_motor(node, rig.motor); }},
                 {"mount", [&](const YAML::Node& node) { read_mount(node, rig.mount); }},
+                {"play_deg", [&](const YAML::Node& node) { read_gear(node, "play_deg", rig.gear.play_deg); }},
+                {"encoder", [&](const YAML::Node& node) { read_encoder(node, rig.gear); }},
                 {"imu", [&](const YAML::Node& node) { read_imu(node, rig.imu); }},
                 {"odometry", [&](const YAML::Node& node) { read_odometry(node, rig.odometry); }}});
   return rig;
 }
 
 }  // namespace
+
+Gear Rig::Gear::angles() const {
+  const double amplitude_rad = encoder_amplitude_deg * kRadPerDeg, phase_rad = encoder_phase_deg * kRadPerDeg;
+  return {play_deg * kRadPerDeg, {amplitude_rad * std::cos(phase_rad), amplitude_rad * std::sin(phase_rad)}};
+}
 
 Result<Rig> read_rig(const std::filesystem::path& path) {
   Rig rig;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "core/geometry/gear.hpp"
 #include "core/geometry/kinematics.hpp"
 
 namespace sweepscope {
@@ -50,9 +51,18 @@ struct Rig {
   struct Odometry {
     std::optional<std::string> topic;  // none: no odometry is used
   };
+  /// What lies between the encoder's angle and the laser's: see Gear. The shown angle is the shaft's plus
+  /// amplitude sin(angle + phase).
+  struct Gear {
+    double play_deg = 0;               // >= 0
+    double encoder_amplitude_deg = 0;  // >= 0
+    double encoder_phase_deg = 0;
+    sweepscope::Gear angles() const;
+  };
   Laser laser;
   Motor motor;
   Mount mount;
+  Gear gear;
   Imu imu;
   Odometry odometry;
 };

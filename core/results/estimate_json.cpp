@@ -13,6 +13,7 @@
 #include "core/io/atomic_file.hpp"
 #include "core/io/printable_text.hpp"
 #include "core/results/fields.hpp"
+#include "core/results/rig_json.hpp"
 
 namespace sweepscope {
 namespace {
@@ -284,6 +285,7 @@ std::string estimate_to_json(const Estimate& estimate, Timing timing) {
                                           {"value", number(optimum.value)}};
   }
   if (estimate.fit) document["fit"] = fit_to_json(*estimate.fit);
+  if (estimate.rig) document["parameters"] = rig_parameters_json(*estimate.rig);
   document["curve"] = curve_to_json(estimate.curve);
   document["sweeps"] = estimate.sweeps;
   document["scans"] = estimate.scans;

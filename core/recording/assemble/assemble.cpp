@@ -334,6 +334,7 @@ bool assemble_motor(const RawJoint& raw, Recording& recording) {
   report.motor_gaps = spaced.gaps;
   report.longest_motor_gap_s = spaced.longest_gap_s;
   unwrap(motor, kMotorGapFactor * spaced.median_s, report);
+  if (const Gear gear = recording.rig.gear.angles(); !gear.perfect()) motor = laser_angles(motor, gear);
   if (report.motor_dropped > 0) {
     report.warnings.push_back(
         fmt::format("{} of {} samples of joint {} were dropped: no stamp, or no finite angle",

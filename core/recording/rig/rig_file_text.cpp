@@ -71,6 +71,17 @@ std::string mount_text(const DetectedRig& detected) {
                      vector_text(mount.laser_in_motor_xyz_m), vector_text(mount.laser_in_motor_rpy_deg));
 }
 
+std::string gear_text(const Rig::Gear& gear) {
+  std::string text;
+  if (gear.play_deg > 0)
+    text += line(fmt::format("play_deg: {:.6g}", gear.play_deg), "between the flanks of the motor's gear");
+  if (gear.encoder_amplitude_deg > 0)
+    text += line(fmt::format("encoder: {{amplitude_deg: {:.6g}, phase_deg: {:.6g}}}",
+                             gear.encoder_amplitude_deg, gear.encoder_phase_deg),
+                 "shows the shaft's angle + amplitude sin(angle + phase)");
+  return text;
+}
+
 /// What is known of a walk's motion: the topics that the rig names, else those seen, as comments.
 std::string motion_text(const DetectedRig& detected) {
   const Rig& rig = detected.rig;
@@ -97,7 +108,8 @@ std::string motion_text(const DetectedRig& detected) {
 std::string rig_file_text(const DetectedRig& detected) {
   return "# The rig of " + printable_line(detected.recording) +
          ", as detected. Give it with --rig; what is deleted here is detected anew.\n" +
-         laser_text(detected) + motor_text(detected) + mount_text(detected) + motion_text(detected);
+         laser_text(detected) + motor_text(detected) + mount_text(detected) + gear_text(detected.rig.gear) +
+         motion_text(detected);
 }
 
 }  // namespace sweepscope

@@ -1,4 +1,4 @@
-#include "core/offset/uncertainty.hpp"
+#include "core/uncertainty.hpp"
 
 #include <gtest/gtest.h>
 

@@ -55,7 +55,8 @@ TEST(Rig, RefusesUnknownKeysWithTheirPlace) {
   EXPECT_EQ(refusal("laser: {topic: /scan}\nmotor: {joint: a, sclae: 2}\n"),
             "2:19: unknown key \"sclae\" in motor; known are: joint, scale, stamp, topic, zero_deg");
   EXPECT_EQ(refusal("lidar: {}\n"),
-            "1:1: unknown key \"lidar\" in the rig file; known are: imu, laser, motor, mount, odometry");
+            "1:1: unknown key \"lidar\" in the rig file; known are: encoder, imu, laser, motor, "
+            "mount, odometry, play_deg");
 }
 
 TEST(Rig, RefusesImpossibleValuesWithTheirPlace) {
@@ -72,6 +73,8 @@ TEST(Rig, RefusesImpossibleValuesWithTheirPlace) {
   EXPECT_EQ(refusal("mount: {axis: [1, 0]}"), "1:15: mount.axis must be three numbers");
   EXPECT_EQ(refusal("mount: {laser_in_motor: {xyz_m: [0, x, 0]}}"),
             "1:37: mount.laser_in_motor.xyz_m must be a finite number");
+  EXPECT_EQ(refusal("play_deg: -0.1"), "1:11: play_deg must be from 0 to 10");
+  EXPECT_EQ(refusal("encoder: {amplitude_deg: 11}"), "1:26: encoder.amplitude_deg must be from 0 to 10");
   EXPECT_EQ(refusal("- laser\n"), "1:1: the rig file must be a map of keys to values");
 }
 

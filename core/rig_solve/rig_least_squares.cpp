@@ -1,0 +1,358 @@
+#include "core/rig_solve/rig_least_squares.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "core/loam/least_squares.hpp"
+#include "core/numbers.hpp"
+#include "core/parallel.hpp"
+#include "core/uncertainty.hpp"
+
+namespace sweepscope {
+namespace {
+
+constexpr double kSpeedSpan_s = 0.010;  // the motor's speed is taken over this much to either side
+
+struct Beam {
+  Eigen::Vector3d p_in_motor_m;
+  double time_s = 0;
+};
+
+struct Cloud {
+  std::vector<RigGeometry::Placed> placed;
+  std::vector<Eigen::Vector3d> p_m;
+};
+
+// The encoder's angle at instants that mostly ascend, through four samples: a motor that swings like a
+// pendulum leaves the line between two by a twentieth of a degree.
+class SmoothAngle {
+ public:
+  explicit SmoothAngle(const MotorTrack& track) : track_(track) {}
+
+  double at(double motor_s) {
+    const auto& t = track_.time_s;
+    const auto& a = track_.angle_rad;
+    while (next_ + 3 < t.size() && t[next_ + 1] <= motor_s) ++next_;
+    while (next_ > 1 && t[next_] > motor_s) --next_;
+    if (t.size() < 4) return track_.angle_at(std::clamp(motor_s, t.front(), t.back()));
+    double sum = 0;
+    for (std::size_t i = next_ - 1; i < next_ + 3; ++i) {
+      double part = a[i];
+      for (std::size_t j = next_ - 1; j < next_ + 3; ++j)
+        if (j != i) part *= (motor_s - t[j]) / (t[i] - t[j]);
+      sum += part;
+    }
+    return sum;
+  }
+
+ private:
+  const MotorTrack& track_;
+  std::size_t next_ = 1;
+};
+
+// Whether an instant counts. For play, which shows best where the motor is slow, all do but those where the
+// play is not used up yet.
+bool counts(const Sweep& sweep, double motor_s, double turned_rad, const RigUnknowns& rig,
+            bool near_reversals) {
+  if (!near_reversals) return motor_s >= sweep.steady_begin_s && motor_s <= sweep.steady_end_s;
+  constexpr double kBeyondPlay_rad = 0.2 * kRadPerDeg;
+  return motor_s >= sweep.begin_s && motor_s <= sweep.end_s &&
+         turned_rad > 1.2 * std::abs(rig.play_rad) + kBeyondPlay_rad;
+}
+
+Cloud place(const OffsetProblem& problem, const RigUnknowns& rig, bool near_reversals) {
+  const Recording& recording = *problem.recording;
+  const RigGeometry geometry(recording.rig.mount, rig);
+  const std::vector<std::size_t> sweep_of =
+      assign_sweeps(recording.scans, problem.motor.sweeps, rig.offset_s);
+  const FeatureList& planes = problem.features->planes;
+  MotorReader before(recording.motor), after(recording.motor);
+  SmoothAngle motor(recording.motor);
+  Cloud cloud;
+  for (std::size_t scan = 0; scan < recording.scans.size(); ++scan) {
+    if (!problem.scan_used[scan] || sweep_of[scan] == kNoSweep) continue;
+    const Sweep& sweep = problem.motor.sweeps[sweep_of[scan]];
+    const double begin_rad = recording.motor.angle_at(sweep.begin_s);
+    for (std::size_t i = planes.scan_begin[scan]; i < planes.scan_begin[scan + 1]; ++i) {
+      const Feature& feature = planes.features[i];
+      const double motor_s = feature.time_s + rig.offset_s;
+      const double angle_rad = motor.at(motor_s);
+      if (!counts(sweep, motor_s, std::abs(angle_rad - begin_rad), rig, near_reversals)) continue;
+      const double speed_rad_s =
+          (after.angle_at(motor_s + kSpeedSpan_s) - before.angle_at(motor_s - kSpeedSpan_s)) /
+          (2 * kSpeedSpan_s);
+      cloud.placed.push_back(
+          geometry.place(feature.p_in_motor_m.cast<double>(), {angle_rad, speed_rad_s, sweep.direction}));
+      cloud.p_m.push_back(cloud.placed.back().p_in_base_m);
+    }
+  }
+  return cloud;
+}
+
+using PlaneRow = Eigen::Vector3d;  // how a distance changes as its plane tilts (two ways) and moves
+
+// Weighted sums over points of products of rows: of the unknowns (x), of the surface's plane (p) and of the
+// distances (r).
+struct Sums {
+  RigMatrix xx = RigMatrix::Zero();
+  Eigen::Matrix<double, kRigUnknowns, 3> xp = Eigen::Matrix<double, kRigUnknowns, 3>::Zero();
+  Eigen::Matrix3d pp = Eigen::Matrix3d::Zero();
+  RigVector xr = RigVector::Zero();
+  PlaneRow pr = PlaneRow::Zero();
+
+  Sums& operator+=(const Sums& other) {
+    xx += other.xx;
+    xp += other.xp;
+    pp += other.pp;
+    xr += other.xr;
+    pr += other.pr;
+    return *this;
+  }
+};
+
+// h x = -g for the step x.
+struct Equations {
+  RigMatrix h = RigMatrix::Zero();
+  RigVector g = RigVector::Zero();
+};
+
+Sums of_cell(const Cloud& cloud, const PlaneCell& cell, const Surface& surface, double loss_width_m) {
+  const Eigen::Matrix<double, 3, 2> along = across_axis(surface.normal);
+  Sums sums;
+  for (const std::uint32_t i : cell.points) {
+    const RigGeometry::Placed& at = cloud.placed[i];
+    const Eigen::Vector3d d = at.p_in_base_m - surface.centre_m;
+    const double residual_m = surface.normal.dot(d);
+    const RigVector row = at.jacobian.transpose() * surface.normal;
+    const double weight = cauchy_weight(residual_m, loss_width_m);
+    PlaneRow plane;
+    plane << along.transpose() * d, 1;
+    sums.xx.noalias() += weight * row * row.transpose();
+    sums.xp.noalias() += weight * row * plane.transpose();
+    sums.pp.noalias() += weight * plane * plane.transpose();
+    sums.xr.noalias() += weight * residual_m * row;
+    sums.pr.noalias() += weight * residual_m * plane;
+  }
+  return sums;
+}
+
+// A cell's distance from its surface, and its tilt times its extent, deviate by this: no wall is quite flat,
+// and not all that is put together belongs together.
+struct Unevenness {
+  double deviation_m = 0, noise_m = 0;
+};
+
+// The cell's own plane deviates from the surface's, as it may: what is left for the unknowns and the surface.
+Sums with_own_plane(const Sums& sums, const PlaneCell& cell, const Surface& surface,
+                    const Unevenness& unevenness) {
+  const Eigen::Vector2d away_m = across_axis(surface.normal).transpose() * (cell.centre_m - surface.centre_m);
+  Eigen::Matrix3d own_from_surface = Eigen::Matrix3d::Identity();
+  own_from_surface.topRightCorner<2, 1>() = -away_m;
+  const double mean_m = sums.pr[2] / sums.pp(2, 2);
+  const double ratio = mean_m / (3 * unevenness.deviation_m);
+  const double moves_m2 = unevenness.deviation_m * unevenness.deviation_m * (1 + ratio * ratio);
+  const double tilts2 = moves_m2 / cell.along_m.squaredNorm();
+  const Eigen::Matrix3d op = own_from_surface * sums.pp;
+  Eigen::Matrix3d oo = op * own_from_surface.transpose();
+  oo.diagonal() += unevenness.noise_m * unevenness.noise_m * PlaneRow(1 / tilts2, 1 / tilts2, 1 / moves_m2);
+  const Eigen::LDLT<Eigen::Matrix3d> solver(oo);
+  const Eigen::Matrix<double, kRigUnknowns, 3> xo = sums.xp * own_from_surface.transpose();
+  const Eigen::Matrix<double, 3, kRigUnknowns> x_follows = solver.solve(xo.transpose());
+  const Eigen::Matrix3d p_follows = solver.solve(op);
+  const PlaneRow own = own_from_surface * sums.pr;
+  Sums rest = sums;
+  rest.xx.noalias() -= xo * x_follows;
+  rest.xp.noalias() -= xo * p_follows;
+  rest.pp.noalias() -= op.transpose() * p_follows;
+  rest.xr.noalias() -= x_follows.transpose() * own;
+  rest.pr.noalias() -= p_follows.transpose() * own;
+  return rest;
+}
+
+// Where the flat surfaces are, by a placing of the points.
+struct Scene {
+  std::vector<PlaneCell> cells;
+  std::vector<Surface> surfaces;
+  std::vector<Sums> sums;  // per cell
+  Unevenness unevenness;
+};
+
+double robust_deviation_m(const Cloud& cloud, const Scene& scene) {
+  std::vector<float> sizes_m;
+  for (const PlaneCell& cell : scene.cells)
+    for (const std::uint32_t i : cell.points)
+      sizes_m.push_back(float(std::abs(cell.normal.dot(cloud.p_m[i] - cell.centre_m))));
+  return kSigmaPerMedianDeviation * double(median(std::move(sizes_m)));
+}
+
+// Each point is a line's value fitted to its neighbours on either side, which neighbouring points share.
+double points_per_independent(const FeatureOptions& options) {
+  return std::max(1.0, (2.0 * options.half_window + 1) / options.map_spacing);
+}
+
+// By how much cells deviate from their surfaces beyond what the points' noise makes of them.
+double cells_deviation_m(const Scene& scene, double noise_m, double points_per_independent) {
+  constexpr double kFlattest_m = 0.0001;
+  std::vector<double> squares_m2, of_noise_m2;
+  for (const Surface& surface : scene.surfaces) {
+    if (surface.cells.size() <= 2) continue;
+    for (const std::uint32_t cell : surface.cells) {
+      const double mean_m = scene.sums[cell].pr[2] / scene.sums[cell].pp(2, 2);
+      squares_m2.push_back(mean_m * mean_m);
+      of_noise_m2.push_back(noise_m * noise_m * points_per_independent / scene.sums[cell].pp(2, 2));
+    }
+  }
+  const double seen_m2 = kSigmaPerMedianDeviation * kSigmaPerMedianDeviation * median(std::move(squares_m2));
+  return std::sqrt(std::max(kFlattest_m * kFlattest_m, seen_m2 - median(std::move(of_noise_m2))));
+}
+
+Scene scene_of(const Cloud& cloud, const PlaneCellOptions& options, double reach_m, double loss_width_m,
+               double points_per_independent) {
+  Scene scene;
+  scene.cells = plane_cells(cloud.p_m, options);
+  scene.surfaces = surfaces_of(scene.cells, reach_m);
+  std::vector<const Surface*> surface_of(scene.cells.size());
+  for (const Surface& surface : scene.surfaces)
+    for (const std::uint32_t cell : surface.cells) surface_of[cell] = &surface;
+  scene.sums.resize(scene.cells.size());
+  for_each_index(scene.cells.size(), [&](std::size_t i) {
+    scene.sums[i] = of_cell(cloud, scene.cells[i], *surface_of[i], loss_width_m);
+  });
+  const double noise_m = robust_deviation_m(cloud, scene);
+  scene.unevenness = {cells_deviation_m(scene, noise_m, points_per_independent), noise_m};
+  for_each_index(scene.cells.size(), [&](std::size_t i) {
+    scene.sums[i] = with_own_plane(scene.sums[i], scene.cells[i], *surface_of[i], scene.unevenness);
+  });
+  return scene;
+}
+
+// Each surface's plane is free to follow the unknowns: only what no plane can follow counts. Without the
+// cells in [first, last).
+Equations equations_of(const Scene& scene, std::size_t first = 0, std::size_t last = 0) {
+  Equations equations;
+  for (const Surface& surface : scene.surfaces) {
+    Sums sums;
+    for (const std::uint32_t cell : surface.cells)
+      if (cell < first || cell >= last) sums += scene.sums[cell];
+    if (!(sums.pp(2, 2) > 0)) continue;
+    const Eigen::LDLT<Eigen::Matrix3d> solver(sums.pp);
+    const Eigen::Matrix<double, 3, kRigUnknowns> follows = solver.solve(sums.xp.transpose());
+    equations.h.noalias() += sums.xx - sums.xp * follows;
+    equations.g.noalias() += sums.xr - follows.transpose() * sums.pr;
+  }
+  return equations;
+}
+
+// Minimises x' h x / 2 + g' x over the unknowns that are solved for, with `noise_m` the residuals' deviation.
+class Solver {
+ public:
+  Solver(const RigPriors& priors, double noise_m) : priors_(priors), noise2_m2_(noise_m * noise_m) {
+    for (int i = 0; i < kRigUnknowns; ++i)
+      if (priors[i] > 0) free_.push_back(i);
+  }
+
+  RigVector step(const Equations& sum, const RigVector& at) const {
+    RigVector full = RigVector::Zero();
+    const Eigen::VectorXd pull = sum.g(free_) / noise2_m2_ + prior_pull(at);
+    const Eigen::VectorXd solved = -factor(sum.h).solve(pull);
+    for (std::size_t i = 0; i < free_.size(); ++i) full[free_[i]] = solved[Eigen::Index(i)];
+    return full;
+  }
+
+  RigMatrix covariance(const Equations& sum) const {
+    RigMatrix full = RigMatrix::Zero();
+    const auto n = Eigen::Index(free_.size());
+    const Eigen::MatrixXd solved = factor(sum.h).solve(Eigen::MatrixXd::Identity(n, n));
+    full(free_, free_) = solved;
+    return full;
+  }
+
+ private:
+  Eigen::LDLT<Eigen::MatrixXd> factor(const RigMatrix& h) const {
+    Eigen::MatrixXd a = h(free_, free_) / noise2_m2_;
+    for (std::size_t i = 0; i < free_.size(); ++i)
+      a(Eigen::Index(i), Eigen::Index(i)) += 1 / (priors_[free_[i]] * priors_[free_[i]]);
+    return Eigen::LDLT<Eigen::MatrixXd>(a);
+  }
+  Eigen::VectorXd prior_pull(const RigVector& at) const {
+    Eigen::VectorXd pull(Eigen::Index(free_.size()));
+    for (std::size_t i = 0; i < free_.size(); ++i) {
+      // The offset is known from nothing but the scans.
+      const bool held = free_[i] != kOffset;
+      pull[Eigen::Index(i)] = held ? at[free_[i]] / (priors_[free_[i]] * priors_[free_[i]]) : 0;
+    }
+    return pull;
+  }
+
+  RigPriors priors_;
+  double noise2_m2_;
+  std::vector<int> free_;
+};
+
+// Neighbouring surfaces err together, where they are no planes or bear a bias: what the fit becomes without
+// each of a number of parts of the scene.
+RigMatrix scatter(const Scene& scene, const Solver& solver, const RigVector& at) {
+  constexpr std::size_t kParts = 12;
+  RigMatrix sum = RigMatrix::Zero();
+  const RigVector from = solver.step(equations_of(scene), at);
+  for (std::size_t part = 0; part < kParts; ++part) {
+    const Equations rest =
+        equations_of(scene, part * scene.cells.size() / kParts, (part + 1) * scene.cells.size() / kParts);
+    const RigVector apart = solver.step(rest, at) - from;
+    sum += apart * apart.transpose();
+  }
+  const double factor = student_factor(double(kParts - 1));
+  return sum * (double(kParts - 1) / double(kParts)) * factor * factor;
+}
+
+bool small(const RigVector& step) {
+  constexpr double kOffset_s = 1e-6, kAngle_rad = 2e-6, kShift_m = 1e-5;
+  RigVector unit;
+  unit << kOffset_s, kAngle_rad, kAngle_rad, kShift_m, kShift_m, kAngle_rad, kAngle_rad, kAngle_rad;
+  return (step.cwiseAbs().array() < unit.array()).all();
+}
+
+}  // namespace
+
+RigFit solve_rig_planes(const OffsetProblem& problem, const RigUnknowns& first, const RigPriors& priors,
+                        const RigLeastSquaresOptions& options, const Job& job) {
+  RigFit fit;
+  fit.rig = first;
+  double loss_width_m = options.first_loss_width_m;
+  bool narrowed = false;
+  // Play and encoder, which few surfaces tell, follow when the rest is nearly right.
+  RigPriors begun_with = priors;
+  begun_with.tail<3>().setZero();
+  for (; fit.iterations < options.max_iterations && !job.cancelled(); ++fit.iterations) {
+    const Cloud cloud = place(problem, fit.rig, priors[kPlay] > 0);
+    PlaneCellOptions cells_options;
+    cells_options.levels = options.max_levels;
+    cells_options.flatness_m = options.flatness * loss_width_m;
+    const Scene scene = scene_of(cloud, cells_options, options.reach * loss_width_m, loss_width_m,
+                                 points_per_independent(problem.feature_options));
+    fit.points = cloud.p_m.size();
+    fit.planes = scene.surfaces.size();
+    fit.on_planes = 0;
+    for (const PlaneCell& cell : scene.cells) fit.on_planes += cell.points.size();
+    if (scene.cells.empty()) return fit;
+    fit.residual_m = scene.unevenness.noise_m;
+    fit.unevenness_m = scene.unevenness.deviation_m;
+    const Equations sum = equations_of(scene);
+    const Solver solver(narrowed ? priors : begun_with, fit.residual_m);
+    const RigVector x = fit.rig.vector(), step = solver.step(sum, x);
+    fit.converged = narrowed && small(step);
+    fit.rig = RigUnknowns::from(x + step);
+    if (fit.converged || fit.iterations + 1 == options.max_iterations) {
+      fit.information = sum.h / (fit.residual_m * fit.residual_m);
+      fit.covariance = solver.covariance(sum) + scatter(scene, solver, x);
+      break;
+    }
+    const double width_m = std::max(options.min_loss_width_m, options.loss_widths * fit.residual_m);
+    narrowed = width_m > 0.9 * loss_width_m;
+    loss_width_m = std::min(loss_width_m, std::max(0.6 * loss_width_m, width_m));
+  }
+  return fit;
+}
+
+}  // namespace sweepscope

@@ -1,0 +1,138 @@
+#include "core/rig_solve/rig_solve.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/numbers.hpp"
+
+namespace sweepscope {
+namespace {
+
+constexpr double kOffsetPrior_s = 0.1;  // none, in effect
+
+// The least standard deviation of the motor's speed, as a part of its mean, that tells play from an offset:
+// at one speed both turn the two directions against each other alike. Encoder steps and jitter make 1 %.
+constexpr double kMinSpeedSpread = 0.05;
+
+RigPriors priors_of(const RigSolve& what) {
+  RigPriors priors = RigPriors::Zero();
+  priors[kOffset] = kOffsetPrior_s;
+  if (what.mount) {
+    priors[kTurnU] = priors[kTurnV] = what.mount_deg * kRadPerDeg;
+    priors[kShiftU] = priors[kShiftV] = what.mount_mm * 1e-3;
+  }
+  if (what.play) priors[kPlay] = what.play_deg * kRadPerDeg;
+  if (what.encoder) priors[kEncoderSine] = priors[kEncoderCosine] = what.encoder_deg * kRadPerDeg;
+  return priors;
+}
+
+// Over the sweeps' steady parts, in pieces long enough that the encoder's steps do not count.
+double speed_spread(const OffsetProblem& problem) {
+  constexpr int kPieces = 8;
+  const MotorTrack& track = problem.recording->motor;
+  double sum = 0, squares = 0, count = 0;
+  for (const Sweep& sweep : problem.motor.sweeps) {
+    const double piece_s = (sweep.steady_end_s - sweep.steady_begin_s) / kPieces;
+    if (!(piece_s > 0)) continue;
+    for (int i = 0; i < kPieces; ++i) {
+      const double from_s = sweep.steady_begin_s + i * piece_s;
+      const double speed_rad_s =
+          std::abs(track.angle_at(from_s + piece_s) - track.angle_at(from_s)) / piece_s;
+      sum += speed_rad_s;
+      squares += speed_rad_s * speed_rad_s;
+      count += 1;
+    }
+  }
+  if (count == 0 || sum == 0) return 0;
+  const double mean = sum / count;
+  return std::sqrt(std::max(0.0, squares / count - mean * mean)) / mean;
+}
+
+// A value that the recording determines is known much better than before.
+bool told(const RigFit& fit, const RigPriors& priors, std::initializer_list<RigUnknown> unknowns) {
+  constexpr double kBetter = 0.5;
+  return std::all_of(unknowns.begin(), unknowns.end(),
+                     [&](RigUnknown i) { return std::sqrt(fit.covariance(i, i)) < kBetter * priors[i]; });
+}
+
+RigFinding finding(bool solved, bool identifiable, const char* reason) {
+  return {solved, solved && identifiable, solved && !identifiable ? reason : ""};
+}
+
+// By how much more the offset is uncertain because the others are unknown.
+double added_sigma_s(const RigMatrix& covariance, const RigPriors& priors) {
+  std::vector<int> others;
+  for (int i = kOffset + 1; i < kRigUnknowns; ++i)
+    if (priors[i] > 0) others.push_back(i);
+  if (others.empty()) return 0;
+  const Eigen::MatrixXd of_others = covariance(others, others);
+  const Eigen::VectorXd with_offset = covariance(others, std::vector<int>{kOffset});
+  return std::sqrt(std::max(0.0, with_offset.dot(of_others.ldlt().solve(with_offset))));
+}
+
+void set_gear(Rig::Gear& gear, const Gear& found) {
+  const double phase_rad = gear.encoder_phase_deg * kRadPerDeg;
+  const Eigen::Vector2d total_deg =
+      gear.encoder_amplitude_deg * Eigen::Vector2d(std::cos(phase_rad), std::sin(phase_rad)) +
+      found.encoder_rad * kDegPerRad;
+  gear.play_deg += found.play_rad * kDegPerRad;
+  gear.encoder_amplitude_deg = total_deg.norm();
+  gear.encoder_phase_deg = total_deg.norm() > 0 ? std::atan2(total_deg[1], total_deg[0]) * kDegPerRad : 0.0;
+}
+
+}  // namespace
+
+SolvedRig solve_rig(const OffsetProblem& problem, double first_offset_s, const RigSolve& what,
+                    const Job& job) {
+  SolvedRig solved;
+  solved.rig = problem.recording->rig;
+  RigUnknowns first;
+  first.offset_s = first_offset_s;
+  const RigFit before = solve_rig_planes(problem, first, priors_of({}), {}, job);
+  solved.residual_before_m = before.residual_m;
+  RigSolve told_apart = what;
+  const bool one_speed = what.play && speed_spread(problem) < kMinSpeedSpread;
+  told_apart.play = what.play && !one_speed;
+  const RigPriors priors = priors_of(told_apart);
+  const RigFit fit = solve_rig_planes(problem, first, priors, {}, job);
+  if (job.cancelled()) return solved;
+
+  solved.mount = finding(what.mount, told(fit, priors, {kTurnU, kTurnV, kShiftU, kShiftV}),
+                         "The surfaces in view do not determine the mount: record where several walls, the "
+                         "floor and the ceiling are in view.");
+  solved.play = finding(what.play, !one_speed && told(fit, priors, {kPlay}),
+                        one_speed ? "The motor turns at one speed only, at which gear play acts as an "
+                                    "offset: a second sweep speed in the same recording separates the two."
+                                  : "The recording does not determine the gear play.");
+  solved.encoder = finding(what.encoder, told(fit, priors, {kEncoderSine, kEncoderCosine}),
+                           "The surfaces in view do not determine the encoder's first harmonic.");
+  solved.found = fit.rig;
+  solved.priors = priors_of(what);
+  solved.covariance = fit.covariance;
+  solved.offset_sigma_s = added_sigma_s(fit.covariance, priors);
+  if (one_speed) {
+    const double play_rad = what.play_deg * kRadPerDeg;
+    solved.covariance(kPlay, kPlay) = play_rad * play_rad;
+    solved.offset_sigma_s =
+        std::hypot(solved.offset_sigma_s, play_rad / (2 * problem.motor.median_speed_rad_s));
+  }
+  solved.residual_after_m = fit.residual_m;
+  solved.unevenness_m = fit.unevenness_m;
+  solved.points = fit.points;
+  solved.surfaces = fit.planes;
+  solved.converged = fit.converged;
+  solved.iterations = fit.iterations;
+  solved.rig.mount = changed(solved.rig.mount, fit.rig);
+  set_gear(solved.rig.gear, fit.rig.gear());
+  return solved;
+}
+
+Recording with_rig(Recording recording, const SolvedRig& solved) {
+  recording.rig = solved.rig;
+  recording.motor = laser_angles(recording.motor, solved.found.gear());
+  return recording;
+}
+
+}  // namespace sweepscope

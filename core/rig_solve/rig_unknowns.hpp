@@ -1,0 +1,78 @@
+#pragma once
+
+// The mathematics: docs/algorithms.md, section 16.
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+
+#include "core/geometry/gear.hpp"
+
+namespace sweepscope {
+
+/// What a rig is solved for, each beside the offset.
+enum class RigPart { kMount, kPlay, kEncoder };
+
+/// The places of the unknowns in a step, a Jacobian's row and a covariance.
+enum RigUnknown : int { kOffset, kTurnU, kTurnV, kShiftU, kShiftV, kPlay, kEncoderSine, kEncoderCosine };
+inline constexpr int kRigUnknowns = 8;
+using RigVector = Eigen::Matrix<double, kRigUnknowns, 1>;
+using RigMatrix = Eigen::Matrix<double, kRigUnknowns, kRigUnknowns>;
+
+/// The offset and what a rig differs in from what its rig file says.
+///
+/// The laser sits at R' = exp(turn) R, t' = t + shift in the frame that turns with the motor, R and t the
+/// rig file's; turn and shift are perpendicular to the motor's axis, since along it they cannot be observed.
+/// The laser's angle is phi - a sin(phi) - b cos(phi) - s play / 2, phi the encoder's angle, s = +1 where it
+/// grows and -1 where it falls.
+struct RigUnknowns {
+  double offset_s = 0;
+  Eigen::Vector2d turn_rad = Eigen::Vector2d::Zero();  // rotation vector, along the axes of `AxisFrame`
+  Eigen::Vector2d shift_m = Eigen::Vector2d::Zero();   // likewise
+  double play_rad = 0;
+  Eigen::Vector2d encoder_rad = Eigen::Vector2d::Zero();  // a and b; see Gear
+
+  Gear gear() const { return {play_rad, encoder_rad}; }
+  RigVector vector() const {
+    RigVector x;
+    x << offset_s, turn_rad, shift_m, play_rad, encoder_rad;
+    return x;
+  }
+  static RigUnknowns from(const RigVector& x) {
+    return {x[kOffset], x.segment<2>(kTurnU), x.segment<2>(kShiftU), x[kPlay], x.segment<2>(kEncoderSine)};
+  }
+};
+
+/// Two directions perpendicular to the motor's axis and to each other: the columns.
+Eigen::Matrix<double, 3, 2> across_axis(const Eigen::Vector3d& axis);
+
+/// The mount with the turn and the shift of the unknowns. A turn about the motor's axis has no effect but to
+/// turn the base frame: where the axis is x, y or z, it is chosen so that the mount's roll, pitch or yaw
+/// stays what it was.
+Mount changed(const Mount& mount, const RigUnknowns& unknowns);
+
+/// What a rig's geometry makes of a beam's point.
+class RigGeometry {
+ public:
+  RigGeometry(const Mount& mount, const RigUnknowns& unknowns);
+
+  /// An instant of the motor, as the encoder has it.
+  struct Instant {
+    double angle_rad = 0, speed_rad_s = 0;
+    int direction = 0;
+  };
+  struct Placed {
+    Eigen::Vector3d p_in_base_m;
+    Eigen::Matrix<double, 3, kRigUnknowns> jacobian;  // of it, by the unknowns
+  };
+  /// `p_in_motor_m` by the rig file's mount.
+  Placed place(const Eigen::Vector3d& p_in_motor_m, const Instant& at) const;
+
+ private:
+  RigUnknowns unknowns_;
+  Eigen::Vector3d axis_, laser_m_;  // of the rig file's mount
+  Eigen::Matrix<double, 3, 2> across_;
+  Eigen::Matrix3d turn_, turn_left_jacobian_;
+};
+
+}  // namespace sweepscope

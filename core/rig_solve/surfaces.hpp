@@ -1,0 +1,22 @@
+#pragma once
+
+// The mathematics: docs/algorithms.md, section 16.
+
+#include <span>
+#include <vector>
+
+#include "core/rig_solve/plane_cells.hpp"
+
+namespace sweepscope {
+
+/// Cells on one plane, such as those of a wall: the wider a surface, the better it shows what bends it.
+struct Surface {
+  std::vector<std::uint32_t> cells;  // indices, the one with most points first
+  Eigen::Vector3d centre_m, normal;
+};
+
+/// Puts cells together whose centres and corners lie within `reach_m` of one plane, the larger ones first.
+/// Every cell belongs to one surface.
+std::vector<Surface> surfaces_of(std::span<const PlaneCell> cells, double reach_m);
+
+}  // namespace sweepscope

@@ -1,0 +1,113 @@
+#include "core/rig_solve/rig_solve.hpp"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include "core/offset/estimator.hpp"
+#include "tests/core/engine_fixtures.hpp"
+
+namespace sweepscope {
+namespace {
+
+using test::kMs;
+
+constexpr double kOffset_s = 0.017;
+
+SimulationOptions rig_in_room(simulation::MotorKind motor = simulation::MotorKind::kTriangle) {
+  SimulationOptions options;
+  options.scene = "room-2";
+  options.offset_s = kOffset_s;
+  options.duration_s = 8;
+  options.motor = motor;
+  return options;
+}
+
+// Between the directions of the motor's axis as the laser has them: what a turn about the axis leaves alone.
+double axis_apart_deg(const Eigen::Vector3d& rpy_deg, const Eigen::Vector3d& other_rpy_deg) {
+  const Eigen::Vector3d a = rotation_from_rpy(rpy_deg).conjugate() * Eigen::Vector3d::UnitX(),
+                        b = rotation_from_rpy(other_rpy_deg).conjugate() * Eigen::Vector3d::UnitX();
+  return std::asin(a.cross(b).norm()) * kDegPerRad;
+}
+
+Estimate solved(const Recording& recording, const RigSolve& what) {
+  EstimateOptions options;
+  options.solve = what;
+  return estimate(recording, options, Job()).value();
+}
+
+TEST(RigSolve, FindsAMountThatIsDegreesAndCentimetresOff) {
+  SimulationOptions options = rig_in_room();
+  options.mount_error_deg = {0, -6, 7};
+  options.mount_error_m = {0, 0.12, -0.1};
+  const Estimate found = solved(simulate(options, Job()).value().recording, {.mount = true});
+  ASSERT_TRUE(found.identifiable);
+  ASSERT_TRUE(found.rig->mount.identifiable);
+  const Mount& mount = found.rig->rig.mount;
+  EXPECT_LT(axis_apart_deg(mount.laser_in_motor_rpy_deg, options.mount_error_deg), 0.02);
+  EXPECT_LT((mount.laser_in_motor_rpy_deg - options.mount_error_deg).norm(), 0.02);
+  EXPECT_LT((mount.laser_in_motor_xyz_m - options.mount_error_m).norm(), 0.001);
+  EXPECT_NEAR(*found.offset_s, kOffset_s, 0.03 * kMs);
+  EXPECT_LT(std::abs(*found.offset_s - kOffset_s), 3 * *found.sigma_s);
+}
+
+TEST(RigSolve, PlayOfASineMotorIsFound) {
+  SimulationOptions options = rig_in_room(simulation::MotorKind::kSine);
+  options.backlash_deg = 0.3;
+  const Estimate found = solved(simulate(options, Job()).value().recording, {.play = true});
+  ASSERT_TRUE(found.identifiable);
+  ASSERT_TRUE(found.rig->play.identifiable) << found.rig->play.reason;
+  EXPECT_NEAR(found.rig->rig.gear.play_deg, 0.3, 0.05);
+  EXPECT_LT(std::abs(*found.offset_s - kOffset_s), 3 * *found.sigma_s);
+}
+
+TEST(RigSolve, PlayAtOneSpeedIsNotIdentifiableAndSigmaCoversIt) {
+  SimulationOptions options = rig_in_room();
+  options.backlash_deg = 0.4;
+  const Estimate found = solved(simulate(options, Job()).value().recording, {.play = true});
+  ASSERT_TRUE(found.identifiable);
+  EXPECT_FALSE(found.rig->play.identifiable);
+  EXPECT_NE(found.rig->play.reason.find("one speed"), std::string::npos) << found.rig->play.reason;
+  EXPECT_GT(std::abs(*found.offset_s - kOffset_s), 0.3 * kMs);  // as play does
+  EXPECT_LT(std::abs(*found.offset_s - kOffset_s), 3 * *found.sigma_s);
+}
+
+TEST(RigSolve, AnEccentricEncoderIsFound) {
+  SimulationOptions options = rig_in_room();
+  options.eccentricity_deg = 0.4;
+  options.eccentricity_phase_deg = 50;
+  const Estimate found = solved(simulate(options, Job()).value().recording, {.encoder = true});
+  ASSERT_TRUE(found.rig->encoder.identifiable) << found.rig->encoder.reason;
+  const Eigen::Vector2d truth_rad = Rig::Gear{0, 0.4, 50}.angles().encoder_rad;
+  EXPECT_LT((found.rig->rig.gear.angles().encoder_rad - truth_rad).norm() * kDegPerRad, 0.05);
+}
+
+TEST(RigSolve, APerfectRigIsFoundToBeOne) {
+  const Estimate found =
+      solved(simulate(rig_in_room(), Job()).value().recording, {.mount = true, .encoder = true});
+  const RigVector x = found.rig->found.vector();
+  for (int i = kTurnU; i < kRigUnknowns; ++i)
+    EXPECT_LT(std::abs(x[i]), 3.5 * std::sqrt(found.rig->covariance(i, i)) + 1e-12) << i;
+}
+
+TEST(RigSolve, IsTheSameForAnyNumberOfThreads) {
+  const Recording recording = simulate(rig_in_room(), Job()).value().recording;
+  RigVector found[2];
+  for (const int threads : {1, 2}) {
+    const tbb::global_control limited(tbb::global_control::max_allowed_parallelism, std::size_t(threads));
+    found[threads - 1] = solved(recording, {.mount = true}).rig->found.vector();
+  }
+  EXPECT_EQ(found[0], found[1]);
+}
+
+TEST(RigSolve, ARigThatMovedIsRefusedWithWhatToDo) {
+  EstimateOptions options;
+  options.solve.mount = true;
+  const Estimate found =
+      estimate(test::simulated("metro-station", kOffset_s, 12).recording, options, Job()).value();
+  EXPECT_FALSE(found.identifiable);
+  ASSERT_FALSE(found.reasons.empty());
+  EXPECT_NE(found.reasons.front().find("--window"), std::string::npos) << found.reasons.front();
+}
+
+}  // namespace
+}  // namespace sweepscope
