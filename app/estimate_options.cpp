@@ -68,6 +68,16 @@ void print_rig(const SolvedRig& solved) {
         solved.residual_before_m * 1e3, solved.residual_after_m * 1e3, solved.surfaces, solved.points);
 }
 
+// What a rig that is not as its file says would add: play of 0.1 deg and a tilt of 1 deg are usual.
+void print_effects(const RigEffects& effects) {
+  std::string line = fmt::format("rig      0.1 deg of gear play would add {:.3f} ms",
+                                 effects.play_s_rad * 0.1 * kRadPerDeg * 1e3);
+  if (effects.mount_tilt_s_rad)
+    line +=
+        fmt::format("; 1 deg of tilt of the mount {:.3f} ms", *effects.mount_tilt_s_rad * kRadPerDeg * 1e3);
+  print("{}\n", line);
+}
+
 void print_answer(const Estimate& estimate) {
   if (estimate.identifiable) {
     const std::string sigma =
@@ -81,6 +91,7 @@ void print_answer(const Estimate& estimate) {
         estimate.scans, estimate.curve.size());
   if (estimate.kind) print("kind     {}: {}\n", to_text(*estimate.kind), estimate.kind_reason);
   if (estimate.rig) print_rig(*estimate.rig);
+  if (estimate.rig_effects && estimate.identifiable) print_effects(*estimate.rig_effects);
   if (estimate.motion) print("{}\n", motion_line(*estimate.motion));
   for (const CriterionOptimum& criterion : estimate.criteria) print("{}\n", criterion_line(criterion));
   for (const std::string& warning : estimate.warnings) say("warning: {}\n", warning);

@@ -10,6 +10,7 @@
 #include "core/offset/direct_stationary.hpp"
 #include "core/offset/identifiability.hpp"
 #include "core/offset/motion_source.hpp"
+#include "core/rig_solve/rig_check.hpp"
 #include "core/uncertainty.hpp"
 
 namespace sweepscope {
@@ -76,6 +77,19 @@ Remark motion_reason(double sigma_s, const SearchScale& scale) {
       sigma_s * 1e3);
 }
 
+// Gear play h turns the directions against each other as an offset of h / (2 omega) does.
+RigEffects rig_effects(const MotorMotion& motor) {
+  return {1 / (2 * motor.median_speed_rad_s), std::nullopt};
+}
+
+// What the rig could add, and whether surfaces would be flatter with another one.
+void judge_rig(Answer& answer, const OffsetSearch& search, double offset_s, const Job& job) {
+  if (search.options.solve.any()) return;
+  const RigCheck check = check_rig(search.problem, offset_s, job);
+  answer.rig_effects->mount_tilt_s_rad = check.offset_per_tilt_s_rad;
+  add(answer.warnings, check.warning);
+}
+
 Answer of_stationary(const OffsetSearch& search, Answer answer, const Job& job) {
   const Recording& recording = *search.problem.recording;
   const StationaryDirect found = solve_stationary(search.grid, search.coarse.offset_s(), {}, job);
@@ -91,20 +105,28 @@ Answer of_stationary(const OffsetSearch& search, Answer answer, const Job& job) 
   add(answer.warnings, few_matches_warning(found.matches, found.features));
   std::optional<double> sigma_s = sigma_of(found, recording);
   judge_convergence(answer, found.converged, found.step_s, sigma_s.value_or(0));
-  if (sigma_s)
-    sigma_s = std::hypot(*sigma_s, unseen_sigma_s(recording, search.problem.motor, found.offset_s));
+  const double stamps_s = stamps_sigma_s(recording),
+               encoder_s = unseen_sigma_s(recording, search.problem.motor, found.offset_s);
+  if (sigma_s) {
+    answer.sigma_parts = {{"statistical", *sigma_s}, {"stamps", stamps_s}, {"encoder", encoder_s}};
+    sigma_s = std::hypot(*sigma_s, encoder_s);
+  }
   const double of_motion_s =
       motion_sigma_s(search.motion, found.lever_m, search.problem.motor.median_speed_rad_s);
   if (const auto moved_far = motion_reason(of_motion_s, search.scale))
     answer.reasons.push_back(*moved_far);
   else if (sigma_s)
     sigma_s = std::hypot(*sigma_s, of_motion_s);
+  answer.sigma_parts.push_back({"motion", of_motion_s});
   if (const auto trend = trend_of(found.block_s, found.block_offset_s)) {
     answer.drift_ppm = trend->slope * 1e6;
     add(answer.reasons, drift_reason(*trend, search.recorded_s(), sigma_s.value_or(0)));
   }
   const HalvesCheck halves = check_halves(sigma_s, found.block_offset_s);
   add(answer.warnings, halves.warning);
+  if (halves.warning) answer.sigma_parts.push_back({"halves", *halves.sigma_s});
+  answer.rig_effects = rig_effects(search.problem.motor);
+  judge_rig(answer, search, found.offset_s, job);
   return concluded(std::move(answer), found.offset_s, halves.sigma_s, found.residual_m, search);
 }
 
@@ -185,8 +207,15 @@ Answer of_walk(const OffsetSearch& search, const MappingOptions& mapping,
   add(answer.warnings,
       long_sweeps_warning(*problem.recording, problem.motor, walk.unseen_sigma_s, walk.sigma_s));
   add(answer.warnings, smooth_motor_warning(walk.sway_sigma_s, walk.sigma_s));
-  const std::optional<double> sigma_s =
-      std::hypot(walk.sigma_s, unseen_sigma_s(*problem.recording, problem.motor, walk.offset_s));
+  const double encoder_s = unseen_sigma_s(*problem.recording, problem.motor, walk.offset_s);
+  const std::optional<double> sigma_s = std::hypot(walk.sigma_s, encoder_s);
+  const double of_walk_s = std::hypot(walk.unseen_sigma_s, walk.sway_sigma_s);
+  answer.sigma_parts = {
+      {"statistical", std::sqrt(std::max(0.0, walk.sigma_s * walk.sigma_s - of_walk_s * of_walk_s))},
+      {"path", walk.unseen_sigma_s},
+      {"sway", walk.sway_sigma_s},
+      {"encoder", encoder_s}};
+  answer.rig_effects = rig_effects(problem.motor);
   // Parts that tell nothing scatter as if the clocks drifted apart.
   const auto drift = sigma_reason(sigma_s, scale) ? std::nullopt : drift_of(walk);
   if (drift) {
@@ -195,6 +224,7 @@ Answer of_walk(const OffsetSearch& search, const MappingOptions& mapping,
   }
   const HalvesCheck halves = check_halves(sigma_s, offsets_of_parts(walk));
   add(answer.warnings, halves.warning);
+  if (halves.warning) answer.sigma_parts.push_back({"halves", *halves.sigma_s});
   add(answer.warnings, few_matches_warning(walk.matches, walk.features));
   return concluded(std::move(answer), walk.offset_s, halves.sigma_s, e_m, search);
 }

@@ -61,6 +61,18 @@ struct FitEvidence {
          reach_m = 0;  // rms of n . (a x p) and of |a x p|: how far a turn of 1 rad moves the points
 };
 
+/// A part of an offset's standard deviation.
+struct SigmaPart {
+  std::string name;  // "statistical", "stamps", "encoder", "motion", "path", "sway", "halves" or "rig"
+  double sigma_s = 0;
+};
+
+/// What a rig that is not as its rig file says would add to an offset's error: not part of sigma.
+struct RigEffects {
+  double play_s_rad = 0;                   // per angle of gear play
+  std::optional<double> mount_tilt_s_rad;  // per angle, in the worst direction; of stationary rigs
+};
+
 /// The answer to "what is the offset?", with its evidence. t_motor = t_laser + offset.
 struct Estimate {
   std::string recording;
@@ -70,6 +82,8 @@ struct Estimate {
   bool identifiable = false;
   std::optional<double> offset_s;
   std::optional<double> sigma_s;
+  std::vector<SigmaPart> sigma_parts;     // what it is made of, see docs/algorithms.md, section 13
+  std::optional<RigEffects> rig_effects;  // of the direct method
   std::optional<double> drift_ppm;  // by how much the motor's clock runs faster than the laser's, as measured
   std::vector<Interval> lost;  // when a moving rig's trajectory is not known: left out; since the first scan
   std::vector<std::string> warnings;

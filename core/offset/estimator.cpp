@@ -27,13 +27,19 @@ Estimate refused(Estimate result, std::vector<std::string> reasons) {
   return result;
 }
 
-Estimate interrupted(Estimate result) {
-  result.interrupted = true;
+Estimate without_answer(Estimate result) {
   result.identifiable = false;
   result.offset_s.reset();
   result.sigma_s.reset();
+  result.sigma_parts.clear();
   result.drift_ppm.reset();
   result.criteria.clear();
+  return result;
+}
+
+Estimate interrupted(Estimate result) {
+  result = without_answer(std::move(result));
+  result.interrupted = true;
   result.reasons = {"Interrupted; the curve holds the candidates that were finished."};
   return result;
 }
@@ -137,6 +143,7 @@ Estimate with(Estimate result, Answer answer) {
   result.lost = std::move(answer.lost);
   result.motion = std::move(answer.motion);
   result.fit = answer.fit;
+  result.rig_effects = answer.rig_effects;
   result.walk = std::move(answer.walk);
   result.drift_ppm = answer.drift_ppm;
   append(result.warnings, answer.warnings);
@@ -145,6 +152,7 @@ Estimate with(Estimate result, Answer answer) {
   if (!result.identifiable) return result;
   result.offset_s = answer.offset_s;
   result.sigma_s = answer.sigma_s;
+  result.sigma_parts = std::move(answer.sigma_parts);
   return result;
 }
 
@@ -178,36 +186,51 @@ Result<Estimate> find_offset(const PreparedRecording& prepared, const EstimateOp
   return with(std::move(result), std::move(*answer));
 }
 
-// The rig is solved for first: the recording as it then is tells the offset, which is as uncertain besides as
-// the rig leaves it.
+// The answer of the recording as the solved rig has it, which is as uncertain besides as the rig leaves it.
+Estimate with(Estimate found, std::shared_ptr<const SolvedRig> solved) {
+  if (found.sigma_s) {
+    found.sigma_s = std::hypot(*found.sigma_s, solved->offset_sigma_s);
+    found.sigma_parts.push_back({"rig", solved->offset_sigma_s});
+  }
+  for (const RigFinding& part : {solved->mount, solved->play, solved->encoder})
+    if (!part.reason.empty()) found.warnings.push_back(part.reason);
+  found.rig = std::move(solved);
+  return found;
+}
+
+// Where an estimate of a stationary rig takes the offset to be, or, where the rig is too wrong for one, where
+// the candidates' cost is least.
+std::optional<double> offset_seen_s(const Estimate& found) {
+  if (!found.criteria.empty()) return found.criteria.front().offset_s;
+  const CurvePoint* best = nullptr;
+  for (const CurvePoint& point : found.curve)
+    if (point.capped_cost_m && (best == nullptr || *point.capped_cost_m < *best->capped_cost_m))
+      best = &point;
+  return best == nullptr ? std::nullopt : std::optional(best->offset_s);
+}
+
+// The rig is solved for first; the recording as it then is gives the offset.
 Result<Estimate> find_with_rig(const PreparedRecording& prepared, const EstimateOptions& options,
                                const KeptCandidates& kept, const Job& job) {
-  const SearchScale scale = search_scale(prepared.motor);
-  const auto window = check_options(options, kept).and_then([&] { return window_of(options, scale); });
-  if (!window) return tl::unexpected(window.error());
-  const OffsetProblem problem = problem_for(prepared, window->from_s(), window->to_s());
-  Estimate result = begun(prepared, options, kept, scale);
-  if (result.reasons.empty()) result = counted(std::move(result), problem, *window);
-  if (!result.reasons.empty()) return result;
-  const CoarseSearch coarse = search_coarsely(problem, window->from_s(), window->to_s(), scale, job);
-  if (!coarse.best) return find_offset(prepared, options, kept, job);
-  const MotionTest motion = test_motion(still_grid(problem), coarse.offset_s());
-  if (decide_kind(motion, options).kind == RigKind::kMoving)
-    return refused(std::move(result),
-                   {moved_text(motion) + " The rig's parts are solved for from a "
-                                         "stationary recording: record 8 s without motion, or choose such a "
-                                         "part with --window."});
-  auto solved = std::make_shared<SolvedRig>(solve_rig(problem, coarse.offset_s(), options.solve, job));
-  if (job.cancelled()) return result;
+  auto found = find_offset(prepared, options, kept, job);
+  if (!found || job.cancelled() || !found->kind) return found;
+  // A mount that is wrong sways the points with the motor as a body that sways does: a walk, which may sway,
+  // takes its place.
+  if (found->kind == RigKind::kMoving)
+    return refused(
+        without_answer(std::move(*found)),
+        {"The rig moved, and its parts are solved for from a stationary recording only: record 8 s "
+         "without motion, or choose such a part with --window."});
+  const auto offset_s = offset_seen_s(*found);
+  if (!offset_s) return found;
+  auto solved = std::make_shared<SolvedRig>(
+      solve_rig(problem_for(prepared, *offset_s, *offset_s), *offset_s, options.solve, job));
+  if (job.cancelled()) return found;
   const Recording corrected = with_rig(*prepared.recording, *solved);
   const auto again = prepare(corrected, options.features, job);
-  if (!again) return result;
-  return find_offset(*again, options, kept, job).map([&](Estimate&& found) {
-    if (found.sigma_s) found.sigma_s = std::hypot(*found.sigma_s, solved->offset_sigma_s);
-    for (const RigFinding& part : {solved->mount, solved->play, solved->encoder})
-      if (!part.reason.empty()) found.warnings.push_back(part.reason);
-    found.rig = std::move(solved);
-    return std::move(found);
+  if (!again) return found;
+  return find_offset(*again, options, kept, job).map([&](Estimate&& answer) {
+    return with(std::move(answer), std::move(solved));
   });
 }
 

@@ -54,6 +54,8 @@ struct Answer {
   std::vector<Interval> lost;
   std::optional<UsedMotion> motion;
   std::optional<FitEvidence> fit;
+  std::vector<SigmaPart> sigma_parts;
+  std::optional<RigEffects> rig_effects;
   std::shared_ptr<const SolvedWalk> walk;
   std::vector<std::string> warnings, reasons;
 };

@@ -12,6 +12,7 @@
 
 #include "core/io/atomic_file.hpp"
 #include "core/io/printable_text.hpp"
+#include "core/numbers.hpp"
 #include "core/results/fields.hpp"
 #include "core/results/rig_json.hpp"
 
@@ -138,6 +139,19 @@ std::vector<CurvePoint> curve_from_json(const Json& curve) {
 /// To a nanosecond.
 Json seconds_or_null(const std::optional<double>& seconds) {
   return seconds ? Json(std::round(*seconds * 1e9) / 1e9) : Json(nullptr);
+}
+
+Json sigma_parts_to_json(const Estimate& estimate) {
+  Json parts;
+  for (const SigmaPart& part : estimate.sigma_parts) parts[part.name + "_ms"] = to_ms(part.sigma_s);
+  return parts;
+}
+
+/// What play and a tilted mount would add, per degree.
+Json rig_effects_to_json(const RigEffects& effects) {
+  return {{"play_ms_per_deg", to_ms(effects.play_s_rad * kRadPerDeg)},
+          {"mount_tilt_ms_per_deg",
+           effects.mount_tilt_s_rad ? Json(to_ms(*effects.mount_tilt_s_rad * kRadPerDeg)) : Json(nullptr)}};
 }
 
 /// "poses": a file, or a topic of odometry or of an IMU.
@@ -270,6 +284,8 @@ std::string estimate_to_json(const Estimate& estimate, Timing timing) {
   const bool found = estimate.identifiable;
   document["offset_ms"] = found ? milliseconds_or_null(estimate.offset_s) : Json(nullptr);
   document["sigma_ms"] = found ? milliseconds_or_null(estimate.sigma_s) : Json(nullptr);
+  if (found && !estimate.sigma_parts.empty()) document["sigma_parts"] = sigma_parts_to_json(estimate);
+  if (estimate.rig_effects) document["rig_effects"] = rig_effects_to_json(*estimate.rig_effects);
   document["drift_ppm"] = number_or_null(estimate.drift_ppm);
   document["kind"] = estimate.kind ? Json(to_text(*estimate.kind)) : Json(nullptr);
   document["kind_reason"] = estimate.kind_reason.empty() ? Json(nullptr) : Json(estimate.kind_reason);

@@ -38,8 +38,6 @@ Json mount_json(const SolvedRig& solved) {
   object["sigma_xyz_m"] = vector_json(sigma.xyz_m);
   object["prior_deg"] = tidy(solved.priors[kTurnU] * kDegPerRad);
   object["prior_m"] = tidy(solved.priors[kShiftU]);
-  object["turned_deg"] = tidy(solved.found.turn_rad.norm() * kDegPerRad);
-  object["shifted_m"] = tidy(solved.found.shift_m.norm());
   object["gauge"] = "the turn about the motor's axis and the shift along it are the rig file's";
   add_finding(object, solved.mount);
   return object;

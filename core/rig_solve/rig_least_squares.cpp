@@ -14,11 +14,6 @@ namespace {
 
 constexpr double kSpeedSpan_s = 0.010;  // the motor's speed is taken over this much to either side
 
-struct Beam {
-  Eigen::Vector3d p_in_motor_m;
-  double time_s = 0;
-};
-
 struct Cloud {
   std::vector<RigGeometry::Placed> placed;
   std::vector<Eigen::Vector3d> p_m;
@@ -61,7 +56,8 @@ bool counts(const Sweep& sweep, double motor_s, double turned_rad, const RigUnkn
          turned_rad > 1.2 * std::abs(rig.play_rad) + kBeyondPlay_rad;
 }
 
-Cloud place(const OffsetProblem& problem, const RigUnknowns& rig, bool near_reversals) {
+Cloud place(const OffsetProblem& problem, const RigUnknowns& rig, bool near_reversals,
+            std::size_t max_points) {
   const Recording& recording = *problem.recording;
   const RigGeometry geometry(recording.rig.mount, rig);
   const std::vector<std::size_t> sweep_of =
@@ -69,12 +65,13 @@ Cloud place(const OffsetProblem& problem, const RigUnknowns& rig, bool near_reve
   const FeatureList& planes = problem.features->planes;
   MotorReader before(recording.motor), after(recording.motor);
   SmoothAngle motor(recording.motor);
+  const std::size_t stride = planes.features.size() / std::max<std::size_t>(1, max_points) + 1;
   Cloud cloud;
   for (std::size_t scan = 0; scan < recording.scans.size(); ++scan) {
     if (!problem.scan_used[scan] || sweep_of[scan] == kNoSweep) continue;
     const Sweep& sweep = problem.motor.sweeps[sweep_of[scan]];
     const double begin_rad = recording.motor.angle_at(sweep.begin_s);
-    for (std::size_t i = planes.scan_begin[scan]; i < planes.scan_begin[scan + 1]; ++i) {
+    for (std::size_t i = planes.scan_begin[scan]; i < planes.scan_begin[scan + 1]; i += stride) {
       const Feature& feature = planes.features[i];
       const double motor_s = feature.time_s + rig.offset_s;
       const double angle_rad = motor.at(motor_s);
@@ -325,7 +322,7 @@ RigFit solve_rig_planes(const OffsetProblem& problem, const RigUnknowns& first, 
   RigPriors begun_with = priors;
   begun_with.tail<3>().setZero();
   for (; fit.iterations < options.max_iterations && !job.cancelled(); ++fit.iterations) {
-    const Cloud cloud = place(problem, fit.rig, priors[kPlay] > 0);
+    const Cloud cloud = place(problem, fit.rig, priors[kPlay] > 0, options.max_points);
     PlaneCellOptions cells_options;
     cells_options.levels = options.max_levels;
     cells_options.flatness_m = options.flatness * loss_width_m;

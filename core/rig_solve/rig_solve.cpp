@@ -82,50 +82,69 @@ void set_gear(Rig::Gear& gear, const Gear& found) {
   gear.encoder_phase_deg = total_deg.norm() > 0 ? std::atan2(total_deg[1], total_deg[0]) * kDegPerRad : 0.0;
 }
 
-}  // namespace
+// An eccentric encoder bends walls as a mount does, so it is free as far as is usual where the mount is solved
+// for: else the mount's error would not show in its sigma.
+RigPriors with_usual_encoder(RigPriors priors) {
+  constexpr double kUsual_deg = 0.3;
+  if (priors[kTurnU] > 0 && priors[kEncoderSine] == 0)
+    priors[kEncoderSine] = priors[kEncoderCosine] = kUsual_deg * kRadPerDeg;
+  return priors;
+}
 
-SolvedRig solve_rig(const OffsetProblem& problem, double first_offset_s, const RigSolve& what,
-                    const Job& job) {
+// What the fit found, and whether it is known better than before.
+SolvedRig solved_with(const OffsetProblem& problem, const RigFit& fit, const RigPriors& priors,
+                      const RigSolve& what) {
   SolvedRig solved;
-  solved.rig = problem.recording->rig;
-  RigUnknowns first;
-  first.offset_s = first_offset_s;
-  const RigFit before = solve_rig_planes(problem, first, priors_of({}), {}, job);
-  solved.residual_before_m = before.residual_m;
-  RigSolve told_apart = what;
-  const bool one_speed = what.play && speed_spread(problem) < kMinSpeedSpread;
-  told_apart.play = what.play && !one_speed;
-  const RigPriors priors = priors_of(told_apart);
-  const RigFit fit = solve_rig_planes(problem, first, priors, {}, job);
-  if (job.cancelled()) return solved;
-
   solved.mount = finding(what.mount, told(fit, priors, {kTurnU, kTurnV, kShiftU, kShiftV}),
                          "The surfaces in view do not determine the mount: record where several walls, the "
                          "floor and the ceiling are in view.");
-  solved.play = finding(what.play, !one_speed && told(fit, priors, {kPlay}),
-                        one_speed ? "The motor turns at one speed only, at which gear play acts as an "
-                                    "offset: a second sweep speed in the same recording separates the two."
-                                  : "The recording does not determine the gear play.");
+  solved.play = finding(what.play, priors[kPlay] > 0 && told(fit, priors, {kPlay}),
+                        "The recording does not determine the gear play.");
   solved.encoder = finding(what.encoder, told(fit, priors, {kEncoderSine, kEncoderCosine}),
                            "The surfaces in view do not determine the encoder's first harmonic.");
   solved.found = fit.rig;
+  if (!what.encoder) solved.found.encoder_rad.setZero();
   solved.priors = priors_of(what);
   solved.covariance = fit.covariance;
-  solved.offset_sigma_s = added_sigma_s(fit.covariance, priors);
-  if (one_speed) {
-    const double play_rad = what.play_deg * kRadPerDeg;
-    solved.covariance(kPlay, kPlay) = play_rad * play_rad;
-    solved.offset_sigma_s =
-        std::hypot(solved.offset_sigma_s, play_rad / (2 * problem.motor.median_speed_rad_s));
-  }
   solved.residual_after_m = fit.residual_m;
   solved.unevenness_m = fit.unevenness_m;
   solved.points = fit.points;
   solved.surfaces = fit.planes;
   solved.converged = fit.converged;
   solved.iterations = fit.iterations;
-  solved.rig.mount = changed(solved.rig.mount, fit.rig);
-  set_gear(solved.rig.gear, fit.rig.gear());
+  solved.rig = problem.recording->rig;
+  solved.rig.mount = changed(solved.rig.mount, solved.found);
+  set_gear(solved.rig.gear, solved.found.gear());
+  return solved;
+}
+
+// Play that is not solved for may be as large as its prior, and acts as an offset.
+void leave_play_open(SolvedRig& solved, double play_deg, double speed_rad_s, const char* reason) {
+  const double play_rad = play_deg * kRadPerDeg;
+  solved.play.reason = reason;
+  solved.covariance(kPlay, kPlay) = play_rad * play_rad;
+  solved.offset_sigma_s = std::hypot(solved.offset_sigma_s, play_rad / (2 * speed_rad_s));
+}
+
+}  // namespace
+
+SolvedRig solve_rig(const OffsetProblem& problem, double first_offset_s, const RigSolve& what,
+                    const Job& job) {
+  RigUnknowns first;
+  first.offset_s = first_offset_s;
+  const RigFit before = solve_rig_planes(problem, first, priors_of({}), {}, job);
+  const bool one_speed = what.play && speed_spread(problem) < kMinSpeedSpread;
+  RigSolve told_apart = what;
+  told_apart.play = what.play && !one_speed;
+  const RigPriors priors = with_usual_encoder(priors_of(told_apart));
+  const RigFit fit = solve_rig_planes(problem, first, priors, {}, job);
+  SolvedRig solved = solved_with(problem, fit, priors, what);
+  solved.residual_before_m = before.residual_m;
+  solved.offset_sigma_s = added_sigma_s(fit.covariance, priors);
+  if (one_speed)
+    leave_play_open(solved, what.play_deg, problem.motor.median_speed_rad_s,
+                    "The motor turns at one speed only, at which gear play acts as an offset: a second sweep "
+                    "speed in the same recording separates the two.");
   return solved;
 }
 

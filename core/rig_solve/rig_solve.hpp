@@ -46,7 +46,7 @@ struct SolvedRig {
 };
 
 /// Solves for the parts of a stationary rig, and the offset beside them, beginning at an offset near the
-/// truth. What cannot be told keeps the recording's value.
+/// truth. What cannot be determined keeps the recording's value.
 SolvedRig solve_rig(const OffsetProblem& problem, double first_offset_s, const RigSolve& what,
                     const Job& job);
 

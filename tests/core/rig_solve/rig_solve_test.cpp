@@ -81,6 +81,20 @@ TEST(RigSolve, AnEccentricEncoderIsFound) {
   EXPECT_LT((found.rig->rig.gear.angles().encoder_rad - truth_rad).norm() * kDegPerRad, 0.05);
 }
 
+TEST(RigSolve, AWrongMountIsWarnedOfAndAPerfectRigIsNot) {
+  const auto warned = [](const Recording& recording) {
+    const Estimate found = estimate(recording, {}, Job()).value();
+    EXPECT_TRUE(found.rig_effects && found.rig_effects->mount_tilt_s_rad);
+    return std::ranges::any_of(found.warnings, [](const std::string& warning) {
+      return warning.find("--solve offset,mount") != std::string::npos;
+    });
+  };
+  SimulationOptions options = rig_in_room();
+  EXPECT_FALSE(warned(simulate(options, Job()).value().recording));
+  options.mount_error_deg = {0, 0.6, -0.8};
+  EXPECT_TRUE(warned(simulate(options, Job()).value().recording));
+}
+
 TEST(RigSolve, APerfectRigIsFoundToBeOne) {
   const Estimate found =
       solved(simulate(rig_in_room(), Job()).value().recording, {.mount = true, .encoder = true});
@@ -105,8 +119,9 @@ TEST(RigSolve, ARigThatMovedIsRefusedWithWhatToDo) {
   const Estimate found =
       estimate(test::simulated("metro-station", kOffset_s, 12).recording, options, Job()).value();
   EXPECT_FALSE(found.identifiable);
+  EXPECT_FALSE(found.offset_s);
   ASSERT_FALSE(found.reasons.empty());
-  EXPECT_NE(found.reasons.front().find("--window"), std::string::npos) << found.reasons.front();
+  EXPECT_NE(found.reasons.back().find("--window"), std::string::npos) << found.reasons.back();
 }
 
 }  // namespace
