@@ -82,13 +82,27 @@ void set_gear(Rig::Gear& gear, const Gear& found) {
   gear.encoder_phase_deg = total_deg.norm() > 0 ? std::atan2(total_deg[1], total_deg[0]) * kDegPerRad : 0.0;
 }
 
-// An eccentric encoder bends walls as a mount does, so it is free as far as is usual where the mount is solved
-// for: else the mount's error would not show in its sigma.
+// An eccentric encoder bends walls as a mount does, so it is free as far as is usual where the mount is
+// solved for: else the mount's error would not show in its sigma.
 RigPriors with_usual_encoder(RigPriors priors) {
   constexpr double kUsual_deg = 0.3;
   if (priors[kTurnU] > 0 && priors[kEncoderSine] == 0)
     priors[kEncoderSine] = priors[kEncoderCosine] = kUsual_deg * kRadPerDeg;
   return priors;
+}
+
+// Walls that are bent look like a rig that is wrong, and more so the larger the cells: what smaller ones
+// change is not known.
+RigFit fit_at_two_scales(const OffsetProblem& problem, const RigUnknowns& first, const RigPriors& priors,
+                         const Job& job) {
+  RigFit fit = solve_rig_planes(problem, first, priors, {}, job);
+  RigLeastSquaresOptions smaller;
+  smaller.max_levels = 1;  // cells of 0.5 m instead of 4 m at most
+  smaller.first_loss_width_m = 0.03;
+  const RigFit other = solve_rig_planes(problem, fit.rig, priors, smaller, job);
+  const RigVector apart = other.rig.vector() - fit.rig.vector();
+  fit.covariance += apart * apart.transpose();
+  return fit;
 }
 
 // What the fit found, and whether it is known better than before.
@@ -137,7 +151,7 @@ SolvedRig solve_rig(const OffsetProblem& problem, double first_offset_s, const R
   RigSolve told_apart = what;
   told_apart.play = what.play && !one_speed;
   const RigPriors priors = with_usual_encoder(priors_of(told_apart));
-  const RigFit fit = solve_rig_planes(problem, first, priors, {}, job);
+  const RigFit fit = fit_at_two_scales(problem, first, priors, job);
   SolvedRig solved = solved_with(problem, fit, priors, what);
   solved.residual_before_m = before.residual_m;
   solved.offset_sigma_s = added_sigma_s(fit.covariance, priors);
