@@ -340,6 +340,7 @@ RigFit solve_rig_planes(const OffsetProblem& problem, const RigUnknowns& first, 
     const RigVector x = fit.rig.vector(), step = solver.step(sum, x);
     fit.converged = narrowed && small(step);
     fit.rig = RigUnknowns::from(x + step);
+    fit.last_step = step;
     if (fit.converged || fit.iterations + 1 == options.max_iterations) {
       fit.information = sum.h / (fit.residual_m * fit.residual_m);
       fit.covariance = solver.covariance(sum) + scatter(scene, solver, x);

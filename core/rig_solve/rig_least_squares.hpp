@@ -30,6 +30,7 @@ struct RigFit {
   RigUnknowns rig;
   bool converged = false;
   int iterations = 0;
+  RigVector last_step = RigVector::Zero();
   std::size_t points = 0, on_planes = 0, planes = 0;
   double residual_m = 0;                      // robust deviation of the distances from the planes
   double unevenness_m = 0;                    // by which parts of a wall deviate from its plane

@@ -50,9 +50,17 @@ double speed_spread(const OffsetProblem& problem) {
   return std::sqrt(std::max(0.0, squares / count - mean * mean)) / mean;
 }
 
+// Cells come and go, so that the last steps may go to and fro: by less than sigma they leave an answer.
+bool settled(const RigFit& fit) {
+  return fit.converged ||
+         (fit.last_step.cwiseAbs().array() <= fit.covariance.diagonal().cwiseMax(0).cwiseSqrt().array())
+             .all();
+}
+
 // A value that the recording determines is known much better than before.
 bool told(const RigFit& fit, const RigPriors& priors, std::initializer_list<RigUnknown> unknowns) {
   constexpr double kBetter = 0.5;
+  if (!settled(fit)) return false;
   return std::all_of(unknowns.begin(), unknowns.end(),
                      [&](RigUnknown i) { return std::sqrt(fit.covariance(i, i)) < kBetter * priors[i]; });
 }
@@ -91,11 +99,27 @@ RigPriors with_usual_encoder(RigPriors priors) {
   return priors;
 }
 
+// A fit that does not converge may have missed the rig: of those begun at other shifts the one that
+// converges, and of several the one with the fewest surfaces. A rig that is wrong doubles walls.
+RigFit solved_from_around(const OffsetProblem& problem, RigFit fit, const RigPriors& priors, const Job& job) {
+  constexpr double kApart_m = 0.15;
+  const RigUnknowns begun = fit.rig;
+  for (const auto& shift_m : {Eigen::Vector2d(kApart_m, 0.0), Eigen::Vector2d(-kApart_m, 0.0),
+                              Eigen::Vector2d(0.0, kApart_m), Eigen::Vector2d(0.0, -kApart_m)}) {
+    RigUnknowns first = begun;
+    first.shift_m = shift_m;
+    const RigFit other = solve_rig_planes(problem, first, priors, {}, job);
+    if (std::pair(!other.converged, other.planes) < std::pair(!fit.converged, fit.planes)) fit = other;
+  }
+  return fit;
+}
+
 // Walls that are bent look like a rig that is wrong, and more so the larger the cells: what smaller ones
 // change is not known.
 RigFit fit_at_two_scales(const OffsetProblem& problem, const RigUnknowns& first, const RigPriors& priors,
                          const Job& job) {
   RigFit fit = solve_rig_planes(problem, first, priors, {}, job);
+  if (!fit.converged) fit = solved_from_around(problem, std::move(fit), priors, job);
   RigLeastSquaresOptions smaller;
   smaller.max_levels = 1;  // cells of 0.5 m instead of 4 m at most
   smaller.first_loss_width_m = 0.03;

@@ -147,7 +147,9 @@ void compare(const SimulationOptions& truth, const Estimate& found, Errors& erro
   }
   errors.told += rig.mount.identifiable || rig.play.identifiable || rig.encoder.identifiable;
   errors.within += worst <= 3;
-  fmt::print("{}; at most {:.1f} sigma; {:.1f} CPU-s\n", line, worst, found.cpu_s);
+  fmt::print("{}; at most {:.1f} sigma; {:.1f} CPU-s; {:.2f} mm thick, {} surfaces, {} points; {}\n", line,
+             worst, found.cpu_s, rig.residual_after_m * 1e3, rig.surfaces, rig.points,
+             rig.converged ? "converged" : "not converged");
 }
 
 std::string quantiles(std::vector<double> values, const char* name, int digits) {
