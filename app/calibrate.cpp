@@ -48,7 +48,7 @@ Result<RecordingFormat> record_format(const std::filesystem::path& output) {
   if (const auto format = recording_format_of(output)) return *format;
   return failure(
       ExitCode::kWrongUsage,
-      fmt::format("{}: its name stands for no format: OUT.bag, OUT.mcap, or OUT for a folder of CSV",
+      fmt::format("{}: unknown format; name it OUT.bag, OUT.mcap, or OUT for a folder of CSV tables",
                   output.string()));
 }
 
@@ -65,7 +65,7 @@ void tell_running(const Progress& progress, const HeardSoFar& heard, const Resul
                            : answer->offset_s ? fmt::format("{:.3f} ms +- {:.3f} ms", *answer->offset_s * 1e3,
                                                             answer->sigma_s.value_or(0) * 1e3)
                                               : answer->reasons.front();
-  progress.say(fmt::format("{:5.1f} s, {} scans, {} samples of the motor: {}", heard.seconds, heard.scans,
+  progress.say(fmt::format("{:5.1f} s, {} scans, {} motor samples: {}", heard.seconds, heard.scans,
                            heard.motor_samples, what.substr(0, what.find('\n'))));
 }
 
@@ -77,17 +77,17 @@ std::string words_of(ListeningEnd end, const HeardSoFar& heard, const Calibratio
     case ListeningEnd::kInputEnded:
       return fmt::format("The input ended after {}.", much);
     case ListeningEnd::kSilence:
-      return fmt::format("Nothing new was heard for {:g} s, after {}.", options.silence_s, much);
+      return fmt::format("No new data arrived for {:g} s, after {}.", options.silence_s, much);
     case ListeningEnd::kNoScans:
-      return fmt::format("No scan came for {:g} s, after {}; {} motor samples were heard.", options.silence_s,
-                         much, heard.motor_samples);
+      return fmt::format("No scan arrived for {:g} s, after {}; {} motor samples were received.",
+                         options.silence_s, much, heard.motor_samples);
     case ListeningEnd::kStampsStandStill:
       return fmt::format(
-          "The scans' stamps did not advance for {:g} s: {} scans were heard, the last one stamped {:.3f} s "
-          "after the first one.",
+          "The scans' stamps did not advance for {:g} s: {} scans were received, the last one stamped {:.3f} "
+          "s after the first one.",
           options.silence_s, heard.scans, heard.seconds);
     case ListeningEnd::kTooMuch:
-      return fmt::format("More was heard than is kept, after {}: {} scans and {} motor samples.", much,
+      return fmt::format("More data arrived than is kept, after {}: {} scans and {} motor samples.", much,
                          heard.scans, heard.motor_samples);
     case ListeningEnd::kCancelled:
       return fmt::format("Interrupted after {}.", much);

@@ -54,7 +54,8 @@ bool is_map_file(const std::string& path) {
 
 Result<std::vector<ComparedMap>> maps_from_files(const CompareOptions& options) {
   const std::size_t count = options.inputs.size();
-  if (count < 2 || count > 4) return wrong_usage(fmt::format("Two to four maps are compared, not {}", count));
+  if (count < 2 || count > 4)
+    return wrong_usage(fmt::format("compare needs two to four maps, not {}", count));
   if (!options.offsets_ms.empty() && options.offsets_ms.size() != count) {
     return wrong_usage(
         fmt::format("--offsets-ms names {} offsets for {} maps", options.offsets_ms.size(), count));

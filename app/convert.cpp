@@ -22,11 +22,12 @@ struct Options {
 Result<RecordingFormat> format_of(const Options& options) {
   const auto format = options.to.empty() ? recording_format_of(options.output) : recording_format(options.to);
   if (!format) {
-    return failure(ExitCode::kWrongUsage, fmt::format("{}: its name stands for no format; name one with --to",
+    return failure(ExitCode::kWrongUsage, fmt::format("{}: unknown format; name it OUT.bag, OUT.mcap, or OUT "
+                                                      "for a folder of CSV tables, or use --to",
                                                       options.output.string()));
   }
   if (!can_compress(*format, options.compression)) {
-    return failure(ExitCode::kWrongUsage, fmt::format("{}: is not written with --compression {}",
+    return failure(ExitCode::kWrongUsage, fmt::format("{}: --compression {} is not available for this format",
                                                       options.output.string(), options.compression));
   }
   return *format;

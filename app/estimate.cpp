@@ -53,9 +53,11 @@ Result<std::unique_ptr<CandidateFile>> open_candidates(const Options& options, c
 ExitCode say_shard(const Options& options, const Estimate& estimate, const CandidateFile& candidates,
                    const std::string& path) {
   for (const std::string& reason : estimate.reasons) print("nothing to compute: {}\n", reason);
-  print("{}: {} candidates, {} of them computed now; shard {} of {}, put together by `sweepscope merge`\n",
-        path, candidates.held(), candidates.held() - candidates.taken_up(), options.shard->number,
-        options.shard->count);
+  print(
+      "{}: {} candidates, {} of them computed now; shard {} of {}; combine the shards with `sweepscope "
+      "merge`\n",
+      path, candidates.held(), candidates.held() - candidates.taken_up(), options.shard->number,
+      options.shard->count);
   return ExitCode::kDone;
 }
 
@@ -106,9 +108,9 @@ Result<void> check_options(const Options& options) {
   if (options.shard && (!options.output.json.empty() || !options.output.csv.empty()))
     return refuse("--shard computes candidates; merge takes --json and --csv");
   if (options.shard && search.ranges.empty() && !search.around)
-    return refuse("--shard needs --range or --around: the default search decides where to look as it goes");
+    return refuse("--shard needs --range or --around: the default search chooses its candidates as it goes");
   if (search.method == Method::kDirect && keeps(options))
-    return refuse("the direct method keeps no candidates: it has no use for --shard and --resume");
+    return refuse("the direct method has no candidates: leave out --shard and --resume");
   return {};
 }
 
@@ -176,10 +178,10 @@ void declare_candidates(CLI::App& command, Options& options) {
       .add_option_function<std::string>(
           "--shard", [&options](const std::string& text) { options.shard = parse_shard(text); },
           "Compute part K of N of the candidates of --range or --around only, into the file of --resume "
-          "(default: REC.K-of-N.candidates here); `merge` makes the result")
+          "(default: REC.K-of-N.candidates here); `merge` combines the parts")
       ->type_name("K/N")
       ->check([](const std::string& text) {
-        return parse_shard(text) ? std::string() : "--shard needs K/N, K from 1 to N, and got " + text;
+        return parse_shard(text) ? std::string() : "--shard needs K/N with K from 1 to N, not " + text;
       });
 }
 

@@ -20,8 +20,8 @@ std::string criterion_line(const CriterionOptimum& criterion) {
                             : criterion.name == "d" ? fmt::format("{:.4f}", criterion.value)
                                                     : fmt::format("{:.2f} mm", criterion.value * 1e3);
   const std::string where = criterion.name == "direct" ? "direct"
-                            : criterion.name == "n"    ? "n greatest"
-                                                       : criterion.name + " least";
+                            : criterion.name == "n"    ? "n maximum"
+                                                       : criterion.name + " minimum";
   return fmt::format("  {:<10} {:>9.3f} ms   ({})", where, criterion.offset_s * 1e3, value);
 }
 

@@ -11,8 +11,8 @@
 
 namespace sweepscope::app {
 
-/// What to estimate from: the recording, and how the offset is looked for. `estimate` and `merge` read the
-/// same options.
+/// The input of an estimate: the recording, and how the offset is searched for. `estimate` and `merge` read
+/// the same options.
 struct EstimateInput {
   RecordingOptions recording;
   EstimateOptions estimate;
@@ -21,7 +21,7 @@ struct EstimateInput {
   void declare(CLI::App& app);
 };
 
-/// Where the result goes.
+/// The outputs of the result.
 struct EstimateOutput {
   std::string json, csv;
   bool no_timing = false;
@@ -34,23 +34,21 @@ struct EstimateOutput {
 };
 
 /// The options that `command` was given and that decide what a candidate's values are, as "--range=19:29:1":
-/// all of them but those that say where things lie, how they are shown, or on how many threads.
+/// all of them except those for paths, output and threads.
 std::vector<std::string> deciding_options(const CLI::App& command);
 
-/// What candidates computed from these options belong to.
+/// The search that candidates computed from these options belong to.
 Result<CandidateSearch> candidate_search(const RecordingOptions& recording, std::vector<std::string> options);
 
-/// What a command keeps of its work while it is at it, in a file that it takes away once what it makes is
-/// written.
+/// The candidates that a command keeps while it works, in a file that it removes once its output is written.
 Result<std::unique_ptr<CandidateFile>> keep_while_working(const std::filesystem::path& path,
                                                           const RecordingOptions& recording,
                                                           std::vector<std::string> deciding);
-/// The error of work that failed: where it was interrupted it says what is kept. A file that holds nothing is
-/// taken away.
+/// The error of failed work: after an interruption it says what is kept. An empty file is removed.
 Error ended(Error error, CandidateFile& kept);
 
-/// Writes the result, and says the answer on stdout, unless a file goes there: also where a file cannot be
-/// written, so that nothing that was found is lost. Gives the exit code.
+/// Writes the result, and prints the answer on stdout unless a file goes there; also if a file cannot be
+/// written, so that the result is not lost. Returns the exit code.
 ExitCode conclude(const Estimate& estimate, const EstimateOutput& output);
 
 }  // namespace sweepscope::app

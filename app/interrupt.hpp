@@ -4,16 +4,16 @@
 
 namespace sweepscope::app {
 
-/// From the first call on, ctrl-C (SIGINT), SIGTERM and SIGHUP set the flag instead of ending the program.
-/// Give it to Job::obey. Where the program does not end within 5 s of that, or at a second signal, it is
-/// ended: unfinished files are removed, one sentence is printed, the exit code is ExitCode::kInterrupted.
+/// After the first call, Ctrl-C (SIGINT), SIGTERM and SIGHUP set the flag instead of ending the program. Pass
+/// it to Job::obey. If the program does not end within 5 s, or at a second signal, it is terminated:
+/// unfinished files are removed, one sentence is printed, and the exit code is ExitCode::kInterrupted.
 const std::atomic<bool>& interrupt_flag();
 
-/// For work that does not look at the flag: from now on the first signal ends the program like that.
+/// For work that does not check the flag: from now on the first signal terminates the program in this way.
 void end_at_first_interrupt();
 
-/// For work whose first interruption ends a part of it, and whose result is then made of what there is: from
-/// now on it takes a second signal to end the program like that, however long the rest takes.
+/// For work whose first interruption ends only a part of it, with a result from the rest: from now on only a
+/// second signal terminates the program in this way, without a time limit.
 void finish_after_first_interrupt();
 
 }  // namespace sweepscope::app

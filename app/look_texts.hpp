@@ -9,13 +9,13 @@
 
 namespace sweepscope::app {
 
-/// How a picture is to look, as typed on the command line.
+/// The look of a picture, as typed on the command line.
 struct LookTexts {
   std::map<std::string, std::vector<std::string>> values;
 
   /// An option of the command for each of look_options(). Writes to this object, which must outlive parsing.
   void declare(CLI::App& command);
-  /// A value that an option does not take is ExitCode::kWrongUsage, with a sentence.
+  /// An invalid value is ExitCode::kWrongUsage, with a sentence.
   Result<ComparisonOptions> parse() const;
 };
 

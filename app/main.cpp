@@ -41,8 +41,7 @@ std::string input_of(const CLI::App& app) {
 }
 
 ExitCode fail_for_memory(const CLI::App& app) {
-  return app::fail(
-      {ExitCode::kUnreadableInput, input_of(app) + ": needs more memory than this machine gives"});
+  return app::fail({ExitCode::kUnreadableInput, input_of(app) + ": needs more memory than this machine has"});
 }
 
 int run(int argc, char** argv) {

@@ -110,13 +110,9 @@ std::string man_command(const CLI::App& app, const CLI::App& command) {
 }
 
 constexpr std::string_view kExitCodes =
-    ".SH EXIT STATUS\n"
-    ".TP\n0\nDone.\n"
-    ".TP\n2\nWrong usage, or an output cannot be written.\n"
-    ".TP\n3\nAn input cannot be read.\n"
-    ".TP\n4\nThe offset cannot be determined from this recording; the result says why.\n"
-    ".TP\n5\nAn expectation of a script of view does not hold.\n"
-    ".TP\n130\nInterrupted.\n";
+    ".SH EXIT STATUS\n.TP\n0\nDone.\n.TP\n2\nWrong usage, or an output cannot be written.\n.TP\n3\nAn input "
+    "cannot be read.\n.TP\n4\nThe offset cannot be determined from this recording; the result says "
+    "why.\n.TP\n5\nA picture or value differs from what a script of view expects.\n.TP\n130\nInterrupted.\n";
 
 // ---- completions
 

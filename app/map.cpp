@@ -64,7 +64,7 @@ ExitCode run(const Options& options) {
     if (!written) return fail(written.error());
   }
   print("{}: {} points of a {} rig at t_motor = t_laser + {:.3f} ms\n", options.output, map->cloud->size(),
-        map->moving ? "moving" : "standing", options.offset_ms);
+        map->moving ? "moving" : "stationary", options.offset_ms);
   return ExitCode::kDone;
 }
 

@@ -30,7 +30,7 @@ Result<std::unique_ptr<EstimateInput>> input_of(const CandidateSearch& search, c
     reader.parse(words);
   } catch (const CLI::ParseError& error) {
     return unreadable(
-        fmt::format("{}: its options are not understood: {}", options.parts.front().string(), error.what()));
+        fmt::format("{}: its options are not valid: {}", options.parts.front().string(), error.what()));
   }
   input->recording.threads = options.threads;
   return input;

@@ -13,8 +13,7 @@ namespace sweepscope::app {
 std::string progress_line(std::string_view phase, double fraction, std::chrono::duration<double> elapsed,
                           int width);
 
-/// A progress bar on stderr, drawn only where that is a terminal, and wiped away at the end. Its job obeys
-/// ctrl-C.
+/// A progress bar on stderr, drawn only if that is a terminal, and removed at the end. Its job obeys Ctrl-C.
 class Progress {
  public:
   Progress();

@@ -58,7 +58,7 @@ void RecordingOptions::declare_reading(CLI::App& app) {
       ->type_name("A:B")
       ->check([](const std::string& text) {
         return parse_window(text) ? std::string()
-                                  : "--window needs A:B in seconds, A less than B, and got " + text;
+                                  : "--window needs A:B in seconds with A less than B, not " + text;
       });
 }
 
@@ -112,7 +112,7 @@ CLI::Validator finite_number() {
   return {[](const std::string& text) {
             double number = 0;
             const bool read = CLI::detail::lexical_cast(text, number);
-            return !read || std::isfinite(number) ? std::string() : text + " is no finite number";
+            return !read || std::isfinite(number) ? std::string() : text + " is not a finite number";
           },
           ""};
 }
@@ -142,7 +142,8 @@ void warn_of_memory(const Recording& recording, std::size_t maps, const Progress
   const std::string what = maps == 1 ? "its map" : fmt::format("working on its {} maps", maps);
   const auto warning = memory_warning(what, map_memory_bytes(recording, maps), available_memory_bytes());
   if (warning)
-    progress.say(fmt::format("warning: {}: {}; --window takes a part of it", recording.name, *warning));
+    progress.say(
+        fmt::format("warning: {}: {}; --window selects a part of the recording", recording.name, *warning));
 }
 
 Result<void> write_text(const std::string& path, const std::string& text) {

@@ -16,7 +16,7 @@
 
 namespace sweepscope::app {
 
-/// What REC may be, for help texts.
+/// The kinds of REC, for help texts.
 inline constexpr const char* kRecordings =
     "a ROS 1 or ROS 2 bag (.bag, .db3, .mcap), or a folder of either or of CSV tables";
 
@@ -30,40 +30,40 @@ struct RecordingOptions {
   std::optional<StampSource> stamps;
   std::optional<Window> window;       // seconds since the first scan
   std::optional<std::string> assume;  // "stationary" or "moving"; empty: the motion test decides
-  bool keep_intensities = true;       // of the beams; false where nothing comes of them
+  bool keep_intensities = true;       // of the beams; false if they are not used
   int threads = 0;                    // 0: as many as there are processors
 
   /// REC, --rig, --stamps and --window. The options write to this object, which must outlive `app`'s parsing.
   void declare(CLI::App& app);
-  /// The same without REC, where the subcommand's own input may be something else.
+  /// The same without REC, for a subcommand whose input may be something else.
   void declare_reading(CLI::App& app);
   /// --assume and --threads, of the subcommands that compute.
   void declare_computing(CLI::App& app);
   /// The files that these options read: the recording's and the rig file.
   std::vector<std::filesystem::path> input_files() const;
-  /// --assume, where it is given.
+  /// --assume, if given.
   std::optional<RigKind> assumed_kind() const;
-  /// Holds the program to `threads` while the returned object lives.
+  /// Limits the program to `threads` while the returned object lives.
   std::unique_ptr<tbb::global_control> limit_threads() const;
-  /// The recording that they name, cut to the window.
+  /// The recording of these options, cut to the window.
   Result<Recording> read(const Job& job) const;
 };
 
 /// A check of an option's number: not NaN, which CLI11's own checks let through, nor infinite.
 CLI::Validator finite_number();
 
-/// Prints why a subcommand failed, as every subcommand prints it, and gives the exit code.
+/// Prints the error of a subcommand, and returns its exit code.
 ExitCode fail(const Error& error);
-/// Warns, above the bar, where so many maps of the recording need more memory than there is.
+/// Warns, above the bar, if this number of maps of the recording needs more memory than is available.
 void warn_of_memory(const Recording& recording, std::size_t maps, const Progress& progress);
-/// Prints what reading warned of, on stderr.
+/// Prints the warnings of reading on stderr.
 void print_warnings(const Recording& recording);
 /// Checks what a subcommand will write, before any work: see check_run_files. `outputs` may hold "-", for
-/// standard output, at most once; empty names stand for no file. `folder`: that of outputs, where the
-/// subcommand makes one.
+/// standard output, at most once; empty names mean no file. `folder`: the folder of the outputs, if the
+/// subcommand creates one.
 Result<void> check_outputs(const std::vector<std::string>& outputs, std::vector<std::filesystem::path> inputs,
                            const std::filesystem::path& folder = {});
-/// Writes to stdout where `path` is "-", else to the file, whole or not at all.
+/// Writes to stdout if `path` is "-", otherwise to the file, completely or not at all.
 Result<void> write_text(const std::string& path, const std::string& text);
 
 }  // namespace sweepscope::app

@@ -12,7 +12,7 @@
 
 namespace sweepscope::app {
 
-/// A value that is printed; text with what would steer a terminal escaped.
+/// A value to print; characters of a text that control a terminal are escaped.
 template <typename T>
 decltype(auto) printable(T&& value) {
   if constexpr (std::convertible_to<T, std::string_view>)
@@ -24,21 +24,20 @@ decltype(auto) printable(T&& value) {
 template <typename T>
 using Printable = decltype(printable(std::declval<T>()));
 
-/// The format as it is, with values made printable put into it.
+/// The unchanged format, filled with printable values.
 template <typename... T>
 std::string printable_words(fmt::format_string<Printable<T>...> format, T&&... values) {
   return fmt::vformat(format, fmt::make_format_args(printable(std::forward<T>(values))...));
 }
 
-/// Words for a person, on stderr, made printable. Where that is closed or full nobody reads them: that is no
-/// failure.
+/// Prints a text for a person on stderr, made printable. A closed or full stderr is not an error.
 template <typename... T>
 void say(fmt::format_string<Printable<T>...> format, T&&... values) {
   const std::string text = printable_words<T...>(format, std::forward<T>(values)...);
   std::fwrite(text.data(), 1, text.size(), stderr);
 }
 
-/// A part of a command's result, on stdout, made printable. Throws where it cannot be written.
+/// Prints a part of a command's result on stdout, made printable. Throws if it cannot be written.
 template <typename... T>
 void print(fmt::format_string<Printable<T>...> format, T&&... values) {
   fmt::print("{}", printable_words<T...>(format, std::forward<T>(values)...));

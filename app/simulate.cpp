@@ -50,7 +50,7 @@ std::optional<Eigen::Vector3d> triple(std::string_view text) {
 
 tl::unexpected<Error> not_a_triple(const char* option, const std::string& text) {
   return failure(ExitCode::kWrongUsage,
-                 fmt::format("{} takes three numbers with commas between, not '{}'", option, text));
+                 fmt::format("{} needs three numbers separated by commas, not '{}'", option, text));
 }
 
 std::string summary(const Simulation& simulation, const std::filesystem::path& output) {
@@ -138,7 +138,8 @@ void declare_own_scene(CLI::App& app, CLI::Option* scene, Typed& typed) {
           ->excludes(scene);
   CLI::Option* trajectory =
       app.add_option("--trajectory", own.trajectory,
-                     "The rig's motion, smoothed by a spline; without it the rig stands at --trajectory-at")
+                     "The rig's motion, smoothed by a spline; without it the rig is stationary at "
+                     "--trajectory-at")
           ->type_name("T.tum")
           ->group(group)
           ->needs(mesh);
@@ -193,8 +194,7 @@ void declare_faults(CLI::App& app, Typed& typed) {
   fault("--eccentricity-deg", typed.options.eccentricity_deg,
         "Amplitude A of the encoder's eccentricity: it shows angle + A sin(angle + phase)");
   fault("--eccentricity-phase-deg", typed.options.eccentricity_phase_deg, "Phase of the eccentricity");
-  fault("--uneven-motor", typed.options.uneven_motor,
-        "Fraction by which the motor's speed varies slowly, at most");
+  fault("--uneven-motor", typed.options.uneven_motor, "Maximum fraction by which the motor's speed varies");
   fault("--people", typed.options.people, "Number of people who walk through the scene");
   fault("--glass", typed.options.glass, "Fraction of the upright surfaces that are glass");
 }

@@ -7,9 +7,9 @@
 
 namespace sweepscope::app {
 
-/// Holds the program to `wanted` threads while the returned object lives, or to as many as can be started,
-/// where a limit of processes or of memory (ulimit -u, ulimit -v) leaves fewer: TBB has no way to go on
-/// without a thread that it counts on. 0 wants as many as there are processors.
+/// Limits the program to `wanted` threads while the returned object lives, or to as many as can be started if
+/// a limit of processes or of memory (ulimit -u, ulimit -v) allows fewer: TBB cannot continue without a
+/// thread that it relies on. 0: as many as there are processors.
 std::unique_ptr<tbb::global_control> limit_threads(std::size_t wanted = 0);
 
 }  // namespace sweepscope::app

@@ -42,7 +42,8 @@ Result<Size> parse_size(const std::string& text) {
   if (!separated || second != std::errc() || after != end || size.width_px < kMin || size.height_px < kMin ||
       size.width_px > kMax || size.height_px > kMax)
     return failure(ExitCode::kWrongUsage,
-                   fmt::format("--size {}: not like 1600x1000, {} to {} pixels", text, kMin, kMax));
+                   fmt::format("--size {}: WxH is needed, such as 1600x1000, with sides of {} to {} pixels",
+                               text, kMin, kMax));
   return size;
 }
 

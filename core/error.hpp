@@ -16,14 +16,14 @@ enum class ExitCode : int {
   kInterrupted = 130,
 };
 
-/// An expected failure: what the program exits with, and one sentence for a person that names the file and
-/// the place in it. Programming errors are exceptions instead.
+/// An expected failure: the exit code, and one sentence that names the file and the place in it. Programming
+/// errors are exceptions instead.
 struct Error {
   ExitCode code = ExitCode::kUnreadableInput;
   std::string message;
 };
 
-/// A value, or the reason why there is none.
+/// A value, or the error that prevented it.
 template <typename T>
 using Result = tl::expected<T, Error>;
 

@@ -13,7 +13,7 @@ inline constexpr double kDegPerRad = 180 / std::numbers::pi;
 /// The normal distribution's standard deviation as a multiple of its median absolute deviation.
 inline constexpr double kSigmaPerMedianDeviation = 1.4826;
 
-/// The median; of two middle values the upper one. 0 of none.
+/// The median; the upper one of two middle values. 0 without values.
 template <typename Number>
 Number median(std::vector<Number> values) {
   if (values.empty()) return 0;
@@ -22,8 +22,7 @@ Number median(std::vector<Number> values) {
   return *middle;
 }
 
-/// The value that `fraction` of the others, in [0, 1], are below. Changes the order of `values`, of which
-/// there is at least one.
+/// The quantile of `fraction`, in [0, 1]. Reorders `values`, which must not be empty.
 template <typename Number>
 Number quantile(std::vector<Number>& values, double fraction) {
   const auto place =

@@ -14,8 +14,8 @@
 
 namespace sweepscope {
 
-/// Tells ThreadSanitizer what it cannot see inside libtbb: what came before a loop is known to every piece of
-/// it, and what the pieces did is known after it. In every other build it does nothing.
+/// Annotates for ThreadSanitizer the synchronisation inside libtbb: what happened before a loop is visible to
+/// each of its pieces, and their results are visible after it. A no-op in every other build.
 class LoopOrder {
  public:
 #ifdef __SANITIZE_THREAD__
@@ -53,16 +53,15 @@ class LoopOrder {
   }
 };
 
-/// body(i) for every i in [0, count) on all cores, in any order: a result belongs at an index of its own, so
-/// that it is the same for any number of threads.
+/// body(i) for every i in [0, count) on all cores, in any order: write each result to its own index, so that
+/// the results are the same for any number of threads.
 template <typename Body>
 void for_each_index(std::size_t count, const Body& body) {
   LoopOrder order;
   tbb::parallel_for(std::size_t{0}, count, order.piece(body));
 }
 
-/// The same for few indices of long work: each is a task, since a run of several at the end would leave the
-/// other threads idle.
+/// The same for a few indices of long work: each is a separate task, so that no thread is idle at the end.
 template <typename Body>
 void for_each_task(std::size_t count, const Body& body) {
   LoopOrder order;
@@ -70,16 +69,15 @@ void for_each_task(std::size_t count, const Body& body) {
 }
 
 /// body(block) for blocks of about `grain` indices that together cover [0, count): for loops whose indices
-/// share what is dear to make. block.begin() and block.end() are the block's indices.
+/// share something expensive to make. block.begin() and block.end() are the block's indices.
 template <typename Index, typename Body>
 void for_each_block(Index count, std::size_t grain, const Body& body) {
   LoopOrder order;
   tbb::parallel_for(tbb::blocked_range<Index>(0, count, grain), order.piece(body));
 }
 
-/// Ascending, on all cores. Equal values must be the same in everything, so that the result is for any number
-/// of threads. ThreadSanitizer would take every access of the sort inside libtbb, whose order it cannot see,
-/// for a race: there one thread sorts.
+/// Sorts ascending, on all cores. Equal values must be identical, so that the result is the same for any
+/// number of threads. With ThreadSanitizer, which would report races inside libtbb, one thread sorts.
 template <typename Value>
 void sort_in_parallel(std::vector<Value>& values) {
 #ifdef __SANITIZE_THREAD__

@@ -14,7 +14,7 @@
 
 namespace sweepscope::ui {
 
-/// The explorer's interface: the same one in a window and in memory. Frames are asked for one by one; equal
+/// The explorer's interface: the same in a window and in memory. Frames are requested one by one; equal
 /// events at equal times give equal pixels.
 class Ui {
  public:
@@ -32,23 +32,23 @@ class Ui {
   Explorer& explorer();
   const Explorer& explorer() const;
 
-  /// Draws the interface into the context's default framebuffer. At most as many events as
-  /// events_of_next_frame says.
+  /// Draws the interface into the context's default framebuffer. With at most as many events as
+  /// events_of_next_frame returns.
   void frame(std::span<const InputEvent> events, double seconds_since_last);
-  /// What the last frame drew.
+  /// The picture of the last frame.
   Image screenshot();
 
   bool wants_quit() const;
-  /// Whether the pictures of the maps show all that there is to show at the moment.
+  /// Whether the pictures of the maps are complete.
   bool pictures_done() const;
-  /// Whether the next frame would differ without any event: something moves or is being drawn. Progress of
-  /// work in the background is not meant.
+  /// Whether the next frame would differ without any event, because something moves or is being drawn.
+  /// Progress of background work does not count.
   bool animates() const;
-  /// Where something is that can be clicked: "button estimate", "handle a", "map b", ...
+  /// The position of something that can be clicked: "button estimate", "handle a", "map b", ...
   std::optional<PixelRect> anchor(const std::string& name) const;
   std::vector<std::string> anchor_names() const;
 
-  /// Text that was copied and that pasting takes.
+  /// The clipboard.
   std::string& clipboard();
   void set_display_scale(double scale);
 

@@ -7,12 +7,11 @@
 
 namespace sweepscope::ui {
 
-/// The explorer in a window until it is closed. `first_line` is carried out at the beginning, and then the
-/// scripts.
+/// Runs the explorer in a window until it is closed. `first_line` is executed first, then the scripts.
 Result<void> run_in_window(Ui::Options options, int width_px, int height_px, const std::string& first_line,
                            std::span<const Script> scripts);
 
-/// The same interface in a context without a window, for the length of the scripts.
+/// Runs the same interface without a window until the scripts end.
 Result<void> run_headless(gl::Context& context, Ui::Options options, const std::string& first_line,
                           std::span<const Script> scripts);
 

@@ -23,7 +23,7 @@ struct Mount {
 };
 
 /// The rig's kinematics: p_in_base = Rot(axis, motor angle) * (motor_from_laser * p_in_laser). Only the first
-/// factor depends on the offset, so points are kept in the motor frame, which turns with the motor.
+/// factor depends on the offset, so points are stored in the motor frame, which turns with the motor.
 class Kinematics {
  public:
   explicit Kinematics(const Mount& mount)
@@ -35,16 +35,16 @@ class Kinematics {
     return motor_from_laser_ *
            Eigen::Vector3d(range_m * std::cos(angle_rad), range_m * std::sin(angle_rad), 0.0);
   }
-  /// The same of a beam in any direction (unit length, laser's frame).
+  /// The same for a beam in any direction (unit length, laser frame).
   Eigen::Vector3d point_in_motor(double range_m, const Eigen::Vector3d& direction) const {
     return motor_from_laser_ * Eigen::Vector3d(range_m * direction);
   }
-  /// Where a point of the motor frame is in the base frame at a motor angle.
+  /// The position in the base frame of a point of the motor frame, at a motor angle.
   Eigen::Vector3d base_from_motor(const Eigen::Vector3d& p_in_motor, double motor_angle_rad) const {
     const double c = std::cos(motor_angle_rad), s = std::sin(motor_angle_rad);
     return c * p_in_motor + s * axis_.cross(p_in_motor) + (1 - c) * axis_.dot(p_in_motor) * axis_;
   }
-  /// The distance of a point from the motor's axis: the lever by which an offset moves it.
+  /// The distance of a point from the motor's axis: the lever arm of an offset error.
   double distance_to_axis_m(const Eigen::Vector3d& p_in_motor) const {
     return axis_.cross(p_in_motor).norm();
   }
@@ -56,20 +56,19 @@ class Kinematics {
   Pose motor_from_laser_;
 };
 
-/// The motor's angle over its own clock, linear between samples. Times ascend strictly.
+/// The motor's angle over its own clock, linear between samples. Times are strictly ascending.
 struct MotorTrack {
   std::vector<double> time_s;  // motor clock, seconds since Recording::epoch_ns
   std::vector<double> angle_rad;
 
   /// The angle at a time, which must lie within [time_s.front(), time_s.back()].
   double angle_at(double t_s) const;
-  /// True where both ends lie inside the track and no gap between neighbouring samples inside is longer
-  /// than max_gap_s.
+  /// True if both ends lie within the track and no gap between samples in between is longer than max_gap_s.
   bool covers(double from_s, double to_s, double max_gap_s) const;
 };
 
-/// Reads a motor track at instants that mostly ascend: a step or two from the last place instead of a search.
-/// Instants outside the track get the nearest end's angle.
+/// Reads a motor track at mostly ascending times: a step or two from the last position instead of a search.
+/// Times outside the track get the angle of the nearest end.
 class MotorReader {
  public:
   explicit MotorReader(const MotorTrack& track) : track_(&track) {}

@@ -8,9 +8,9 @@
 
 namespace sweepscope {
 
-/// A point of a map: place in the map frame (m), the laser's intensity (0 where it has none), the beam's
-/// instant (laser clock, seconds since Recording::epoch_ns) and the number of the sweep that it belongs to.
-/// Neighbouring sweeps turn in opposite directions.
+/// A point of a map: position in the map frame (m), intensity (0 if the laser has none), time of the beam
+/// (laser clock, seconds since Recording::epoch_ns) and the number of its sweep. Consecutive sweeps turn in
+/// opposite directions.
 struct EIGEN_ALIGN16 MapPoint {
   PCL_ADD_POINT4D;
   float intensity;
@@ -18,7 +18,7 @@ struct EIGEN_ALIGN16 MapPoint {
   double time_s;
 };
 
-/// Points in the order of their time.
+/// Points in order of time.
 using MapCloud = pcl::PointCloud<MapPoint>;
 
 }  // namespace sweepscope

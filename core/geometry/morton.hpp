@@ -32,7 +32,7 @@ constexpr std::uint64_t morton_code(std::uint64_t x, std::uint64_t y, std::uint6
   return morton_spread(x) | morton_spread(y) << 1 | morton_spread(z) << 2;
 }
 
-/// A point's number along a Morton curve, on which what is near in space is near in number.
+/// A point's number along a Morton curve: points that are close in space have close numbers.
 struct MortonKey {
   std::uint64_t code;   // of its cube: 21 bits along each axis
   std::uint32_t index;  // of the point
@@ -44,9 +44,9 @@ struct MortonKey {
 
 constexpr int kMortonBits = 21;
 
-/// The chosen points along the curve through cubes of `edge_m`, counted from `origin_m`; those of one cube in
-/// the order of their indices. What lies beyond the last cube counts into it. The same for any number of
-/// threads.
+/// The chosen points ordered along the curve through cubes of `edge_m`, counted from `origin_m`; points of
+/// one cube are in the order of their indices. Points beyond the last cube belong to it. The result is the
+/// same for any number of threads.
 std::vector<MortonKey> along_morton_curve(std::span<const std::array<float, 3>> points_m,
                                           std::span<const std::uint32_t> chosen,
                                           const std::array<float, 3>& origin_m, double edge_m);

@@ -24,7 +24,7 @@ struct Pose {
   }
 };
 
-/// Where the rig's base frame was in the map frame at an instant of the laser's clock.
+/// The pose of the rig's base frame in the map frame at a time of the laser's clock.
 struct StampedPose {
   double time_s = 0;  // seconds since Recording::epoch_ns
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
@@ -47,7 +47,7 @@ inline Eigen::Vector3d vector_from_rotation(const Eigen::Quaterniond& rotation) 
   return angle_rad / sine * rotation.vec();
 }
 
-/// Rz(yaw) Ry(pitch) Rx(roll) of an `rpy_deg`, as rig files and ROS have it.
+/// Rz(yaw) Ry(pitch) Rx(roll) of an `rpy_deg`, the convention of rig files and ROS.
 inline Eigen::Quaterniond rotation_from_rpy(const Eigen::Vector3d& rpy_deg) {
   const Eigen::Vector3d rpy_rad = rpy_deg * kRadPerDeg;
   return Eigen::AngleAxisd(rpy_rad.z(), Eigen::Vector3d::UnitZ()) *
@@ -55,13 +55,13 @@ inline Eigen::Quaterniond rotation_from_rpy(const Eigen::Vector3d& rpy_deg) {
          Eigen::AngleAxisd(rpy_rad.x(), Eigen::Vector3d::UnitX());
 }
 
-/// The rotation vector that turns `from` into `to`, in the axes of `from`.
+/// The rotation vector from `from` to `to`, in the axes of `from`.
 inline Eigen::Vector3d turn_between(const Eigen::Quaterniond& from, const Eigen::Quaterniond& to) {
   return vector_from_rotation(from.conjugate() * to);
 }
 
-/// Between `from` (u = 0) and `to` (u = 1): the translation linearly, the rotation at constant rate. u
-/// outside [0, 1] goes on beyond the ends.
+/// Interpolates between `from` (u = 0) and `to` (u = 1): linear translation, rotation at constant rate. A u
+/// outside [0, 1] extrapolates.
 inline Pose interpolate(const Pose& from, const Pose& to, double u) {
   const Eigen::Vector3d turn_rad = turn_between(from.rotation, to.rotation);
   return {from.rotation * rotation_from_vector(u * turn_rad),

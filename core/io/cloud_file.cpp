@@ -88,7 +88,7 @@ Result<void> write_cloud(const std::filesystem::path& path, const MapCloud& clou
 Result<MapCloud::Ptr> parse_cloud(std::string_view bytes, std::string_view name) {
   if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r\n")) return parse_ply(bytes, name);
   if (bytes.starts_with("# .PCD") || bytes.starts_with("VERSION")) return parse_pcd(bytes, name);
-  return unreadable(fmt::format("{}: neither a PCD nor a PLY file, by its first bytes", name));
+  return unreadable(fmt::format("{}: is neither a PCD nor a PLY file", name));
 }
 
 Result<MapCloud::Ptr> read_cloud(const std::filesystem::path& path) {

@@ -13,10 +13,10 @@ namespace sweepscope {
 /// (uint32).
 Result<void> write_cloud(const std::filesystem::path& path, const MapCloud& cloud);
 
-/// Reads a PCD file (ascii, binary or binary_compressed) or a PLY file (ascii or binary little endian); which
-/// of the two it is, its first bytes say. x, y and z are needed; intensity, time and sweep are 0 where the
-/// file has none; other fields are passed over, and so are points whose place is not finite. Sizes in headers
-/// are checked against the file's own size before anything is allocated.
+/// Reads a PCD file (ascii, binary or binary_compressed) or a PLY file (ascii or binary little endian); the
+/// first bytes decide which of the two. x, y and z are required; intensity, time and sweep default to 0;
+/// other fields and points with a position that is not finite are skipped. Sizes in headers are checked
+/// against the size of the file before anything is allocated.
 Result<MapCloud::Ptr> read_cloud(const std::filesystem::path& path);
 
 /// The same from memory; `name` stands for the file in error messages.

@@ -16,7 +16,7 @@ Result<InputFile> InputFile::open(const std::filesystem::path& path) {
     return unreadable(fmt::format("{}: no such file", path.string()));
   if (error) return unreadable(fmt::format("{}: {}", path.string(), error.message()));
   if (fs::is_directory(status)) {
-    return unreadable(fmt::format("{}: is a folder, and a file is expected", path.string()));
+    return unreadable(fmt::format("{}: is a folder, not a file", path.string()));
   }
   if (!fs::is_regular_file(status))
     return unreadable(fmt::format("{}: is not a regular file", path.string()));

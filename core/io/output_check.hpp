@@ -7,16 +7,16 @@
 
 namespace sweepscope {
 
-/// The files that one run reads and those that it writes.
+/// The files that one run reads and writes.
 struct RunFiles {
   std::vector<std::filesystem::path> inputs, outputs;
-  std::filesystem::path folder;  // of outputs; the run makes it where it does not exist. Empty: none
+  std::filesystem::path folder;  // of the outputs; created if it does not exist. Empty: none
 };
 
-/// Refuses, before anything is read or written, an output that cannot be created as things stand (see
-/// check_writable), an output that is an input, and two outputs that are one file. Files are the same by
-/// name, by hard link or by symbolic link. Pipes and devices hold nothing that could be lost, and are left
-/// out. Inputs that do not exist are the business of those who read them. Errors are ExitCode::kWrongUsage.
+/// Checks, before anything is read or written, that every output can be created (see check_writable), that no
+/// output is an input, and that no two outputs are the same file, by name, hard link or symbolic link. Pipes
+/// and devices are not checked: they hold nothing that could be lost. Neither are missing inputs, which fail
+/// when they are read. Errors are ExitCode::kWrongUsage.
 Result<void> check_run_files(const RunFiles& files);
 
 }  // namespace sweepscope

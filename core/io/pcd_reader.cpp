@@ -120,8 +120,8 @@ Result<void> complete_fields(PcdHeader& header, std::string_view name) {
     const double count = header.counts[f];
     if (!type || !(count >= 1 && count <= kMaxCount) || count != std::floor(count)) {
       return unreadable(
-          fmt::format("{}: field {} of the PCD header has TYPE {}, SIZE {}, COUNT {}, which cannot be", name,
-                      fields[f].name, header.types[f], header.sizes[f], count));
+          fmt::format("{}: field {} of the PCD header has TYPE {}, SIZE {}, COUNT {}, which is not valid",
+                      name, fields[f].name, header.types[f], header.sizes[f], count));
     }
     fields[f].type = *type;
     fields[f].count = static_cast<std::size_t>(count);
@@ -143,7 +143,7 @@ Result<PcdHeader> parse_header(std::string_view bytes, std::string_view name) {
   header.lines = cursor.line();
   if (!header.points && header.width && header.height) header.points = *header.width * *header.height;
   if (!header.points || !(*header.points >= 0 && *header.points <= 4e9)) {
-    return unreadable(fmt::format("{}: the PCD header says no usable number of POINTS", name));
+    return unreadable(fmt::format("{}: the PCD header has no valid number of POINTS", name));
   }
   return complete_fields(header, name).map([&] { return header; });
 }
@@ -156,15 +156,16 @@ Result<MapCloud::Ptr> read_compressed(std::string_view body, const PcdHeader& he
   std::memcpy(&unpacked_bytes, body.data() + 4, 4);
   body.remove_prefix(8);
   if (packed_bytes > body.size()) {
-    return unreadable(fmt::format("{}: {} bytes of compressed points are promised, the file has {}", name,
-                                  packed_bytes, body.size()));
+    return unreadable(fmt::format("{}: the header promises {} bytes of compressed points, the file holds {}",
+                                  name, packed_bytes, body.size()));
   }
   if (unpacked_bytes != points * header.layout.record_bytes()) {
-    return unreadable(fmt::format("{}: {} points of {} bytes do not make the {} bytes that are promised",
-                                  name, points, header.layout.record_bytes(), unpacked_bytes));
+    return unreadable(
+        fmt::format("{}: {} points of {} bytes do not fit the {} bytes that the header promises", name,
+                    points, header.layout.record_bytes(), unpacked_bytes));
   }
   const auto unpacked = lzf_unpack(body.substr(0, packed_bytes), unpacked_bytes);
-  if (!unpacked) return unreadable(fmt::format("{}: the compressed points are broken", name));
+  if (!unpacked) return unreadable(fmt::format("{}: the compressed points are damaged", name));
   return read_binary_points(columns_of(*unpacked, header.layout, points), header.layout, points, name);
 }
 

@@ -26,7 +26,7 @@ std::string take_element(TextCursor& words, PlyHeader& header) {
   header.in_vertex = *element == "vertex";
   if (header.in_vertex) {
     if (header.elements > 0) return "the element vertex must come first";
-    if (!(*count >= 0 && *count <= 4e9)) return "the number of vertices cannot be";
+    if (!(*count >= 0 && *count <= 4e9)) return "the number of vertices is not valid";
     header.points = std::floor(*count);
   }
   ++header.elements;
@@ -58,7 +58,7 @@ std::string take_header_line(std::string_view line, PlyHeader& header) {
   else if (*key == "end_header")
     header.ended = true;
   else
-    return fmt::format("\"{}\" is not a word of a PLY header", key->substr(0, 40));
+    return fmt::format("\"{}\" is not a keyword of a PLY header", key->substr(0, 40));
   return {};
 }
 

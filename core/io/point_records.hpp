@@ -20,7 +20,7 @@ enum class ScalarType { kI8, kU8, kI16, kU16, kI32, kU32, kI64, kU64, kF32, kF64
 std::size_t size_of(ScalarType type);
 /// The number that begins at `bytes`.
 double load_scalar(ScalarType type, const char* bytes);
-/// A type by its name in a PLY header; none for another word.
+/// The type with that name in a PLY header; empty for any other word.
 std::optional<ScalarType> ply_scalar_type(std::string_view word);
 
 /// One named column of a table of points; `count` numbers follow each other in it.
@@ -40,10 +40,10 @@ struct PointLayout {
   std::size_t values_per_record() const;
 };
 
-/// The columns that a MapPoint is made from, as indices of PointLayout::fields.
+/// The columns that make a MapPoint, as indices of PointLayout::fields.
 enum MapColumn : std::size_t { kX, kY, kZ, kIntensity, kTime, kSweep, kMapColumns };
 
-/// Finds the columns by name; absent where the file has no such field. Fails where x, y or z is missing.
+/// Finds the columns by name; absent if the file has no such field. Fails if x, y or z is missing.
 Result<std::array<std::optional<std::size_t>, kMapColumns>> find_map_columns(const PointLayout& layout,
                                                                              std::string_view name);
 
@@ -51,7 +51,7 @@ Result<std::array<std::optional<std::size_t>, kMapColumns>> find_map_columns(con
 class MapPointCollector {
  public:
   explicit MapPointCollector(std::size_t expected) : cloud_(new MapCloud) { cloud_->reserve(expected); }
-  /// `values` in the order of MapColumn. A point whose place is not finite is passed over.
+  /// `values` in the order of MapColumn. A point whose position is not finite is skipped.
   void add(const std::array<double, kMapColumns>& values);
   MapCloud::Ptr finish();
 
@@ -72,7 +72,7 @@ BinaryTable columns_of(std::string_view bytes, const PointLayout& layout, std::s
 Result<MapCloud::Ptr> read_binary_points(const BinaryTable& table, const PointLayout& layout,
                                          std::size_t points, std::string_view name);
 
-/// Records as words separated by blanks; a record may not run out. `text` begins at the file's line
+/// Records as words separated by blanks; every record must be complete. `text` begins at the file's line
 /// `lines_before + 1`.
 Result<MapCloud::Ptr> read_ascii_points(std::string_view text, const PointLayout& layout, std::size_t points,
                                         std::size_t lines_before, std::string_view name);

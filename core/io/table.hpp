@@ -37,7 +37,8 @@ std::string to_csv(const Table& table);
 std::string to_markdown(const Table& table);
 
 /// A LaTeX tabular with booktabs' rules, its title as a comment. Everything that LaTeX reads as markup is
-/// escaped; Greek letters and signs become mathematics, so that any engine sets them. Absent cells are "--".
+/// escaped; Greek letters and signs become mathematics, so that any engine can typeset them. Absent cells are
+/// "--".
 std::string to_latex(const Table& table);
 
 /// As .csv, .md or .tex by the path's extension; another one is ExitCode::kWrongUsage.

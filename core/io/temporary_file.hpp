@@ -7,20 +7,20 @@
 
 namespace sweepscope {
 
-/// Creates a file that did not exist (O_EXCL) with the permissions of the umask, opens it for writing and
-/// remembers it until it is forgotten. Returns its descriptor, or -1 with errno.
+/// Creates a new file (O_EXCL) with the permissions of the umask, opens it for writing and registers it for
+/// removal until it is forgotten. Returns its descriptor, or -1 with errno.
 int create_unfinished(const std::filesystem::path& path);
 
-/// Remembers a file that the caller created, until it is forgotten.
+/// Registers a file that the caller created, until it is forgotten.
 void remember_unfinished(const std::filesystem::path& path);
 void forget_unfinished(const std::filesystem::path& path);
 
-/// Removes the remembered files. Call it last, in a program that ends without returning to their writers:
-/// every other function here waits forever from then on, so that no new file is created.
+/// Removes the registered files. Call it last, in a program that ends without returning to their writers:
+/// from then on every other function here blocks forever, so that no new file is created.
 void remove_unfinished_files();
 
-/// An empty file of our own in the folder for temporary files (TMPDIR), which goes with this object. It is
-/// locked (flock) as long as the object lives, so that a file whose program was killed can be told.
+/// An empty file in the folder for temporary files (TMPDIR), removed with this object. It is locked (flock)
+/// as long as the object lives, so that the file of a killed program can be recognised.
 class TemporaryFile {
  public:
   /// Fails with ExitCode::kWrongUsage and the system's reason.
@@ -42,8 +42,8 @@ class TemporaryFile {
   int lock_;  // the file, open
 };
 
-/// Removes the temporary files that programs which were killed left in the folder for temporary files: those
-/// of this user that nobody has locked. What cannot be removed stays.
+/// Removes the temporary files that killed programs left in the folder for temporary files: those of this
+/// user that are not locked. Files that cannot be removed stay.
 void remove_abandoned_temporary_files();
 
 }  // namespace sweepscope

@@ -9,7 +9,7 @@
 
 namespace sweepscope {
 
-/// Walks over a text in memory by lines or by words and never past its end.
+/// Reads a text in memory by lines or by words, never past its end.
 class TextCursor {
  public:
   explicit TextCursor(std::string_view text) : text_(text) {}
@@ -35,7 +35,7 @@ class TextCursor {
     return text_.substr(begin, end - begin);
   }
 
-  /// The next word as a number (also nan and inf); nothing at the end of the text or where it is none.
+  /// The next word as a number (also nan and inf); nothing at the end of the text or if it is not a number.
   std::optional<double> next_number() {
     const auto word = next_word();
     if (!word) return std::nullopt;

@@ -15,7 +15,7 @@ namespace sweepscope {
 Result<void> write_tum(const std::filesystem::path& path, std::span<const StampedPose> trajectory,
                        std::int64_t epoch_ns = 0);
 
-/// Reads such a file; lines that are empty or begin with # are skipped. Times must ascend strictly.
+/// Reads such a file; lines that are empty or begin with # are skipped. Times must be strictly ascending.
 Result<std::vector<StampedPose>> read_tum(const std::filesystem::path& path, std::int64_t epoch_ns = 0);
 
 }  // namespace sweepscope

@@ -19,7 +19,7 @@ void for_each_entry(
   for (const auto& entry : node) {
     const auto key = entry.first.IsScalar() ? entry.first.Scalar() : std::string();
     if (key.empty()) refuse(entry.first, fmt::format("a key in {} must be a name", name));
-    if (!seen.insert(key).second) refuse(entry.first, fmt::format("key \"{}\" comes twice in {}", key, name));
+    if (!seen.insert(key).second) refuse(entry.first, fmt::format("duplicate key \"{}\" in {}", key, name));
     visit(key, entry.first, entry.second);
   }
 }
@@ -54,7 +54,7 @@ bool read_switch(const YAML::Node& node, const std::string& name) {
 }
 
 std::string read_text(const YAML::Node& node, const std::string& name) {
-  if (!node.IsScalar() || node.Scalar().empty()) refuse(node, fmt::format("{} must be a text", name));
+  if (!node.IsScalar() || node.Scalar().empty()) refuse(node, fmt::format("{} must be text", name));
   return node.Scalar();
 }
 

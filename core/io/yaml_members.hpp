@@ -14,7 +14,7 @@
 
 namespace sweepscope::yaml {
 
-/// A value that a file must not have. Thrown by the readers below and caught by read_file, which adds the
+/// An invalid value in a file. Thrown by the readers below and caught by read_file, which adds the
 /// file's name, the line and the column.
 struct Refusal {
   YAML::Mark mark;
@@ -25,11 +25,11 @@ struct Refusal {
 
 using Members = std::map<std::string, std::function<void(const YAML::Node&)>>;
 
-/// Calls the reader of every key in `node`; an unknown or doubled key is refused. `name` says what the node
-/// is.
+/// Calls the reader of every key in `node`; an unknown or duplicate key is refused. `name` describes the node
+/// in messages.
 void read_members(const YAML::Node& node, const std::string& name, const Members& members);
 
-/// The keys and values of a map whose keys the user chooses; doubled and empty ones are refused.
+/// The keys and values of a map whose keys the user chooses; duplicate and empty keys are refused.
 void for_each_entry(const YAML::Node& node, const std::string& name,
                     const std::function<void(const std::string& key, const YAML::Node& key_node,
                                              const YAML::Node& value)>& visit);
@@ -38,7 +38,7 @@ double read_number(const YAML::Node& node, const std::string& name);
 bool read_switch(const YAML::Node& node, const std::string& name);
 std::string read_text(const YAML::Node& node, const std::string& name);
 
-/// The elements of a sequence, or the one value that stands for a sequence of one.
+/// The elements of a sequence, or a single value in place of a sequence of one.
 std::vector<YAML::Node> read_list(const YAML::Node& node);
 
 template <typename T>

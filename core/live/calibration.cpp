@@ -143,8 +143,8 @@ Result<ListeningEnd> listen(
 
 Result<Estimate> calibrate(RawRecording heard, const CalibrationOptions& options, const Job& job) {
   const HeardSoFar so_far = heard_so_far(heard);
-  if (so_far.scans == 0) return refused(heard, "No scans were heard.");
-  if (so_far.motor_samples == 0) return refused(heard, "No angles of a motor were heard.");
+  if (so_far.scans == 0) return refused(heard, "No scans were received.");
+  if (so_far.motor_samples == 0) return refused(heard, "No motor angles were received.");
   const auto recording = assemble(std::move(heard), options.rig, options.stamps);
   if (!recording) return tl::unexpected(recording.error());
   const auto prepared = prepare(*recording, options.estimate.features, job);
@@ -160,7 +160,7 @@ Result<Estimate> calibrate(RawRecording heard, const CalibrationOptions& options
     found->kind_reason = pairs_text(motion);
   }
   if (moved) {
-    found->reasons.push_back("The rig moved: a calibration needs a rig that stands still.");
+    found->reasons.push_back("The rig moved: a calibration requires a stationary rig.");
     found->identifiable = false;
     found->offset_s.reset();
     found->sigma_s.reset();

@@ -12,25 +12,26 @@
 
 namespace sweepscope {
 
-/// Finding the offset of a running rig that stands still, before data acquisition (section 3.2 of the paper).
+/// Options for finding the offset of a running, stationary rig, before data acquisition (section 3.2 of the
+/// paper).
 struct CalibrationOptions {
-  double seconds = 10;    // of scans, by their own stamps
-  double silence_s = 10;  // after so long without a scan stamped later than those before listening ends
-  double every_s = 2;     // of scans, between running answers
+  double seconds = 10;  // of scans, by their own stamps
+  double silence_s =
+      10;              // listening ends after this time without a scan that is stamped later than all before
+  double every_s = 2;  // of scans, between running answers
   Rig rig;
   std::optional<StampSource> stamps;
   EstimateOptions estimate;
 };
 
-/// How much was heard: of the laser with the most scans, and of all joints.
+/// How much was received: from the laser with the most scans, and from all joints.
 struct HeardSoFar {
   double seconds = 0;  // from its first scan's stamp to its last one's
   std::size_t scans = 0, motor_samples = 0;
 };
 HeardSoFar heard_so_far(const RawRecording& raw);
 
-/// What is kept at most of what is heard, whatever comes: far more than scanners and motors send in the
-/// seconds asked for.
+/// The limits of what is kept: far more than scanners and motors send in the requested time.
 struct HeardLimits {
   std::size_t scan_bytes = 0, motor_samples = 0;
   std::size_t names = 0;  // of topics, joints and frames
@@ -41,22 +42,22 @@ HeardLimits limits_of(const CalibrationOptions& options);
 enum class ListeningEnd {
   kHeardEnough,
   kInputEnded,
-  kSilence,           // nothing came any more
-  kNoScans,           // motor samples came, and no scans
-  kStampsStandStill,  // scans came that were not stamped later than those before
+  kSilence,           // no data arrived any more
+  kNoScans,           // motor samples arrived, but no scans
+  kStampsStandStill,  // scans arrived that were not stamped later than those before
   kTooMuch,           // the limits were reached
   kCancelled,
 };
 
-/// Listens until enough was heard, one of the other ends came, or the job was cancelled, and reports how far
-/// it is. `tell` gets the answer to what was heard meanwhile, worked out beside the listening; its calls
-/// come from this thread. Fails where the source does.
+/// Listens until enough data arrived, listening ended for another reason, or the job was cancelled, and
+/// reports progress. `tell` receives running answers, which are computed while listening; it is called on
+/// this thread. Fails if the source fails.
 Result<ListeningEnd> listen(
     LiveSource& source, const CalibrationOptions& options, const Job& job,
     const std::function<void(const HeardSoFar& heard, const Result<Estimate>& answer)>& tell);
 
-/// The offset from what was heard. A rig that moved is refused, and so is too little, with the reason in the
-/// estimate; streams that are not plain to choose fail as for a recording.
+/// The offset from the received data. If the rig moved, or there is too little data, the estimate is a
+/// refusal with the reason; an ambiguous choice of streams fails as for a recording.
 Result<Estimate> calibrate(RawRecording heard, const CalibrationOptions& options, const Job& job);
 
 }  // namespace sweepscope

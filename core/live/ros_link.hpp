@@ -10,7 +10,7 @@
 
 namespace sweepscope {
 
-/// A message as it came over the wire, with what its publisher said of it. There for the length of the call.
+/// A message as received, with its publisher's description of it. Valid during the call.
 struct RosMessage {
   const std::string& topic;
   const std::string& type;
@@ -24,17 +24,17 @@ struct RosTopic {
   std::string name, type;
 };
 
-/// All that touches roscpp, whose headers are not made for C++20. One at a time in a program.
+/// The only code that uses roscpp, whose headers do not support C++20. One at a time in a program.
 class RosLink {
  public:
-  /// None where no master answers at http://HOST:PORT.
+  /// Null if no master answers at http://HOST:PORT.
   static std::unique_ptr<RosLink> open(const std::string& master);
   virtual ~RosLink() = default;
-  /// What is published now.
+  /// The topics that are published now.
   virtual std::vector<RosTopic> topics() = 0;
-  /// Of what is not taken in time the newest `max_queued` messages wait.
+  /// The newest `max_queued` messages wait until they are taken.
   virtual void subscribe(const std::string& topic, std::uint32_t max_queued) = 0;
-  /// Hands on the messages that have come, waiting for the first at most so long.
+  /// Passes on the messages that have arrived, waiting at most this long for the first.
   virtual void receive(std::chrono::milliseconds most,
                        const std::function<void(const RosMessage&)>& take) = 0;
 };

@@ -8,7 +8,7 @@
 namespace sweepscope {
 
 /// Lines (csv_stream.hpp) from an open file descriptor: a pipe, a terminal, a socket or a file. The last line
-/// counts without a line end, too, where it is whole.
+/// counts without a line end too, if it is complete.
 class StreamSource : public LiveSource {
  public:
   /// The rig must outlive it; the descriptor stays the caller's.
@@ -25,7 +25,7 @@ class StreamSource : public LiveSource {
   std::string name_;
   CsvStream stream_;
   std::string pending_;       // the beginning of a line
-  std::size_t searched_ = 0;  // so much of it holds no line end
+  std::size_t searched_ = 0;  // this many bytes of it hold no line end
 };
 
 }  // namespace sweepscope

@@ -9,7 +9,7 @@
 
 namespace sweepscope {
 
-/// Which sweeps' points a query sees, by their direction of turning.
+/// The sweeps whose points a query sees, by their direction of turning.
 enum class SweepFilter : std::uint8_t { kBackward = 1, kForward = 2, kAny = 3 };
 
 /// The points nearest to a query, nearest first.
@@ -22,10 +22,10 @@ struct Neighbours {
   std::array<std::uint32_t, kMax> line;
 };
 
-/// A map of feature points, thinned, in hashed grids of doubling cell size: level l has cells of
-/// `cell_m * 2^l` and at most one point per third of a cell and sweep direction, and is searched within 5/6
-/// of a cell. Far points, which lie sparsely, are so matched as fast as near ones. The first point to arrive
-/// in a place stays.
+/// A map of feature points, thinned, in hashed grids of doubling cell size: level l has cells of `cell_m *
+/// 2^l` and at most one point per third of a cell and sweep direction, and is searched within 5/6 of a cell.
+/// Distant points, which are sparse, are therefore matched as fast as near ones. The first point in a third
+/// of a cell is kept.
 class FeatureMap {
  public:
   static constexpr int kLevels = 4;
@@ -38,8 +38,8 @@ class FeatureMap {
   int level_for(double radius_m) const;
   double search_radius_m(int level) const { return levels_[level].radius_m; }
 
-  /// The nearest points, at most `most` and at most `per_line` of one scan line. Where it shows at once that
-  /// they cannot be `least`, none.
+  /// The nearest points: at most `most`, and at most `per_line` of one scan line. Empty if it is clear early
+  /// that there are fewer than `least`.
   void nearest(const Eigen::Vector3f& p_m, int level, SweepFilter filter, int most, int per_line,
                Neighbours& found, int least = 1) const;
 
@@ -50,7 +50,7 @@ class FeatureMap {
   static constexpr std::uint32_t kBlock = 12;
   static constexpr int kBrickBits = 2, kBrick = 1 << kBrickBits;  // cells along a brick's edge
   static constexpr std::uint32_t kNone = 0xffffffffu;
-  // Points of one cell and direction, mostly all of them: three cache lines.
+  // Points of one cell and direction, usually all of them: three cache lines.
   struct alignas(64) Block {
     std::array<float, kBlock> x{}, y{}, z{};
     std::array<std::uint32_t, kBlock> line{};
@@ -60,7 +60,7 @@ class FeatureMap {
   struct Cell {
     std::array<std::uint32_t, 2> points{0, 0}, last{kNone, kNone}, taken{0, 0};
   };
-  // Neighbouring cells, which are hashed as one: a query's 27 lie in at most 8 bricks.
+  // Neighbouring cells, hashed as one: the 27 cells of a query lie in at most 8 bricks.
   struct Brick {
     Brick() { cells.fill(kNone); }
     std::array<std::uint32_t, kBrick * kBrick * kBrick> cells;

@@ -18,15 +18,15 @@ struct FeatureOptions {
   int half_window = 5;  // beams on either side that the curvature is taken over
   double plane_curvature =
       2.0;  // largest curvature of a plane point, in standard deviations of the range noise
-  double edge_curvature = 6.0;          // smallest curvature of an edge point, likewise ...
+  double edge_curvature = 6.0;          // smallest curvature of an edge point, in the same unit ...
   double edge_curvature_slope = 0.006;  // ... and relative to the range
   int plane_spacing = 18;               // beams: one plane point to match per so many
   int map_spacing = 6;                  // beams: one plane point to build the map from per so many
   int edges_per_region = 2;             // sharpest edge points to match in each of the scan line's regions
-  int map_edges_per_region = 5;         // edge points to build the map from, likewise
+  int map_edges_per_region = 5;         // edge points to build the map from, per region
   int regions = 4;
   double axis_sine =
-      0.05;  // beams within this sine of the motor's axis have does not constrain the offset and are left out
+      0.05;  // beams closer to the motor's axis than this sine do not constrain the offset and are left out
 };
 
 /// A feature, in the frame that turns with the motor, so that it does not depend on the offset.
@@ -46,7 +46,7 @@ struct FeatureList {
   std::vector<std::size_t> scan_begin;
 };
 
-/// Edge points and plane points of a recording, and the range noise that they were judged by.
+/// Edge points and plane points of a recording, and the range noise that they were selected with.
 struct FeatureSet {
   FeatureList edges, planes;
   double range_noise_m = 0;
@@ -57,14 +57,14 @@ struct FeatureSet {
 double estimate_range_noise_m(const Recording& recording);
 
 /// Extracts the features of every scan line, once for all offsets. Curvature is the distance of a point from
-/// the mean of its neighbours on the line, judged by the noise rather than LOAM's fixed thresholds: those
-/// drown in noise of 30 mm. Beams that were lost by chance between others on one surface are bridged where
-/// many are, and are no features themselves. Left out are points beside an occlusion, on surfaces nearly
-/// parallel to the beam, and on the motor's axis.
+/// the mean of its neighbours on the line, compared with the noise rather than with LOAM's fixed thresholds,
+/// which fail at noise of 30 mm. Where many beams are lost at random, gaps within a surface are bridged; lost
+/// beams are not features themselves. Points beside an occlusion, on surfaces nearly parallel to the beam,
+/// and on the motor's axis are left out.
 Result<FeatureSet> extract_features(const Recording& recording, const FeatureOptions& options,
                                     const Job& job);
 
-/// The curvature of every beam of a scan line (m), by which its features are picked; NaN where there is none.
+/// The curvature of every beam of a scan line (m), from which features are selected; NaN if there is none.
 std::vector<float> line_curvatures_m(const Recording& recording, std::size_t scan,
                                      const FeatureOptions& options);
 

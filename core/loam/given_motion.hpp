@@ -10,7 +10,7 @@
 
 namespace sweepscope {
 
-/// The base frame's motion as something else measured it: a motion capture system, a camera, wheels or an
+/// The base frame's motion measured by another sensor: a motion capture system, a camera, wheels or an
 /// inertial sensor. Poses world_from_base over a clock of their own; adding `time_shift_s` to their stamps
 /// gives the laser's clock. Between poses the motion is cubic (Hermite) in the rotation and the translation.
 class GivenMotion {
@@ -30,7 +30,7 @@ class GivenMotion {
 
   /// The same motion with another time shift.
   GivenMotion with_time_shift(double time_shift_s) const;
-  /// The same motion, not to be trusted.
+  /// The same motion as a prior instead of the truth.
   GivenMotion as_prior() const;
   double time_shift_s() const { return time_shift_s_; }
   Role role() const { return role_; }

@@ -33,8 +33,8 @@ inline double cauchy_weight(double residual, double scale) {
   return 1.0 / (1.0 + ratio * ratio);
 }
 
-/// Minimises x' A x / 2 + g' x, leaving the directions alone whose eigenvalue is below `min_eigenvalue`:
-/// what the scene does not determine keeps its value. `free_directions` counts them.
+/// Minimises x' A x / 2 + g' x. Directions whose eigenvalue is below `min_eigenvalue` are not changed: what
+/// the scene does not determine keeps its value. `free_directions` counts them.
 inline Vector6d solve_determined(const Matrix6d& a, const Vector6d& g, double min_eigenvalue,
                                  int& free_directions) {
   const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(a);

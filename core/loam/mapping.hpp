@@ -13,7 +13,7 @@
 
 namespace sweepscope {
 
-/// What LOAM makes of a moving recording at one candidate offset.
+/// LOAM's result for a moving recording at one candidate offset.
 struct TrackedWalk {
   std::vector<SweepPose> sweeps;  // of every sweep, in the order of time
   std::size_t start = 0;          // where it began, see MappingOptions
@@ -25,12 +25,12 @@ struct TrackedWalk {
 };
 
 /// Tracks the sweeps on the map that they build (LOAM's odometry and mapping in one). It begins where the rig
-/// moved least, goes on from there to the end, and then, on the same map, back to the beginning. Where the
-/// sweeps do not match the map any more it begins anew with a map of its own, a stretch; stretches are joined
-/// by the velocity before the gap.
+/// moved least, continues to the end, and then, on the same map, goes back to the beginning. Where the sweeps
+/// no longer match the map, it starts a new map, called a stretch; stretches are joined by the velocity
+/// before the gap.
 Result<TrackedWalk> track(const OffsetProblem& problem, double offset_s, const MappingOptions& options,
                           const Job& job);
-/// The same of sweeps that are placed already.
+/// The same for sweeps that are already placed.
 Result<TrackedWalk> track(const std::vector<PlacedSweep>& sweeps, const MappingOptions& options,
                           const Job& job);
 
@@ -38,7 +38,7 @@ Result<TrackedWalk> track(const std::vector<PlacedSweep>& sweeps, const MappingO
 struct Interval {
   double begin_s = 0, end_s = 0;
 };
-/// When the sweeps are lost, ascending.
+/// The intervals in which sweeps are lost, ascending.
 std::vector<Interval> lost_intervals(const std::vector<SweepPose>& sweeps);
 
 /// Rebuilds the map along given poses, ascending in time, and counts each sweep's matches with the map of the

@@ -24,17 +24,17 @@ struct MappingOptions {
   // How much the velocity changes: this times what was seen over half sweeps, between these bounds.
   double acceleration_factor = 1.5;
   double min_acceleration = 0.5, max_acceleration = 8;  // rad/s^2 and m/s^2
-  double first_acceleration = 1;                        // until there is something to learn from
+  double first_acceleration = 1;                        // until enough sweeps are known
   double velocity_sigma = 2;                            // rad/s and m/s
 
   int max_iterations = 6;
   int rough_iterations = 2;      // while only a part of the sweep is there ...
   int rough_stride = 2;          // ... with one feature in so many
   double step_tolerance = 5e-4;  // m and rad
-  double reuse_within_m = 0.03;  // a match is searched anew once its point moved by more
+  double reuse_within_m = 0.03;  // a match is searched again once its point moved by more
 
   double doubtful_below = 0.85;  // part of the usual share of matches: the sweep is tried in other ways
-  double lost_below = 0.5;       // likewise: the sweep does not enter the map
+  double lost_below = 0.5;       // part of the usual share: the sweep does not enter the map
   int give_up_after = 4;         // lost sweeps in a row: a new map is begun
   int settling_sweeps = 8;       // not counted: the map is still being begun
 
@@ -51,7 +51,7 @@ struct MappingOptions {
   // Instead of the above, for criteria that are counted at LOAM's own poses.
   double loam_knot_s = 0.25, loam_acceleration = 0.6, loam_tie_sigma = 0.005;
 
-  /// What the rig's motion is expected to be near, or, as the truth, what is followed instead of tracking.
+  /// A prior of the rig's motion, or, as the truth, the motion that is used instead of tracking.
   std::shared_ptr<const GivenMotion> given;
 
   double edge_gate_m = 0.1;   // delta_E of equation 4

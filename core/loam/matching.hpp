@@ -30,7 +30,7 @@ struct LinePatch {
   Eigen::Vector3d centre_m, direction;
 };
 
-/// The plane that `neighbours` lie on, or nothing where they are too few, on too few scan lines, in a row, or
+/// The plane that `neighbours` lie on, or nothing if they are too few, on too few scan lines, collinear, or
 /// not flat.
 std::optional<PlanePatch> fit_plane(const Neighbours& neighbours, const PatchOptions& options,
                                     double radius_m);

@@ -22,13 +22,14 @@ struct OdometryOptions {
   int max_iterations = 20;
   double step_tolerance = 2e-5;  // m and rad
   int min_matches = 100;
-  double min_eigenvalue = 0.003;  // of the normal matrix, per match: below, the scene does not tell
+  double min_eigenvalue =
+      0.003;  // of the normal matrix, per match: below it, the scene does not determine the direction
 };
 
 /// The options with a search radius that reaches three scan lines `line_spacing_rad` apart, as a plane needs.
 OdometryOptions for_lines(OdometryOptions options, double line_spacing_rad);
 
-/// What registering one sweep to another found.
+/// The result of registering one sweep to another.
 struct Registration {
   Pose target_from_source;
   bool succeeded = false;
@@ -45,9 +46,8 @@ struct SweepMap {
 };
 SweepMap map_of(const PlacedSweep& sweep);
 
-/// Registers a sweep to another rigidly, without motion inside either (LOAM's odometry for a system that
-/// stands still, undamped and iterated to convergence). p_in_target = target_from_source * p_in_source, both
-/// base frames.
+/// Registers a sweep to another rigidly, without motion inside either (LOAM's odometry for a stationary rig,
+/// undamped and iterated to convergence). p_in_target = target_from_source * p_in_source, both base frames.
 Registration register_rigidly(const SweepMap& target, const PlacedSweep& source,
                               const OdometryOptions& options);
 

@@ -9,7 +9,7 @@ namespace sweepscope {
 /// How a map is searched for the surface at a point.
 struct SearchRule {
   PatchOptions patch;
-  double radius_m = 0.5, radius_slope = 0.12;  // at least the one, and the other times the range
+  double radius_m = 0.5, radius_slope = 0.12;  // at least the first, and the second times the range
   SweepFilter filter = SweepFilter::kAny;
 };
 

@@ -11,7 +11,7 @@
 namespace sweepscope {
 
 /// A rig's path without jumps or kinks: a uniform cubic B-spline, cumulative in the rotation (Kim, Kim and
-/// Shin 1995), of poses map_from_base over the laser's clock. Beyond its ends it goes on linearly.
+/// Shin 1995), of poses map_from_base over the laser's clock. Beyond its ends it continues linearly.
 class SmoothPath {
  public:
   /// Near tracked sweeps, at least one: where one's end and the next one's begin lie apart, both meet half

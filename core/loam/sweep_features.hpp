@@ -30,7 +30,7 @@ struct PlacedSweep {
   std::vector<PlacedFeature> edges, planes;
 };
 
-/// What a candidate offset is tried on: everything that does not depend on the offset.
+/// The input of every candidate: everything that does not depend on the offset.
 struct OffsetProblem {
   const Recording* recording = nullptr;
   std::shared_ptr<const FeatureSet> features;
@@ -41,18 +41,18 @@ struct OffsetProblem {
 };
 
 /// Places the features of one sweep after the other at an offset: t_motor = t_laser + offset. Features within
-/// a reversal's unsteady part, and scans that are not used, are left out; sweeps without any scan are passed
-/// over.
+/// a reversal's unsteady part, and scans that are not used, are left out; sweeps without any scan are
+/// skipped.
 class SweepPlacer {
  public:
   /// The problem must outlive it.
   SweepPlacer(const OffsetProblem& problem, double offset_s);
 
-  /// How many sweeps have scans.
+  /// The number of sweeps that have scans.
   std::size_t count() const { return scans_.size(); }
-  /// One of them, in place of what `placed` held.
+  /// Places one of them into `placed`, replacing its content.
   void place(std::size_t i, PlacedSweep& placed);
-  /// The next one; false where there is none.
+  /// Places the next one; false if there is none.
   bool next(PlacedSweep& placed);
 
  private:
@@ -68,7 +68,7 @@ class SweepPlacer {
   std::size_t next_ = 0;
 };
 
-/// All sweeps at once. Of a long recording they take several times the memory of its beams.
+/// All sweeps at once. For a long recording this takes several times the memory of its beams.
 std::vector<PlacedSweep> place_sweeps(const OffsetProblem& problem, double offset_s);
 
 }  // namespace sweepscope

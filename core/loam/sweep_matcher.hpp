@@ -14,8 +14,8 @@
 
 namespace sweepscope {
 
-/// The counts behind equations 6 and 7, a cost over all sharp features in which a miss pays the cap, and the
-/// turn about the motor's axis that the matches ask for.
+/// The counts behind equations 6 and 7, a cost over all sharp features in which an unmatched one counts as
+/// the cap, and the turn about the motor's axis that minimises the residuals of the matches.
 struct MatchCount {
   std::size_t features = 0, matches = 0;
   double distance_sum_m = 0;

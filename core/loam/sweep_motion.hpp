@@ -10,7 +10,7 @@
 
 namespace sweepscope {
 
-/// The poses between two: the translation goes linearly, the rotation at constant rate.
+/// The poses between two: linear translation, rotation at constant rate.
 class MotionStep {
  public:
   MotionStep(const Pose& begin, const Pose& end)
@@ -57,7 +57,7 @@ class MotionStep {
   double turn_rad2_;
 };
 
-/// The pose at u between knots at equal steps from 0 to 1; beyond them the motion goes on.
+/// The pose at u between knots at equal steps from 0 to 1; beyond them the motion continues.
 inline Pose pose_between(std::span<const Pose> knots, double u) {
   const double place = u * double(knots.size() - 1);
   const auto i = std::size_t(std::clamp(place, 0.0, double(knots.size() - 2)));
@@ -65,8 +65,8 @@ inline Pose pose_between(std::span<const Pose> knots, double u) {
 }
 
 /// The poses within a sweep, or its first part: knots at equal steps of u from its begin (0) to `end_u`;
-/// between two knots the translation goes linearly and the rotation at constant rate, and beyond them the
-/// motion goes on. What all points of a step share is worked out once.
+/// between two knots the translation is linear and the rotation at constant rate, and beyond them the motion
+/// continues. What all points of a step share is computed once.
 class SweepMotion {
  public:
   explicit SweepMotion(std::span<const Pose> knots, double end_u = 1)

@@ -32,13 +32,12 @@ struct SweepPose {
 std::vector<Vector6d> twists_per_s(const SweepPose& pose, std::size_t parts);
 
 /// Root mean square of how fast the acceleration changes, of a component of the rotation (rad/s^3) and of the
-/// translation (m/s^3), from the mean velocities of so many parts of every sweep; 0 where there are too few
-/// to tell.
+/// translation (m/s^3), from the mean velocities of so many parts of every sweep; 0 if there are too few.
 Eigen::Vector2d jerk(std::span<const SweepPose> sweeps, std::size_t parts_of_sweep);
 
-/// The rotation (rad) by which a body that sways in step with the motor turns from one sweep to the next.
-/// Told from what an offset cannot do, which turns whole sweeps about the motor's axis: by the middles' turns
-/// about the axes across it, and by the turns within the sweeps.
+/// The rotation (rad) by which a body that sways in step with the motor turns from one sweep to the next. It
+/// is found from motion that an offset error cannot cause, which turns whole sweeps about the motor's axis:
+/// the turns of the middles about the axes across it, and the turns within the sweeps.
 double alternating_sway_rad(std::span<const SweepPose> sweeps, const Eigen::Vector3d& motor_axis);
 
 }  // namespace sweepscope

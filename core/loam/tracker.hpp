@@ -16,8 +16,8 @@ namespace sweepscope {
 /// With MappingOptions::given, in sweeps that it covers, motion and velocity mean the deviation from it.
 class Tracker {
  public:
-  /// `first`: where the rig was during the first sweep, which no map is there for. `time_sign` is -1 for
-  /// sweeps whose time runs backwards.
+  /// `first`: the pose of the rig during the first sweep, for which there is no map yet. `time_sign` is -1
+  /// for sweeps whose time runs backwards.
   Tracker(const MappingOptions& options, SweepPose first, double time_sign = 1);
 
   /// The pose of the next sweep; those that are not lost go into the map.
@@ -36,7 +36,7 @@ class Tracker {
   // One way to begin the search for a sweep's motion.
   struct Attempt {
     double acceleration_factor;  // how far the motion may change, against what is usual
-    double carried;              // part of the velocity that goes on
+    double carried;              // part of the velocity that is kept
   };
   struct Solved {
     std::vector<Pose> path;
@@ -76,9 +76,9 @@ class Tracker {
 PlacedSweep reversed(PlacedSweep sweep);
 SweepPose reversed(SweepPose pose);
 
-/// The pose of the first of these sweeps. No map is there to match it to, so that its velocity is guessed,
-/// tried and averaged (taken at its word the new estimate would swing to and fro for ever); then it is
-/// matched to the map of the others, and they to its, in turn.
+/// The pose of the first of these sweeps. There is no map to match it to, so its velocity is guessed,
+/// tried and averaged (without averaging the estimate would oscillate); then it is matched to the map of the
+/// others, and the others to its map, in turn.
 SweepPose find_first_pose(const std::vector<PlacedSweep>& sweeps, const MappingOptions& options);
 
 }  // namespace sweepscope

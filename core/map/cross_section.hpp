@@ -11,7 +11,8 @@
 
 namespace sweepscope {
 
-/// A box through a wall or a pillar's face, in the map frame: what a profile across the face is taken from.
+/// A box through a wall or a face of a pillar, in the map frame: a profile across the face is taken from its
+/// points.
 struct CrossSection {
   Eigen::Vector2d at_m = Eigen::Vector2d::Zero();  // the face's middle, x and y, at the middle height
   double normal_rad = 0;  // direction across the face in the horizontal plane, 0 along x, growing towards y
@@ -34,10 +35,11 @@ struct Profile {
   std::size_t points = 0;
   double median_mm = 0;    // of the points, along the section's direction from its middle
   double peak_per_mm = 0;  // greatest density
-  /// Between the outermost crossings of half of the peak: both layers of a face that a wrong offset doubled
-  /// count where the lesser is above half the greater. None from too few points.
+  /// Width at half height: between the outermost crossings of half of the peak. If a wrong offset splits a
+  /// face into two layers, both count if the lower peak is above half the higher one. Absent for too few
+  /// points.
   std::optional<double> width_at_half_height_mm;
-  /// Where those crossings are, on the axis of distances_mm; there where the width is.
+  /// The positions of those crossings, on the axis of distances_mm; present if the width is.
   std::pair<double, double> half_height_mm{0, 0};
   /// The inverse of the peak: how wide the points would be, all as dense as where they are densest (1.06
   /// times the width at half height of a single layer). It also grows where a layer is smeared below half the
@@ -50,11 +52,11 @@ struct Profile {
 /// (exactly for one layer, to within 1 mm for two). Widths need 300 points.
 Profile profile_across(const MapCloud& cloud, const CrossSection& section);
 
-/// The section laid on the face that lies in it, by a robust plane fit: place, direction (to 6 deg) and lean.
-/// Named roughly, it is so made exact on the sharpest map. None where the section holds too few points.
+/// The section fitted to the face that lies in it, by a robust plane fit of position, direction (to 6 deg)
+/// and lean: a rough section becomes exact on the sharpest map. Absent if the section holds too few points.
 std::optional<CrossSection> face_fitted(const MapCloud& cloud, const CrossSection& section);
 
-/// A map and where its rig went. Both must outlive it.
+/// A map and the trajectory of its rig. Both must outlive it.
 struct MapOnPath {
   const MapCloud* cloud = nullptr;
   std::span<const StampedPose> path;  // ascending in time; map_from_base
@@ -72,7 +74,7 @@ struct SectionSearch {
   double max_width_mm = 45;  // at half height, in the sharpest of the maps
 };
 
-/// A section and what speaks for it.
+/// A section and the evidence for it.
 struct FoundSection {
   CrossSection section;           // laid on its face in the sharpest map
   std::size_t sharpest = 0;       // index of that map
@@ -84,7 +86,7 @@ struct FoundSection {
 /// The vertical face at least 0.8 m above or below the rig's path that shows best what the offset does: seen
 /// by sweeps of both directions, thin in the sharpest of the maps (no map's points beyond the reach), and of
 /// several maps the one whose widths differ most; of one alone the one that would grow widest if sweeps were
-/// turned by error_rad, to and fro. None where no face will do.
+/// turned by +-error_rad. Absent if no face is suitable.
 std::optional<FoundSection> best_section(std::span<const MapOnPath> maps, const SectionSearch& search = {});
 
 }  // namespace sweepscope

@@ -11,7 +11,7 @@
 
 namespace sweepscope {
 
-/// What a beam was picked as (Figures 2 and 3 of the paper).
+/// The kind of feature that a beam was selected as (Figures 2 and 3 of the paper).
 enum class FeatureKind : std::uint8_t { kNone = 0, kEdge = 1, kPlane = 2 };
 
 /// A beam's point in the scanner's plane.
@@ -28,9 +28,9 @@ struct ScanPoint {
 std::vector<ScanPoint> scan_points(const Recording& recording, const FeatureSet& features, std::size_t scan,
                                    const FeatureOptions& options = {});
 
-/// What each point of a map was picked as. The map must have been built from the recording that the features
-/// are of, and may be thinned: points are told by their beam's instant. An edge that was picked as a plane
-/// point as well counts as an edge.
+/// The kind of each point of a map. The map must have been built from the recording that the features
+/// are of, and may be thinned: points are identified by the time of their beam. A point that was selected
+/// both as an edge and as a plane point counts as an edge.
 std::vector<FeatureKind> feature_kinds(const FeatureSet& features, const MapCloud& cloud);
 
 /// The feature map: the edge and plane points of a map, with their kinds. Both of the same length.

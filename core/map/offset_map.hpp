@@ -19,18 +19,18 @@ namespace sweepscope {
 
 struct MapOptions {
   std::optional<RigKind> assume;  // instead of the motion test
-  /// Where the base frame went, instead of LOAM's answer; ascending in time. Between them the pose goes
-  /// linearly; scans before the first and after the last are left out, with a warning, and where that is all
-  /// of them nothing is built (ExitCode::kNotIdentifiable). The map frame is theirs.
+  /// The trajectory of the base frame, used instead of LOAM's; ascending in time. Poses are interpolated
+  /// linearly. Scans before the first and after the last are left out, with a warning; if that is all of
+  /// them, nothing is built (ExitCode::kNotIdentifiable). The map is in their frame.
   std::vector<StampedPose> poses;
-  /// A moving rig's trajectory where it is known already, such as an estimate's; null: it is solved for.
+  /// A moving rig's trajectory if it is already known, such as an estimate's; null: it is solved for.
   std::shared_ptr<const SolvedWalk> walk;
   FeatureOptions features;
   MappingOptions mapping;
 };
 
-/// The map at an offset, with where the base frame went. The map frame is the base frame at the first sweep's
-/// begin.
+/// The map at an offset, with the trajectory of the base frame. The map frame is the base frame at the first
+/// sweep's begin.
 struct OffsetMap {
   double offset_s = 0;
   MapCloud::Ptr cloud;
@@ -43,18 +43,18 @@ struct OffsetMap {
 };
 
 /// Builds the map at each of the offsets from the same scans: every beam is placed with the motor angle of
-/// its own instant at t_motor = t_laser + offset. A rig that stood still has identity poses; a moving one's
+/// its own instant at t_motor = t_laser + offset. A stationary rig has identity poses; a moving one's
 /// trajectory is the one that fits best together with the best offset (see SolvedWalk), the same for all
-/// maps: one solved for at a wrong offset would hide it. A motor that does not turn to and fro is
+/// maps: one solved for at a wrong offset would hide it. A motor that does not turn back and forth is
 /// ExitCode::kNotIdentifiable.
 Result<std::vector<OffsetMap>> build_maps(const PreparedRecording& prepared,
                                           std::span<const double> offsets_s, const MapOptions& options,
                                           const Job& job);
-/// The same of a recording that nothing else is asked of.
+/// The same for a recording that is not used for anything else.
 Result<std::vector<OffsetMap>> build_maps(const Recording& recording, std::span<const double> offsets_s,
                                           const MapOptions& options, const Job& job);
 
-/// About how much more memory so many maps of a recording that is read take, at the most, to build.
+/// An upper estimate of the memory that building this number of maps of a recording takes.
 std::uint64_t map_memory_bytes(const Recording& recording, std::size_t maps);
 
 }  // namespace sweepscope

@@ -24,7 +24,7 @@ std::string span_text(const Recording& recording, double from_s, double to_s) {
 Result<std::string> check_pose_coverage(const Recording& recording, std::span<const StampedPose> poses,
                                         std::span<const char> used) {
   if (poses.size() < 2)
-    return unreadable(fmt::format("{}: a trajectory of fewer than two poses places nothing", recording.name));
+    return unreadable(fmt::format("{}: a trajectory needs at least two poses", recording.name));
   std::size_t scans = 0, covered = 0;
   for (std::size_t i = 0; i < recording.scans.size(); ++i) {
     if (!used.empty() && used[i] == 0) continue;

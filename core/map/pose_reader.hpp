@@ -10,7 +10,7 @@
 
 namespace sweepscope {
 
-/// Poses that ascend in time, read at instants that ascend too. Must not outlive the poses.
+/// Poses that ascend in time, read at ascending times. Must not outlive the poses.
 class PoseReader {
  public:
   explicit PoseReader(const std::vector<StampedPose>& poses) : poses_(poses) {}
@@ -18,7 +18,7 @@ class PoseReader {
   bool covers(double from_s, double to_s) const {
     return poses_.size() > 1 && from_s >= poses_.front().time_s && to_s <= poses_.back().time_s;
   }
-  /// Between two poses linearly; only where they cover the instant.
+  /// Interpolates linearly; only for times that the poses cover.
   Pose at(double time_s) {
     while (next_ + 1 < poses_.size() && poses_[next_].time_s < time_s) ++next_;
     while (next_ > 1 && poses_[next_ - 1].time_s > time_s) --next_;
@@ -33,9 +33,9 @@ class PoseReader {
 };
 
 /// Whether a trajectory from elsewhere covers a recording's scans, from their first beam to their last.
-/// `used` says for each scan whether it counts; empty: all do. A trajectory that covers none of them is
-/// ExitCode::kNotIdentifiable, with both spans of time. Else a warning that counts the scans that are left
-/// out; empty where none is.
+/// `used` says for each scan whether it is used; empty: all are. A trajectory that covers none of them is
+/// ExitCode::kNotIdentifiable, with both spans of time. Otherwise a warning with the number of scans that are
+/// left out; empty if there are none.
 Result<std::string> check_pose_coverage(const Recording& recording, std::span<const StampedPose> poses,
                                         std::span<const char> used = {});
 

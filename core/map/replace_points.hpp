@@ -39,20 +39,20 @@ struct FixedPath {
 
 /// `used` says per scan whether it is to be placed at all (scans_covered).
 FixedPath fix_path(const Recording& recording, std::vector<SweepPose> sweeps, std::span<const char> used);
-/// A path on which the rig stands at the map frame's origin for the whole recording.
+/// A path on which the rig is stationary at the map frame's origin for the whole recording.
 FixedPath standing_path(const Recording& recording, std::span<const char> used);
-/// A path along poses that are known, ascending in time: a pair for each scan, since they may lie far apart.
-/// Scans that they do not cover have no pose.
+/// A path along given poses, ascending in time: a pair for each scan, since they may be far apart. Scans that
+/// they do not cover have no pose.
 FixedPath path_along(const Recording& recording, const std::vector<StampedPose>& poses,
                      std::span<const char> used);
 
-/// Places beams along fixed poses with the motor angle at t_motor = t_laser + offset: what turning the offset
-/// does to the map while the path stays. Places are in the map frame; beams outside the path become NaN. In
-/// parallel, the same result for any number of threads.
+/// Places beams along fixed poses with the motor angle at t_motor = t_laser + offset: the effect of the
+/// offset on the map for an unchanged path. Positions are in the map frame; beams outside the path become
+/// NaN. In parallel, the same result for any number of threads.
 void replace_points(const Beams& beams, const FixedPath& path, double offset_s,
                     std::span<std::array<float, 3>> xyz_m);
 
-/// The same for chosen beams, given in ascending order: xyz_m[k] is the place of beam chosen[k].
+/// The same for chosen beams, given in ascending order: xyz_m[k] is the position of beam chosen[k].
 void replace_points(const Beams& beams, const FixedPath& path, double offset_s,
                     std::span<const std::uint32_t> chosen, std::span<std::array<float, 3>> xyz_m);
 

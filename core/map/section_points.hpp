@@ -7,14 +7,14 @@
 
 #include "core/map/cross_section.hpp"
 
-/// What profile_across and face_fitted do, for many sections in one pass over a map.
+/// profile_across and face_fitted for many sections in one pass over a map.
 namespace sweepscope {
 
 /// A map's points (indices into it, ascending) in a cylinder around each section.
 std::vector<std::vector<std::uint32_t>> points_near(const MapCloud& cloud,
                                                     std::span<const CrossSection> sections);
 
-/// Of such points those inside the section.
+/// Those of these points that lie inside the section.
 std::vector<std::uint32_t> points_inside(const MapCloud& cloud, std::span<const std::uint32_t> near,
                                          const CrossSection& section);
 

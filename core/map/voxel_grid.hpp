@@ -9,7 +9,7 @@
 
 namespace sweepscope {
 
-/// Runs of a VoxelGrid's points that lie in one cube, found by the cube's place.
+/// Runs of a VoxelGrid's points that lie in one cube, found by the cube's position.
 class VoxelLevel {
  public:
   /// Cubes of edge `cell_m` are runs of equal `keys[i] >> shift`; keys ascend.
@@ -24,7 +24,7 @@ class VoxelLevel {
   std::uint32_t begin(std::uint32_t cell) const { return begin_[cell]; }
   Place place(std::uint32_t cell) const;
   Place place_of(float x_m, float y_m, float z_m) const;
-  /// The cell at a place; kNone where it holds no point.
+  /// The cell at a position; kNone if it holds no point.
   std::uint32_t find(const Place& place) const;
 
  private:

@@ -30,17 +30,17 @@ struct OffsetsAround {
 std::vector<double> offsets_of(const std::vector<OffsetRange>& ranges);
 OffsetRange range_around(const OffsetsAround& around);
 
-/// What is computed for one candidate.
+/// Computes one candidate.
 using Candidate = std::function<CurvePoint(double offset_s, const Job& job)>;
 
-/// Computes candidates in parallel and keeps the curve ascending; offsets that are there already are not
-/// computed again. The same bytes for any number of threads. On interruption what was finished stays in the
-/// curve.
+/// Computes candidates in parallel and keeps the curve ascending; offsets that are already there are not
+/// computed again. The same bytes for any number of threads. On interruption the curve keeps the finished
+/// candidates.
 class Curve {
  public:
   explicit Curve(Candidate candidate) : candidate_(std::move(candidate)) {}
 
-  /// False where the job was cancelled.
+  /// False if the job was cancelled.
   bool compute(const std::vector<double>& offsets_s, const Job& job);
   const std::vector<CurvePoint>& points() const { return points_; }
 
@@ -52,14 +52,15 @@ class Curve {
 /// Both curves as one, ascending; where both have an offset the first one's point.
 std::vector<CurvePoint> united(std::vector<CurvePoint> curve, const std::vector<CurvePoint>& more);
 
-/// The index of the least (or greatest) present value; points().size() where there is none.
+/// The index of the minimum (or maximum) of the present values; points().size() if there is none.
 using CurveValue = std::optional<double> CurvePoint::*;
 std::size_t index_of_min(const std::vector<CurvePoint>& curve, CurveValue value);
 std::size_t index_of_max(const std::vector<CurvePoint>& curve, CurveValue value);
 
 /// A second-degree fit over a part of a curve: value = scale (c0 + c1 x + c2 x^2) with x = (offset - centre)
-/// / reach. Distances go as a hyperbola near the offset and flatten farther away, where matches are cut off:
-/// fitted by their squares, d and e of the paper's ten recordings came out 1 to 20 % farther from the truth.
+/// / reach. Distances follow a hyperbola near the offset and flatten farther away, where matches are cut off:
+/// fitted by their squares, d and e of the paper's ten recordings came out 1 to 20 % farther from the true
+/// offset.
 struct ExtremumFit {
   double centre_s = 0, reach_s = 1;
   double scale = 1, c0 = 0, c1 = 0, c2 = 0;
@@ -69,7 +70,7 @@ struct ExtremumFit {
   double extremum_s() const { return centre_s - c1 / (2 * c2) * reach_s; }
 };
 
-/// The fit from which `fitted_extremum` takes its answer; none where that is the grid point.
+/// The fit behind the result of `fitted_extremum`; absent if that is the grid point.
 std::optional<ExtremumFit> fit_of_extremum(const std::vector<CurvePoint>& curve, CurveValue value,
                                            std::size_t best, double reach_s);
 

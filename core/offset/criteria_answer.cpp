@@ -23,7 +23,8 @@ void compare_criteria(Answer& answer, double n_offset_s, double e_offset_s, cons
   if (apart_s <= scale.unit_s) return;
   (apart_s > 3 * scale.unit_s ? answer.reasons : answer.warnings)
       .push_back(
-          fmt::format("The two criteria disagree: n is greatest at {:.2f} ms, e is least at {:.2f} ms.",
+          fmt::format("The two criteria disagree: the maximum of n is at {:.2f} ms, the minimum of e at "
+                      "{:.2f} ms.",
                       n_offset_s * 1e3, e_offset_s * 1e3));
 }
 
@@ -133,8 +134,8 @@ void add_extrema(Answer& answer, const OffsetSearch& search, std::size_t best) {
   }
   if (curve.size() > 2 && (best == 0 || best + 1 == curve.size()))
     answer.reasons.push_back(
-        fmt::format("The least {} lies on the edge of the searched range, at {:.1f} ms: the offset lies "
-                    "beyond it, or nowhere.",
+        fmt::format("The minimum of {} lies on the edge of the searched range, at {:.1f} ms: the offset is "
+                    "outside the range or cannot be determined.",
                     moving ? "e" : "d", least.offset_s * 1e3));
 }
 

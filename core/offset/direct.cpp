@@ -136,8 +136,8 @@ Remark clearest_reason(const std::vector<CurvePoint>& sides) {
   if (!here) return "The map holds no matches at the offset that fits the walk best.";
   if ((!below || *below >= *here) && (!above || *above >= *here)) return std::nullopt;
   return fmt::format(
-      "The map is not clearest at the offset that fits the walk best: e is {:.1f} mm there, and {:.1f} and "
-      "{:.1f} mm to its sides.",
+      "The map is not sharpest at the offset that fits the walk best: e is {:.1f} mm there, and {:.1f} and "
+      "{:.1f} mm to either side.",
       *here * 1e3, below.value_or(0) * 1e3, above.value_or(0) * 1e3);
 }
 
@@ -146,9 +146,9 @@ Remark sway_warning(double sway_rad) {
   constexpr double kUsual_rad = 0.014;  // of any walk: the sweeps' own scatter
   if (sway_rad < kUsual_rad) return std::nullopt;
   return fmt::format(
-      "The trajectory turns to and fro in step with the motor, by {:.1f} deg from sweep to sweep: the rig "
-      "swayed like that, or the sweeps have too little in common. Another pace or another motor speed would "
-      "make the answer surer.",
+      "The trajectory turns back and forth in step with the motor, by {:.1f} deg from sweep to sweep: the "
+      "rig swayed in this way, or the sweeps overlap too little. Walk at another pace or turn the motor at "
+      "another speed.",
       sway_rad * kDegPerRad);
 }
 

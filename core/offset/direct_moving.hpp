@@ -17,7 +17,7 @@ namespace sweepscope {
 /// sides of the answer.
 struct MovingDirectOptions {
   WalkOptions walk;
-  double side_s = 0.003;  // where e is asked on both sides
+  double side_s = 0.003;  // distance from the answer at which e is computed on both sides
 };
 
 struct MovingDirect {
@@ -27,7 +27,7 @@ struct MovingDirect {
   std::vector<CurvePoint> curve;  // n, e and capped cost along the walk: below, at and above the answer
 };
 
-/// Absent where the job was cancelled.
+/// Absent if the job was cancelled.
 std::optional<MovingDirect> solve_moving(const OffsetProblem& problem, double first_offset_s,
                                          const MovingDirectOptions& options, const Job& job);
 

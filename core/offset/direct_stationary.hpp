@@ -12,10 +12,10 @@
 
 namespace sweepscope {
 
-/// The offset of a standing rig as the one unknown of a least squares.
+/// The offset of a stationary rig as the only unknown of a least squares.
 ///
 /// A point p on a line of one direction lies at distance r = n . (p - c) from a patch (c, n) of the other's.
-/// An offset that grows turns the point by omega_p and the patch by omega_c about the motor's axis a, so
+/// A growing offset turns the point by omega_p and the patch by omega_c about the motor's axis a, so
 ///   dr / d offset = (omega_p - omega_c) n . (a x p),
 /// and Gauss-Newton's step is - sum w r J / sum w J^2, with Cauchy weights w.
 struct StationaryDirectOptions {
@@ -36,11 +36,11 @@ PatchDistance distance_to_patch(const StillPatch& patch, const Eigen::Vector3d& 
                                 const Eigen::Vector3d& motor_axis);
 
 /// Mean difference of range between the directions at each candidate offset, each at most a cap: needs no
-/// registration and so is right far from the valley too. Absent where the directions hardly overlap.
+/// registration, so it is valid far from the minimum too. Absent if the directions hardly overlap.
 std::vector<CurvePoint> stationary_coarse_curve(const StillGrid& grid, const std::vector<double>& offsets_s,
                                                 const Job& job);
 
-/// The answer and what it rests on.
+/// The answer and its evidence.
 struct StationaryDirect {
   bool converged = false;
   double offset_s = 0;
@@ -48,8 +48,9 @@ struct StationaryDirect {
   int iterations = 0;
   std::size_t features = 0, matches = 0;
   double residual_m = 0;  // robust deviation of the distances
-  double lever_m = 0;     // rms of n . (a x p): by how much a turn of 1 rad lifts the points off the patches
-  double reach_m = 0;     // rms of |a x p|: as far as they could be lifted
+  double lever_m =
+      0;  // rms of n . (a x p): the distance by which a turn of 1 rad moves the points off the patches
+  double reach_m = 0;  // rms of |a x p|: its upper bound
   // Resampling: the recording is cut into parts, blocks of sweeps in the order of time, or sectors of the
   // motor's angle where sweeps are few.
   std::vector<WithoutPart> without_part;  // the offset without each part
@@ -61,8 +62,8 @@ struct StationaryDirect {
 StationaryDirect solve_stationary(const StillGrid& grid, double first_offset_s,
                                   const StationaryDirectOptions& options, const Job& job);
 
-/// How far the answer may be off, as far as what was resampled and the recording's stamps tell: the greatest
-/// of what parts, combs and `stamps_sigma_s` say. Absent where the parts are too few.
+/// The uncertainty of the answer from resampling and from the recording's stamps: the largest of the values
+/// from parts, combs and `stamps_sigma_s`. Absent if the parts are too few.
 std::optional<double> sigma_of(const StationaryDirect& found, const Recording& recording);
 
 }  // namespace sweepscope

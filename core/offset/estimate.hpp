@@ -20,13 +20,13 @@ enum class RigKind { kStationary, kMoving };
 /// and 3.3 at candidate offsets.
 enum class Method { kDirect, kStationary, kMoving };
 
-/// What was computed at one candidate offset. A value is absent where the method has no such criterion or
-/// where the registration failed; a candidate that failed never wins.
+/// What was computed at one candidate offset. A value is absent if the method has no such criterion or the
+/// registration failed; a failed candidate never wins.
 struct CurvePoint {
   double offset_s = 0;
   std::optional<double> d;                    // equation 3, mean over the pairs of sweeps
-  std::optional<double> translation_m;        // equation 1, likewise
-  std::optional<double> rotation_rad;         // equation 2, likewise
+  std::optional<double> translation_m;        // equation 1, mean over the pairs of sweeps
+  std::optional<double> rotation_rad;         // equation 2, mean over the pairs of sweeps
   std::optional<double> signed_rotation_rad;  // about the motor's axis, alternating in sign; 0 at the offset
   std::optional<double> n;                    // equation 6, matches
   std::optional<double> e_m;                  // equation 7, mean distance per match
@@ -41,17 +41,17 @@ struct CriterionOptimum {
   double value = 0;
 };
 
-/// A motion from elsewhere that an estimate went by.
+/// A motion from another source that an estimate used.
 struct UsedMotion {
   enum class Kind { kPoses, kOdometry, kImu };
   Kind kind = Kind::kPoses;
   std::string name;      // the file, or the topic
-  bool trusted = false;  // as the truth; else as a prior
-  /// Added to its stamps it gives the laser's clock. Absent where it could not be determined.
+  bool trusted = false;  // used as the truth; otherwise as a prior
+  /// Adding it to the motion's stamps gives the laser's clock. Absent if it could not be determined.
   std::optional<double> time_shift_s, time_shift_sigma_s;
 };
 
-/// What the least squares of the direct method rests on.
+/// The evidence of the direct method's least squares.
 struct FitEvidence {
   bool converged = false;
   int iterations = 0;  // 0: of a walk, where each part has its own
@@ -77,7 +77,7 @@ struct RigEffects {
 struct Estimate {
   std::string recording;
   Method method = Method::kDirect;
-  std::optional<RigKind> kind;  // what the rig was taken for; none where that was not judged
+  std::optional<RigKind> kind;  // absent if the motion test was not run
   std::string kind_reason;      // why: a sentence
   bool identifiable = false;
   std::optional<double> offset_s;
@@ -96,13 +96,12 @@ struct Estimate {
   double wall_s = 0;
   std::optional<UsedMotion> motion;  // what a moving rig's trajectory went by, besides the scans
   std::optional<FitEvidence> fit;    // of the direct method
-  /// A moving rig's trajectory, by which all of this was judged; null in an estimate that was read from a
-  /// file.
+  /// A moving rig's trajectory, on which all of this is based; null in an estimate that was read from a file.
   std::shared_ptr<const SolvedWalk> walk;
   /// What of the rig was solved for beside the offset; null where nothing was, and in an estimate that was
   /// read from a file.
   std::shared_ptr<const SolvedRig> rig;
-  bool interrupted = false;  // the curve holds what was finished until then
+  bool interrupted = false;  // the curve holds the candidates finished until then
 };
 
 }  // namespace sweepscope

@@ -128,9 +128,9 @@ std::vector<EstimateOption> declared() {
   const std::string gates = fmt::format(" (default: {})", MappingOptions().edge_gate_m);
   return {choice("method", "M",
                  "direct: the offset as an unknown of a least squares, for stationary and moving rigs; "
-                 "stationary: the offset at which odometry sees the least motion (d); moving: the offset at "
-                 "which the map is sharpest (n, e). Default: direct; with --range, --around or another "
-                 "option of the paper's methods, stationary or moving, as the motion test decides",
+                 "stationary: the offset at which odometry registers the least motion (d); moving: the "
+                 "offset at which the map is sharpest (n, e). Default: direct; with --range, --around or "
+                 "another option of the paper's methods, stationary or moving, as the motion test decides",
                  {"stationary", "moving", "direct"},
                  [](EstimateOptions& options, std::size_t i) {
                    options.method = std::array{Method::kStationary, Method::kMoving, Method::kDirect}[i];

@@ -21,7 +21,7 @@ namespace sweepscope {
 enum class Fit { kNone, kParabola };
 enum class Scoring { kTwoStage, kLoam };
 
-/// How an offset is looked for. What is left empty is decided from the recording.
+/// How an offset is searched for. Empty members are decided from the recording.
 struct EstimateOptions {
   std::optional<Method> method;     // none: see method_of
   std::optional<RigKind> assume;    // instead of the motion test
@@ -31,7 +31,7 @@ struct EstimateOptions {
   std::optional<Scoring> scoring;      // none: two-stage
   std::optional<double> weight_c;      // c of equation 3; none: 1
   std::optional<double> edge_gate_m;   // delta_E of equation 4; none: that of `mapping`
-  std::optional<double> plane_gate_m;  // delta_H of equation 5; likewise
+  std::optional<double> plane_gate_m;  // delta_H of equation 5; none: that of `mapping`
   RigSolve solve;                      // of the rig, beside the offset
   FeatureOptions features;
   OdometryOptions odometry;
@@ -41,9 +41,9 @@ struct EstimateOptions {
   std::shared_ptr<const SolvedWalk> walk;
 };
 
-/// The method that an estimate uses, the same for every part of the program: the one asked for; else, where
+/// The method that an estimate uses, the same for every part of the program: the requested one; otherwise, if
 /// an option of the paper's criteria is set or candidates are kept in a file, the paper's method for that
-/// kind of rig; else the direct method.
+/// kind of rig; otherwise the direct method.
 Method method_of(const EstimateOptions& options, RigKind kind, bool keeps_candidates = false);
 
 /// How the map is searched, with the gates of the criteria.
@@ -55,9 +55,9 @@ struct EstimateOption {
   std::string name;                  // "weight-c"
   std::string type;                  // what a value looks like: "FROM:TO:STEP"
   std::string help;                  // a sentence
-  std::vector<std::string> choices;  // all values that it takes; empty: see `type`
+  std::vector<std::string> choices;  // all valid values; empty: see `type`
   bool repeats = false;
-  /// Sets it from text. A value that it does not take is ExitCode::kWrongUsage, with what it needs.
+  /// Sets the option from text. An invalid value is ExitCode::kWrongUsage; the message says what is needed.
   std::function<Result<void>(EstimateOptions&, const std::string&)> set;
 };
 

@@ -82,9 +82,9 @@ Result<void> check_options(const EstimateOptions& options, const KeptCandidates&
   const auto refuse = [](const char* why) { return failure(ExitCode::kWrongUsage, why); };
   const bool direct = method_of(options, kUnknownKind, kept.store != nullptr) == Method::kDirect;
   if (direct && kept.store != nullptr)
-    return refuse("The direct method takes seconds and keeps no candidates.");
+    return refuse("The direct method takes seconds and has no candidates to keep.");
   if (kept.shard && options.ranges.empty() && !options.around)
-    return refuse("A shard needs --range or --around: the default search decides where to look as it goes.");
+    return refuse("A shard needs --range or --around: the default search chooses its candidates as it goes.");
   if (options.solve.any() && !direct) return refuse("--solve is used by the direct method only.");
   if (options.poses && !direct) return refuse("Poses are used by the direct method only.");
   return {};
@@ -98,7 +98,7 @@ Result<void> check_poses(const OffsetSearch& search, const std::string& kind_rea
                    fmt::format("{}: a trajectory needs at least two poses", poses->file));
   if (search.kind == RigKind::kMoving) return {};
   return failure(ExitCode::kWrongUsage,
-                 fmt::format("{}: the rig stood still, where poses are of no use: leave out {}. {}",
+                 fmt::format("{}: poses have no use for a stationary rig: leave out {}. {}",
                              search.problem.recording->name, poses->file, kind_reason));
 }
 
@@ -132,7 +132,7 @@ Estimate judged(Estimate result, const OffsetSearch& search, const KindDecision&
   if (search.as_moving() && result.sweeps < min_sweeps)
     result.reasons.push_back(
         fmt::format("{}The recording is too short for a moving rig: {} sweeps, at least {} are needed, and "
-                    "40 s of walking for a good answer.",
+                    "40 s of walking for a good result.",
                     seen_moving ? moved_text(search.motion) + " " : "", result.sweeps, min_sweeps));
   return result;
 }

@@ -45,8 +45,7 @@ std::string accuracy(const Recording& recording, const MotorMotion& motor) {
   const double stationary_s = unseen_sigma_s(recording, motor, 0);
   const double of_part_s = unseen_of_part_s(recording, motor, std::size_t(10 / motor.median_sweep_s));
   return fmt::format(
-      "Expect an offset good to about {:.2g} ms of a stationary rig, and to {:.2g} ms of a moving one (40 "
-      "s).",
+      "Expect an accuracy of about {:.2g} ms for a stationary rig and {:.2g} ms for a moving one (40 s).",
       1e3 * std::max(stationary_s, 0.01e-3), 1e3 * std::hypot(stationary_s, of_part_s / std::sqrt(kParts)));
 }
 
@@ -54,7 +53,8 @@ Remark sparse_samples(const Recording& recording, const MotorMotion& motor) {
   constexpr double kEnough = 16;  // a sweep
   if (!sampling_warning(recording.motor, motor)) return std::nullopt;
   return fmt::format(
-      "The motor is sampled {:.1f} times a sweep only, which costs accuracy: sample it every {:.2g} s.",
+      "The motor is sampled only {:.1f} times per sweep, which reduces the accuracy: sample it every {:.2g} "
+      "s.",
       samples_per_sweep(recording.motor, motor), motor.median_sweep_s / kEnough);
 }
 
@@ -62,11 +62,11 @@ Remark few_sweeps(std::size_t sweeps) {
   constexpr std::size_t kStationary = 8, kMoving = 40;
   if (sweeps < kStationary)
     return fmt::format(
-        "{} whole sweeps are few: a good recording has {} of a stationary rig or {} of a moving one.", sweeps,
-        kStationary, kMoving);
+        "{} whole sweeps are few: a good recording has {} for a stationary rig or {} for a moving one.",
+        sweeps, kStationary, kMoving);
   if (sweeps < kMoving)
-    return fmt::format("{} whole sweeps are enough of a stationary rig; a moving one should give {}.", sweeps,
-                       kMoving);
+    return fmt::format("{} whole sweeps are enough for a stationary rig; a moving one should have {}.",
+                       sweeps, kMoving);
   return std::nullopt;
 }
 
@@ -93,7 +93,7 @@ std::vector<std::string> expectations(const Recording& recording, const Recordin
   for (const auto& [stream, name] :
        {std::pair<const StreamSummary&, const char*>{laser, "scans'"}, {summary.motor, "motor's"}}) {
     if (stream.stamp != StampSource::kReceive || !stream.receive_jitter_s) continue;
-    add(fmt::format("The {} receive times jitter by {:.2g} ms, which goes into the answer.", name,
+    add(fmt::format("The {} receive times jitter by {:.2g} ms, which reduces the accuracy.", name,
                     1000 * *stream.receive_jitter_s));
   }
   return lines;

@@ -33,8 +33,8 @@ double median_cost(const std::vector<CurvePoint>& coarse) {
 Remark edge_reason(const std::vector<CurvePoint>& coarse, std::size_t best) {
   if (best > 0 && best + 1 < coarse.size()) return std::nullopt;
   return fmt::format(
-      "The least cost lies on the edge of the searched range, at {:.1f} ms: the offset lies beyond it, or "
-      "nowhere.",
+      "The minimum cost lies on the edge of the searched range, at {:.1f} ms: the offset is outside the "
+      "range or cannot be determined.",
       coarse[best].offset_s * 1e3);
 }
 
@@ -72,8 +72,8 @@ Remark stamps_reason(const Recording& recording, const SearchScale& scale) {
                period_s = recording.report.laser_stamps.median_period_s;
   if (spread_s < std::max(period_s / 4, scale.unit_s / 2)) return std::nullopt;
   return fmt::format(
-      "The scans' receive times come unevenly, by up to {:.0f} ms nine times in ten, where a scan takes "
-      "{:.0f} ms: it is not known which scan was made when, and no one offset describes that.",
+      "The scans' receive times are uneven, by up to {:.0f} ms nine times in ten, and a scan takes {:.0f} "
+      "ms: when each scan was taken is not known, and no single offset describes that.",
       spread_s * 1e3, period_s * 1e3);
 }
 
@@ -183,7 +183,7 @@ Remark sampling_reason(const MotorTrack& track, const MotorMotion& motor, const 
   constexpr double kMin = 3;
   const double samples = samples_per_sweep(track, motor);
   if (samples > kMin && encoder_sampling_sigma_s(track, motor) < scale.unit_s) return std::nullopt;
-  return fmt::format("The motor is sampled {:.1f} times a sweep only: what it does in between is not known.",
+  return fmt::format("The motor is sampled only {:.1f} times per sweep: its motion in between is not known.",
                      samples);
 }
 
@@ -276,7 +276,7 @@ Remark encoder_warning(const MotorTrack& track) {
   const double quartiles_s = spacings_s[3 * spacings_s.size() / 4] - spacings_s[spacings_s.size() / 4];
   const double jitter_s = quartiles_s / 1.349;  // as of a normal distribution
   if (jitter_s < 0.2 * median_s) return std::nullopt;
-  return fmt::format("The encoder's samples come unevenly: every {:.1f} ms +- {:.1f} ms.", median_s * 1e3,
+  return fmt::format("The encoder's samples are uneven: every {:.1f} ms +- {:.1f} ms.", median_s * 1e3,
                      jitter_s * 1e3);
 }
 
@@ -285,7 +285,8 @@ Remark sampling_warning(const MotorTrack& track, const MotorMotion& motor) {
   const double samples = samples_per_sweep(track, motor);
   if (samples > kFew) return std::nullopt;
   return fmt::format(
-      "The motor is sampled {:.1f} times a sweep only: between the samples it is taken to turn evenly.",
+      "The motor is sampled only {:.1f} times per sweep: between samples its speed is assumed to be "
+      "constant.",
       samples);
 }
 

@@ -17,13 +17,13 @@ namespace sweepscope {
 Eigen::Vector2d jerk_sigma(const OffsetProblem& problem, const std::vector<SweepPose>& sweeps,
                            const JointWalkOptions& options);
 
-/// Whether the motor slows down well before it turns back, as a sine does: a wrong offset then shows in a
-/// roll as smooth as a body's sway, and in no jump.
+/// Whether the motor slows down well before it turns back, as a sine does: a wrong offset then shows as a
+/// roll that is as smooth as a body's sway, without a jump.
 bool turns_back_smoothly(const OffsetProblem& problem);
 
 /// The jerk of a path by its knots, times their spacing cubed: this times four knots in a row.
 constexpr std::array<double, 4> kJerkStencil{-1, 3, -3, 1};
-/// It, for every four knots in a row: rotation vectors and translations.
+/// The jerk for every four knots in a row: rotation vectors and translations.
 std::vector<Vector6d> third_differences(const GuidedPath& path);
 
 /// Learns that standard deviation from a path that was solved for, by the evidence for it (MacKay 1992): the

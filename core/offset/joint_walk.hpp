@@ -15,10 +15,10 @@ namespace sweepscope {
 /// The offset of a walk and the walk itself as the unknowns of one least squares. Every point is held against
 /// surfaces that sweeps of the other direction saw, and both sides move: the walk, a cubic B-spline whose
 /// acceleration changes little, and the motor's angle under both. A wrong offset turns the two directions
-/// against each other all along a sweep, whatever the walk does; a body that sways in step with the motor
-/// does so at most between the reversals, where the walk cannot jump. The walk is cut into parts that are
-/// solved each by itself, with a map of its own: cost and memory grow with the length alone, and the parts
-/// tell how far to trust their mean. Tuned on the walks of tuning/ in tests/benchmark/walks.
+/// against each other along the whole sweep, independent of the walk; a body that sways in step with the
+/// motor does so only between the reversals, where the walk cannot jump. The walk is cut into parts that are
+/// solved each by itself, with a map of its own: cost and memory grow with the length only, and the scatter
+/// of the parts gives the uncertainty of their mean. Tuned on the walks of tuning/ in tests/benchmark/walks.
 struct JointWalkOptions {
   MappingOptions mapping;  // how the maps are searched
   double part_s = 10;      // about how long a part is
@@ -33,7 +33,8 @@ struct JointWalkOptions {
   double match_sigma_m = 0.012;
   double loss_width_m = 0.03;    // Cauchy
   double offset_sigma_s = 0.01;  // of the offset that it starts from
-  // Every iteration matches anew, and other matches make another answer: the mean of several errs less.
+  // Every iteration matches again, and other matches give another answer: the mean of several is more
+  // accurate.
   int first_iterations = 3, averaged_iterations = 6;
   std::size_t min_matches = 200;  // of a part
 };

@@ -8,13 +8,13 @@
 
 namespace sweepscope {
 
-/// Where finished candidates are kept, so that none is computed twice. Called from any thread.
+/// A store of finished candidates, so that none is computed twice. Called from any thread.
 class CandidateStore {
  public:
   virtual ~CandidateStore() = default;
   virtual std::optional<CurvePoint> find(double offset_s) = 0;
   virtual void keep(const CurvePoint& point) = 0;
-  /// Why the search cannot go on, where keeping failed.
+  /// The error if keeping a candidate failed, which ends the search.
   virtual std::optional<Error> failed() const = 0;
 };
 
@@ -31,7 +31,7 @@ struct Shard {
   }
 };
 
-/// Where the candidates of a search come from and go to.
+/// The store and the shard of a search.
 struct KeptCandidates {
   CandidateStore* store = nullptr;  // null: every candidate is computed
   std::optional<Shard> shard;       // of the candidates, with a store; nothing is concluded

@@ -27,7 +27,7 @@ Error no_overlap(const Recording& recording, const MotionSource& source) {
   const double first_s = recording.scans.front().first_beam_s;
   return {ExitCode::kUnreadableInput,
           fmt::format("{}: the poses do not overlap the recording {}: counted from its first scan they last "
-                      "{}, the scans {}, and no time shift makes their turns those of the rig.",
+                      "{}, the scans {}, and no time shift makes their rotation match the rig's.",
                       source.name, recording.name,
                       span_text(source.motion.begin_s() - first_s, source.motion.end_s() - first_s),
                       span_text(0, recording.scans.back().last_beam_s() - first_s))};
@@ -108,8 +108,9 @@ Result<AlignedMotion> align_motion(const OffsetProblem& problem, double offset_s
   if (*shift)
     aligned.shift = **shift;
   else
-    aligned.warnings.push_back(fmt::format(
-        "The time shift of {} is not clear from how the rig turned; it is taken to be near 0.", source.name));
+    aligned.warnings.push_back(
+        fmt::format("The time shift of {} is not clear from how the rig turned; it is assumed to be near 0.",
+                    source.name));
   aligned.motion = std::make_shared<const GivenMotion>(
       source.motion.with_time_shift(aligned.shift ? aligned.shift->time_s : 0));
   return aligned;

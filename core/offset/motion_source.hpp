@@ -16,7 +16,7 @@
 
 namespace sweepscope {
 
-/// Where a motion comes from, and the motion itself without a time shift.
+/// The source of a motion, and the motion without a time shift.
 struct MotionSource {
   UsedMotion::Kind kind = UsedMotion::Kind::kPoses;
   std::string name;  // the file or the topic
@@ -26,11 +26,11 @@ struct MotionSource {
   UsedMotion used(const std::optional<TimeShift>& shift) const;
 };
 
-/// The source that an estimate goes by: the poses given, else the recording's odometry, else its IMU. None
-/// where there is none of these.
+/// The source that an estimate uses: the given poses, otherwise the recording's odometry, otherwise its IMU.
+/// Absent if there is none of these.
 std::optional<MotionSource> motion_source(const Recording& recording, const std::optional<GivenPoses>& poses);
 
-/// A source's motion with its time shift, as far as that is known before the offset is.
+/// A source's motion with its time shift, as far as it is known before the offset.
 struct AlignedMotion {
   std::shared_ptr<const GivenMotion> motion;  // null: a prior that is not used
   std::optional<TimeShift> shift;             // none: not clear

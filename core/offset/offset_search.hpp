@@ -23,7 +23,7 @@ struct SearchWindow {
   double middle_s() const { return (from_s() + to_s()) / 2; }
 };
 
-/// What is known of a recording before its offset is: what both kinds of methods begin with. `problem`,
+/// What is known about a recording before its offset: the input of both kinds of methods. `problem`,
 /// `grid` and `options` must outlive it.
 struct OffsetSearch {
   const OffsetProblem& problem;
@@ -36,7 +36,7 @@ struct OffsetSearch {
   RigKind kind = RigKind::kStationary;
   Method method = Method::kDirect;
 
-  /// As what the sweeps are treated, whatever the rig did.
+  /// The kind of rig that the sweeps are treated as.
   bool as_moving() const {
     return method == Method::kDirect ? kind == RigKind::kMoving : method == Method::kMoving;
   }
@@ -46,7 +46,7 @@ struct OffsetSearch {
   }
 };
 
-/// What one method says. The recording has an offset where there are no reasons against it.
+/// The result of one method. The offset is identifiable if there are no reasons against it.
 struct Answer {
   std::optional<double> offset_s, sigma_s, drift_ppm;
   std::vector<CriterionOptimum> criteria;

@@ -10,9 +10,9 @@
 
 namespace sweepscope {
 
-/// What is worked out of a recording once, whatever is asked of it later: nothing of it depends on the
-/// offset. Motion test, estimates, maps, report and calibration share it. The recording must outlive it;
-/// copies share the features.
+/// What is computed from a recording once, for all later work: nothing in it depends on the offset. Motion
+/// test, estimates, maps, report and calibration share it. The recording must outlive it; copies share the
+/// features.
 struct PreparedRecording {
   const Recording* recording = nullptr;
   FeatureOptions feature_options{};

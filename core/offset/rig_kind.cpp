@@ -8,16 +8,15 @@ namespace sweepscope {
 
 std::string moved_text(const MotionTest& test) {
   if (4 * test.moved <= test.pairs && test.moved_slowly())
-    return "The rig moved: its last sweeps do not fall on its first ones.";
-  return fmt::format(
-      "The rig moved: {} of {} pairs of sweeps of the same direction do not fall on each other.", test.moved,
-      test.pairs);
+    return "The rig moved: its last sweeps do not match its first ones.";
+  return fmt::format("The rig moved: in {} of {} pairs, sweeps of the same direction do not match.",
+                     test.moved, test.pairs);
 }
 
 std::string pairs_text(const MotionTest& test) {
-  return fmt::format(
-      "{} of {} pairs of sweeps of the same direction lie apart; at the median by {:.3f} m and {:.2f} deg.",
-      test.moved, test.pairs, test.median_translation_m, test.median_rotation_rad * kDegPerRad);
+  return fmt::format("{} of {} pairs of sweeps of the same direction differ; median {:.3f} m and {:.2f} deg.",
+                     test.moved, test.pairs, test.median_translation_m,
+                     test.median_rotation_rad * kDegPerRad);
 }
 
 KindDecision decide_kind(const MotionTest& test, const EstimateOptions& options) {

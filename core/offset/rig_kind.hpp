@@ -10,19 +10,19 @@
 
 namespace sweepscope {
 
-/// What the rig is taken for, and why.
+/// The kind that the rig is treated as, and why.
 struct KindDecision {
   RigKind kind = RigKind::kStationary;
   std::string reason;  // a sentence
   std::vector<std::string> warnings;
 };
 
-/// What the options assume, else what the motion test found.
+/// The kind that the options assume; otherwise the result of the motion test.
 KindDecision decide_kind(const MotionTest& test, const EstimateOptions& options);
 
-/// Why a rig is taken to have moved: a sentence.
+/// Why a rig is treated as moving: a sentence.
 std::string moved_text(const MotionTest& test);
-/// How many pairs of sweeps lie apart, and by how much: a sentence.
+/// How many pairs of sweeps differ, and by how much: a sentence.
 std::string pairs_text(const MotionTest& test);
 
 }  // namespace sweepscope

@@ -8,8 +8,8 @@
 
 namespace sweepscope {
 
-/// Whether the rig was stationary. A wrong offset turns all sweeps of one direction alike, so sweeps of the
-/// same direction fall on each other wherever nothing moved, whatever the offset.
+/// Whether the rig was stationary. A wrong offset turns all sweeps of one direction alike, so for a
+/// stationary rig sweeps of the same direction coincide at any offset.
 struct MotionTest {
   std::size_t pairs = 0;  // compared, k and k + 2; 0: the recording has no two whole sweeps of one direction
   std::size_t moved = 0;  // of these
@@ -21,7 +21,7 @@ struct MotionTest {
 
   bool answered() const { return pairs > 0; }
   bool moving() const { return 4 * moved > pairs || moved_slowly(); }
-  /// One pair alone may be misled by people who stand near where others stood.
+  /// A single pair is not enough: people may stand near where others stood before.
   bool moved_slowly() const { return far_pairs >= 2 && 5 * far_moved > 3 * far_pairs; }
 };
 

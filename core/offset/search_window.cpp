@@ -52,7 +52,7 @@ Result<std::vector<double>> checked_offsets(const std::vector<OffsetRange>& rang
 }
 
 std::vector<std::string> motor_reasons(const MotorTrack& track, const MotorMotion& motor) {
-  if (track.time_s.size() < 3) return {fmt::format("The motor has {} samples only.", track.time_s.size())};
+  if (track.time_s.size() < 3) return {fmt::format("The motor has only {} samples.", track.time_s.size())};
   if (motor.sweeps.empty())
     return {fmt::format("The motor does not move: its angle stays within {:.2f} deg.",
                         motor.range_rad / kRadPerDeg)};

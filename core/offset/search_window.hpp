@@ -20,11 +20,11 @@ struct SearchScale {
 };
 SearchScale search_scale(const MotorMotion& motor);
 
-/// Refuses ranges that together are wider than the motor allows, or that hold no candidate
+/// Fails for ranges that together are wider than the motor allows, or that hold no candidate
 /// (ExitCode::kWrongUsage).
 Result<std::vector<double>> checked_offsets(const std::vector<OffsetRange>& ranges, const SearchScale& scale);
 
-/// Why no offset can be told from such a motor; empty where it can.
+/// Why this motor's track does not determine an offset; empty if it does.
 std::vector<std::string> motor_reasons(const MotorTrack& track, const MotorMotion& motor);
 
 }  // namespace sweepscope

@@ -13,7 +13,7 @@
 
 namespace sweepscope {
 
-/// A rig that stands still measures one range per motor angle and beam, whatever the direction of turning.
+/// A stationary rig measures one range per motor angle and beam, in either direction of turning.
 /// Its plane points therefore lie in a grid of scan lines (rows) and bins of beams (columns), and a point's
 /// neighbours are the same bins of the lines next to it in motor angle: found by counting, without a tree.
 struct StillGrid {
@@ -51,15 +51,15 @@ struct StillPoints {
   const LinePool& against(int turning) const { return pool[turning > 0 ? 0 : 1]; }
 };
 
-/// What of the points is worked out: the coarse search needs no coordinates.
+/// Which values of the points are computed: the coarse search needs no coordinates.
 enum class StillDetail { kAngles, kPoints };
 StillPoints place_still(const StillGrid& grid, double offset_s, StillDetail detail);
 
 /// The lines of each sweep by its index.
 std::vector<LinePool> pools_by_sweep(const StillPoints& points);
 
-/// How a point's neighbours are chosen. Lines as near to each other as encoder steps tell nothing of a
-/// surface's slope, so they keep a distance.
+/// How a point's neighbours are chosen. Lines as close as encoder steps do not determine a surface's slope,
+/// so a minimum distance is required.
 struct StillPatchOptions {
   double min_gap_rad = 0;          // between neighbouring lines of a patch
   double reach_rad = 0;            // of lines to either side of the point

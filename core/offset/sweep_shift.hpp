@@ -9,10 +9,10 @@
 
 namespace sweepscope {
 
-/// How one sweep lies against another of the same direction, in the base frame. Leaves and people differ from
-/// sweep to sweep as well, and a registration follows them; so a shift comes with its evidence: how many more
-/// points lie on the other sweep's surfaces there than at rest. A match counts 1 / (1 + (d / w)^2) at the
-/// distance d from its surface, with a width w of about the noise.
+/// How one sweep lies against another of the same direction, in the base frame. Leaves and people also differ
+/// from sweep to sweep, and a registration follows them; so a shift is returned with its evidence: how many
+/// more points lie on the other sweep's surfaces there than at rest. A match counts 1 / (1 + (d / w)^2) at
+/// the distance d from its surface, with a width w of about the noise.
 ///
 /// At rest means turned about the motor's axis alone: clocks that drift apart do that to a stationary rig.
 struct SweepShift {
@@ -22,7 +22,7 @@ struct SweepShift {
   double apart_m = 0;         // from rest, along the surfaces' normals, rms over the matches
   double apart_in_all_m = 0;  // the same, the turn about the motor's axis included
 
-  Eigen::Vector3d far_translation_m = Eigen::Vector3d::Zero();  // what a search from afar came to
+  Eigen::Vector3d far_translation_m = Eigen::Vector3d::Zero();  // result of a search from a distance
   double far_rotation_rad = 0;
   double far_gained_matches = 0;  // there, over those at rest; below 0: worse
 

@@ -28,8 +28,8 @@ struct WalkOptions {
 /// For a motor of this scale.
 WalkOptions walk_options(const MappingOptions& mapping, const SearchScale& scale);
 
-/// A walk as far as it can be told: its trajectory, tracked at an offset near the one that fits best, and
-/// that offset. All that is judged or drawn of a walk goes by this one trajectory.
+/// A solved walk: its trajectory, tracked at an offset near the one that fits best, and that offset.
+/// Everything that is computed or drawn of a walk uses this trajectory.
 struct SolvedWalk {
   std::vector<SweepPose> sweeps;
   double tracked_at_s = 0;         // the offset that the sweeps were placed with
@@ -38,21 +38,21 @@ struct SolvedWalk {
   std::optional<JointWalk> joint;  // absent where too few points match
 };
 
-/// Tracks the walk and solves for walk and offset together, in turn, from an offset within some milliseconds
-/// of the truth. Absent where the job was cancelled.
+/// Alternates between tracking the walk and solving for walk and offset together, from an offset within some
+/// milliseconds of the true one. Absent if the job was cancelled.
 std::optional<SolvedWalk> solve_walk(const OffsetProblem& problem, double first_offset_s,
                                      const WalkOptions& options, const Job& job);
 
 /// The same without an offset to start from: of those the motor allows about `middle_s`, the one that fits
-/// best as if the rig had stood still (see search_coarsely), which motion blurs but hardly shifts.
+/// best for a stationary rig (see search_coarsely): motion blurs this minimum but hardly shifts it.
 std::optional<SolvedWalk> find_walk(const OffsetProblem& problem, double middle_s,
                                     const MappingOptions& mapping, const Job& job);
 
-/// When the sweeps are lost, in seconds since the recording's first scan.
+/// The intervals in which sweeps are lost, in seconds since the recording's first scan.
 std::vector<Interval> lost_times(const std::vector<SweepPose>& sweeps, const Recording& recording);
-/// What to say of those times; nothing where there are none.
+/// The warning about those intervals; absent if there are none.
 std::optional<std::string> lost_warning(const std::vector<Interval>& lost);
-/// Why nothing can be said of a walk that is lost, and what would help.
+/// Why a walk whose track was lost has no answer, and what would help.
 std::string lost_reason(const SolvedWalk& walk, const Recording& recording);
 
 }  // namespace sweepscope

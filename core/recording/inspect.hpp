@@ -8,7 +8,7 @@
 
 namespace sweepscope {
 
-/// One of the two streams of a recording, as it is used.
+/// One of the two streams of a recording, as used.
 struct StreamSummary {
   std::string topic;
   std::size_t used = 0;  // scans or motor samples
@@ -48,11 +48,11 @@ struct MotorSummary : StreamSummary {
   bool one_way = false;       // more than a turn, and never back
 
   std::size_t whole_sweeps() const { return reversals > 0 ? reversals - 1 : 0; }
-  /// How far 1 ms of offset turns a scan.
+  /// The angle by which 1 ms of offset turns a scan.
   double deg_per_ms() const { return median_speed_deg_s / 1000; }
 };
 
-/// What is in a recording, for a person to read.
+/// A summary of a recording, for a person to read.
 struct RecordingSummary {
   std::string name;
   std::vector<RecordedTopic> topics;
@@ -63,7 +63,7 @@ struct RecordingSummary {
   std::vector<std::string> warnings;
 };
 
-/// Counts of what reading met (gaps, order, kinds of unusable ranges) are those of the whole file, also where
+/// Counts from reading (gaps, order, kinds of unusable ranges) are those of the whole file, also if
 /// `recording` is a window of it.
 RecordingSummary inspect(const Recording& recording);
 

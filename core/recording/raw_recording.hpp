@@ -10,9 +10,9 @@
 
 namespace sweepscope {
 
-/// What a recording's file holds before anything is chosen, ordered or judged: the same for every format.
+/// The content of a recording's file before anything is chosen, sorted or checked: the same for every format.
 
-/// When a message says it was made, and when it was received; ns, 0 where it does not say.
+/// The time at which a message was made, and the time at which it was received; ns, 0 if not given.
 struct MessageStamps {
   std::int64_t header_ns = 0;
   std::int64_t receive_ns = 0;
@@ -30,7 +30,7 @@ struct RawScan {
   double first_beam_after_stamp_s = 0, cloud_end_after_stamp_s = 0;
 };
 
-/// The direction of a scan's last beam, for RawScan::angle_max_rad where a format has none.
+/// The direction of a scan's last beam, for RawScan::angle_max_rad if a format has none.
 inline float last_beam_angle_rad(const RawScan& scan) {
   const double steps = scan.beams - 1.0;
   return static_cast<float>(double{scan.angle_min_rad} + steps * double{scan.angle_increment_rad});
@@ -52,7 +52,7 @@ struct RawCloud {
   std::vector<std::byte> data;
 };
 
-/// What is kept of clouds: the scan lines that they are read as, or the clouds themselves besides.
+/// What is kept of clouds: only the scan lines that they are read as, or the clouds too.
 enum class CloudDetail { kLines, kWhole };
 
 /// The scans of one topic in the order of the file.
@@ -68,9 +68,9 @@ struct RawLaser {
   std::vector<RawCloud> clouds;             // with CloudDetail::kWhole, those that lines were read from
 };
 
-/// What a joint's positions come from. Where the rig names neither topic nor joint, the motor is sought among
-/// joint states; among numbers only where there are none, and among transforms only where there is neither:
-/// numbers may be anything, and so may what moves one frame in another.
+/// The source of a joint's positions. If the rig names neither topic nor joint, the motor is searched for
+/// among joint states; among numbers only if there are none, and among transforms only if there is neither:
+/// numbers may be anything, and so may the cause of a frame's motion.
 enum class JointSource { kJointState, kNumber, kTransform };
 
 /// The samples of one joint of one topic in the order of the file.
@@ -82,8 +82,7 @@ struct RawJoint {
   std::vector<double> positions;  // raw: before the rig's scale and zero
 };
 
-/// What is known of a frame's pose in its parent frame: the first transform, and the one that is turned
-/// farthest from it.
+/// The known poses of a frame in its parent frame: the first transform, and the one rotated farthest from it.
 struct RawFrame {
   struct Pose {
     MessageStamps stamps;
@@ -96,13 +95,13 @@ struct RawFrame {
   double shifted_m = 0;   // the most from the first
 };
 
-/// What the rig's IMU measured, in the order of the file.
+/// The measurements of the rig's IMU, in the order of the file.
 struct RawTurnRates {
   std::vector<MessageStamps> stamps;
   std::vector<Eigen::Vector3d> rates_rad_s;  // in the IMU's frame
 };
 
-/// Where the rig's odometry had the base frame, in the order of the file.
+/// The poses of the base frame by the rig's odometry, in the order of the file.
 struct RawOdometry {
   std::vector<MessageStamps> stamps;
   std::vector<Eigen::Vector3d> positions_m;
@@ -128,8 +127,8 @@ struct WrittenMessage {
   std::size_t number = 0;
 };
 
-/// All messages in the order in which they were received, or made where that is not known; of equal times
-/// scans come first. Of clouds these are the clouds themselves: RawLaser::clouds.
+/// All messages in the order in which they were received, or made if that is not known; for equal times scans
+/// come first. For clouds these are the clouds themselves: RawLaser::clouds.
 std::vector<WrittenMessage> write_order(const RawLaser& laser, const RawJoint& joint);
 
 }  // namespace sweepscope

@@ -14,13 +14,13 @@
 
 namespace sweepscope {
 
-/// A scan has no more beams than this: features count them in 16 bits.
+/// The maximum number of beams of a scan: features count them in 16 bits.
 inline constexpr std::uint32_t kMaxBeamsAScan = 65'536;
 
 /// One scan line of the laser. Beam i was fired at `first_beam_s + i * time_increment_s`, in the direction
 /// `angle_min_rad + i * angle_increment_rad` about the laser's z axis, 0 along its x axis. Of a 3D scanner a
-/// line is one ring of one turn, or a slice of time; these angles then say how its beams lie beside each
-/// other, and Recording::direction() where they go.
+/// line is one ring of one turn, or a slice of time; these angles then give the spacing of its beams, and
+/// Recording::direction() their directions.
 struct LaserScan {
   double first_beam_s = 0;      // laser clock, seconds since Recording::epoch_ns
   double time_increment_s = 0;  // > 0
@@ -35,13 +35,13 @@ struct LaserScan {
   double last_beam_s() const { return beam_s(beams - 1.0); }
 };
 
-/// An IMU's gyroscope: the base frame's angular velocity, in the base frame. Times ascend strictly.
+/// An IMU's gyroscope: the base frame's angular velocity, in the base frame. Times are strictly ascending.
 struct TurnRates {
   std::vector<double> time_s;  // as stamped, seconds since Recording::epoch_ns
   std::vector<Eigen::Vector3d> rate_rad_s;
 };
 
-/// A topic of the recording's file, whether it was used or not.
+/// A topic of the recording's file, used or not.
 struct RecordedTopic {
   std::string name;
   std::string type;
@@ -53,13 +53,13 @@ struct RecordedTopic {
 struct StreamStamps {
   StampSource used = StampSource::kHeader;
   double median_period_s = 0;
-  /// Receive minus header stamps, where both were recorded: the median, and a robust standard deviation about
+  /// Receive minus header stamps, if both were recorded: the median, and a robust standard deviation about
   /// it.
   std::optional<double> receive_minus_header_s, receive_jitter_s;
 };
 
-/// What reading met and what it did about it. A gap is a spacing of more than 1.5 (scans) or 3 (motor
-/// samples) times the median one.
+/// Irregularities that were found while reading, and how they were handled. A gap is a spacing of more
+/// than 1.5 (scans) or 3 (motor samples) times the median one.
 struct ReadReport {
   std::vector<RecordedTopic> topics;
   StreamStamps laser_stamps, motor_stamps;
@@ -70,26 +70,26 @@ struct ReadReport {
   std::size_t motor_unwrapped = 0;      // jumps of a whole turn that were taken out
   std::size_t scans_without_motor = 0;  // scans that the motor track does not cover at offset 0
   double longest_scan_gap_s = 0, longest_motor_gap_s = 0;
-  /// How far a scan's last beam may be off its instant, where a time_increment is a guess or can be read in
-  /// two ways (beam_times.hpp): the mean over the scans.
+  /// The possible error of the time of a scan's last beam, if a time_increment is a guess or ambiguous
+  /// (beam_times.hpp): the mean over the scans.
   double beam_time_doubt_s = 0;
   bool intensities = false;           // every scan has them, whether they were kept or not
   std::vector<std::string> warnings;  // whole sentences for a person
 };
 
-/// An actuated scanner's recording: scans ascending in time, ranges in one flat array, NaN where a beam
-/// returned nothing usable, and the motor's track. Offsets are defined by t_motor = t_laser + offset.
+/// An actuated scanner's recording: scans ascending in time, ranges in one flat array, NaN for a beam without
+/// a usable return, and the motor's track. Offsets are defined by t_motor = t_laser + offset.
 struct Recording {
   std::string name;           // of the file without its folder, or of the simulated scene
-  std::int64_t epoch_ns = 0;  // what all times are relative to, ns since 1970 (or of the source's own clock)
+  std::int64_t epoch_ns = 0;  // origin of all times, ns since 1970 (or of the source's own clock)
   Rig rig;                    // as read and completed by what was detected
   std::vector<LaserScan> scans;
   std::vector<float> ranges_m;     // of all scans, one after the other
   std::vector<float> intensities;  // like ranges_m, or empty
-  /// Of 3D scanners the beams' unit directions in the laser's frame, like ranges_m; else empty.
+  /// For 3D scanners, the beams' unit directions in the laser's frame, like ranges_m; otherwise empty.
   std::vector<Eigen::Vector3f> directions;
   MotorTrack motor;
-  /// Of the topics that the rig names, else empty; on clocks that may be shifted against the laser's.
+  /// From the topics that the rig names, otherwise empty; their clocks may be shifted against the laser's.
   TurnRates turn_rates;
   std::vector<StampedPose> odometry;
   ReadReport report;
@@ -97,7 +97,7 @@ struct Recording {
   std::span<const float> ranges(const LaserScan& scan) const {
     return {ranges_m.data() + scan.first_range, scan.beams};
   }
-  /// Where a beam goes, in the laser's frame: unit length.
+  /// The direction of a beam in the laser's frame: unit length.
   Eigen::Vector3d direction(const LaserScan& scan, std::uint32_t beam) const {
     if (!directions.empty()) return directions[scan.first_range + beam].cast<double>();
     const double angle_rad = scan.beam_angle_rad(beam);

@@ -12,7 +12,7 @@
 namespace sweepscope {
 
 enum class StampSource { kHeader, kReceive };
-/// Which instant of a scan its stamp names.
+/// The instant of a scan that its stamp refers to.
 enum class StampAt { kFirstBeam, kLastBeam, kArrival };
 
 /// As the rig file spells them.
@@ -24,13 +24,13 @@ inline std::string name_of(StampAt stamp_at) {
   return stamp_at == StampAt::kLastBeam ? "last_beam" : "arrival";
 }
 
-/// What a recording was made with: the rig file. Members that are empty are detected in the recording.
+/// The rig that made a recording: the rig file. Empty members are detected from the recording.
 struct Rig {
   struct Laser {
     std::optional<std::string> topic;
     std::optional<StampSource> stamp;
     StampAt stamp_at = StampAt::kFirstBeam;
-    std::optional<double> time_increment_s;  // where the recording's is 0 or in doubt
+    std::optional<double> time_increment_s;  // used if the recording's is 0 or in doubt
   };
   struct Motor {
     std::optional<std::string> topic;
@@ -43,7 +43,7 @@ struct Rig {
   /// An IMU (sensor_msgs/Imu) on the base, whose gyroscope is a prior of a moving rig's rotation.
   struct Imu {
     std::optional<std::string> topic;  // none: no IMU is used
-    // p_in_base = R(rpy) * p_in_imu + xyz; the place has no effect on a rotation.
+    // p_in_base = R(rpy) * p_in_imu + xyz; the position has no effect on a rotation.
     Eigen::Vector3d pose_in_base_xyz_m = Eigen::Vector3d::Zero();
     Eigen::Vector3d pose_in_base_rpy_deg = Eigen::Vector3d::Zero();
   };
@@ -67,8 +67,7 @@ struct Rig {
   Odometry odometry;
 };
 
-/// Reads a rig file (YAML; see assets/rigs). Unknown keys and impossible values are refused with line and
-/// column.
+/// Reads a rig file (YAML; see assets/rigs). Unknown keys and invalid values are errors with line and column.
 Result<Rig> read_rig(const std::filesystem::path& path);
 
 }  // namespace sweepscope

@@ -10,15 +10,16 @@
 
 namespace sweepscope {
 
-/// Which of its two stamps a stream goes by: the wanted one, or the other with a warning where no message has
-/// it. Warns too where the two kinds of stamps run at different speeds, as those in a wrong unit do.
+/// Chooses which of its two stamps a stream uses: the requested one, or the other one, with a warning, if no
+/// message has it. Also warns if the two kinds of stamps run at different speeds, for example because of a
+/// wrong unit.
 StreamStamps choose_stamps(std::span<const MessageStamps> stamps, StampSource wanted,
                            const std::string& topic, std::vector<std::string>& warnings);
 
-/// The stamp of that source in ns; 0 where the message has none.
+/// The stamp of that source in ns; 0 if the message has none.
 std::int64_t stamp_ns(const MessageStamps& stamps, StampSource source);
 
-/// An order in which times ascend strictly: of equal times the first is kept.
+/// An order in which times are strictly ascending: of equal times the first is kept.
 struct TimeOrder {
   std::vector<std::size_t> kept;
   std::size_t out_of_order = 0;  // times earlier than one before them
@@ -26,8 +27,8 @@ struct TimeOrder {
 };
 TimeOrder order_by_time(std::span<const double> times_s);
 
-/// How unevenly times come that should be a period apart: what their spacings leave beside whole periods,
-/// nine times in ten; at the most half a period. 0 of fewer than three times.
+/// How uneven periodic times are: the deviation of their spacings from whole periods, nine times in ten; at
+/// most half a period. 0 for fewer than three times.
 double unevenness_s(std::span<const double> times_s);
 
 /// The spacing of times that ascend, and the spacings longer than `factor` times the median one.

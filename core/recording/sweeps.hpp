@@ -14,13 +14,13 @@ namespace sweepscope {
 struct Sweep {
   double begin_s = 0;  // of the half turn, at the reversal
   double end_s = 0;
-  double steady_begin_s = 0;  // the part away from the reversals, where the motor's speed is worth trusting
+  double steady_begin_s = 0;  // the part away from the reversals, where the motor's speed is steady
   double steady_end_s = 0;
   int direction = 0;       // +1 where the angle grows, -1 where it falls
   double speed_rad_s = 0;  // mean over the steady part, > 0
 };
 
-/// What the motor did over the whole track.
+/// The motion of the motor over the whole track.
 struct MotorMotion {
   std::vector<Sweep> sweeps;      // in the order of time; neighbours turn in opposite directions
   double range_rad = 0;           // greatest minus least angle
@@ -29,7 +29,7 @@ struct MotorMotion {
 };
 
 /// Cuts a motor track at its reversals. A reversal is where the angle turns back by more than a twentieth of
-/// its range and at least half a degree, so that encoder steps and jitter do not count. Rests do not belong
+/// its range and at least half a degree, so that encoder steps and jitter do not count. Pauses do not belong
 /// to any sweep.
 MotorMotion find_sweeps(const MotorTrack& track);
 
@@ -38,10 +38,10 @@ inline constexpr std::size_t kNoSweep = static_cast<std::size_t>(-1);
 std::vector<std::size_t> assign_sweeps(const std::vector<LaserScan>& scans, const std::vector<Sweep>& sweeps,
                                        double offset_s);
 
-/// On how many places of a sweep the scan lines of one direction fall, places that many sweeps share counted
-/// once: half of the sweep lies in gaps between neighbours that are longer than the sweep by this number. Of
-/// the direction that has fewer; infinite for 3D scanners, whose lines cross. Fewer than kLeastDistinctLines
-/// tell no offset: neighbours do not lie on the same surfaces.
+/// The number of distinct positions in a sweep on which the scan lines of one direction fall: half of the
+/// sweep lies in gaps between neighbours that are longer than the sweep divided by this number. For the
+/// direction that has fewer; infinite for 3D scanners, whose lines cross. Fewer than kMinDistinctLines do
+/// not determine an offset: neighbours do not lie on the same surfaces.
 double distinct_lines(const Recording& recording, const MotorMotion& motor, double offset_s);
 inline constexpr double kMinDistinctLines = 7.5;
 

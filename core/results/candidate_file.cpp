@@ -166,11 +166,11 @@ bool is_ours(std::string_view text) {
 
 /// Whether a first line is that of a file of candidates, and of this version.
 Result<void> check_header(std::string_view line, std::string_view name) {
-  if (!line.starts_with(kOurs)) return unreadable(fmt::format("{}: not a file of candidates", name));
+  if (!line.starts_with(kOurs)) return unreadable(fmt::format("{}: is not a candidate file", name));
   if (line.substr(kOurs.find("sweepscope")).starts_with(fmt::format("{}\"", kSchema))) return {};
   return unreadable(
-      fmt::format("{}: line 1: another version of sweepscope wrote this file of candidates. Delete it and "
-                  "run the estimate again",
+      fmt::format("{}: line 1: another version of sweepscope wrote this candidate file. Delete it and run "
+                  "the estimate again",
                   name));
 }
 
@@ -186,21 +186,19 @@ Result<Candidates> parse_candidates(std::string_view text, std::string_view name
     }
     if (!is_sound(line))
       return unreadable(
-          fmt::format("{}: line {}: its bytes are not those that were written. Delete the file and run the "
-                      "estimate again",
-                      name, number));
+          fmt::format("{}: line {}: is damaged. Delete the file and run the estimate again", name, number));
     try {
       const Json values = Json::parse(line);
       if (number == 1)
         candidates.search = search_of(values);
       else if (!add_once(candidates.points, point_of(values)))
-        return unreadable(fmt::format("{}: line {}: the same offset again with other values", name, number));
+        return unreadable(fmt::format("{}: line {}: duplicate offset with other values", name, number));
     } catch (const std::exception&) {
-      return unreadable(fmt::format("{}: line {}: not a candidate", name, number));
+      return unreadable(fmt::format("{}: line {}: is not a candidate", name, number));
     }
     candidates.whole_bytes = end + 1;
   }
-  if (candidates.whole_bytes == 0) return unreadable(fmt::format("{}: not a file of candidates", name));
+  if (candidates.whole_bytes == 0) return unreadable(fmt::format("{}: is not a candidate file", name));
   std::sort(candidates.points.begin(), candidates.points.end(), ascends);
   return candidates;
 }
@@ -332,7 +330,7 @@ std::size_t CandidateFile::held() const {
 }
 
 std::string CandidateFile::interrupted_in_words() const {
-  return fmt::format("interrupted; {} finished candidates are in {}, and the same command goes on from there",
+  return fmt::format("interrupted; {} finished candidates are in {}; the same command continues from there",
                      held(), path_.string());
 }
 
@@ -366,7 +364,7 @@ Result<MergedCandidates> MergedCandidates::read(const std::vector<std::filesyste
     }
     for (const CurvePoint& point : file->points)
       if (!add_once(merged.points_, point))
-        return unreadable(fmt::format("{}: says something else of {:.6f} ms than another part", path.string(),
+        return unreadable(fmt::format("{}: has other values at {:.6f} ms than another part", path.string(),
                                       point.offset_s * 1e3));
     merged.names_.push_back(path.string());
     merged.files_.push_back(std::move(*file));
@@ -396,7 +394,7 @@ std::optional<Error> MergedCandidates::missing() const {
       parts += fmt::format("{} {}/{}", parts.empty() ? "; no file holds shard" : ",", number, count);
   }
   return Error{ExitCode::kUnreadableInput, fmt::format("{} candidates are missing, the first at {:g} ms{}: "
-                                                       "run the estimate again that was to compute them",
+                                                       "run their estimates again",
                                                        missing_s_.size(), first_s * 1e3, parts)};
 }
 

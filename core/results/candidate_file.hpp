@@ -13,26 +13,26 @@
 
 namespace sweepscope {
 
-/// What a file of candidates belongs to: all that a candidate's values depend on.
+/// The search that a candidate file belongs to: everything that a candidate's values depend on.
 struct CandidateSearch {
   std::string program;               // content hash of the executable: another build may compute otherwise
   std::string recording;             // as it was named
   std::string recording_hash;        // of its content
-  std::string rig, rig_hash;         // likewise; empty: none
+  std::string rig, rig_hash;         // path and content hash of the rig file; empty: none
   std::vector<std::string> options;  // of `estimate`, such as "--range=19:29:1"
   std::optional<Shard> shard;
 };
 
-/// A file of candidates ("sweepscope.candidates/2"): a line of JSON that says what they belong to, then one
-/// line for each. Every line ends with the hash of its bytes, so that none is taken for what it is not.
+/// A file of candidates ("sweepscope.candidates/2"): a line of JSON that identifies the search, then one line
+/// per candidate. Every line ends with the hash of its bytes, so that damage is detected.
 struct Candidates {
   CandidateSearch search;
   std::vector<CurvePoint> points;  // offsets ascend
   std::size_t whole_bytes = 0;     // of the text; behind them a line that was not written to its end
 };
 
-/// Refuses a line that is not as it was written; a last one without its end is left aside. `name` stands for
-/// the file in messages, which name the line, too.
+/// Refuses a damaged line; an incomplete last line is ignored. `name` is the name of the file in messages,
+/// which also give the line.
 Result<Candidates> parse_candidates(std::string_view text, std::string_view name);
 Result<Candidates> read_candidates(const std::filesystem::path& path);
 /// The text of such a file.
@@ -41,20 +41,20 @@ std::string candidates_text(const CandidateSearch& search, const std::vector<Cur
 /// A JSON object as a line of such a file, with its hash and its end.
 std::string sealed_line(std::string_view object);
 
-/// Why two searches are not the same, shards aside: "it holds --weight-c=2, and this is --weight-c=1".
-/// Where the files lie does not matter. Empty where they are the same.
+/// Why two searches are not the same, except for their shards: "it holds --weight-c=2, and this is
+/// --weight-c=1". The folders of the files are not compared. Empty if the searches are the same.
 std::string difference(const CandidateSearch& held, const CandidateSearch& wanted);
 
-/// Candidates kept in a file as they are finished: a run that is killed at any instant loses those alone
-/// that it was computing. The file is locked against a second run.
+/// Candidates, kept in a file as they are finished: a run that is killed loses only those that it was
+/// computing. The file is locked against a second run.
 class CandidateFile final : public CandidateStore {
  public:
-  /// Begins the file, or takes up what is there. ExitCode::kWrongUsage where it belongs to another search or
-  /// shard, is in use, or cannot be written; kUnreadableInput where it is no such file.
+  /// Creates the file, or resumes an existing one. ExitCode::kWrongUsage if it belongs to another search or
+  /// shard, is in use, or cannot be written; kUnreadableInput if it is not a candidate file.
   static Result<std::unique_ptr<CandidateFile>> open(const std::filesystem::path& path,
                                                      const CandidateSearch& search);
-  /// The same for a file that a command keeps while it works, beside what it makes: one that belongs to
-  /// another search or version, or is damaged, is begun anew. What never was such a file is refused.
+  /// The same for a file that a command keeps while it works, beside what it makes: a file of another search
+  /// or version, or a damaged one, is started again. A file that is not a candidate file is refused.
   static Result<std::unique_ptr<CandidateFile>> open_while_working(const std::filesystem::path& path,
                                                                    const CandidateSearch& search);
   ~CandidateFile() override;
@@ -62,14 +62,15 @@ class CandidateFile final : public CandidateStore {
   std::optional<CurvePoint> find(double offset_s) override;
   void keep(const CurvePoint& point) override;
   std::optional<Error> failed() const override;
-  /// Writes the file anew in order: after a finished run its bytes do not tell which thread was faster.
+  /// Rewrites the file in order, so that after a finished run its bytes do not depend on which thread was
+  /// faster.
   Result<void> put_in_order();
 
   std::size_t taken_up() const { return taken_up_; }
   std::size_t held() const;
-  /// What is said after an interruption: how many candidates are kept, and where.
+  /// The message after an interruption: how many candidates are kept, and where.
   std::string interrupted_in_words() const;
-  /// Takes the file away: what its candidates were for is there.
+  /// Removes the file, once the result of its candidates is written.
   void remove();
 
  private:

@@ -85,14 +85,14 @@ T required(const Json& object, const char* key, const std::string& where = "") {
 template <typename T>
 T named(const std::string& name, const auto& names, const char* key) {
   const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) throw BadValue(fmt::format("{} is none of {}", key, fmt::join(names, ", ")));
+  if (found == names.end()) throw BadValue(fmt::format("{} is not one of {}", key, fmt::join(names, ", ")));
   return static_cast<T>(found - names.begin());
 }
 
 std::size_t required_count(const Json& object, const char* key) {
   constexpr std::int64_t kMax = 1'000'000'000'000;
   const auto count = whole_number(member(object, key, ""), 0, kMax);
-  if (!count) throw BadValue(fmt::format("{} is no whole number from 0 to {}", key, kMax));
+  if (!count) throw BadValue(fmt::format("{} is not a whole number from 0 to {}", key, kMax));
   return static_cast<std::size_t>(*count);
 }
 
@@ -106,7 +106,7 @@ std::optional<double> optional_number(const Json& object, const char* key, const
 std::string optional_text(const Json& object, const char* key) {
   const auto found = object.find(key);
   if (found == object.end() || found->is_null()) return {};
-  if (!found->is_string()) throw BadValue(std::string(key) + " is neither a text nor null");
+  if (!found->is_string()) throw BadValue(std::string(key) + " is neither text nor null");
   return found->get<std::string>();
 }
 
@@ -204,7 +204,7 @@ std::optional<FitEvidence> fit_from_json(const Json& document) {
   FitEvidence fit;
   fit.converged = required<bool>(*found, "converged", "fit.");
   const auto iterations = whole_number(member(*found, "iterations", "fit."), 0, kMaxIterations);
-  if (!iterations) throw BadValue("fit.iterations is no whole number");
+  if (!iterations) throw BadValue("fit.iterations is not a whole number");
   fit.iterations = static_cast<int>(*iterations);
   fit.features = required_count(*found, "features");
   fit.matches = required_count(*found, "matches");
@@ -315,7 +315,7 @@ Result<Estimate> parse_estimate_json(std::string_view text, std::string_view nam
   try {
     return estimate_from_json(Json::parse(text));
   } catch (const Json::parse_error& error) {
-    return unreadable(fmt::format("{}: not JSON: broken at byte {}", name, error.byte));
+    return unreadable(fmt::format("{}: not JSON: invalid at byte {}", name, error.byte));
   } catch (const Json::out_of_range&) {
     return unreadable(fmt::format("{}: not an estimate: a number in it is too large", name));
   } catch (const BadValue& error) {

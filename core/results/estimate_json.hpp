@@ -9,7 +9,7 @@
 
 namespace sweepscope {
 
-/// Whether an output names the time that was spent. Without it the same input gives the same bytes.
+/// Whether an output contains the computing time. Without it the same input gives the same bytes.
 enum class Timing { kWritten, kNull };
 
 /// As they are written in JSON and on command lines: "direct", "stationary", "moving".
@@ -17,21 +17,21 @@ const char* to_text(Method method);
 const char* to_text(RigKind kind);
 
 /// The estimate as a JSON object (schema "sweepscope.estimate/1"), keys in a fixed order, offsets in
-/// milliseconds, null where a value is absent, with a line end; "poses" only where a motion from elsewhere
-/// was used, "fit" only of the direct method. Offsets keep 1e-9 ms. An estimate that is not identifiable has
+/// milliseconds, null where a value is absent, with a line end; "poses" only if a motion from another source
+/// was used, "fit" only for the direct method. Offsets keep 1e-9 ms. An estimate that is not identifiable has
 /// offset_ms and sigma_ms null.
 std::string estimate_to_json(const Estimate& estimate, Timing timing = Timing::kWritten);
 
-/// Reads what estimate_to_json wrote; keys that it does not know are passed over. `name` stands for the file
-/// in error messages, which also name the key.
+/// Reads what estimate_to_json wrote; unknown keys are skipped. `name` is the name of the file in error
+/// messages, which also name the key.
 Result<Estimate> parse_estimate_json(std::string_view text, std::string_view name);
 
 Result<void> write_estimate_json(const std::filesystem::path& path, const Estimate& estimate,
                                  Timing timing = Timing::kWritten);
 Result<Estimate> read_estimate_json(const std::filesystem::path& path);
 
-/// The curve as a table: a header line that names columns and units, then one line per offset; empty where
-/// absent.
+/// The curve as a table: a header line that names columns and units, then one line per offset; absent values
+/// are empty.
 std::string curve_to_csv(const Estimate& estimate);
 Result<void> write_curve_csv(const std::filesystem::path& path, const Estimate& estimate);
 

@@ -7,10 +7,10 @@
 
 #include "core/offset/estimate.hpp"
 
-/// What the files of estimates and of candidates have in common.
+/// Common parts of the files of estimates and of candidates.
 namespace sweepscope {
 
-/// The values of a candidate as files name them, in the order in which they are written.
+/// The names of a candidate's values in files, in the order in which they are written.
 struct CurveColumn {
   const char* key;
   std::optional<double> CurvePoint::*value;
@@ -24,8 +24,8 @@ inline constexpr std::array<CurveColumn, 7> kCurveColumns{
      {"e_m", &CurvePoint::e_m},
      {"capped_cost_m", &CurvePoint::capped_cost_m}}};
 
-/// The whole number from `least` to `greatest` that a JSON value is. Absent for all else: the library turns
-/// other numbers, whatever their size, into the type that is asked for.
+/// A JSON value as a whole number from `least` to `greatest`; absent for anything else. The library would
+/// convert other numbers of any size to the requested type.
 template <typename Value>
 std::optional<std::int64_t> whole_number(const Value& value, std::int64_t least, std::int64_t greatest) {
   if (!value.is_number_integer()) return std::nullopt;

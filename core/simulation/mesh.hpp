@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-/// Triangle meshes and the parts that scenes are built of. Metres, z up. `albedo` in [0, 1] is how bright a
-/// surface is to the laser.
+/// Triangle meshes and the parts that scenes are built from. Metres, z up. `albedo` in [0, 1] is the
+/// brightness of a surface for the laser.
 namespace sweepscope::simulation {
 
 using Eigen::Vector2d;
@@ -17,7 +17,7 @@ struct Triangle {
   double albedo = 0.5;
 };
 
-/// Where a part stands: turned about z, then moved.
+/// The placement of a part: rotated about z, then moved.
 struct Placement {
   double x_m = 0, y_m = 0, z_m = 0;
   double yaw_deg = 0;

@@ -11,18 +11,18 @@ namespace sweepscope::simulation {
 /// Collects the vertices and faces of a mesh file.
 class MeshBuilder {
  public:
-  // Embree proposes triangles in single precision, which tells less than 1 mm apart up to this distance.
+  // Embree proposes triangles in single precision, which resolves less than 1 mm up to this distance.
   static constexpr double kFarthest_m = 5000;
   static constexpr std::size_t kMaxTriangles = 20'000'000;
   static constexpr std::size_t kMaxCorners = 1000;  // of a polygon
 
-  /// What is wrong, or empty.
+  /// The problem, or empty.
   std::string add_vertex(const Vector3d& p_m);
   /// A flat convex polygon, its corners counted from 0. Triangles without an area are left out.
   std::string add_face(std::span<const std::int64_t> corners);
 
   std::size_t vertices() const { return vertices_.size(); }
-  /// Fails where there is no triangle.
+  /// Fails if there is no triangle.
   Result<Mesh> finish(std::string_view name);
 
  private:
@@ -32,12 +32,12 @@ class MeshBuilder {
 
 /// The formats, each over the whole file in memory. PLY: ascii or binary of either byte order, vertices (x,
 /// y, z of any number type) before faces (a list vertex_indices or vertex_index); other elements and
-/// properties are passed over. OBJ: v and f, with v/vt/vn and indices that count back; other lines are passed
-/// over. Metres, z up.
+/// properties are skipped. OBJ: v and f, with v/vt/vn and relative indices; other lines are skipped. Metres,
+/// z up.
 Result<Mesh> parse_ply_mesh(std::string_view bytes, std::string_view name);
 Result<Mesh> parse_obj_mesh(std::string_view text, std::string_view name);
 
-/// Reads a .ply or .obj file, by its ending.
+/// Reads a .ply or .obj file, by its extension.
 Result<Mesh> read_mesh(const std::filesystem::path& file);
 Result<Mesh> parse_mesh(std::string_view bytes, const std::filesystem::path& file);
 

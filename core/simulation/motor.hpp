@@ -11,7 +11,7 @@ enum class MotorKind {
   kTriangle,   // constant speed, reversed at once
   kTrapezoid,  // constant speed, reversed with a finite acceleration
   kSine,
-  kOneWay,  // constant speed for ever
+  kOneWay,  // constant speed, never reversed
   kStuck,   // does not move
 };
 
@@ -19,7 +19,7 @@ std::optional<MotorKind> motor_kind(std::string_view name);
 std::string_view name_of(MotorKind kind);
 std::vector<std::string_view> motor_names();
 
-/// A motor that does not keep its speed: it varies slowly (0.05 to 1 Hz) and at random by at most `part`.
+/// A motor whose speed varies slowly (0.05 to 1 Hz) and at random, by at most the fraction `part`.
 struct Unevenness {
   double part = 0;
   std::uint64_t seed = 1;
@@ -31,9 +31,9 @@ class Motor {
  public:
   Motor(MotorKind kind, double sweep_s, double phase_s, const Unevenness& uneven = {});
 
-  /// What the encoder, on the motor's side of the gears, would read if it had no steps.
+  /// The reading of an ideal encoder without steps, on the motor's side of the gears.
   double angle_rad(double t_s) const;
-  /// Where the laser really points: the gears' play of backlash_rad leaves it behind at every reversal.
+  /// The true angle of the laser: it lags by the gears' play, backlash_rad, after every reversal.
   double laser_angle_rad(double t_s, double backlash_rad) const;
 
  private:
@@ -45,7 +45,7 @@ class Motor {
     double rate_radps, phase_rad, amplitude_s;
   };
   Swing swing(double t_s) const;
-  /// How long an even motor takes to get where this one is at t_s.
+  /// The time that a motor of constant speed takes to the angle of this one at t_s.
   double warped_s(double t_s) const;
 
   MotorKind kind_;

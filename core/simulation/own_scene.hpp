@@ -12,7 +12,7 @@ struct LoadedScene {
   std::string mesh_hash, trajectory_hash;  // content_hash; empty without the file
 };
 
-/// Reads the mesh and the trajectory. What cannot be read is said with the file and the place.
+/// Reads the mesh and the trajectory. An error names the file and the place in it.
 Result<LoadedScene> load_own_scene(const OwnScene& own);
 
 }  // namespace sweepscope::simulation

@@ -18,7 +18,7 @@ struct FacadeSpec {
 /// building is 1 m deep behind it.
 Mesh facade(const FacadeSpec& spec);
 
-/// A trunk at the origin, branches, and a crown of several boulders; no two seeds look alike.
+/// A trunk at the origin, branches, and a crown of several boulders; different for every seed.
 Mesh tree(double height_m, double crown_m, std::uint64_t seed);
 
 /// A bare tree of trunk and forked branches.

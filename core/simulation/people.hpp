@@ -10,7 +10,7 @@
 
 namespace sweepscope::simulation {
 
-/// Somebody who walks in a circle: an upright cylinder, 0.5 m wide and 1.75 m high.
+/// A person who walks in a circle: an upright cylinder, 0.5 m wide and 1.75 m high.
 struct Person {
   static constexpr double kRadius_m = 0.25, kHeight_m = 1.75, kSpeed_mps = 1;
 
@@ -21,13 +21,13 @@ struct Person {
   double floor_m = 0;  // the feet's height
 
   Vector2d at(double t_s) const;
-  /// Where a beam of unit length meets the body's side or its top.
+  /// The range at which a beam of unit direction meets the body's side or its top.
   std::optional<Hit> cast(const Vector3d& origin, const Vector3d& direction, double t_s) const;
 };
 
 /// `count` people around a rig that is at rig_at(t) for duration_s. Their circles keep 0.3 m from the scene's
-/// surfaces from knee to chest, and nobody comes nearer to the rig than 0.5 m. They may walk through each
-/// other. Wrong usage where the scene has no room for them.
+/// surfaces from knee to chest, and they keep 0.5 m from the rig. They may walk through each other.
+/// ExitCode::kWrongUsage if the scene has no room for them.
 Result<std::vector<Person>> place_people(int count, std::uint64_t seed, const RayCaster& scene,
                                          const std::function<Vector3d(double t_s)>& rig_at,
                                          double duration_s);

@@ -37,7 +37,7 @@ std::string take_element(TextCursor& words, Header& header) {
   const auto count = words.next_number();
   if (!element || !count) return "an element needs a name and a number";
   if (!(*count >= 0 && *count <= 4e9 && *count == std::floor(*count)))
-    return fmt::format("the number of the element {} cannot be", *element);
+    return fmt::format("the number of the element {} is not valid", *element);
   header.elements.push_back({std::string(*element), static_cast<std::size_t>(*count), {}});
   return {};
 }
@@ -72,7 +72,7 @@ std::string take_header_line(std::string_view line, Header& header) {
   else if (key == "end_header")
     header.ended = true;
   else
-    return fmt::format("\"{}\" is not a word of a PLY header", key->substr(0, 40));
+    return fmt::format("\"{}\" is not a keyword of a PLY header", key->substr(0, 40));
   return {};
 }
 
@@ -184,7 +184,7 @@ std::string missing(const Header& header) {
   };
   const auto vertex = at("vertex"), face = at("face");
   if (vertex == header.elements.end()) return "the PLY header names no element vertex";
-  if (face == header.elements.end()) return "the PLY header names no element face: a cloud is no mesh";
+  if (face == header.elements.end()) return "the PLY header names no element face: a cloud is not a mesh";
   if (face < vertex) return "the element vertex must come before the element face";
   for (const std::string_view name : {"x", "y", "z"})
     if (std::none_of(vertex->properties.begin(), vertex->properties.end(),

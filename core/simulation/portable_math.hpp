@@ -3,7 +3,7 @@
 #include <cstdint>
 
 /// Functions whose last bit is the same on every machine: built from +, -, *, / and exact operations alone,
-/// where the C library's own choose another code path per processor.
+/// unlike the C library's, which choose a code path per processor.
 namespace sweepscope::simulation {
 
 inline constexpr double kPi = 3.14159265358979323846;
@@ -33,8 +33,8 @@ inline double smooth_step(double u) {
   return u * u * (3 - 2 * u);
 }
 
-/// A random stream (SplitMix64). Streams are told apart by what they are for and by a number, so that
-/// parallel work draws the same values in any order.
+/// A random stream (SplitMix64). A stream is identified by its purpose and a number, so that parallel work
+/// draws the same values in any order.
 class Random {
  public:
   Random(std::uint64_t seed, std::uint64_t purpose, std::uint64_t number);

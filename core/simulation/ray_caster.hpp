@@ -8,7 +8,7 @@
 
 namespace sweepscope::simulation {
 
-/// Where a beam meets a surface.
+/// The point at which a beam meets a surface.
 struct Hit {
   double range_m = 0;
   double cos_incidence = 1;  // 1 where it meets the surface squarely, 0 where it grazes it
@@ -17,8 +17,8 @@ struct Hit {
 };
 
 /// Finds the first triangle along a beam. Embree's tree, in single precision, only proposes triangles, from
-/// boxes drawn a little too large; each is then met in double precision, so the answer does not depend on
-/// which instructions the processor offers. Of two triangles at the same range the earlier in the mesh wins.
+/// slightly enlarged boxes; each is then intersected in double precision, so that the result does not depend
+/// on the processor. Of two triangles at the same range, the earlier one in the mesh is returned.
 class RayCaster {
  public:
   explicit RayCaster(const Mesh& mesh);
@@ -26,10 +26,10 @@ class RayCaster {
   RayCaster(RayCaster&&) noexcept;
   RayCaster& operator=(RayCaster&&) noexcept;
 
-  /// `direction` has unit length. Nothing within max_range_m is no hit. Safe to call from many threads.
+  /// `direction` has unit length. No hit if there is nothing within max_range_m. Thread-safe.
   std::optional<Hit> cast(const Vector3d& origin, const Vector3d& direction, double max_range_m) const;
 
-  /// How far the nearest surface is from a point; none where that is more than within_m.
+  /// The distance of the nearest surface from a point; absent if it is more than within_m.
   std::optional<double> distance_m(const Vector3d& point_m, double within_m) const;
   /// The box around all surfaces.
   Eigen::AlignedBox3d bounds_m() const;

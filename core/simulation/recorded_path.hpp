@@ -14,13 +14,13 @@ namespace sweepscope::simulation {
 /// How a recorded motion is put into a scene.
 struct PathPlacement {
   double scale = 1;              // of the positions, about their mean
-  std::optional<Vector3d> at_m;  // where their mean is put; none: it stays
+  std::optional<Vector3d> at_m;  // new position of their mean; absent: unchanged
   double yaw_deg = 0;            // turned about the vertical through their mean
-  bool upright = false;          // the rig is turned in the frame that was recorded: level on average
+  bool upright = false;          // the rig is rotated in the recorded frame so that it is level on average
   double smoothing_s = 0.05;     // between the spline's knots
 };
 
-/// A recorded motion as a scene is walked through with it; true time 0 is `start_s` on the path's clock.
+/// A recorded motion as a walk through a scene; true time 0 is `start_s` on the path's clock.
 struct RecordedPath {
   std::shared_ptr<const SplinePath> path;
   double start_s = 0, duration_s = 0;
@@ -32,8 +32,8 @@ struct RecordedPath {
 /// The poses, placed: scaled, turned and moved. Equal to the input for a default placement.
 std::vector<StampedPose> placed(std::span<const StampedPose> poses, const PathPlacement& placement);
 
-/// Reads a TUM file, and leaves its first from_s out. Unreadable: fewer than 20 poses, a gap of more than 1
-/// s, a turn of more than 60 deg from one pose to the next.
+/// Reads a TUM file without its first from_s seconds. ExitCode::kUnreadableInput for fewer than 20 poses, a
+/// gap of more than 1 s, or a turn of more than 60 deg from one pose to the next.
 Result<RecordedPath> read_path(const std::filesystem::path& file, const PathPlacement& placement,
                                double from_s);
 

@@ -12,8 +12,7 @@
 
 namespace sweepscope::simulation {
 
-/// A place to record in, and how it is recorded: walked through, standing still, or moved as somebody
-/// recorded.
+/// A place to record in, and the motion of the rig: a walk, stationary, or a recorded motion.
 struct Scene {
   Mesh mesh;
   std::variant<WalkSpec, Stand, RecordedPath> motion;
@@ -22,14 +21,14 @@ struct Scene {
 /// metro-station, parking-area, cemetery, lecture-room, room-1 to room-6.
 const std::vector<std::string>& scene_names();
 
-/// None for a name that is not a scene's.
+/// Absent for an unknown name.
 std::optional<Scene> make_scene(std::string_view name);
 
 Scene metro_station();
 Scene parking_area();
 Scene cemetery();
 Scene lecture_room();
-/// `position` in [1, 6]: where in the one furnished room the rig stands.
+/// `position` in [1, 6]: the rig's position in the furnished room.
 Scene room(int position);
 
 }  // namespace sweepscope::simulation

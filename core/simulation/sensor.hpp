@@ -18,7 +18,7 @@
 
 namespace sweepscope::simulation {
 
-/// A UTM-30LX rolled by a motor through a scene: what its two streams say. True time is the laser's clock, 0
+/// The two streams of a UTM-30LX that a motor rolls in a scene. True time is the laser's clock, 0
 /// at the first beam of the first scan.
 class Sensor {
  public:
@@ -33,25 +33,25 @@ class Sensor {
 
   /// A scan's times and angles; its stamp is a whole number of nanoseconds.
   LaserScan scan(std::size_t number) const;
-  /// Fires every beam of a scan at its own instant. NaN where nothing usable returns.
+  /// Fires every beam of a scan at its own time. NaN if there is no usable return.
   void cast_scan(std::size_t number, std::span<float> ranges_m, std::span<float> intensities) const;
   /// The encoder's samples from a little before true time 0 to a little after duration_s.
   MotorTrack motor_track(double duration_s) const;
   /// Of the base frame.
   Pose pose_at(double t_s) const;
-  /// Where the beams begin: off the base frame where the mount has an error.
+  /// The origin of the beams: not the base frame's if the mount has an error.
   Vector3d laser_position_at(double t_s) const;
   const RayCaster& surroundings() const { return caster_; }
-  /// Whom the beams meet from now on.
+  /// The people that the beams meet from now on.
   void set_people(std::vector<Person> people) { people_ = std::move(people); }
 
  private:
-  /// A beam's luck before noise: infinite where nothing returns.
+  /// The return of a beam before noise: infinite if there is none.
   struct Return {
     double range_m = std::numeric_limits<double>::infinity();
-    double lost = 0;  // the probability that it is too weak
+    double lost = 0;  // probability that the return is too weak
   };
-  /// What the encoder would read if it had no steps.
+  /// The reading of an ideal encoder without steps.
   double encoder_angle_rad(double t_s) const;
   Return fire(std::size_t number, std::size_t beam, float& intensity) const;
   /// v_in_world of a vector in the frame that turns with the motor.

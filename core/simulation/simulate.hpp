@@ -16,11 +16,11 @@
 
 namespace sweepscope {
 
-/// A scene and a walk of the user's.
+/// A scene and a walk provided by the user.
 struct OwnScene {
   std::filesystem::path mesh;  // .ply or .obj; empty: none
   std::filesystem::path
-      trajectory;  // TUM; empty: the rig stands at placement.at_m, turned by placement.yaw_deg
+      trajectory;  // TUM; empty: the rig is stationary at placement.at_m, turned by placement.yaw_deg
   simulation::PathPlacement placement;
   double from_s = 0;  // the trajectory's first seconds are left out
 };
@@ -34,7 +34,7 @@ struct SimulationOptions {
   std::optional<double> duration_s;  // the first seconds of the walk; none: all of it, and 4.5 s in a room
 
   double noise_m = 0.010;  // standard deviation of a range, 0 to 1
-  double dropout = 0.002;  // part of the beams that return nothing, 0 to 1
+  double dropout = 0.002;  // fraction of the beams without a return, 0 to 1
   double sweep_s = 0.5;    // one half turn of the motor, 0.05 to 60
   simulation::MotorKind motor = simulation::MotorKind::kTrapezoid;
   double encoder_step_deg = 0.088;   // above 0, up to 10
@@ -42,12 +42,12 @@ struct SimulationOptions {
   double encoder_jitter_s = 0.0005;  // standard deviation of the sampling instants, up to 0.3 / encoder_hz
 
   // Faults of real rigs, none by default.
-  double mixed_pixels = 0;     // part of the beams at an edge that return a range between both sides', 0 to 1
+  double mixed_pixels = 0;     // fraction of the beams at an edge that return a range in between, 0 to 1
   double grazing_bias_m = 0;   // added to a range, times 1 - cos(incidence), within +-0.5
   double stamp_jitter_s = 0;   // standard deviation added to every header stamp, 0 to 0.01
   double backlash_deg = 0;     // play between the encoder and the laser, 0 to 10
   double clock_drift_ppm = 0;  // by how much the motor's clock runs faster than the laser's, within +-1000
-  double nudge_m = 0;      // a stationary rig is pushed aside by this a second after the start, within +-1
+  double nudge_m = 0;  // a stationary rig is pushed sideways by this, one second after the start, within +-1
   double noise_per_m = 0;  // added to the noise for every metre of range, 0 to 0.1
   double grazing_dropout =
       0;  // dropped with this times 1 - 2 albedo cos(incidence), where that is above 0; 0 to 1
@@ -56,13 +56,13 @@ struct SimulationOptions {
   Eigen::Vector3d mount_error_m = Eigen::Vector3d::Zero();  // Mount::laser_in_motor_xyz_m, each within +-0.5
   double eccentricity_deg = 0;        // the encoder shows angle + this sin(angle + phase), 0 to 10
   double eccentricity_phase_deg = 0;  // within +-360
-  double uneven_motor = 0;            // the motor's speed varies at random by at most this part, 0 to 0.5
-  int people = 0;                     // who walk about, 0 to 50
-  double glass = 0;                   // part of the upright surfaces, in cells of 1 m, that are panes, 0 to 1
+  double uneven_motor = 0;            // the motor's speed varies at random by at most this fraction, 0 to 0.5
+  int people = 0;                     // people who walk through the scene, 0 to 50
+  double glass = 0;  // fraction of the upright surfaces, in cells of 1 m, that are glass, 0 to 1
 
   OwnScene own = {};  // instead of `scene`
 
-  bool imu = false;        // the bag holds an IMU's gyroscope besides, in the base frame
+  bool imu = false;        // the bag also holds an IMU's gyroscope, in the base frame
   double imu_shift_s = 0;  // added to its stamps it gives the laser's clock, within +-10
 };
 
@@ -73,14 +73,14 @@ struct TruthPose {
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
 };
 
-/// A recording and the truth about it.
+/// A recording and its ground truth.
 struct Simulation {
-  Recording recording;           // as reading the bag of write_bag gives it
+  Recording recording;           // equal to the recording read from the bag of write_bag
   std::vector<TruthPose> truth;  // every 10 ms from the first beam to the last; every 5 ms in an own scene
-  TurnRates imu;                 // where asked for: 200 Hz, with a bias and noise, on its own clock
+  TurnRates imu;                 // if requested: 200 Hz, with a bias and noise, on its own clock
   SimulationOptions options;     // with the duration filled in
   bool moving = false;
-  double length_m = 0;  // of the path, from the truth, swaying included; the tops likewise
+  double length_m = 0;  // of the path, from the truth, including sway; the maxima too
   double top_speed_mps = 0;
   double top_angular_rate_radps = 0;
   std::size_t triangles = 0;               // of the scene
@@ -89,9 +89,9 @@ struct Simulation {
 };
 
 /// Records a scene with a UTM-30LX (40 scans/s, 721 beams over 180 deg, 0.1 to 30 m) that a motor rolls about
-/// the base frame's x axis. Every beam is cast at its own instant, with the pose and the motor angle of that
-/// instant. Ranges are rounded to 1 mm and angles to the encoder's step. Wrong options are
-/// ExitCode::kWrongUsage; so is an own walk that comes nearer than 0.15 m to a surface.
+/// the base frame's x axis. Every beam is cast at its own time, with the pose and the motor angle of that
+/// time. Ranges are rounded to 1 mm and angles to the encoder's step. Invalid options are
+/// ExitCode::kWrongUsage, and so is a user's walk that comes nearer than 0.15 m to a surface.
 Result<Simulation> simulate(const SimulationOptions& options, const Job& job);
 
 }  // namespace sweepscope

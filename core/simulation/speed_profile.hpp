@@ -6,7 +6,7 @@
 
 namespace sweepscope::simulation {
 
-/// How far along a curve a walker has come: from rest to rest, slower in bends, hurrying once on the
+/// The distance along a curve over time of a walk from rest to rest: slower in bends, fastest on the
 /// straightest stretch.
 class SpeedProfile {
  public:
@@ -15,7 +15,7 @@ class SpeedProfile {
     double top_speed_mps = 0;
     double top_turn_rate_radps = 0;  // about z, from speed and curvature
   };
-  /// Throws std::invalid_argument where the curve cannot be walked within the limits.
+  /// Throws std::invalid_argument if the curve cannot be walked within the limits.
   SpeedProfile(const PlanCurve& curve, const Limits& limits);
 
   struct Progress {

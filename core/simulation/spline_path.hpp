@@ -12,15 +12,14 @@ namespace sweepscope::simulation {
 /// A smooth motion through recorded poses, which come at 20 to 200 Hz with jitter: a cubic B-spline with
 /// equal knots, fitted by least squares. Position and orientation are twice continuously differentiable. The
 /// orientation's spline runs over the quaternion's four numbers, their signs made continuous, and is
-/// normalised where it is read.
+/// normalised on reading.
 class SplinePath {
  public:
-  /// The poses' times must ascend strictly, and neighbours differ by less than 180 deg. Poses that are
-  /// missing for several knots are bridged with little bending. Throws std::invalid_argument for fewer than
-  /// two poses.
+  /// The poses' times must be strictly ascending, and neighbours must differ by less than 180 deg. Gaps of
+  /// several knots are bridged with little bending. Throws std::invalid_argument for fewer than two poses.
   SplinePath(std::span<const StampedPose> poses, double knots_s);
 
-  /// Before the first pose and after the last it rests there.
+  /// Before the first pose and after the last one it rests.
   Pose at(double time_s) const;
 
   double first_s() const { return first_s_; }
@@ -40,7 +39,7 @@ class SplinePath {
   std::vector<Row> coefficients_;
 };
 
-/// How far a spline passes by the poses that it was fitted to (root of the mean square).
+/// The root mean square deviation of a spline from the poses that it was fitted to.
 struct SplineDeviation {
   double position_m = 0, rotation_rad = 0;
 };

@@ -26,7 +26,7 @@ struct WalkSpec {
   double duration_s = 0, length_m = 0, top_speed_mps = 0, top_angular_rate_radps = 0;
 };
 
-/// Where a stationary recording is made.
+/// The pose of a stationary recording.
 struct Stand {
   Vector3d position_m = Vector3d::Zero();
   double yaw_deg = 0;

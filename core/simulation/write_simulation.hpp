@@ -8,17 +8,17 @@
 
 namespace sweepscope {
 
-/// When a message reaches the recorder, after the last of the instants it is about and of its own stamp.
+/// The time at which a message reaches the recorder: after the last time that it refers to and after its own
+/// stamp.
 inline constexpr double kScanLatency_s = 0.0040, kMotorLatency_s = 0.0015;
 
 /// Writes a simulation as a ROS 1 bag: sensor_msgs/LaserScan on /scan, beams without a usable return as +inf,
-/// and sensor_msgs/JointState on /joint_states with the joint roll_motor. Messages lie in the order in which
-/// they were received: a few milliseconds after the fact, more or less by a random but repeatable part. Equal
-/// simulations give equal bytes. Written beside the path and then renamed; where that fails,
-/// ExitCode::kUnreadableInput.
+/// and sensor_msgs/JointState on /joint_states with the joint roll_motor. Messages are in the order in which
+/// they were received: a few milliseconds late, by a random but repeatable amount. Equal simulations give
+/// equal bytes. Written beside the path and then renamed; if that fails, ExitCode::kUnreadableInput.
 Result<void> write_bag(const Simulation& simulation, const std::filesystem::path& path, const Job& job);
 
-/// What is true of a simulation, as JSON: the offset, the walk's figures, and every option.
+/// The ground truth of a simulation as JSON: the offset, the walk's figures, and every option.
 std::string truth_json(const Simulation& simulation);
 
 /// The base frame's trajectory as TUM: `timestamp tx ty tz qx qy qz qw`, seconds since 1970 on the laser's

@@ -9,17 +9,17 @@
 
 namespace sweepscope {
 
-/// What stands at a series' points. The shapes tell series apart where colours do not.
+/// The symbol at a series' points. The shapes distinguish series if colours do not.
 enum class MarkerShape { kNone, kCircle, kSquare, kTriangle, kDiamond };
 
 struct ChartSeries {
-  std::string name;  // in the legend; without one it is not there
+  std::string name;  // in the legend; empty: not listed
   std::vector<double> x;
   std::vector<std::optional<double>> y;  // absent values leave a gap, and a tick on the axis below
   Colour colour;
   MarkerShape marker = MarkerShape::kCircle;
-  bool dashed = false;  // thin dashes: what was fitted, not measured
-  bool filled = false;  // down to 0, which the axis then holds
+  bool dashed = false;  // thin dashes, for fits
+  bool filled = false;  // down to 0, which the axis then includes
 };
 
 /// A vertical line across the chart with a label above it.
@@ -42,14 +42,14 @@ struct ChartBand {
   Colour colour;
 };
 
-/// A horizontal bar with ends, such as a width at half height, and what it measures beside it.
+/// A horizontal bar with ends, such as a width at half height, with its label beside it.
 struct ChartSpan {
   double y = 0, from = 0, to = 0;
   std::string label;
   Colour colour;
 };
 
-/// A chart of lines as data. Axes fit what there is; `with_zero` widens y to hold 0 and draws a line there.
+/// A chart of lines as data. Axes fit the data; `with_zero` extends y to 0 and draws a line there.
 struct Chart {
   std::string title;    // what y is, with its unit
   std::string x_title;  // what x is, with its unit

@@ -26,7 +26,7 @@ struct VerticalLabel {
   PixelRect place;
 };
 
-/// Where everything in a chart goes. Title, legend, labels and plot never overlap.
+/// The positions of everything in a chart. Title, legend, labels and plot never overlap.
 struct ChartLayout {
   double scale = 1;
   std::string title;

@@ -11,7 +11,7 @@
 
 namespace sweepscope {
 
-/// An offset whose map is shown, and the colour that stands for it.
+/// An offset whose map is shown, and its colour.
 struct MarkedOffset {
   double offset_s = 0;
   Colour colour;
@@ -26,7 +26,7 @@ std::vector<Chart> curve_charts(const Estimate& estimate, std::span<const Marked
                                 const Style& style);
 
 /// One of these charts, by the criterion's name ("d", "theta", "e", "n", "roll", "capped_cost"). An unknown
-/// name, or one that the estimate has no value of, is ExitCode::kWrongUsage.
+/// name, or one for which the estimate has no value, is ExitCode::kWrongUsage.
 Result<Chart> curve_chart(const Estimate& estimate, std::string_view criterion,
                           std::span<const MarkedOffset> marked, const Style& style);
 
@@ -40,8 +40,8 @@ enum class Normalise { kNo, kByOptimum };
 
 /// One criterion ("d", "theta", "e", "n", "roll", "capped_cost") of several recordings in one chart, each
 /// with its name, the offset found and a larger mark at its optimum. kByOptimum divides each curve by its own
-/// least value (n: its greatest; the roll cannot be). An unknown criterion, or one that no estimate has a
-/// value of, is ExitCode::kWrongUsage.
+/// minimum (n: its maximum; not possible for the roll). An unknown criterion, or one for which no estimate
+/// has a value, is ExitCode::kWrongUsage.
 Result<Chart> curves_of_many(std::span<const NamedEstimate> estimates, std::string_view criterion,
                              const Style& style, Normalise normalise = Normalise::kNo);
 

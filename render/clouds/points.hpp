@@ -7,7 +7,7 @@
 
 namespace sweepscope {
 
-/// Points as pictures need them: where they are, in metres, and the value that colours each.
+/// Points for pictures: positions in metres, and the value that colours each.
 struct ColouredPoints {
   std::vector<std::array<float, 3>> xyz_m;
   std::vector<float> values;
@@ -19,13 +19,14 @@ struct ColouredPoints {
   }
 };
 
-/// One point for each cube of the given edge that has any, the first in the input's order, and the cubes
-/// along a Morton curve: what is near in space is near in memory, which draws several times faster than a
-/// random order. The same input gives the same output for any number of threads.
+/// One point for each non-empty cube of the given edge, the first in the input's order, with the cubes along
+/// a Morton curve: points close in space are close in memory, which draws several times faster than a random
+/// order. The same input gives the same output for any number of threads.
 ColouredPoints thin(const ColouredPoints& points, double edge_m);
 
-/// At most so many points for moving pictures: one for each cube, of the smallest edge (in steps of 2) that
-/// leaves no more. Evenly over space, not by chance, so that the look stays; in the same order as thin.
+/// At most this many points, for moving pictures: one for each cube of the smallest edge (in steps of 2) that
+/// is large enough. Evenly distributed in space rather than at random, so that the look is kept; in the same
+/// order as thin.
 ColouredPoints decimated(const ColouredPoints& points, std::size_t most);
 
 }  // namespace sweepscope

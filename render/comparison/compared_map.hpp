@@ -13,11 +13,11 @@ namespace sweepscope {
 /// A map to draw, alone or beside others.
 struct ComparedMap {
   std::string label;                       // empty: "offset 24.0 ms", from offset_s
-  std::optional<double> offset_s;          // marked in the charts; absent where it is not known
+  std::optional<double> offset_s;          // marked in the charts; absent if not known
   MapCloud::ConstPtr cloud;                // in the map frame, z up
-  std::vector<StampedPose> path;           // the sensor's way, which heights refer to; may be empty
-  double path_height_m = 0;                // the sensor's height where `path` is empty
-  std::vector<FeatureKind> feature_kinds;  // of each point; empty where they are not known
+  std::vector<StampedPose> path;           // the sensor's path, which heights refer to; may be empty
+  double path_height_m = 0;                // the sensor's height if `path` is empty
+  std::vector<FeatureKind> feature_kinds;  // of each point; empty if not known
 
   std::size_t size() const { return cloud ? cloud->size() : 0; }
 };

@@ -236,11 +236,11 @@ void add_charts(Picture& picture, std::span<const Chart> charts, const Estimate&
 
 std::string seen_from(const ComparisonOptions& options) {
   const std::string how = options.perspective ? " in perspective" : "";
-  if (options.camera) return "Seen from a chosen place" + how;
+  if (options.camera) return "Seen from a given camera" + how;
   if (options.viewpoint == Viewpoint::kTop) return "Seen from above" + how;
   if (options.viewpoint == Viewpoint::kFront) return "Seen along y" + how;
-  if (options.viewpoint == Viewpoint::kRight) return "Seen against x" + how;
-  return options.perspective ? "Side view in perspective" : "Isometric view";
+  if (options.viewpoint == Viewpoint::kRight) return "Seen along -x" + how;
+  return options.perspective ? "Oblique view in perspective" : "Isometric view";
 }
 
 std::string how_it_is_seen(const Prepared& prepared, const ComparisonOptions& options) {

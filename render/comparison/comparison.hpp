@@ -34,16 +34,16 @@ struct ComparisonOptions {
   std::string title;  // empty: the estimate's recording
   ColourBy colour_by = ColourBy::kElevation;
   std::string colour_table = "viridis";
-  std::optional<ValueRange> colour_range;  // empty: of the points shown, without their outermost part
+  std::optional<ValueRange> colour_range;  // empty: of the points shown, without outliers
   double point_size_px = 1;                // at 1920 x 1200
   Viewpoint viewpoint = Viewpoint::kTop;
   bool perspective = false;
   std::optional<Camera> camera;  // instead of the viewpoint
   std::optional<Box> box;        // only what is inside, fitted to the view
-  /// The heights shown. A roll error moves points the more the farther they are above or below the sensor, so
-  /// near its own height there is nothing to see, and a ceiling hides all below it. Empty: from above,
-  /// everything at least 0.8 m below the path, and from 0.8 m above it to just under the ceiling where there
-  /// is one; from elsewhere, everything under the ceiling.
+  /// The heights shown. A roll error moves points in proportion to their height above or below the sensor, so
+  /// it is not visible near the sensor's own height, and a ceiling hides everything below it. Empty: from
+  /// above, everything at least 0.8 m below the path, and from 0.8 m above it to just under the ceiling if
+  /// there is one; from other viewpoints, everything under the ceiling.
   std::vector<HeightRange> slabs;
   /// Empty: the place where the maps differ most in sharpness.
   std::optional<Region> close_up;
@@ -51,17 +51,18 @@ struct ComparisonOptions {
   bool each_own_view = false;  // for maps of different places: each fills its panel
 };
 
-/// Whether a comparison of that size has room for what it shows; else ExitCode::kWrongUsage.
+/// Fails with ExitCode::kWrongUsage if the size is too small for a comparison.
 Result<void> check_size(const ComparisonOptions& options);
 
-/// One to four maps side by side, seen alike (one camera and one colour scale for all), a close-up of one
-/// region of each below, and below those the criteria over the offset with the compared offsets marked. Maps
-/// without points and a curve without values are said in words. `estimate` may be null: then no charts.
+/// One to four maps side by side, with the same camera and colour scale, a close-up of one region of each
+/// below, and below those the criteria over the offset with the compared offsets marked. For maps without
+/// points and a curve without values the picture has a text instead. `estimate` may be null: then there are
+/// no charts.
 Result<Picture> comparison_picture(std::span<const ComparedMap> maps, const Estimate* estimate,
                                    const ComparisonOptions& options = {});
 
-/// What a file of that picture says about itself: the program's version, the equation, the maps and offsets,
-/// and how they are shown.
+/// The metadata of that picture's file: the program's version, the equation, the maps and offsets, and how
+/// they are shown.
 std::vector<PngText> comparison_texts(std::span<const ComparedMap> maps, const ComparisonOptions& options);
 
 }  // namespace sweepscope

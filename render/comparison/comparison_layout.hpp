@@ -8,7 +8,7 @@
 
 namespace sweepscope {
 
-/// Where everything of a comparison lies. Places that are not used are empty.
+/// The positions of everything in a comparison. Unused ones are empty.
 struct ComparisonLayout {
   double scale = 1;  // of letters and lines; 1 at 1920 x 1200
   double margin = 0;
@@ -19,7 +19,7 @@ struct ComparisonLayout {
   std::vector<PixelRect> charts;
 };
 
-/// `charts` is how many lie beside each other at the bottom; 0 leaves the maps all the room.
+/// `charts` is the number of charts side by side at the bottom; with 0 the maps take all the space.
 ComparisonLayout lay_out(const ComparisonOptions& options, std::size_t maps, std::size_t charts);
 
 }  // namespace sweepscope

@@ -10,12 +10,12 @@
 
 namespace sweepscope {
 
-/// The words, frames and scales of a comparison, each into its place.
+/// Draws the texts, frames and scales of a comparison.
 void add_heading(Drawing& drawing, const ComparisonLayout& layout, const std::string& title,
                  const std::string& how_it_is_seen, double width_px, const Style& style);
 void add_label(Drawing& drawing, PixelPoint baseline, double width_px, const std::string& label,
                Colour colour, const Style& style, double scale);
-/// A scale where lengths are alike everywhere, the directions of the axes, a frame.
+/// A scale bar if the scale is the same everywhere, the directions of the axes, a frame.
 void add_overview_marks(Drawing& drawing, const Projection& projection, const Camera& camera,
                         const Style& style, double scale);
 void add_close_up_marks(Drawing& drawing, const Projection& projection, const Style& style, double scale);
@@ -24,7 +24,7 @@ void add_legend(Drawing& drawing, const ComparisonLayout& layout, const Colourin
                 const Style& style);
 void add_footer(Drawing& drawing, const ComparisonLayout& layout, double width_px, const Style& style);
 
-/// What a picture says in words where it has nothing to show.
+/// The text of a picture that has nothing to show.
 void add_no_points(Drawing& drawing, const ComparedMap& map, const PixelRect& place,
                    std::span<const HeightRange> slabs, const Style& style, double scale);
 void add_no_curve(Drawing& drawing, const PixelRect& place, const Estimate& estimate, const Style& style,

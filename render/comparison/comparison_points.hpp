@@ -16,15 +16,15 @@ struct SlabPoints {
   std::vector<float> above_path_m;
 };
 
-/// The slabs that the options name, or the default ones for these maps.
+/// The slabs of the options, or the default ones for these maps.
 std::vector<HeightRange> choose_slabs(std::span<const ComparedMap> maps, const ComparisonOptions& options);
 
-/// `values`: one for each point of the map. Without a box all places are inside.
+/// `values`: one for each point of the map. Without a box all positions are inside.
 SlabPoints points_in_slabs(const ComparedMap& map, std::span<const float> values,
                            std::span<const HeightRange> slabs, const std::optional<Box>& box = {});
 
-/// The points that a view shows, of those higher above the path than `min_height_m`; no more of them than
-/// its pixels can show.
+/// The points that a view shows, of those higher above the path than `min_height_m`; at most as many as its
+/// pixels can show.
 std::shared_ptr<const ColouredPoints> points_seen(const SlabPoints& map, const Projection& projection,
                                                   float min_height_m);
 
@@ -34,12 +34,13 @@ struct Bounds {
   double middle() const { return (from + to) / 2; }
 };
 
-/// The range of one coordinate (0 to 2) over all maps, without the outermost fraction of the points at each
-/// end. Without any point: 0 to 1.
+/// The range of one coordinate (0 to 2) over all maps, without a fraction of the points at each end. Without
+/// points: 0 to 1.
 Bounds bounds_of(std::span<const SlabPoints> maps, std::size_t axis, double outermost_fraction);
 
-/// The place where the maps differ most in how many small cells their points fill: a blurred surface fills
-/// more. Compact things (a pillar) are preferred over long walls, which look alike along their length.
+/// The position where the maps differ most in the number of small cells that their points fill: a blurred
+/// surface fills more. Compact objects (a pillar) are preferred over long walls, which look the same along
+/// their length.
 Region find_close_up(std::span<const SlabPoints> maps, double height_m, double width_m);
 
 }  // namespace sweepscope

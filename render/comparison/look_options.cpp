@@ -36,7 +36,7 @@ std::optional<std::vector<double>> numbers_of(const std::string& text, char sepa
 Result<bool> switch_of(const std::string& text) {
   if (text == "true" || text.empty()) return true;
   if (text == "false") return false;
-  return wrong("true or false is wanted");
+  return wrong("true or false is needed");
 }
 
 Result<void> set_size(ComparisonOptions& options, const std::string& text) {
@@ -45,8 +45,8 @@ Result<void> set_size(ComparisonOptions& options, const std::string& text) {
     return side_px >= kMinPictureSidePx && side_px <= kMaxPictureSidePx;
   };
   if (!size || !fits((*size)[0]) || !fits((*size)[1])) {
-    return wrong(
-        fmt::format("not like 1920x1200, each side {} to {} pixels", kMinPictureSidePx, kMaxPictureSidePx));
+    return wrong(fmt::format("WxH is needed, such as 1920x1200, with sides of {} to {} pixels",
+                             kMinPictureSidePx, kMaxPictureSidePx));
   }
   options.width_px = static_cast<int>((*size)[0]);
   options.height_px = static_cast<int>((*size)[1]);
@@ -65,7 +65,7 @@ Result<void> set_background(ComparisonOptions& options, const std::string& text)
 Result<void> set_colour_range(ComparisonOptions& options, const std::string& text) {
   const auto range = numbers_of(text, ':', 2);
   if (!range || !((*range)[0] < (*range)[1])) {
-    return wrong("not like 0:40, in the unit of the colouring");
+    return wrong("A:B is needed, such as 0:40, in the unit of the colouring");
   }
   options.colour_range = ValueRange{(*range)[0], (*range)[1]};
   return {};
@@ -81,7 +81,7 @@ Result<void> set_point_size(ComparisonOptions& options, const std::string& text)
 Result<void> set_slab(ComparisonOptions& options, const std::string& text) {
   const auto range = numbers_of(text, ':', 2);
   if (!range || !((*range)[0] < (*range)[1])) {
-    return wrong("not like 0.8:3.2, in metres above the sensor's path");
+    return wrong("FROM:TO is needed, such as 0.8:3.2, in metres above the sensor's path");
   }
   options.slabs.push_back({(*range)[0], (*range)[1]});
   return {};
@@ -95,7 +95,7 @@ Result<void> set_close_up(ComparisonOptions& options, const std::string& text) {
   }
   const auto region = numbers_of(text, ':', 3);
   if (!region || !((*region)[2] > 0)) {
-    return wrong("not like 12.5:-3:4 (x, y and height in metres), auto or none");
+    return wrong("X:Y:HEIGHT is needed, such as 12.5:-3:4 in metres, or auto or none");
   }
   options.with_close_up = true;
   options.close_up = Region{{(*region)[0], (*region)[1]}, (*region)[2]};
@@ -104,13 +104,15 @@ Result<void> set_close_up(ComparisonOptions& options, const std::string& text) {
 
 Result<void> set_camera(ComparisonOptions& options, const std::string& text) {
   const auto camera = numbers_of(text, ':', 7);
-  const char* wanted = "not like PX:PY:PZ:X:Y:Z:EXTENT, where the camera is and what it looks at";
+  const char* wanted =
+      "PX:PY:PZ:X:Y:Z:EXTENT is needed: where the camera is, what it looks at, and the height of the view in "
+      "metres";
   if (!camera || !((*camera)[6] > 0)) return wrong(wanted);
   Camera set;
   set.position_m = {(*camera)[0], (*camera)[1], (*camera)[2]};
   set.looks_at_m = {(*camera)[3], (*camera)[4], (*camera)[5]};
   const Eigen::Vector3d forward = set.looks_at_m - set.position_m;
-  if (!(forward.norm() > 1e-6)) return wrong("the camera is where it looks at");
+  if (!(forward.norm() > 1e-6)) return wrong("the camera is at the point that it looks at");
   const bool upright = forward.normalized().head<2>().norm() > 1e-3;
   set.up = upright ? Eigen::Vector3d(0, 0, 1) : Eigen::Vector3d(0, 1, 0);
   set.view_height_m = (*camera)[6];
@@ -122,7 +124,7 @@ Result<void> set_camera(ComparisonOptions& options, const std::string& text) {
 Result<void> set_box(ComparisonOptions& options, const std::string& text) {
   const auto box = numbers_of(text, ':', 6);
   if (!box || !((*box)[0] < (*box)[3]) || !((*box)[1] < (*box)[4]) || !((*box)[2] < (*box)[5])) {
-    return wrong("not like X0:Y0:Z0:X1:Y1:Z1, the least and the greatest corner in metres");
+    return wrong("X0:Y0:Z0:X1:Y1:Z1 is needed, the minimum and the maximum corner in metres");
   }
   options.box = Box{{(*box)[0], (*box)[1], (*box)[2]}, {(*box)[3], (*box)[4], (*box)[5]}};
   return {};
@@ -138,8 +140,8 @@ Result<void> assign(T& to, Result<T> value) {
 std::vector<LookOption> declare() {
   using Options = ComparisonOptions;
   return {
-      {"size", "WxH", "Of the picture, in pixels (default: 1920x1200)", false, set_size},
-      {"title", "TEXT", "Above the maps (default: the recording's name)", false,
+      {"size", "WxH", "Size of the picture in pixels (default: 1920x1200)", false, set_size},
+      {"title", "TEXT", "Title above the maps (default: the recording's name)", false,
        [](Options& o, const std::string& text) { return o.title = text, Result<void>(); }},
       {"background", "NAME", "dark, light (dark behind points), white or transparent (default: dark)", false,
        set_background},
@@ -152,25 +154,25 @@ std::vector<LookOption> declare() {
        [](Options& o, const std::string& text) {
          return colour_table(text).map([&](const ColourTable&) { o.colour_table = text; });
        }},
-      {"colour-range", "A:B", "The values at the ends of the colours (default: of the points shown)", false,
-       set_colour_range},
-      {"point-size", "PX", "Of a point, in pixels at 1920x1200 (default: 1)", false, set_point_size},
-      {"viewpoint", "NAME", "top, front (along y), right (against x) or isometric (default: top)", false,
+      {"colour-range", "A:B", "Values at the ends of the colour table (default: from the points shown)",
+       false, set_colour_range},
+      {"point-size", "PX", "Size of a point in pixels at 1920x1200 (default: 1)", false, set_point_size},
+      {"viewpoint", "NAME", "top, front (along y), right (along -x) or isometric (default: top)", false,
        [](Options& o, const std::string& text) { return assign(o.viewpoint, viewpoint(text)); }},
-      {"perspective", "", "Far things are smaller (default: parallel lines stay parallel)", false,
+      {"perspective", "", "Perspective projection (default: parallel projection)", false,
        [](Options& o, const std::string& text) { return assign(o.perspective, switch_of(text)); }},
       {"camera", "PX:PY:PZ:X:Y:Z:EXTENT",
        "Instead of a viewpoint: the camera at P looks at X:Y:Z, where the view is EXTENT metres high", false,
        set_camera},
-      {"box", "X0:Y0:Z0:X1:Y1:Z1", "Show only this part of the map frame, in metres, as large as it fits",
+      {"box", "X0:Y0:Z0:X1:Y1:Z1", "Show only this box of the map frame, in metres, as large as possible",
        false, set_box},
       {"slab", "FROM:TO",
-       "Show only these heights, in metres above the sensor's path; repeatable (default, from above: 0.8 m "
-       "and more below it, and from 0.8 m above it to just under the ceiling)",
+       "Show only these heights, in metres above the sensor's path; repeatable (default from above: at least "
+       "0.8 m below it, and from 0.8 m above it to just under the ceiling)",
        true, set_slab},
       {"close-up", "X:Y:HEIGHT",
-       "What the close-ups show, in metres of the map frame; or none (default: auto, where the maps differ "
-       "most in sharpness)",
+       "Centre and height of the close-ups, in metres of the map frame; or none (default: auto, where the "
+       "maps differ most in sharpness)",
        false, set_close_up},
   };
 }

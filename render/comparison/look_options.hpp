@@ -9,14 +9,14 @@
 
 namespace sweepscope {
 
-/// One thing that can be said about how maps are drawn, declared once: the command line's `--name VALUE` and
+/// One option of how maps are drawn, declared once: the command line's `--name VALUE` and
 /// a recipe's `name: value` come from it.
 struct LookOption {
   std::string name;  // "colour-by"
   std::string type;  // what a value looks like: "WxH"; empty: a switch, whose value is true or false
   std::string help;  // a sentence
   bool repeats = false;
-  /// Sets it from text. A value that it does not take is ExitCode::kWrongUsage, with what is wanted.
+  /// Sets the option from text. An invalid value is ExitCode::kWrongUsage; the message says what is needed.
   std::function<Result<void>(ComparisonOptions&, const std::string&)> set;
 };
 

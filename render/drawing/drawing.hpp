@@ -10,7 +10,7 @@
 
 namespace sweepscope {
 
-/// A place in a picture: pixels from its top left corner, y downwards.
+/// A position in a picture: pixels from its top left corner, y downwards.
 struct PixelPoint {
   double x = 0, y = 0;
 };
@@ -23,7 +23,7 @@ struct PixelRect {
   bool contains(PixelPoint point) const {
     return point.x >= left && point.x <= right() && point.y >= top && point.y <= bottom();
   }
-  /// What is left after taking a margin from every side.
+  /// The rectangle without a margin on every side.
   PixelRect inset(double margin) const {
     return {left + margin, top + margin, width - 2 * margin, height - 2 * margin};
   }
@@ -94,23 +94,23 @@ class Drawing {
   std::vector<Mark> marks_;
 };
 
-/// The dashes of a line as lines of their own, or the line itself where it has no gaps.
+/// The dashes of a line as separate lines, or the line itself if it is not dashed.
 std::vector<LineMark> dashes_of(const LineMark& line);
 
-/// How high capital letters are and how far others hang below the baseline, in ems.
+/// The height of capital letters and the depth of descenders below the baseline, in ems.
 constexpr double kCapHeight_em = 0.73, kDescent_em = 0.24;
 
-/// Where a text's baseline is.
+/// The position of a text's baseline.
 double baseline_y(const TextMark& mark);
 
-/// How wide a line of text is.
+/// The width of a line of text.
 double text_width_px(const std::string& text, double size_px, bool bold = false);
 
-/// The text, cut and ended with an ellipsis where it would be wider than the space.
+/// The text, shortened with an ellipsis if it is wider than the space.
 std::string fit_text(const std::string& text, double size_px, double width_px, bool bold = false);
 
-/// The part of the stretch between two places that lies in a rectangle; none where it misses it. An end that
-/// lies inside is kept to the last bit.
+/// The part of a line segment that lies in a rectangle; absent if there is none. An end that lies inside is
+/// kept exactly.
 std::optional<std::pair<PixelPoint, PixelPoint>> clip(PixelPoint from, PixelPoint to, const PixelRect& rect);
 
 }  // namespace sweepscope

@@ -5,8 +5,8 @@
 
 namespace sweepscope {
 
-/// A path from which the font (DejaVu Sans) can be read for as long as the program runs. The fonts are inside
-/// the program, so that it draws the same text wherever it is.
+/// A path from which the font (DejaVu Sans) can be read for as long as the program runs. The fonts are
+/// embedded in the program, so that it draws the same text on every machine.
 const std::string& font_path(bool bold);
 
 /// The same as bytes.

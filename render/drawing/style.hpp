@@ -7,8 +7,8 @@
 
 namespace sweepscope {
 
-/// The colours of everything that is not data, and those that tell the compared maps apart (never red against
-/// green alone).
+/// The colours of everything that is not data, and those of the compared maps (never red against green
+/// alone).
 struct Style {
   Colour page, panel, frame, grid, text, faint_text, highlight;
   Colour map_panel, map_highlight;  // behind points, and marks upon them
@@ -46,7 +46,7 @@ inline constexpr Style kLightStyle{
     .maps = {{{190, 120, 0}, {0, 114, 178}, {183, 78, 141}, {0, 138, 100}}},
 };
 
-/// The same with nothing dark on it.
+/// The same without dark panels.
 inline constexpr Style white_style() {
   Style style = kLightStyle;
   style.panel = {255, 255, 255};
@@ -55,7 +55,7 @@ inline constexpr Style white_style() {
   return style;
 }
 
-/// To lay on a page of any light colour.
+/// For a page of any light colour.
 inline constexpr Style transparent_style() {
   Style style = white_style();
   style.page.alpha = style.panel.alpha = style.map_panel.alpha = 0;

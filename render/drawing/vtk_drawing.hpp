@@ -10,7 +10,7 @@ class vtkContextActor;
 
 namespace sweepscope {
 
-/// An actor that paints the drawing over the whole window, `scale` window pixels for each of its pixels.
+/// An actor that draws over the whole window, with `scale` window pixels for each pixel of the drawing.
 vtkSmartPointer<vtkContextActor> make_drawing_actor(std::shared_ptr<const Drawing> drawing, double scale);
 
 }  // namespace sweepscope

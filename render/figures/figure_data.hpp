@@ -16,12 +16,12 @@
 
 namespace sweepscope {
 
-/// The recordings, estimates and maps that a recipe's figures are drawn from, each made when it is first
-/// asked for. Estimates are kept in a folder under a hash of all that they depend on (the recording's
-/// content, the options, the program), so that a second run does not compute them again.
+/// The recordings, estimates and maps that a recipe's figures are drawn from, each made on first use.
+/// Estimates are kept in a folder under a hash of everything that they depend on (the recording's content,
+/// the options, the program), so that a second run does not compute them again.
 class FigureData {
  public:
-  /// `said` hears in words what takes time: "estimate metro".
+  /// `said` receives a description of each long step: "estimate metro".
   FigureData(const Recipe& recipe, std::filesystem::path cache_folder, const Job& job,
              std::function<void(const std::string&)> said);
 
@@ -29,7 +29,7 @@ class FigureData {
   Result<const Estimate*> estimate(const std::string& name);
   /// Maps of one recording are built from the same scans. `with_features`: with each point's kind.
   Result<std::vector<ComparedMap>> maps(std::span<const MapSpec> specs, bool with_features);
-  /// The offset that a simulation was made with.
+  /// The true offset of a simulation.
   std::optional<double> truth_s(const std::string& recording) const;
 
  private:

@@ -13,7 +13,7 @@
 
 namespace sweepscope {
 
-/// A picture with its title and its last line, and the room between them.
+/// A picture with its title and its footer, and the space between them.
 struct Page {
   Picture picture;
   Style style;
@@ -21,11 +21,11 @@ struct Page {
   PixelRect room;
 };
 
-/// The look says size, background and title; without a title the room begins higher. `columns`: how many
-/// parts of about 640 pixels lie beside each other.
+/// The look gives size, background and title; without a title the space begins higher. `columns`: the number
+/// of parts of about 640 pixels side by side.
 Page make_page(const ComparisonOptions& look, int columns = 1);
 
-/// Charts beside each other under a title; one alone fills the picture.
+/// Charts side by side under a title; a single one fills the picture.
 Picture charts_picture(std::span<const Chart> charts, const ComparisonOptions& look);
 
 /// A map's profile across a face.

@@ -140,7 +140,7 @@ Result<CrossSection> section_of(const ProfileFigure& figure, std::span<const Com
     if (const auto found = best_section(on_paths)) section = found->section;
   }
   if (section) return *section;
-  return failure(ExitCode::kNotIdentifiable, "there is no face with points enough for a profile");
+  return failure(ExitCode::kNotIdentifiable, "no face has enough points for a profile");
 }
 
 Result<Made> make(const ProfileFigure& figure, const ComparisonOptions& look, FigureData& data) {

@@ -12,10 +12,10 @@
 
 namespace sweepscope {
 
-/// Makes a recipe's figures and tables in a folder, which it makes where it is missing: NAME.png and the
-/// like, NAME.csv, NAME.md and NAME.tex. Estimates are kept in its folder `cache`. `said` hears what is being
-/// done, and each file when it is there; files that were finished stay when it fails or is interrupted. No
-/// file that the recipe reads is overwritten: see check_run_files.
+/// Makes a recipe's figures and tables in a folder, which is created if it is missing: NAME.png and the like,
+/// NAME.csv, NAME.md and NAME.tex. Estimates are kept in its folder `cache`. `said` receives the steps, and
+/// each file when it is written; finished files are kept on failure or interruption. No file that the recipe
+/// reads is overwritten: see check_run_files.
 Result<std::vector<std::filesystem::path>> make_figures(const Recipe& recipe,
                                                         const std::filesystem::path& folder, Canvas& canvas,
                                                         const Job& job,

@@ -85,7 +85,7 @@ class RecipeReader {
       recipe_.tables.push_back(read_table(name, node));
     });
     if (recipe_.figures.empty() && recipe_.tables.empty()) {
-      refuse(document, "the recipe makes nothing: figures or tables are wanted");
+      refuse(document, "the recipe makes nothing: figures or tables are needed");
     }
     return std::move(recipe_);
   }
@@ -180,8 +180,7 @@ class RecipeReader {
         for (const Node& value : values) {
           const std::string text = read_text(value, name + ": " + option.name);
           if (const auto set = option.set(options, text); !set)
-            refuse(value,
-                   fmt::format("{}: {} {}, and got \"{}\"", name, option.name, set.error().message, text));
+            refuse(value, fmt::format("{}: {} {}, not \"{}\"", name, option.name, set.error().message, text));
         }
       };
     }
@@ -224,7 +223,7 @@ class RecipeReader {
       members[option.name] = [&look, &option](const Node& node) {
         const std::vector<Node> values = option.repeats ? read_list(node) : std::vector<Node>{node};
         for (const Node& value : values) {
-          if (!value.IsScalar()) refuse(value, fmt::format("{} must be a text", option.name));
+          if (!value.IsScalar()) refuse(value, fmt::format("{} must be text", option.name));
           if (const auto set = set_look(look, option, value.Scalar()); !set)
             refuse(value, set.error().message);
         }

@@ -15,14 +15,14 @@
 
 namespace sweepscope {
 
-/// A recording to read, as the command line would name it.
+/// A recording to read, with the options of the command line.
 struct RecordedFile {
   std::filesystem::path path;
   std::optional<std::filesystem::path> rig;
   std::optional<StampSource> stamps;
 };
 
-/// Where a recipe's data comes from: a file, or a simulation that is made for it.
+/// The source of a recipe's data: a file, or a simulation that is made for it.
 struct RecordingSpec {
   std::variant<RecordedFile, SimulationOptions> source;
   std::optional<std::pair<double, double>> window_s;
@@ -31,7 +31,7 @@ struct RecordingSpec {
 struct EstimateSpec {
   std::string recording;
   EstimateOptions options;
-  std::filesystem::path file;  // what `sweepscope estimate --json` wrote; empty: it is computed
+  std::filesystem::path file;  // written by `sweepscope estimate --json`; empty: computed
 };
 
 /// A map to draw: of a recording at an offset.
@@ -39,20 +39,20 @@ struct MapSpec {
   std::string recording;
   double offset_s = 0;
   std::string label;           // empty: the offset
-  bool features_only = false;  // its edge and plane points alone
+  bool features_only = false;  // only its edge and plane points
   bool true_poses = false;     // placed by the simulation's own poses and not by LOAM's
 };
 
 enum class PictureFormat { kPng, kSvg, kPdf };
 enum class Criterion { kD, kE, kN, kRoll };
 
-/// Maps side by side, with the criteria below where an estimate is named.
+/// Maps side by side, with the criteria below if an estimate is named.
 struct MapsFigure {
   std::vector<MapSpec> maps;
   std::string estimate;
 };
 
-/// Criteria over the offset, a chart for each; several estimates in one chart where there are several.
+/// Criteria over the offset, a chart for each; several estimates share a chart.
 struct CurvesFigure {
   std::vector<std::string> estimates;
   std::vector<Criterion> criteria;
@@ -61,8 +61,9 @@ struct CurvesFigure {
 /// Point density across a wall, for each of the maps.
 struct ProfileFigure {
   std::vector<MapSpec> maps;
-  std::optional<Eigen::Vector2d> at_m;  // a place on the face, in the map frame; none: the face is looked for
-  double normal_deg = 0;                // roughly across the face, 0 along x
+  std::optional<Eigen::Vector2d>
+      at_m;               // a point on the face, in the map frame; absent: the face is searched for
+  double normal_deg = 0;  // roughly across the face, 0 along x
   double length_m = 0.4;
   std::optional<HeightRange> heights;  // above the sensor's path
 };
@@ -80,7 +81,7 @@ struct FigureSpec {
   std::vector<PictureFormat> formats;
 };
 
-/// What a column of a table shows of each of the table's estimates.
+/// The value that a column of a table shows for each estimate.
 enum class TableValue { kOffset, kSigma, kOffsetByD, kD, kOffsetByN, kOffsetByE, kTruth, kDifference };
 
 struct ColumnSpec {
@@ -106,7 +107,7 @@ struct Recipe {
 };
 
 /// Reads a recipe (YAML; see assets/figures). Files that it names are relative to its folder. Unknown keys,
-/// names and impossible values are refused with line and column.
+/// unknown names and invalid values are errors with line and column.
 Result<Recipe> read_recipe(const std::filesystem::path& path);
 
 }  // namespace sweepscope

@@ -8,16 +8,16 @@
 
 namespace sweepscope::gl {
 
-/// Makes the context current and its default framebuffer the one that is drawn to, all of it in one colour.
+/// Makes the context current and its default framebuffer the target, filled with one colour.
 void begin_default_framebuffer(Context& context, Colour colour);
 
-/// What draws with the current context.
+/// The renderer of the current context.
 std::string renderer_of_current();
 
 /// Waits until everything is drawn.
 void finish_drawing(Context& context);
 
-/// What the default framebuffer holds.
+/// The content of the default framebuffer.
 Image read_default_framebuffer(Context& context);
 
 }  // namespace sweepscope::gl

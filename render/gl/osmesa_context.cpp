@@ -84,7 +84,7 @@ Result<Libraries*> load_libraries() {
                         load(dispatch, "__glDispatchLoseCurrent", libs.dispatch_lose_current);
   if (!complete) return cannot_draw("libOSMesa or libGLdispatch lacks a function that is needed");
   if (libs.abi_version() != 1) {
-    return cannot_draw(fmt::format("libGLdispatch has interface version {}, known is 1", libs.abi_version()));
+    return cannot_draw(fmt::format("libGLdispatch has interface version {}, not 1", libs.abi_version()));
   }
   libs.dispatch_init();
   libs.vendor_id = libs.new_vendor_id();

@@ -12,11 +12,11 @@ class vtkGenericOpenGLRenderWindow;
 namespace sweepscope::gl {
 
 /// A VTK render window that draws with `context` into a framebuffer of its own and shows nothing by itself.
-/// The context must outlive it, and Finalize must be called before the context goes. Several windows may
-/// share one.
+/// The context must outlive it, and Finalize must be called before the context is destroyed. Several windows
+/// may share one.
 vtkSmartPointer<vtkGenericOpenGLRenderWindow> make_vtk_window(Context& context, int width_px, int height_px);
 
-/// A window with no screen and its context, taken down in the right order.
+/// A window without a screen and its context, destroyed in the right order.
 class OffscreenWindow {
  public:
   static Result<OffscreenWindow> create(int width_px, int height_px);
@@ -35,10 +35,10 @@ class OffscreenWindow {
   vtkSmartPointer<vtkGenericOpenGLRenderWindow> window_;
 };
 
-/// From the first call on VTK keeps its warnings and errors to itself, instead of writing them to stderr.
+/// After the first call VTK no longer writes warnings and errors to stderr.
 void quiet_vtk();
 
-/// The first error that VTK met on this thread since it was last asked for; empty where there was none.
+/// VTK's first error on this thread since the last call; empty if there was none.
 std::string take_vtk_error();
 
 }  // namespace sweepscope::gl

@@ -9,7 +9,7 @@
 
 namespace sweepscope::gl {
 
-/// What happens to a window. Places are in its framebuffer's pixels, keys and modifiers as GLFW numbers them.
+/// The events of a window. Positions are in pixels of its framebuffer, keys and modifiers are GLFW's.
 struct WindowEvents {
   std::function<void(double x, double y)> moved;
   std::function<void(int button, bool down, int modifiers)> pressed;
@@ -22,12 +22,12 @@ struct WindowEvents {
 
 enum class Cursor { kArrow, kHand, kText, kResizeX };
 
-/// A window on the desktop with a context of its own.
+/// A window on the desktop with its own context.
 class Window : public Context {
  public:
   WindowEvents events;
 
-  /// Lets events happen: waits for one, at most so long (0: not at all).
+  /// Processes events: waits for one, at most this long (0: not at all).
   virtual void wait(double max_s) = 0;
   virtual bool should_close() const = 0;
   /// Of the display: 1 at 100 %.
@@ -38,7 +38,7 @@ class Window : public Context {
   virtual void set_clipboard(const std::string& text) = 0;
 };
 
-/// Fails with ExitCode::kWrongUsage and a sentence where there is no display, or no OpenGL 3.3 on it. Only on
+/// Fails with ExitCode::kWrongUsage and a sentence if there is no display, or it has no OpenGL 3.3. Only on
 /// the main thread.
 Result<std::unique_ptr<Window>> make_window(int width_px, int height_px, const std::string& title);
 

@@ -14,17 +14,17 @@ struct Colour {
   bool operator==(const Colour&) const = default;
 };
 
-/// 256 colours from the least value to the greatest.
+/// 256 colours from the smallest value to the largest.
 using ColourTable = std::array<Colour, 256>;
 
 /// viridis (the default), cividis, turbo, grey.
 std::span<const std::string_view> colour_table_names();
 
-/// An unknown name is ExitCode::kWrongUsage, with the names that there are.
+/// An unknown name is ExitCode::kWrongUsage; the message lists the known names.
 Result<ColourTable> colour_table(std::string_view name);
 
-/// What value has which colour: [from, to] is spread over the table; values beyond have its ends' colours,
-/// and NaN has one of its own.
+/// The mapping from values to colours: [from, to] is spread over the table; values beyond get the colours of
+/// its ends, and NaN a separate one.
 struct ColourScale {
   ColourTable table{};
   double from = 0, to = 1;

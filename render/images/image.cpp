@@ -112,13 +112,13 @@ Result<Image> read_png(const std::filesystem::path& path) {
   }
   if (static_cast<std::uint64_t>(header.width) * header.height > (1U << 28)) {
     png_image_free(&header);
-    return unreadable(fmt::format("{}: an image of {} x {} pixels is not read", path.string(), header.width,
+    return unreadable(fmt::format("{}: an image of {} x {} pixels is too large", path.string(), header.width,
                                   header.height));
   }
   header.format = PNG_FORMAT_RGBA;
   Image image(static_cast<int>(header.width), static_cast<int>(header.height));
   if (png_image_finish_read(&header, nullptr, image.rgba.data(), 0, nullptr) == 0) {
-    return unreadable(fmt::format("{}: broken PNG image: {}", path.string(), header.message));
+    return unreadable(fmt::format("{}: damaged PNG image: {}", path.string(), header.message));
   }
   return image;
 }

@@ -44,8 +44,8 @@ struct PngText {
   std::string key, text;
 };
 
-/// The image as a PNG file in memory or on disk, without an alpha channel where all is opaque: the same bytes
-/// for the same image and texts; no clock.
+/// The image as a PNG file in memory or on disk, without an alpha channel if everything is opaque: the same
+/// bytes for the same image and texts; no clock.
 std::string encode_png(const Image& image, std::span<const PngText> texts = {});
 Result<void> write_png(const Image& image, const std::filesystem::path& path,
                        std::span<const PngText> texts = {});

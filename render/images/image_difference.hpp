@@ -6,10 +6,11 @@
 
 namespace sweepscope {
 
-/// When two pictures count as the same. Points snap to pixels, so a pixel may differ wildly between machines:
-/// what is judged is how many differ, over the whole and in each tile, so that a lost label cannot hide.
+/// When two pictures count as the same. Points snap to pixels, so a single pixel may differ strongly between
+/// machines: the test limits the number of different pixels, in the whole picture and in each tile, so that a
+/// missing label is detected.
 struct DifferenceLimits {
-  int channel_steps = 8;             // a pixel differs where a channel is off by more than this
+  int channel_steps = 8;             // a pixel differs if a channel is off by more than this
   double differing_fraction = 1e-4;  // of all pixels, at most
   int tile_px = 32;
   // Of a tile's pixels, at most: 8. One letter for another is 20 and more; a processor without AVX and FMA
@@ -33,8 +34,8 @@ ImageDifference compare_images(const Image& actual, const Image& expected,
 /// One sentence for a person: what differs, how much, and where.
 std::string describe(const ImageDifference& difference);
 
-/// Black where both agree, brighter the more a pixel differs, 8 times amplified. The images must have one
-/// size.
+/// Black where both agree, brighter the more a pixel differs, 8 times amplified. The images must have the
+/// same size.
 Image difference_picture(const Image& actual, const Image& expected);
 
 }  // namespace sweepscope

@@ -10,7 +10,7 @@
 
 namespace sweepscope {
 
-/// From where a scene is seen, in the map frame.
+/// The viewpoint of a scene, in the map frame.
 struct Camera {
   Eigen::Vector3d position_m{0, 0, 10};
   Eigen::Vector3d looks_at_m{0, 0, 0};
@@ -20,7 +20,7 @@ struct Camera {
   double view_angle_deg = 30;  // perspective: of the view's height
 };
 
-/// A part of a map: from the least to the greatest coordinates.
+/// A part of a map: from the minimum to the maximum coordinates.
 struct Box {
   Eigen::Vector3d from_m{0, 0, 0}, to_m{1, 1, 1};
 
@@ -28,22 +28,22 @@ struct Box {
 };
 
 /// The named directions to look in: top (x to the right, y up), front (along +y), right (along -x) and
-/// isometric (from x, -y, z alike).
+/// isometric (equally from x, -y and z).
 enum class Viewpoint { kTop, kFront, kRight, kIsometric };
 
 /// "top", "front", "right", "isometric", in the order of the enumeration.
 std::span<const std::string_view> viewpoint_names();
-/// An unknown name is ExitCode::kWrongUsage, with the names that there are.
+/// An unknown name is ExitCode::kWrongUsage; the message lists the known names.
 Result<Viewpoint> viewpoint(std::string_view name);
 
-/// The camera that shows the whole box and little more in a view of that aspect (width over height).
+/// The camera that shows the whole box with a small margin, in a view of that aspect (width over height).
 Camera camera_on(const Box& box, Viewpoint viewpoint, bool orthographic, double aspect);
 
 /// Seen from above, orthographic: x to the right and y up; or turned, y to the right and x down. The view's
 /// height shows `view_height_m`.
 Camera camera_from_above(const Eigen::Vector2d& centre_m, double view_height_m, bool turned = false);
 
-/// Where points of the map frame lie in a picture, by the camera of a view at a place.
+/// Projects points of the map frame into a picture, by the camera of a view at a position.
 class Projection {
  public:
   Projection(const Camera& camera, const PixelRect& place);

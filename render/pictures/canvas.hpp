@@ -8,7 +8,7 @@
 
 namespace sweepscope {
 
-/// Where pictures are drawn. The same picture gives the same pixels in memory and in a window.
+/// A target for pictures. The same picture gives the same pixels in memory and in a window.
 class Canvas {
  public:
   virtual ~Canvas() = default;
@@ -19,13 +19,13 @@ class Canvas {
 enum class Backend {
   kOffscreen,  // in memory: needs no display
   kWindow,     // in a window on the desktop, which shows the picture while it is drawn
-  kNull,       // nowhere: the background alone, for tests of everything but pixels
+  kNull,       // nowhere: only the background, for tests of everything but pixels
 };
 
 /// "offscreen", "window" or "null"; an unknown name is ExitCode::kWrongUsage.
 Result<Backend> backend(std::string_view name);
 
-/// Fails with a sentence where the back end cannot be had, such as a window without a display.
+/// Fails with a sentence if the back end is not available, such as a window without a display.
 Result<std::unique_ptr<Canvas>> make_canvas(Backend backend);
 
 }  // namespace sweepscope

@@ -20,9 +20,9 @@ struct LivePoints {
 };
 using LivePointsPtr = std::shared_ptr<const LivePoints>;
 
-/// A cloud that is drawn again and again as it is looked at, into a texture of a context that windows and
-/// others draw with too. While something moves it draws the coarse points alone; at rest it adds all points
-/// in slices, so that no call takes long. The same state gives the same pixels, however the slices fell.
+/// A cloud that is drawn interactively, into a texture of a context that is shared with windows. While
+/// something moves it draws only the coarse points; at rest it adds all points in slices, so that no call
+/// takes long. The same state gives the same pixels for any slices.
 class LiveView {
  public:
   /// The context must outlive it.
@@ -32,17 +32,17 @@ class LiveView {
   LiveView& operator=(const LiveView&) = delete;
 
   void resize(int width_px, int height_px);
-  /// Either may be null. Nothing happens where they are the ones shown already.
+  /// Either may be null. No effect if they are already shown.
   void show(LivePointsPtr coarse, LivePointsPtr full);
   void set_camera(const Camera& camera);
   void set_point_size(double size_px);
   void set_background(Colour colour);
-  /// Coarse points alone, whatever else there is.
+  /// Coarse points only.
   void set_moving(bool moving);
 
-  /// Draws what is not drawn yet, for about `budget_s` at the most.
+  /// Draws what is not drawn yet, for at most about `budget_s`.
   void draw(double budget_s);
-  /// Whether all is drawn.
+  /// Whether everything is drawn.
   bool done() const;
 
   /// An OpenGL texture with the picture; its first row is the lowest.

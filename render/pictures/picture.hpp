@@ -16,20 +16,20 @@ class vtkRenderWindow;
 
 namespace sweepscope {
 
-/// Points and what colours them.
+/// Points and their colouring.
 struct CloudLayer {
   std::shared_ptr<const ColouredPoints> points;
   double point_size_px = 1;
 };
 
-/// A line through places of the map frame, drawn above the points.
+/// A line through positions of the map frame, drawn above the points.
 struct ScenePath {
   std::vector<Eigen::Vector3d> points_m;
   double width_px = 1;
   Colour colour;
 };
 
-/// Words at a place of the map frame.
+/// Text at a position of the map frame.
 struct SceneLabel {
   Eigen::Vector3d at_m{0, 0, 0};
   std::string text;
@@ -52,8 +52,8 @@ struct View {
   Scene scene;
 };
 
-/// A picture as data: views of scenes beside each other, and flat marks above them all. Where the background
-/// of the picture and of its views has alpha 0 the picture is transparent.
+/// A picture as data: views of scenes side by side, and flat marks above them. If the background of the
+/// picture and of its views has alpha 0, the picture is transparent.
 struct Picture {
   int width_px = 0, height_px = 0;
   Colour background{0, 0, 0};
@@ -63,10 +63,10 @@ struct Picture {
 
 constexpr int kMinPictureSidePx = 64, kMaxPictureSidePx = 8000;
 
-/// Says why a picture of that size cannot be drawn (ExitCode::kWrongUsage).
+/// Fails if a picture of that size cannot be drawn (ExitCode::kWrongUsage).
 Result<void> check_size(const Picture& picture);
 
-/// Everything flat: the paths and labels of its scenes at their places, then its marks.
+/// Everything flat: the paths and labels of its scenes, then its marks.
 Drawing flat_marks(const Picture& picture);
 
 /// Draws it without a display. Edges are smoothed by drawing at twice the size; the same picture gives the
@@ -77,8 +77,8 @@ Result<Image> draw(const Picture& picture);
 int drawn_width_px(const Picture& picture);
 int drawn_height_px(const Picture& picture);
 
-/// Draws the picture in a window of that size, whatever is behind it. The window has no renderers before and
-/// after. Fails with ExitCode::kWrongUsage and VTK's words where VTK cannot draw it.
+/// Draws the picture in a window of that size, on screen or not. The window has no renderers before and
+/// after. Fails with ExitCode::kWrongUsage and VTK's message if VTK cannot draw it.
 Result<Image> draw_in(vtkRenderWindow& window, const Picture& picture);
 
 }  // namespace sweepscope

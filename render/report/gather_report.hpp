@@ -10,20 +10,20 @@
 
 namespace sweepscope {
 
-/// All that a report tells of a recording: the offset, as `estimate` finds it with default options; the
+/// The content of a report on a recording: the offset, as `estimate` finds it with default options; the
 /// paper's criteria for that kind of rig as evidence; and the maps at the answer and 5 ms off, all along one
 /// trajectory. Long work; an interruption is ExitCode::kInterrupted. Finished candidates are kept in the
 /// store, if any.
 Result<ReportContent> gather_report(const PreparedRecording& prepared, std::optional<RigKind> assume,
                                     CandidateStore* kept, const Job& job);
 
-/// Makes the folder that a report goes to, where it is not there.
+/// Creates the folder of a report if it does not exist.
 Result<void> make_report_folder(const std::filesystem::path& folder);
 
 /// The files that `write_report` writes.
 std::vector<std::filesystem::path> report_files(const std::filesystem::path& folder);
 
-/// Writes report.html and estimate.json into a folder, which is made where it is not there.
+/// Writes report.html and estimate.json into a folder, which is created if it does not exist.
 Result<void> write_report(const ReportContent& content, const std::filesystem::path& folder);
 
 }  // namespace sweepscope

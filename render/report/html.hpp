@@ -5,7 +5,7 @@
 
 namespace sweepscope::html {
 
-/// The text, of one line, made printable and with what HTML reads as markup written as entities.
+/// A text of one line, made printable, with HTML's markup characters as entities.
 std::string escape(std::string_view text);
 
 /// "<name>inside</name>" and a line end.

@@ -15,14 +15,14 @@ struct DestroySurface {
 };
 using Surface = std::unique_ptr<cairo_surface_t, DestroySurface>;
 
-/// A view of a scene as an image, and where in the picture it goes.
+/// A view of a scene as an image, and its position in the picture.
 struct ViewImage {
   PixelRect place;
   Surface image;
 };
 
-/// The picture's views without its marks, at twice its size where that can be drawn, so that they stay sharp
-/// on paper. A size that draw refuses is ExitCode::kWrongUsage here too, with views or without.
+/// The picture's views without its marks, at twice its size if possible, so that they stay sharp on paper. A
+/// size that draw refuses is ExitCode::kWrongUsage here too, with views or without.
 Result<std::vector<ViewImage>> view_images(const Picture& picture);
 
 }  // namespace sweepscope

@@ -82,7 +82,7 @@ TEST_F(CalibrateCommand, WhatIsTooLittleIsRefused) {
   const Outcome nothing = run("calibrate - --json - </dev/null");
   EXPECT_EQ(nothing.exit_code, 4) << nothing.err;
   EXPECT_EQ(parsed(nothing.out)["identifiable"], false);
-  EXPECT_EQ(parsed(nothing.out)["reasons"][0], "No scans were heard.");
+  EXPECT_EQ(parsed(nothing.out)["reasons"][0], "No scans were received.");
   const Outcome wrong = run("calibrate - <tables/scans.csv --record kept.bag");
   EXPECT_EQ(wrong.exit_code, 4) << wrong.err;
   EXPECT_NE(wrong.err.find("begins with neither scan nor motor"), std::string::npos) << wrong.err;
@@ -105,7 +105,8 @@ TEST_F(CalibrateCommand, WhatDoesNotAdvanceEndsItWithTheTrueReason) {
     EXPECT_EQ(WEXITSTATUS(status), 4) << test::contents_of(folder_ / "said.err");
     return parsed(test::contents_of(folder_ / "said.json"))["reasons"][0].get<std::string>();
   };
-  EXPECT_EQ(reason("motor").rfind("No scan came for 0.5 s, after 0.0 of 600 s; ", 0), 0U) << reason("motor");
+  EXPECT_EQ(reason("motor").rfind("No scan arrived for 0.5 s, after 0.0 of 600 s; ", 0), 0U)
+      << reason("motor");
   EXPECT_EQ(reason("scan").rfind("The scans' stamps did not advance for 0.5 s: ", 0), 0U) << reason("scan");
 }
 

@@ -93,10 +93,11 @@ TEST_F(CompareTest, WrongUsageIsExit2AndSaysWhatIsWrong) {
     EXPECT_EQ(run("-u DISPLAY", arguments), 2) << arguments;
     return said_;
   };
-  EXPECT_EQ(says("wrong.pcd -o out.png"), "sweepscope: Two to four maps are compared, not 1\n");
-  EXPECT_NE(says("wrong.pcd right.ply -o out.png --size 12").find("--size 12: not like 1920x1200"),
-            std::string::npos);
-  EXPECT_NE(says("wrong.pcd right.ply -o out.png --size 9999x900").find("each side 64 to 8000 pixels"),
+  EXPECT_EQ(says("wrong.pcd -o out.png"), "sweepscope: compare needs two to four maps, not 1\n");
+  EXPECT_NE(
+      says("wrong.pcd right.ply -o out.png --size 12").find("--size 12: WxH is needed, such as 1920x1200"),
+      std::string::npos);
+  EXPECT_NE(says("wrong.pcd right.ply -o out.png --size 9999x900").find("sides of 64 to 8000 pixels"),
             std::string::npos);
   EXPECT_NE(says("wrong.pcd right.ply -o out.png --size 100x100").find("too small"), std::string::npos);
   EXPECT_NE(says("wrong.pcd right.ply -o out.png --slab 3:1").find("--slab 3:1"), std::string::npos);

@@ -73,7 +73,7 @@ TEST(Info, WhatCannotBeReadIsExitCode3AndLeavesNoFile) {
   const Outcome run = run_info(folder, quoted(folder / "a.txt") + " --json " + quoted(folder / "a.json"));
   EXPECT_EQ(run.exit_code, 3);
   EXPECT_EQ(run.out, "");
-  EXPECT_TRUE(holds(run.err, "a.txt: byte 0 begins no recording that is known")) << run.err;
+  EXPECT_TRUE(holds(run.err, "a.txt: its first bytes are of no known recording format")) << run.err;
   EXPECT_FALSE(std::filesystem::exists(folder / "a.json"));
   EXPECT_EQ(run_info(folder, quoted(folder / "missing.bag")).exit_code, 3);
 }

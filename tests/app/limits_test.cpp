@@ -45,7 +45,7 @@ TEST_F(Limits, TooLittleMemoryNamesTheFile) {
       too_little = true;
       enough = false;
       EXPECT_EQ(outcome.exit_code, 3) << limit << ": " << command << ": " << outcome.err;
-      const std::string sentence = "sweepscope: walk.bag: needs more memory than this machine gives\n";
+      const std::string sentence = "sweepscope: walk.bag: needs more memory than this machine has\n";
       EXPECT_TRUE(outcome.err.ends_with(sentence)) << limit << ": " << outcome.err;
       const std::string before = outcome.err.substr(0, outcome.err.size() - sentence.size());
       EXPECT_TRUE(before.empty() || before.starts_with("warning: walk.bag: its map needs about")) << before;

@@ -170,7 +170,7 @@ TEST_F(Shards, WrongUsageIsRefused) {
   EXPECT_EQ(run("estimate room.bag --range 20:28:1 --shard 1/2 --json a.json").exit_code, 2);
   const Outcome outcome = run("estimate room.bag --shard 1/2");
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_NE(outcome.err.find("decides where to look as it goes"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("chooses its candidates as it goes"), std::string::npos) << outcome.err;
   EXPECT_FALSE(exists("room.1-of-2.candidates"));
   EXPECT_EQ(run("estimate room.bag --method direct --resume kept.candidates").exit_code, 2);
   EXPECT_EQ(run("merge").exit_code, 2);

@@ -24,7 +24,7 @@ Screenshot read_screenshot(const std::string& name, const Node& node) {
                        std::sscanf(size.c_str(), "%4dx%4d%n", &picture.width_px, &picture.height_px, &end);
                    if (read != 2 || end != static_cast<int>(size.size()) || picture.width_px < 1 ||
                        picture.height_px < 1) {
-                     refuse(v, name + ": size is not like 800x500");
+                     refuse(v, name + ": size needs WIDTHxHEIGHT, such as 800x500");
                    }
                  }}});
   if (picture.command.empty() == picture.made.empty()) refuse(node, name + " needs either command or made");

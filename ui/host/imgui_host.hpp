@@ -13,8 +13,8 @@ struct ImGuiContext;
 
 namespace sweepscope::ui {
 
-/// Dear ImGui on an OpenGL context, be there a window behind it or not: it is fed with our own events and
-/// draws into the default framebuffer.
+/// Dear ImGui on an OpenGL context, with or without a window: it takes our own events and draws into the
+/// default framebuffer.
 class ImGuiHost {
  public:
   /// The context must outlive it.
@@ -23,16 +23,16 @@ class ImGuiHost {
   ImGuiHost(const ImGuiHost&) = delete;
   ImGuiHost& operator=(const ImGuiHost&) = delete;
 
-  /// Fonts, margins and colours for a display's scale; nothing where they are so already.
+  /// Fonts, margins and colours for a display's scale; no effect if they are already set.
   void use(Theme theme, double scale);
   const Fonts& fonts() const { return fonts_; }
 
-  /// The events must belong into one frame: see split_into_frames.
+  /// The events must fit into one frame: see events_of_next_frame.
   void begin_frame(std::span<const InputEvent> events, double seconds_since_last);
   /// Draws what the panes made.
   void end_frame(Colour background);
 
-  /// What copying puts and pasting takes; a window connects it with the system's.
+  /// The clipboard; a window connects it with the system's.
   std::string clipboard;
 
  private:

@@ -6,13 +6,13 @@
 
 namespace sweepscope::ui {
 
-/// Keys by the numbers that GLFW gives them: letters and digits are their ASCII codes.
+/// Keys, numbered as in GLFW: letters and digits are their ASCII codes.
 using Key = int;
 
 enum Modifier : unsigned { kShift = 1, kCtrl = 2, kAlt = 4 };
 
-/// One thing that a person did, or that a script does in a person's place. Places are in pixels from the top
-/// left corner of the drawing, y downwards.
+/// One event, from a person or a script. Positions are in pixels from the top left corner of the drawing, y
+/// downwards.
 struct InputEvent {
   enum class What { kMove, kButton, kWheel, kKey, kText, kDrop };
   What what = What::kMove;

@@ -7,8 +7,8 @@
 
 namespace sweepscope::ui {
 
-/// Paints flat marks on an ImGui draw list: the same charts as in the pictures for reports. Places are the
-/// window's pixels.
+/// Paints flat marks on an ImGui draw list: the same charts as in the pictures for reports. Positions are in
+/// pixels of the window.
 void paint(ImDrawList& list, const Drawing& drawing, const Fonts& fonts);
 
 void paint_text(ImDrawList& list, const TextMark& mark, const Fonts& fonts);

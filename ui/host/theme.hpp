@@ -9,7 +9,7 @@
 
 namespace sweepscope::ui {
 
-/// The letters that the interface is set in, in several sizes.
+/// The fonts of the interface, in several sizes.
 struct Fonts {
   struct Sized {
     ImFont* font = nullptr;
@@ -37,7 +37,7 @@ ImU32 to_imgui(Colour colour, double opacity);
 /// Colours, margins and corners of the current ImGui context.
 void apply_theme(const Style& style, double scale);
 
-/// The colour that stands for map A and map B everywhere.
+/// The colours of map A and map B everywhere.
 inline Colour colour_of_a(const Style& style) {
   return style.maps[0];
 }

@@ -22,24 +22,24 @@ namespace sweepscope::ui {
 enum class Side { kA, kB };
 inline constexpr std::array kBothSides{Side::kA, Side::kB};
 
-/// How far the map of a pane is.
+/// The state of the map of a pane.
 enum class PaneState {
   kEmpty,        // no recording
-  kProvisional,  // nothing solved yet: the first second, as if the rig stood still
+  kProvisional,  // nothing solved yet: the first second, as if the rig were stationary
   kPreview,      // beams placed along the path that was solved for another offset
-  kSolved,       // odometry and mapping at this very offset
+  kSolved,       // odometry and mapping at this offset
 };
 
-/// What points of a pane are to be placed where, and coloured how.
+/// The points of a pane to place, their placement and their colours.
 struct CloudRequest {
   Placement placement;
   CloudLook look;
-  std::optional<Placement> other;  // of the difference: what the distances are taken from
+  std::optional<Placement> other;  // for the difference: the placement that distances are measured from
 
   bool operator==(const CloudRequest&) const = default;
 };
 
-/// What a pane shows.
+/// The content of a pane.
 struct Pane {
   PaneState state = PaneState::kEmpty;
   std::optional<CloudRequest> request;
@@ -56,7 +56,7 @@ struct Message {
   std::string text;
 };
 
-/// Everything of the explorer but pixels: settings and their history, the recording, the maps, the estimate,
+/// The explorer without pixels: settings and their history, the recording, the maps, the estimate,
 /// and the work in the background. Used by one thread.
 class Explorer {
  public:
@@ -72,7 +72,7 @@ class Explorer {
 
   const Settings& settings() const { return settings_; }
   const Loaded* loaded() const { return loaded_.get(); }
-  /// Edge and plane points of the recording; null until someone wanted them and they were found.
+  /// Edge and plane points of the recording; null until they were requested and found.
   const FeatureSet* features() const { return loaded_ ? loaded_->prepared.features.get() : nullptr; }
   const Estimate* estimate() const { return estimate_ ? &*estimate_ : nullptr; }
   const Pane& pane(Side side) const { return panes_[static_cast<std::size_t>(side)]; }
@@ -84,44 +84,43 @@ class Explorer {
   const Background& background() const { return background_; }
   ColourSpan shown_span() const { return {look_.from, look_.to}; }
 
-  /// Carries out a command; what is opened or exported goes on in the background, and says in a message where
-  /// it fails. What it does not know itself goes to `at_window`. `gesture`: changes in a row with
-  /// the same one are undone as one.
+  /// Executes a command; opening and exporting continue in the background, and a failure gives a message.
+  /// Commands of the window go to `at_window`. `gesture`: changes in a row with the same one are undone as
+  /// one.
   Result<void> perform(const Call& call, const std::string& gesture = {});
   Result<void> perform(std::string_view line, const std::string& gesture = {});
   std::function<Result<void>(const Call&)> at_window;
 
-  /// Width by height of a map's picture: what fitting the view goes by. To be known before anything is
-  /// opened.
+  /// Width over height of a map's picture, used to fit the view. Set it before anything is opened.
   void set_pane_aspect(double aspect) { pane_aspect_ = aspect; }
 
-  /// While one is held, offsets are previewed and nothing is solved.
+  /// While a handle is held, offsets are previewed and nothing is solved.
   void hold_handle(bool held) { handle_held_ = held; }
 
-  /// Whether these files may be written: none of them is one that was opened (see check_run_files).
+  /// Checks that none of these files is one that was opened (see check_run_files).
   Result<void> check_outputs(std::vector<std::filesystem::path> outputs) const;
 
-  /// Writes a file beside the interface, which says when it is there.
+  /// Writes a file in the background; a message reports when it is written.
   void start_export(const std::string& title, std::function<Result<void>(const Job&)> write,
                     const std::string& done);
   bool is_exporting() const { return background_.has(kExport); }
-  /// Why the last export failed, once.
-  /// Why the last recording could not be opened; empty where it was, or is not yet.
+  /// The error of the last export; returned once.
+  /// Why the last recording could not be opened; empty if it was opened or is still being opened.
   const std::optional<Error>& load_failure() const { return load_failure_; }
   std::optional<Error> take_export_failure() { return std::exchange(export_failure_, std::nullopt); }
 
-  /// Once per frame: takes what is finished, and starts what the settings ask for.
+  /// Once per frame: takes finished results, and starts the work that the settings require.
   void update(double seconds_since_last);
   /// Whether a pane waits for its settings to rest before all its points are placed.
   bool waits_to_place() const;
-  /// Whether nothing runs and every pane shows all that its settings ask for.
+  /// Whether nothing is running and every pane shows everything that its settings require.
   bool at_rest() const;
   void dismiss_message() { message_.reset(); }
   void say(Message::Kind kind, std::string text) { message_ = Message{kind, std::move(text)}; }
 
-  /// In words, what is shown: the status line.
+  /// The status line: what is shown, in words.
   std::string status() const;
-  /// A number or word of the present state, for scripts: see observable_names().
+  /// A number or word of the current state, for scripts: see observables().
   std::optional<std::string> observe(std::string_view name) const;
   static std::vector<std::pair<std::string, std::string>> observables();
 
@@ -129,7 +128,7 @@ class Explorer {
   /// A name for the file that a command such as "save-session" writes, in the working folder; empty for
   /// "open". `what`: of an export of one map, "a" or "b".
   std::string suggested_file(const std::string& command, const std::string& what) const;
-  /// The shell command that makes the present picture at this size.
+  /// The shell command that makes the current picture at this size.
   std::string command_line(int width_px, int height_px) const;
 
  private:
@@ -178,7 +177,7 @@ class Explorer {
   std::optional<Message> message_;
   std::map<std::int64_t, SolvedMapPtr> solved_;  // by the offset in nanoseconds
   std::map<std::int64_t, std::string> unsolvable_;
-  std::set<std::int64_t> cancelled_;        // by a person: not taken up again by itself
+  std::set<std::int64_t> cancelled_;        // by a person: not restarted automatically
   std::vector<std::int64_t> solved_order_;  // oldest first
   SolvedMapPtr provisional_;
   CloudLook look_;
@@ -196,9 +195,9 @@ class Explorer {
   std::optional<Error> export_failure_, load_failure_;
   std::vector<std::filesystem::path> input_files_;  // that were opened, or named before
   std::filesystem::path session_file_;              // opened or saved last: saving it again is no harm
-  std::optional<Settings> session_settings_;        // to take over once the recording is there
+  std::optional<Settings> session_settings_;        // to apply once the recording is open
   std::optional<Estimate> session_estimate_;
-  Background background_;  // last: its threads end before what they use
+  Background background_;  // last member: its threads end before the data that they use
 };
 
 }  // namespace sweepscope::ui

@@ -132,7 +132,7 @@ void Explorer::show(Side side, CloudRequest request) {
   const auto why = unsolvable_.find(to_ns(request.placement.offset_s));
   pane.problem = why != unsolvable_.end() ? why->second : "";
   if (pane.state != PaneState::kSolved && cancelled_.contains(to_ns(request.placement.offset_s)))
-    pane.problem = "Cancelled. Move the offset, or ask for it in the menu: Offset, Solve the maps.";
+    pane.problem = "Cancelled. Move the offset, or choose Solve the maps in the menu Offset.";
   if (pane.request == request) return;
   const Placement* other = request.other ? &*request.other : nullptr;
   const BeamValues* slow = pane.slow_colouring == request.look.colouring ? pane.slow.get() : nullptr;

@@ -29,10 +29,10 @@ std::string shown(const Pane& pane) {
     case PaneState::kProvisional:
       return "the first second at " + at + ", not solved yet";
     case PaneState::kPreview:
-      return at + ", previewed along the path solved at " + ms(placement.map->offset_s);
+      return at + ", preview along the path solved at " + ms(placement.map->offset_s);
     case PaneState::kSolved:
-      return at + (pane.lost                          ? ", where LOAM lost track"
-                   : !placement.loaded->poses.empty() ? ", along the poses given"
+      return at + (pane.lost                          ? ", LOAM lost track"
+                   : !placement.loaded->poses.empty() ? ", along the given poses"
                                                       : "");
   }
   return "";
@@ -62,7 +62,7 @@ std::string Explorer::status() const {
       text = "Map B: " + shown(b);
       break;
     case Layout::kDifference:
-      text = "How far each point of B (" + shown(b) + ") lies from its place in A (" + shown(a) + ")";
+      text = "Distance of each point of B (" + shown(b) + ") from its place in A (" + shown(a) + ")";
       break;
     case Layout::kSideBySide:
     case Layout::kSwipe:
@@ -81,9 +81,9 @@ std::vector<std::pair<std::string, std::string>> Explorer::observables() {
           {"points-a, points-b", "how many points the pane shows"},
           {"estimate", "none, found or refused"},
           {"found-ms", "the offset found"},
-          {"message", "what the interface says in front of all; empty where nothing"},
+          {"message", "the message in front; empty without one"},
           {"status", "the status line"},
-          {"jobs", "how many jobs run or wait"},
+          {"jobs", "how many jobs run or are queued"},
           {"(a setting)", "its value, as its command takes it: offset-a, layout, table, ..."}};
 }
 

@@ -17,7 +17,7 @@
 
 namespace sweepscope::ui {
 
-/// A moving rig's trajectory, from the first time that it is solved for: every map is placed along it.
+/// A moving rig's trajectory, once it was solved for: every map is placed along it.
 class KnownWalk {
  public:
   std::shared_ptr<const SolvedWalk> get() const {
@@ -34,18 +34,18 @@ class KnownWalk {
   std::shared_ptr<const SolvedWalk> walk_;
 };
 
-/// A recording that is open, and what is worked out once for it.
+/// An open recording, and everything that is computed once for it.
 struct Loaded {
   std::string source;  // the command line that opens it again: `open FILE` or `sample SCENE`
-  std::string shell;   // how a shell names it: REC of the command line; empty for a sample
+  std::string shell;   // REC of the command line, quoted for a shell; empty for a sample
   Recording recording;
   RecordingSummary summary;
   PreparedRecording prepared;  // of this->recording
   std::shared_ptr<KnownWalk> walk = std::make_shared<KnownWalk>();
-  Beams beams;                     // of this->recording
-  std::optional<bool> moving;      // what the motion test said; empty: too short to tell
-  std::optional<double> truth_s;   // of a simulation
-  std::vector<StampedPose> poses;  // where the rig went, when that is known and is not to be solved for
+  Beams beams;                                  // of this->recording
+  std::optional<bool> moving;                   // result of the motion test; empty: too short to decide
+  std::optional<double> truth_s;                // of a simulation
+  std::vector<StampedPose> poses;               // the given trajectory of the rig; empty: solved for
   double min_intensity = 0, max_intensity = 1;  // of nearly all beams
 
   double duration_s() const {
@@ -56,7 +56,7 @@ struct Loaded {
 };
 using LoadedPtr = std::shared_ptr<const Loaded>;
 
-/// `poses`: a TUM file with where the rig went, or empty.
+/// `poses`: a TUM file with the rig's trajectory, or empty.
 Result<LoadedPtr> load_file(const std::filesystem::path& path, const std::filesystem::path& poses,
                             const ReadOptions& options, const Job& job);
 /// A simulated recording; seconds 0: all of the walk.

@@ -15,11 +15,11 @@ namespace sweepscope::ui {
 std::optional<std::size_t> pick_point(const PlacedCloud& cloud, const Projection& projection,
                                       PixelPoint pixel, double reach_px);
 
-/// The beam of the point that the settings ask for, as an index into Beams; none where nothing is asked, or
-/// where that beam met nothing.
+/// The beam of the inspected point of the settings, as an index into Beams; absent if there is none, or if
+/// that beam has no return.
 std::optional<std::uint32_t> beam_asked(const Settings& settings, const Beams& beams);
 
-/// Where a beam is on both maps, and where it comes from: names and values, for a person.
+/// The positions of a beam on both maps, and its origin: names and values, for a person.
 std::vector<std::pair<std::string, std::string>> describe_beam(const Placement& a, const Placement& b,
                                                                std::uint32_t beam);
 

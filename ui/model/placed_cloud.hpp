@@ -16,7 +16,7 @@
 
 namespace sweepscope::ui {
 
-/// What of a map is shown and in which colours; follows from the settings.
+/// The part of a map that is shown, and its colours; derived from the settings.
 struct CloudLook {
   ColourBy colouring = ColourBy::kElevation;
   std::string table = "viridis";
@@ -35,7 +35,7 @@ struct PlacedCloud {
 };
 using PlacedCloudPtr = std::shared_ptr<const PlacedCloud>;
 
-/// Where beams are placed: along a map's path, with the motor angle of an offset.
+/// The placement of beams: along a map's path, with the motor angle of an offset.
 struct Placement {
   LoadedPtr loaded;
   SolvedMapPtr map;
@@ -44,18 +44,18 @@ struct Placement {
   bool operator==(const Placement&) const = default;
 };
 
-/// Values of the beams, one for each of Beams; NaN where a beam has none.
+/// Values of the beams, one for each of Beams; NaN if a beam has none.
 using BeamValues = std::vector<float>;
 using BeamValuesPtr = std::shared_ptr<const BeamValues>;
 
-/// Whether a colouring's values come from all points together, and so take a second or more.
+/// Whether a colouring's values are computed from all points together, which takes a second or more.
 bool is_slow(ColourBy by);
 
 /// The values of a slow colouring: the local blur in millimetres, or a FeatureKind as a number.
 BeamValuesPtr slow_values(const Placement& placement, ColourBy by, const FeatureSet* features);
 
-/// `coarse`: the chosen points alone. With `other`, points are coloured by their distance from where that
-/// puts them, in millimetres, instead of the look's colouring. `slow`: of the look's colouring where that is
+/// `coarse`: only the chosen points. With `other`, points are coloured by their distance from that placement,
+/// in millimetres, instead of by the look's colouring. `slow`: the values of the look's colouring if it is
 /// slow; without them points are grey.
 PlacedCloud place_cloud(const Placement& placement, const CloudLook& look, bool coarse,
                         const Placement* other = nullptr, const BeamValues* slow = nullptr);
@@ -64,10 +64,10 @@ PlacedCloud place_cloud(const Placement& placement, const CloudLook& look, bool 
 /// millimetres.
 double difference_span_mm(const Placement& placement, const Placement& other);
 
-/// The laser's intensity of a beam; 0 where it has none.
+/// The laser's intensity of a beam; 0 if it has none.
 double intensity_of(const Placement& placement, std::uint32_t beam);
 
-/// What the colour table's ends stand for: the range of values that a colouring has on both maps.
+/// The values at the ends of the colour table: the range of a colouring over both maps.
 struct ColourSpan {
   double from = 0, to = 1;
 };

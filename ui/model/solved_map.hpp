@@ -10,10 +10,10 @@
 
 namespace sweepscope::ui {
 
-/// A path along which beams are placed, and what drawing them wants to know of the map at that offset.
+/// A path along which beams are placed, and the properties of the map at that offset that drawing needs.
 struct SolvedMap {
   double offset_s = 0;
-  bool provisional = false;  // not solved: the rig as if it stood still, its first second alone
+  bool provisional = false;  // not solved: only the first second, as if the rig were stationary
   bool lost = false;         // LOAM lost track
   FixedPath path;
   std::vector<float> path_height_m;  // of each scan, in the map frame
@@ -27,11 +27,11 @@ struct SolvedMap {
 };
 using SolvedMapPtr = std::shared_ptr<const SolvedMap>;
 
-/// Odometry and mapping at an offset: seconds of work for a moving rig, none for one that stood still.
+/// Odometry and mapping at an offset: seconds of work for a moving rig, none for a stationary one.
 Result<SolvedMapPtr> solve_map(const Loaded& loaded, double offset_s, std::optional<RigKind> assume,
                                const Job& job);
 
-/// The map of a rig that stood still, or whose poses are known; of another one what can be shown before
+/// The map of a stationary rig, or of one with known poses; for any other rig, what can be shown before
 /// anything is solved.
 SolvedMapPtr map_without_solving(const Loaded& loaded, bool standing, double offset_s);
 

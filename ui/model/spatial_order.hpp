@@ -7,15 +7,15 @@
 
 namespace sweepscope::ui {
 
-/// In which order points are drawn, and which of them while something moves.
+/// The order in which points are drawn, and the selection that is drawn while something moves.
 struct DrawOrder {
   std::vector<std::uint32_t> all;     // along a Morton curve, several times faster to draw than at random
   std::vector<std::uint32_t> chosen;  // one point for each of the cubes that fill the map, ascending
   std::vector<std::uint32_t> chosen_order;  // indices into `chosen`, along the curve
 };
 
-/// Points that are not finite are left out. At most `max_chosen` are chosen, and not many fewer, by cubes
-/// whose edge is found for that. The same for any number of threads.
+/// Points that are not finite are left out. At most `max_chosen` are chosen, and not many fewer: the edge of
+/// the cubes is found for that. The same for any number of threads.
 DrawOrder order_for_drawing(std::span<const std::array<float, 3>> xyz_m, std::size_t max_chosen);
 
 }  // namespace sweepscope::ui

@@ -8,22 +8,22 @@
 
 namespace sweepscope::ui {
 
-/// The camera that a view point stands for.
+/// The camera of a view point.
 Camera camera_of(const ViewPoint& view, bool perspective);
 
-/// Where places of the map frame are in a pane.
+/// Projects positions of the map frame into a pane.
 Projection projection_of(const ViewPoint& view, bool perspective, const PixelRect& pane);
-/// And back: the place under a pixel at the depth of the view's centre.
+/// The inverse: the position under a pixel at the depth of the view's centre.
 Eigen::Vector3d place_under(PixelPoint pixel, const ViewPoint& view, const PixelRect& pane);
 
-/// The view from the same direction that shows the whole box and little more, in a pane of that aspect (width
-/// over height). In whole centimetres.
+/// The view from the same direction that shows the whole box with a small margin, in a pane of that aspect
+/// (width over height). In whole centimetres.
 ViewPoint fitted(ViewPoint view, const Box& box, double aspect);
 
-/// The view after dragging by so many pixels: turned, or moved along with the hand.
+/// The view after dragging by a number of pixels: turned, or moved with the mouse.
 ViewPoint turned(ViewPoint view, double right_px, double down_px);
 ViewPoint moved(ViewPoint view, double right_px, double down_px, double pane_height_px);
-/// Nearer by a factor, with the place under the pixel staying where it is.
+/// Zoomed in by a factor; the position under the pixel does not move.
 ViewPoint zoomed(ViewPoint view, double factor, PixelPoint at, const PixelRect& pane);
 
 }  // namespace sweepscope::ui

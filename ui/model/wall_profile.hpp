@@ -7,15 +7,15 @@
 
 namespace sweepscope::ui {
 
-/// The box that the settings' profile line stands for: along it from end to end, 50 m round its middle at the
-/// most, half a metre wide, of any height. Without a line: none.
+/// The box of the settings' profile line: along the line, at most 50 m about its middle, half a metre wide,
+/// of any height. Absent without a line.
 std::optional<CrossSection> section_of(const Settings& settings);
 
 /// The density of a pane's points along the line.
 Profile profile_of(const PlacedCloud& cloud, const CrossSection& section);
 
-/// Both densities in one chart, with their widths at half height in millimetres. Of a long line a chart's
-/// worth of points, the densest of their neighbours.
+/// Both densities in one chart, with their widths at half height in millimetres. A long line is reduced to
+/// the resolution of the chart, with the highest density of each group.
 Chart profile_chart(const Profile& a, const Profile& b, const Style& style);
 
 }  // namespace sweepscope::ui

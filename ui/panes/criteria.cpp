@@ -59,21 +59,22 @@ std::vector<Chart> charts_of(const PaneContext& context) {
 /// What the chart's title means, with its equation.
 std::string meaning(const std::string& title) {
   if (title.starts_with("Motion"))
-    return "d = √(t² + c θ²), equation 3: the motion that odometry sees between sweeps of a rig that stood "
-           "still, from the translation t (equation 1) and the rotation θ (equation 2). Least at the offset.";
+    return "d = √(t² + c θ²), equation 3: the motion that odometry registers between sweeps of a stationary "
+           "rig, from the translation t (equation 1) and the rotation θ (equation 2). Its minimum is at the "
+           "offset.";
   if (title.starts_with("Mean distance"))
-    return "e, equation 7: the mean distance of the matches from their line or plane on the map. Least at "
-           "the offset.";
+    return "e, equation 7: the mean distance of the matches from their line or plane on the map. Its minimum "
+           "is at the offset.";
   if (title.starts_with("Matches"))
-    return "n, equation 6: edge and plane points that lie on the map, nearer than the gates of equations 4 "
-           "and 5. Greatest at the offset.";
+    return "n, equation 6: the number of edge and plane points that match the map, within the gates of "
+           "equations 4 and 5. Its maximum is at the offset.";
   if (title.starts_with("Alternating"))
-    return "The roll by which sweeps to and fro disagree: twice the motor's speed times the offset's error. "
-           "Zero at the offset.";
+    return "The roll between sweeps of opposite directions: twice the motor's speed times the error of the "
+           "offset. Zero at the offset.";
   if (title.starts_with("Distance between"))
-    return "The coarse search of the direct method: the mean distance between what sweeps of both directions "
-           "measured at equal motor angles, each at most a cap. Least near the offset, which the least "
-           "squares then finds to a fraction of a millisecond.";
+    return "The coarse search of the direct method: the mean distance between sweeps of opposite directions "
+           "at equal motor angles, each distance capped. Its minimum is near the offset; the least squares "
+           "then finds the offset to a fraction of a millisecond.";
   return "Estimate the offset to see the criteria over the candidates here.";
 }
 
@@ -134,7 +135,7 @@ void draw_grips(const PaneContext& context, const ChartLayout& layout) {
 /// Over the empty chart, on a plate so that grid and handles pass behind it.
 void draw_hint(const PaneContext& context, const PixelRect& plot) {
   const std::array<const char*, 2> lines{"Estimate the offset to see the criteria here.",
-                                         "The handles work already."};
+                                         "The handles already work."};
   const double size_px = context.px(13), line_px = context.px(19), margin = context.px(8);
   double width = 0;
   for (const char* line : lines) width = std::max(width, text_width_px(line, size_px) + 2 * margin);

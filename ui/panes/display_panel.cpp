@@ -161,7 +161,7 @@ void draw_display_panel(const PaneContext& context, const PixelRect& place) {
   field(context, "heights");
   if (settings.heights == Heights::kSlab) field(context, "slab");
   time_window(context);
-  heading(context, "Looking closely");
+  heading(context, "Inspect");
   field(context, "tool");
   field(context, "scan-view");
   end_panel();

@@ -140,7 +140,7 @@ void palette_list(const PaneContext& context, const std::vector<Entry>& found) {
     ImGui::PopID();
   }
   if (found.empty())
-    ImGui::TextDisabled("No command has these words. A whole line such as \"offset-a 19\" is run by Enter.");
+    ImGui::TextDisabled("No command matches. Enter runs a whole line, such as \"offset-a 19\".");
   ImGui::EndChild();
 }
 

@@ -5,7 +5,7 @@
 
 namespace sweepscope::ui {
 
-/// Where the parts of the interface are, in pixels. A part that is not shown has no width.
+/// The positions of the parts of the interface, in pixels. A part that is not shown has no width.
 struct Places {
   PixelRect menu, left, right, maps, criteria, status;
 };
@@ -13,7 +13,7 @@ struct Places {
 /// For a drawing of this size; `scale` is 1 at 100 %. Without a recording there are no side panels.
 Places lay_out(double width_px, double height_px, double scale, const Settings& settings, bool has_recording);
 
-/// The panes of the maps: each has a header above its picture. B's is empty where only one is shown.
+/// The panes of the maps: each has a header above its picture. B's is empty if only one is shown.
 struct MapPlaces {
   PixelRect header_a, picture_a, header_b, picture_b;
 };

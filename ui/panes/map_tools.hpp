@@ -5,13 +5,13 @@
 
 namespace sweepscope::ui {
 
-/// What the mouse does on the picture of a map; call right after the widget that covers it.
+/// Handles the mouse on the picture of a map; call right after the widget that covers it.
 void use_mouse(const PaneContext& context, Side side, const PixelRect& picture);
 
 /// The sensor's path, the scale bar, and the marks of the tools, above the picture of a map.
 void draw_overlays(const PaneContext& context, Side side, const PixelRect& picture);
 
-/// How a pane looks at its map.
+/// The view of a pane on its map.
 const ViewPoint& view_of(const Settings& settings, Side side);
 Projection projection_of(const Settings& settings, Side side, const PixelRect& picture);
 

@@ -64,15 +64,14 @@ std::string state_in_words(const PaneContext& context, Side side) {
     if (!request || pane.state == PaneState::kSolved) break;
     const auto ns = std::llround(request->placement.offset_s * 1e9);
     if (job.key == "solve " + std::to_string(ns))
-      return job.running ? fmt::format("solving, {:.0f} %", std::floor(100 * job.fraction))
-                         : "waits to be solved";
+      return job.running ? fmt::format("solving, {:.0f} %", std::floor(100 * job.fraction)) : "queued";
   }
   if (!pane.problem.empty() && pane.state != PaneState::kSolved) return "not solved";
   switch (pane.state) {
     case PaneState::kEmpty:
       return "";
     case PaneState::kProvisional:
-      return "first second alone";
+      return "first second only";
     case PaneState::kPreview:
       return "preview";
     case PaneState::kSolved:
@@ -136,7 +135,7 @@ void draw_header(const PaneContext& context, Side side, const PixelRect& place) 
   if (edited)
     context.perform(Call{find_command(command), {std::clamp(std::round(offset_ms * 1e3) / 1e3, -1e4, 1e4)}},
                     context.transient.gesture);
-  tooltip(context, find_command(command)->help + "  Drag it, or click twice to type.");
+  tooltip(context, find_command(command)->help + "  Drag, or double-click to type.");
   if (context.settings().layout == Layout::kSideBySide)
     draw_link(context, side, static_cast<double>(ImGui::GetItemRectMax().x) + context.px(8), middle);
   const std::string state = state_in_words(context, side);

@@ -16,7 +16,7 @@
 
 namespace sweepscope::ui {
 
-/// What the interface remembers besides the settings: nothing of it is worth keeping.
+/// The state of the interface besides the settings; it is not saved.
 struct Transient {
   bool palette = false, help = false, quit = false;
   std::string palette_query;
@@ -26,10 +26,10 @@ struct Transient {
   };
   std::optional<Asked> asks_for;  // the command whose file is asked for, and what of it
   std::string asked_text;
-  bool just_opened = false;                       // the thing in front takes the keyboard
+  bool just_opened = false;                       // the window in front takes the keyboard
   std::optional<Eigen::Vector3d> measure_from_m;  // the first end, until there is a second
   std::optional<Eigen::Vector2d> profile_from_m;  // while a profile is drawn
-  std::string gesture;                            // of the drag that goes on
+  std::string gesture;                            // of the current drag
   int gestures = 0;
   struct HandleDrag {
     Side side = Side::kA;
@@ -49,7 +49,7 @@ struct Transient {
   std::vector<std::string> recent;
 };
 
-/// What every pane is drawn with.
+/// The context that every pane is drawn with.
 struct PaneContext {
   Explorer& explorer;
   Transient& transient;
@@ -57,13 +57,13 @@ struct PaneContext {
   const Style& style;
   double scale;
   std::array<LiveView*, 2> views;
-  /// Names of places that scripts can click: "button estimate", "handle a", "map b", ...
+  /// Names of positions that scripts can click: "button estimate", "handle a", "map b", ...
   std::map<std::string, PixelRect>& anchors;
 
   const Settings& settings() const { return explorer.settings(); }
   double px(double at_100_percent) const { return at_100_percent * scale; }
   float pxf(double at_100_percent) const { return static_cast<float>(at_100_percent * scale); }
-  /// Carries out a command line; what is wrong with it is told to the person.
+  /// Executes a command line; an error is shown as a message.
   void perform(const std::string& line, const std::string& gesture = {}) const;
   void perform(const Call& call, const std::string& gesture = {}) const;
   /// A new name for a drag that begins.
@@ -82,9 +82,9 @@ void draw_recording_panel(const PaneContext& context, const PixelRect& place);
 void draw_display_panel(const PaneContext& context, const PixelRect& place);
 void draw_maps(const PaneContext& context, const PixelRect& place);
 void draw_criteria(const PaneContext& context, const PixelRect& place);
-/// The card of a point that was asked, and of a distance that was measured.
+/// The card of the inspected point, and of the measured distance.
 void draw_cards(const PaneContext& context, const PixelRect& maps);
-/// What lies in front: the palette, the keys, a dialog, a message.
+/// The windows in front: the palette, the keys, a dialog, a message.
 void draw_palette(const PaneContext& context, const PixelRect& whole);
 void draw_help(const PaneContext& context, const PixelRect& whole);
 void draw_ask(const PaneContext& context, const PixelRect& whole);

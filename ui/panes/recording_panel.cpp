@@ -23,7 +23,7 @@ void recording_rows(const PaneContext& context, const Loaded& loaded) {
   row(context, "file", summary.name);
   row(context, "length",
       fmt::format("{:.1f} s, the rig {}", laser.duration_s,
-                  summary.motion ? "was " + *summary.motion : "perhaps moved"));
+                  summary.motion ? "was " + *summary.motion : "may have moved"));
   row(context, "laser",
       fmt::format("{} scans of {} beams, {:.1f} Hz", laser.used, laser.max_beams, rate_hz(laser)));
   const double usable =
@@ -100,9 +100,9 @@ void criterion_rows(const PaneContext& context, const Estimate& estimate) {
   for (const CriterionOptimum& optimum : estimate.criteria) {
     const std::string at = fmt::format("{:.2f} ms", optimum.offset_s * 1e3);
     if (optimum.name == "e")
-      row(context, "e, least", fmt::format("{:.1f} mm at {}", optimum.value * 1e3, at));
+      row(context, "min e", fmt::format("{:.1f} mm at {}", optimum.value * 1e3, at));
     else if (optimum.name == "n")
-      row(context, "n, most", fmt::format("{:.0f} matches at {}", optimum.value, at));
+      row(context, "max n", fmt::format("{:.0f} matches at {}", optimum.value, at));
     else
       row(context, optimum.name.c_str(), fmt::format("{:.4f} at {}", optimum.value, at));
   }
@@ -122,7 +122,7 @@ void answer(const PaneContext& context, const Estimate& estimate) {
     criterion_rows(context, estimate);
     row(context, "from", fmt::format("{} sweeps, {} scans", estimate.sweeps, estimate.scans));
     ImGui::Dummy({0, context.pxf(2)});
-    button(context, "Take it for map B", "take-found");
+    button(context, "Use it for map B", "take-found");
   } else {
     ImGui::PushFont(context.fonts.heading);
     ImGui::TextUnformatted("Not determined");

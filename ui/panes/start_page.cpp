@@ -48,7 +48,7 @@ void draw_start_page(const PaneContext& context, const PixelRect& place) {
   ImGui::PopFont();
   ImGui::PushTextWrapPos(0);
   ImGui::TextDisabled(
-      "Turn the time offset between a laser scanner and its motor, and see the map come into focus.");
+      "Change the time offset between a laser scanner and its motor, and see the map come into focus.");
   ImGui::PopTextWrapPos();
   heading(context, "Open a recording");
   button(context, "Open …", "ask open", context.px(200), true);
@@ -56,7 +56,7 @@ void draw_start_page(const PaneContext& context, const PixelRect& place) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextDisabled("or drop one onto this window");
   heading(context, "Or try a simulated one; its true offset is 24 ms");
-  sample_button(context, "A room", "standing still, 4.5 s", "sample room-1");
+  sample_button(context, "A room", "stationary, 4.5 s", "sample room-1");
   sample_button(context, "A metro station", "20 s of a walk around a pillar", "sample metro-station 20");
   recent_files(context);
   end_panel();

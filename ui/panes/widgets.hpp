@@ -6,7 +6,7 @@
 
 namespace sweepscope::ui {
 
-/// Opens a window of fixed place without any decoration, behind or above the others; `end_panel` closes it.
+/// Opens a window at a fixed position without decoration, behind or above the others; `end_panel` closes it.
 void begin_panel(const PaneContext& context, const char* name, const PixelRect& place, bool padded = true,
                  bool above = false);
 void end_panel();
@@ -17,21 +17,21 @@ void heading(const PaneContext& context, const char* text, bool first = false);
 /// A name at the left and a value at a fixed distance from it; the value wraps.
 void row(const PaneContext& context, const char* name, const std::string& value);
 
-/// A widget for a field command: a slider, a switch, or a list of choices, with its title and tooltip. What
-/// the person does to it is performed as that command.
+/// A widget for a field command: a slider, a switch, or a list of choices, with its title and tooltip. A
+/// change by the person is performed as that command.
 void field(const PaneContext& context, const char* command);
 
 /// A button that performs a line; wide as the panel unless `width_px` is given. Its anchor is "button LINE".
 bool button(const PaneContext& context, const char* title, const std::string& line, double width_px = 0,
             bool primary = false);
 
-/// Shown while the mouse rests on the last widget.
+/// A tooltip, shown while the mouse rests on the last widget.
 void tooltip(const PaneContext& context, const std::string& text);
 
 /// A thin bar, `fraction` of it filled.
 void progress_bar(const PaneContext& context, double fraction);
 
-/// "1:05 left"; empty where it is not known.
+/// "1:05 left"; empty if it is not known.
 std::string time_left(double seconds);
 
 }  // namespace sweepscope::ui

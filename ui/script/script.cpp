@@ -201,7 +201,7 @@ class Runner {
 
   Result<void> wheel(Words& words) {
     const auto clicks = number(words.take());
-    if (!clicks) return wrong("wheel wants a number of clicks; up is positive");
+    if (!clicks) return wrong("wheel needs a number of clicks; up is positive");
     send({InputEvent::scroll(*clicks)});
     return {};
   }
@@ -210,7 +210,8 @@ class Runner {
     const std::string text = words.take();
     const auto chord = parse_chord(text);
     if (!chord)
-      return wrong(fmt::format("\"{}\" is no key; keys are such as A, 7, Space or Ctrl+Shift+Z", text));
+      return wrong(
+          fmt::format("\"{}\" is not a key; keys are for example A, 7, Space and Ctrl+Shift+Z", text));
     send({InputEvent::stroke(chord->key, true, chord->modifiers),
           InputEvent::stroke(chord->key, false, chord->modifiers)});
     send({InputEvent::stroke(chord->key, false, 0)});
@@ -229,7 +230,7 @@ class Runner {
 
   Result<void> frames(Words& words) {
     const auto count = number(words.take());
-    if (!count || *count < 0 || *count > 1e6) return wrong("frames wants a number");
+    if (!count || *count < 0 || *count > 1e6) return wrong("frames needs a number");
     for (int i = 0; i < static_cast<int>(*count); ++i) ui_.frame({}, kFrame_s);
     return {};
   }
@@ -292,7 +293,7 @@ class Runner {
     while (!there()) {
       ui_.frame({}, kFrame_s);
       if (std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() > max_s)
-        return unmet(fmt::format("{} did not come within {} s", what, max_s));
+        return unmet(fmt::format("{} was not reached within {} s", what, max_s));
       if (ui_.explorer().background().busy())
         std::this_thread::sleep_for(std::chrono::milliseconds(25));  // the work comes first
     }
@@ -334,18 +335,18 @@ class Runner {
       const std::string wanted = words.rest();
       const bool met = relation == "is" ? *now == wanted : now->find(wanted) != std::string::npos;
       if (!met)
-        return unmet(fmt::format("expected {} {} \"{}\", and it is \"{}\"", name, relation, wanted, *now));
+        return unmet(fmt::format("expected {} {} \"{}\", but it is \"{}\"", name, relation, wanted, *now));
       return {};
     }
     if (relation != "near" && relation != "above" && relation != "below")
       return wrong("expect NAME is|contains|near|above|below VALUE");
     const auto value = number(*now), wanted = number(words.take());
-    if (!wanted) return wrong("expect NAME near|above|below wants a number");
+    if (!wanted) return wrong("expect NAME near|above|below needs a number");
     const double within = relation == "near" ? number(words.take()).value_or(1e-9) : 0;
     const bool met = value && (relation == "near"    ? std::abs(*value - *wanted) <= within
                                : relation == "above" ? *value > *wanted
                                                      : *value < *wanted);
-    if (!met) return unmet(fmt::format("expected {} {} {}, and it is \"{}\"", name, relation, *wanted, *now));
+    if (!met) return unmet(fmt::format("expected {} {} {}, but it is \"{}\"", name, relation, *wanted, *now));
     return {};
   }
 
@@ -411,13 +412,13 @@ std::string script_help() {
       "  screenshot FILE.png                               the whole interface\n"
       "  expect NAME is|contains TEXT, expect NAME near VALUE WITHIN, expect NAME above|below VALUE\n"
       "  expect picture FILE.png                           the same picture, within the limits for pictures\n"
-      "  wander ACTIONS [SEED]                             tries everything, in an order that the seed "
-      "decides; what\n"
-      "                                                    it exports lands in the working folder\n"
+      "  wander ACTIONS [SEED]                             tries everything in a random order that SEED "
+      "sets;\n"
+      "                                                    exports go to the working folder\n"
       "What can be expected:\n";
   for (const auto& [name, meaning] : Explorer::observables())
     text += fmt::format("  {:<20} {}\n", name, meaning);
-  text += "Commands (those that hold a setting turn it over or move on without an argument):\n";
+  text += "Commands (without an argument, a setting toggles or takes its next value):\n";
   for (const Command& command : commands()) {
     std::string usage = command.name;
     for (const Parameter& parameter : command.parameters)

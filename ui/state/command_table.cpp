@@ -114,27 +114,26 @@ Command camera(Words words, ViewPoint Settings::*field) {
 
 Command profile() {
   const auto place = [](const char* name) { return number_of(name, "m", -1e5, 1e5, 0); };
-  return {
-      "profile",
-      "Profile line",
-      "The line across a wall, in the map frame, along which the densities of both maps are compared, 50 m "
-      "of it at the most. From and to the same place: none.",
-      {place("X1"), place("Y1"), place("X2"), place("Y2")},
-      [](const Settings& s) {
-        return Values{s.profile_from_m.x(), s.profile_from_m.y(), s.profile_to_m.x(), s.profile_to_m.y()};
-      },
-      [](Settings& s, const Values& v) {
-        const auto at = [&](std::size_t i) { return std::get<double>(v[i]); };
-        s.profile_from_m = {at(0), at(1)};
-        s.profile_to_m = {at(2), at(3)};
-      }};
+  return {"profile",
+          "Profile line",
+          "The line across a wall, in the map frame, along which the densities of both maps are compared, at "
+          "most 50 m long. No line where both ends are equal.",
+          {place("X1"), place("Y1"), place("X2"), place("Y2")},
+          [](const Settings& s) {
+            return Values{s.profile_from_m.x(), s.profile_from_m.y(), s.profile_to_m.x(), s.profile_to_m.y()};
+          },
+          [](Settings& s, const Values& v) {
+            const auto at = [&](std::size_t i) { return std::get<double>(v[i]); };
+            s.profile_from_m = {at(0), at(1)};
+            s.profile_to_m = {at(2), at(3)};
+          }};
 }
 
 Command measure() {
   const auto place = [](const char* name) { return number_of(name, "m", -1e5, 1e5, 0); };
   return {"measure",
           "Measured distance",
-          "Between two places of the map frame. From and to the same place: none.",
+          "Between two places of the map frame. None where both are equal.",
           {place("X1"), place("Y1"), place("Z1"), place("X2"), place("Y2"), place("Z2")},
           [](const Settings& s) {
             const Eigen::Vector3d &a = s.measure_from_m, &b = s.measure_to_m;
@@ -192,26 +191,29 @@ void add_fields_of_maps(std::vector<Command>& all) {
              &Settings::offset_b_ms, offset));
   all.push_back(
       choice({"layout", "Layout",
-              "Beside each other; one above the other with a divider to move; one alone; or how far "
-              "each point of B lies from its place in A."},
+              "Side by side; overlaid, with a movable divider; one map alone; or the distance of each point "
+              "of B from its place in A."},
              &Settings::layout, {"side-by-side", "swipe", "a", "b", "difference"}));
-  all.push_back(number({"divider", "Divider of the swipe", "How much of the width shows map A."},
+  all.push_back(number({"divider", "Divider of the swipe", "Fraction of the width that shows map A."},
                        &Settings::divider, number_of("SHARE", "", 0, 1, 0.05)));
   all.push_back({"linked",
                  "Linked",
-                 "Both maps are seen from the same place; unlink to look at each by itself.",
+                 "Both maps are seen from the same camera; unlink to move each by itself.",
                  {{.name = "STATE", .kind = Kind::kSwitch}},
                  [](const Settings& s) { return Values{s.linked}; },
                  [](Settings& s, const Values& v) {
                    s.linked = std::get<bool>(v[0]);
                    if (s.linked) s.camera_b = s.camera_a;
                  }});
-  all.push_back(toggle({"perspective", "Perspective", "Near things larger; off: the same scale everywhere."},
-                       &Settings::perspective));
-  all.push_back(camera({"camera-a", "Camera of map A", "Where it looks, how much it shows, and from where."},
-                       &Settings::camera_a));
-  all.push_back(camera({"camera-b", "Camera of map B", "Where it looks, how much it shows, and from where."},
-                       &Settings::camera_b));
+  all.push_back(
+      toggle({"perspective", "Perspective", "Perspective projection; off: the same scale everywhere."},
+             &Settings::perspective));
+  all.push_back(camera(
+      {"camera-a", "Camera of map A", "The point it looks at, the height of the view, and the direction."},
+      &Settings::camera_a));
+  all.push_back(camera(
+      {"camera-b", "Camera of map B", "The point it looks at, the height of the view, and the direction."},
+      &Settings::camera_b));
 }
 
 void add_fields_of_display(std::vector<Command>& all) {
@@ -223,17 +225,17 @@ void add_fields_of_display(std::vector<Command>& all) {
   all.push_back(table_choice());
   all.push_back(
       choice({"heights", "Heights",
-              "Sharp: where an offset shows, 0.8 m and more above or below the sensor's path, without "
-              "the ceiling. All: everything. Slab: between two heights above the path."},
+              "Sharp: where an offset shows, at least 0.8 m above or below the sensor's path, without the "
+              "ceiling. All: everything. Slab: between two heights above the path."},
              &Settings::heights, {"sharp", "all", "slab"}));
-  all.push_back(numbers({"slab", "Slab", "The heights above the sensor's path that are shown."},
+  all.push_back(numbers({"slab", "Slab", "The range of heights above the sensor's path that is shown."},
                         &Settings::slab_from_m, &Settings::slab_to_m, number_of("FROM", "m", -50, 50, 0.1),
                         number_of("TO", "m", -50, 50, 0.1)));
   all.push_back(number({"point-size", "Point size", "In pixels, before the display's scale."},
                        &Settings::point_size_px, number_of("SIZE", "px", 1, 8, 0.5)));
-  all.push_back(choice({"backdrop", "Background", "Behind the points: as the theme has it, black or white."},
+  all.push_back(choice({"backdrop", "Background", "Behind the points: the theme's, black or white."},
                        &Settings::backdrop, {"theme", "black", "white"}));
-  all.push_back(toggle({"trajectory", "Sensor's path", "The way of the sensor, as it was solved for map B."},
+  all.push_back(toggle({"trajectory", "Sensor's path", "The path of the sensor as solved for map B."},
                        &Settings::trajectory));
   all.push_back(
       numbers({"time-window", "Time window",
@@ -246,33 +248,33 @@ void add_fields_of_display(std::vector<Command>& all) {
       toggle({"panels", "Side panels", "The panels to the left and right of the maps."}, &Settings::panels));
   all.push_back(
       toggle({"criteria", "Criteria", "The criteria over the offset, below the maps."}, &Settings::criteria));
-  all.push_back(number({"ui-scale", "Interface size", "1 is 100 %, 2 is 200 %; 0: as the display asks."},
+  all.push_back(number({"ui-scale", "Interface size", "1 is 100 %, 2 is 200 %; 0: the display's scale."},
                        &Settings::ui_scale, number_of("SCALE", "", 0, 4, 0.25)));
 }
 
 void add_fields_of_tools(std::vector<Command>& all) {
   all.push_back(choice({"tool", "Tool",
-                        "What a click on a map does: look about, ask a point where it comes from, measure a "
-                        "distance, or draw a profile across a wall."},
+                        "What a click on a map does: turn the view, show where a point comes from, measure "
+                        "a distance, or draw a profile across a wall."},
                        &Settings::tool, {"look", "pick", "measure", "profile"}));
   all.push_back(profile());
   all.push_back(measure());
-  all.push_back(numbers({"pick", "Point asked",
+  all.push_back(numbers({"pick", "Inspected point",
                          "The point whose scan, beam, time, motor angle and places are shown. -1 -1: none."},
                         &Settings::asked_scan, &Settings::asked_beam, number_of("SCAN", "", -1, 1e7, 1),
                         number_of("BEAM", "", -1, 1e5, 1)));
   all.push_back(toggle({"scan-view", "Scan features",
                         "One scan with its edge points and plane points, as in the paper's Figure 2."},
                        &Settings::scan_view));
-  all.push_back(number({"scan", "Scan", "Whose features the scan view shows, counted from 0."},
+  all.push_back(number({"scan", "Scan", "The scan that the scan view shows, counted from 0."},
                        &Settings::scan, number_of("NUMBER", "", 0, 1e7, 1)));
   all.push_back(choice(
-      {"search", "Search", "Automatic: coarse to fine about 0 ms. Range: the candidates that you name."},
+      {"search", "Search", "Automatic: coarse to fine about 0 ms. Range: the candidates that you specify."},
       &Settings::search, {"automatic", "range"}));
   all.push_back(
       Command{"search-range",
               "Candidates",
-              "The offsets to try, from, to and by how much, as the paper does from 19 to 29 ms by 1 ms.",
+              "The candidate offsets: from, to and step. The paper uses 19 to 29 ms in steps of 1 ms.",
               {number_of("FROM", "ms", -10000, 10000, 1), number_of("TO", "ms", -10000, 10000, 1),
                number_of("STEP", "ms", 0.001, 1000, 0.1)},
               [](const Settings& s) {
@@ -285,9 +287,9 @@ void add_fields_of_tools(std::vector<Command>& all) {
               }});
   all.push_back(estimate_choice(
       {"method", "Method",
-       "Stationary: where odometry sees the least motion d (equation 3). Moving: where the map is "
-       "clearest, by matches n and their distance e (equations 6 and 7). Direct: as an unknown of the least "
-       "squares itself. Automatic: direct."},
+       "Stationary: the offset at which odometry registers the least motion d (equation 3). Moving: the "
+       "offset at which the map is sharpest, by matches n and their distance e (equations 6 and 7). Direct: "
+       "the offset as an unknown of a least squares. Automatic: direct."},
       &Settings::method));
   all.push_back(estimate_choice(
       {"fit", "Fit",
@@ -304,22 +306,21 @@ void add_edits(std::vector<Command>& all) {
                      }));
   all.push_back(edit({"swap", "Swap A and B", "Exchanges the two offsets."}, {},
                      [](Settings& s, const Values&) { std::swap(s.offset_a_ms, s.offset_b_ms); }));
-  all.push_back(
-      edit({"flip", "Flip between A and B", "Shows one map alone, and the other at the next press."}, {},
-           [](Settings& s, const Values&) {
-             s.layout = s.layout == Layout::kOnlyA ? Layout::kOnlyB : Layout::kOnlyA;
-           }));
+  all.push_back(edit({"flip", "Flip between A and B", "Shows one map alone, then the other."}, {},
+                     [](Settings& s, const Values&) {
+                       s.layout = s.layout == Layout::kOnlyA ? Layout::kOnlyB : Layout::kOnlyA;
+                     }));
   all.push_back(edit({"look", "Look from", "Turns the cameras."},
                      {choice_of("FROM", {"front", "right", "top", "isometric"})},
                      [](Settings& s, const Values& v) { look(s, std::get<std::string>(v[0])); }));
-  all.push_back(edit({"zoom", "Zoom", "By a factor; above 1 comes nearer."},
+  all.push_back(edit({"zoom", "Zoom", "By a factor; above 1 zooms in."},
                      {number_of("FACTOR", "", 0.01, 100, 1.25)}, [](Settings& s, const Values& v) {
                        for_both_cameras(s, [&](ViewPoint& view) {
                          view.height_m = std::clamp(view.height_m / std::get<double>(v[0]), 0.02, 1e4);
                        });
                      }));
   all.push_back(
-      edit({"pan", "Move the view", "By parts of its height, to the right and up."},
+      edit({"pan", "Move the view", "By fractions of its height, to the right and up."},
            {number_of("RIGHT", "", -10, 10, 0.1), number_of("UP", "", -10, 10, 0.1)},
            [](Settings& s, const Values& v) { pan(s, std::get<double>(v[0]), std::get<double>(v[1])); }));
   all.push_back(edit({"turn", "Turn the view", "About the vertical, and up or down."},
@@ -338,9 +339,8 @@ void add_actions(std::vector<Command>& all) {
                                         "room-5",   "room-6",      "metro-station", "parking-area",
                                         "cemetery", "lecture-room"};
   all.push_back(action({"open", "Open a recording",
-                        "A recording (a bag of ROS 1 or 2, a folder of CSV tables), with where the rig went "
-                        "(TUM) where that is known; a session saved before; "
-                        "or an estimate that was written as JSON."},
+                        "A recording (a ROS 1 or ROS 2 bag, or a folder of CSV tables), with the trajectory "
+                        "of the rig (TUM) if it is known; a saved session; or an estimate written as JSON."},
                        {text_of("FILE"), {.name = "POSES", .kind = Kind::kText, .optional = true}}));
   all.push_back(
       action({"sample", "Open a simulated sample",
@@ -349,17 +349,17 @@ void add_actions(std::vector<Command>& all) {
               {.name = "SECONDS", .unit = "s", .least = 1, .greatest = 300, .optional = true}}));
   all.push_back(action({"close", "Close the recording", "Back to the start page."}));
   all.push_back(action({"fit-view", "Fit the view", "Shows the whole map."}));
-  all.push_back(action({"estimate", "Estimate the offset", "Searches the offset, in the background."}));
+  all.push_back(action({"estimate", "Estimate the offset", "Searches for the offset in the background."}));
   all.push_back(action({"cancel", "Cancel", "Stops everything that runs in the background."}));
-  all.push_back(action({"solve", "Solve the maps", "Takes up again what was cancelled."}));
-  all.push_back(action({"take-found", "Take the offset found", "Sets map B to the offset that was found."}));
-  all.push_back(action({"undo", "Undo", "Takes back the last change of a setting."}));
-  all.push_back(action({"redo", "Redo", "Makes it again."}));
+  all.push_back(action({"solve", "Solve the maps", "Resumes what was cancelled."}));
+  all.push_back(action({"take-found", "Use the found offset", "Sets map B to the offset that was found."}));
+  all.push_back(action({"undo", "Undo", "Reverts the last change of a setting."}));
+  all.push_back(action({"redo", "Redo", "Repeats the change that was undone."}));
   all.push_back(
       action({"save-session", "Save the session", "The recording's name, all settings and the estimate."},
              {text_of("FILE")}));
-  all.push_back(action({"copy-command", "Copy as command line",
-                        "The shell command that makes this picture, into the clipboard."}));
+  all.push_back(
+      action({"copy-command", "Copy as command line", "Copies the shell command that makes this picture."}));
   all.push_back(
       action({"export-picture", "Export the picture", "As PNG: everything, or the maps alone."},
              {text_of("FILE"),
@@ -372,7 +372,7 @@ void add_actions(std::vector<Command>& all) {
                         "One HTML page into a folder: the offset, its evidence and the maps, as `sweepscope "
                         "report` writes it."},
                        {text_of("FOLDER")}));
-  all.push_back(action({"palette", "All commands", "A list to search and to choose from."}));
+  all.push_back(action({"palette", "All commands", "A searchable list of all commands."}));
   all.push_back(action({"help", "Keys", "The list of keys."}));
   all.push_back(
       action({"dismiss", "Close what is in front", "The palette, a dialog, a message, or the tool."}));

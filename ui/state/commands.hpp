@@ -12,11 +12,11 @@
 
 namespace sweepscope::ui {
 
-/// Something the explorer can be told to do, by a click, a key, the palette or a script alike. Declared once.
-///  - A field command (`get` and `set`) holds one part of the settings. Without arguments it moves on: a
-///    switch turns over, a choice goes to its next value.
-///  - An edit (`set` alone) changes settings by what they are now.
-///  - An action (neither) is carried out by the explorer or its window.
+/// A command of the explorer, for clicks, keys, the palette and scripts. Declared once.
+///  - A field command (`get` and `set`) holds one part of the settings. Without arguments a switch
+///    toggles and a choice takes its next value.
+///  - An edit (only `set`) changes settings relative to their current values.
+///  - An action (neither) is executed by the explorer or its window.
 struct Command {
   std::string name;   // in scripts: "offset-a"
   std::string title;  // for people: "Offset of map A"
@@ -30,7 +30,7 @@ struct Command {
 };
 
 std::span<const Command> commands();
-/// Null where there is none of that name.
+/// Null if there is none of that name.
 const Command* find_command(std::string_view name);
 
 /// A command with its arguments. Values of optional parameters may be missing at the end.
@@ -42,8 +42,8 @@ struct Call {
   double number(std::size_t i) const { return std::get<double>(values.at(i)); }
 };
 
-/// The call that a line such as `layout swipe` stands for. Unknown names, and arguments that are missing,
-/// too many or do not fit, are ExitCode::kWrongUsage.
+/// The call of a line such as `layout swipe`. Unknown names, and missing, excess or invalid arguments are
+/// ExitCode::kWrongUsage.
 Result<Call> parse_call(std::string_view line);
 /// The line that parse_call reads back.
 std::string to_line(const Call& call);
@@ -51,11 +51,11 @@ std::string to_line(const Call& call);
 /// The settings after a field command or an edit.
 Settings changed(Settings settings, const Call& call);
 
-/// A shortcut: a key chord such as "Ctrl+Shift+Z" and the line that it stands for.
+/// A shortcut: a key chord such as "Ctrl+Shift+Z" and its line.
 struct Shortcut {
   std::string chord;
   std::string line;
-  std::string title = {};  // where neither a menu nor the command says it well
+  std::string title = {};  // if neither a menu's nor the command's title fits
 };
 std::span<const Shortcut> shortcuts();
 /// The first chord of a line; empty where it has none.

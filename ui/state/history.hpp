@@ -12,8 +12,8 @@ class History {
  public:
   /// Before a change. Changes in a row with the same non-empty gesture are one step.
   void record(const Settings& before, const std::string& gesture);
-  /// The settings of before and of after; what is given comes back by the opposite. Unchanged where there is
-  /// none.
+  /// The previous and the next settings; the given ones are restored by the opposite call. Unchanged if there
+  /// are none.
   Settings undo(const Settings& now);
   Settings redo(const Settings& now);
 

@@ -10,7 +10,7 @@
 
 namespace sweepscope::ui {
 
-/// What is kept between two runs: what was looked at, how, and the estimate where there was one.
+/// The state that is kept between two runs: the recording, the settings, and the estimate if there is one.
 struct Session {
   std::string source;  // the line that opens the recording: `open FILE` or `sample SCENE`
   Settings settings;
@@ -21,8 +21,8 @@ struct Session {
 /// session gives the same bytes.
 std::string session_to_json(const Session& session);
 
-/// Reads it back. Keys that are missing keep their defaults, unknown ones are passed over; a value that does
-/// not fit is ExitCode::kUnreadableInput with a sentence that names `name` and the key.
+/// Reads it back. Missing keys keep their defaults, unknown ones are skipped; an invalid value is
+/// ExitCode::kUnreadableInput with a sentence that names `name` and the key.
 Result<Session> parse_session(std::string_view text, std::string_view name);
 
 }  // namespace sweepscope::ui

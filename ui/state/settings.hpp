@@ -7,8 +7,8 @@
 
 namespace sweepscope::ui {
 
-/// From where a pane looks at its map: at `centre_m`, from `elevation_deg` above the horizon (90: from
-/// above), turned by `turn_deg` about the vertical; `height_m` of the scene fill the pane's height.
+/// The view of a pane on its map: at `centre_m`, from `elevation_deg` above the horizon (90: from
+/// above), turned by `turn_deg` about the vertical; `height_m` of the scene fills the pane's height.
 struct ViewPoint {
   Eigen::Vector3d centre_m{0, 0, 0};
   double height_m = 20;
@@ -46,21 +46,21 @@ struct Settings {
   double time_from_s = 0, time_to_s = 0;  // since the first scan; both 0: all of the recording
 
   Tool tool = Tool::kLook;
-  Eigen::Vector2d profile_from_m{0, 0}, profile_to_m{0, 0};  // both the same: none
-  double asked_scan = -1, asked_beam = -1;                   // of the point that was asked; below 0: none
+  Eigen::Vector2d profile_from_m{0, 0}, profile_to_m{0, 0};        // both the same: none
+  double asked_scan = -1, asked_beam = -1;                         // of the inspected point; below 0: none
   Eigen::Vector3d measure_from_m{0, 0, 0}, measure_to_m{0, 0, 0};  // both the same: none
   bool scan_view = false;
-  double scan = 0;  // whose features the scan view shows
+  double scan = 0;  // the scan of the scan view
 
   Search search = Search::kAutomatic;
   double search_from_ms = 19, search_to_ms = 29, search_step_ms = 1;
   std::string method = "automatic",
-              fit = "automatic";  // else a value of the option of that name (EstimateOption)
+              fit = "automatic";  // or a value of the option of that name (EstimateOption)
 
   Theme theme = Theme::kDark;
   bool panels = true;  // to the left and right of the maps
   bool criteria = true;
-  double ui_scale = 0;  // 0: what the display asks for
+  double ui_scale = 0;  // 0: the display's scale
 
   bool operator==(const Settings&) const = default;
 };

@@ -9,7 +9,7 @@
 
 namespace sweepscope::ui {
 
-/// What a command's parameter holds: a number, a switch, or words.
+/// The value of a command's parameter: a number, a switch, or text.
 using Value = std::variant<double, bool, std::string>;
 
 enum class Kind { kNumber, kSwitch, kChoice, kText };
@@ -24,8 +24,7 @@ struct Parameter {
   bool optional = false;
 };
 
-/// The value that a word stands for. A word that does not fit is ExitCode::kWrongUsage with a sentence that
-/// says what would.
+/// The value of a word. An invalid word is ExitCode::kWrongUsage; the message says what is valid.
 Result<Value> parse_value(const Parameter& parameter, std::string_view word);
 
 /// The word that parse_value reads back to the same value.
@@ -35,7 +34,7 @@ std::string to_word(const Value& value);
 /// comment.
 Result<std::vector<std::string>> split_words(std::string_view line);
 
-/// A word as split_words wants it: in quotes where it holds spaces, a quote or #, or nothing.
+/// A word quoted for split_words: in quotes if it is empty or contains spaces, a quote or #.
 std::string quoted(const std::string& word);
 
 /// "19 to 29 ms", "on or off", "dark or light": for help.

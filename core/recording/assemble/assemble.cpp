@@ -32,8 +32,8 @@ std::optional<Error> too_many_beams(const RawRecording& raw, const RawLaser& las
   for (std::size_t i = 0; i < laser.scans.size(); ++i) {
     if (laser.scans[i].beams <= kMaxBeamsAScan) continue;
     return Error{ExitCode::kUnreadableInput,
-                 fmt::format("{}: scan {} on {} has {} beams, and at most {} a scan are read", raw.file,
-                             i + 1, laser.topic, laser.scans[i].beams, kMaxBeamsAScan)};
+                 fmt::format("{}: scan {} on {} has {} beams; at most {} are supported", raw.file, i + 1,
+                             laser.topic, laser.scans[i].beams, kMaxBeamsAScan)};
   }
   return std::nullopt;
 }
@@ -175,8 +175,8 @@ bool ScanAssembler::check_cloud_times(const std::vector<LaserScan>& lines) {
   if (times_s.size() < 3 || !(period_s > 0)) return true;
   if (span_s > kMinPart * period_s && span_s < kMaxPart * period_s) return true;
   cloud_problem_ = fmt::format(
-      "by their points' times clouds take {:.3g} s, and they follow every {:.3g} s: the times are in no unit "
-      "that is known",
+      "the times of a cloud's points span {:.3g} s, but a cloud comes every {:.3g} s: the unit of the times "
+      "is not known",
       span_s, period_s);
   return false;
 }
@@ -354,7 +354,7 @@ void compare_streams(Recording& recording) {
   if (report.laser_stamps.used != report.motor_stamps.used) {
     const bool laser_by_header = report.laser_stamps.used == StampSource::kHeader;
     report.warnings.push_back(fmt::format(
-        "the laser goes by {} and the motor by {}: the offset then holds the delays of this one recording",
+        "the laser uses {} and the motor {}: the offset then includes the delays of this recording",
         laser_by_header ? "header stamps" : "receive times",
         laser_by_header ? "receive times" : "header stamps"));
   }
@@ -374,8 +374,8 @@ void compare_streams(Recording& recording) {
 void warn_of_source(const RawJoint& joint, Recording& recording) {
   if (joint.source != JointSource::kNumber) return;
   recording.report.warnings.push_back(
-      fmt::format("{} holds plain numbers: they are taken times {:.6g} (the rig's motor.scale) as rad, and "
-                  "whether they are measured angles or commands is not known",
+      fmt::format("{} holds plain numbers: they are multiplied by {:.6g} (the rig's motor.scale) to give "
+                  "rad; whether they are measured angles or commands is not known",
                   joint.topic, recording.rig.motor.scale));
 }
 
@@ -422,8 +422,8 @@ Result<Recording> assemble(RawRecording raw, const Rig& rig, std::optional<Stamp
                                   raw_laser.scans.size(), raw_laser.topic, scans.reason()));
   }
   if (!assemble_motor(raw_joint, recording)) {
-    return unreadable(fmt::format("{}: joint {} on {} has {} usable samples, and two are needed", raw.file,
-                                  raw_joint.joint, raw_joint.topic, recording.motor.time_s.size()));
+    return unreadable(fmt::format("{}: joint {} on {} has {} usable samples; at least two are needed",
+                                  raw.file, raw_joint.joint, raw_joint.topic, recording.motor.time_s.size()));
   }
   compare_streams(recording);
   assemble_motion(raw, recording);

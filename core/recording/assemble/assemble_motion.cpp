@@ -37,7 +37,7 @@ void warn(const std::string& topic, const char* type, const char* key, std::size
                                    topic, key, used, type));
   else if (used < messages)
     warnings.push_back(
-        fmt::format("{} of {} messages on {} were dropped: no stamp, no finite number, or an instant twice",
+        fmt::format("{} of {} messages on {} were dropped: no stamp, no finite number, or a duplicate time",
                     messages - used, messages, topic));
 }
 

@@ -64,7 +64,7 @@ std::size_t malformed_messages(const RawRecording& raw, std::string_view type_en
 
 /// What reading met first, which may be why something is not there.
 std::string first_warning(const RawRecording& raw) {
-  return raw.warnings.empty() ? std::string() : fmt::format("\n  besides: {}", raw.warnings.front());
+  return raw.warnings.empty() ? std::string() : fmt::format("\n  also: {}", raw.warnings.front());
 }
 
 /// Why nothing is there to choose from: the damage that was met comes first.
@@ -73,8 +73,8 @@ std::string nothing_usable(const RawRecording& raw, std::string_view what, std::
     return fmt::format("{}: nothing in it can be used: {}", raw.file, raw.warnings.front());
   }
   if (malformed_messages(raw, type_end) > 0)
-    return fmt::format("{}: none of its {} is whole", raw.file, what);
-  return fmt::format("{}: holds no {}; what it holds is:{}", raw.file, what, list_of_topics(raw, ""));
+    return fmt::format("{}: all of its {} are malformed", raw.file, what);
+  return fmt::format("{}: holds no {}. It holds:{}", raw.file, what, list_of_topics(raw, ""));
 }
 
 bool wanted(const RawJoint& joint, const Rig& rig) {
@@ -151,10 +151,9 @@ Result<std::size_t> choose_joint(const RawRecording& raw, const Rig& rig) {
         first_warning(raw));
   }
   if (rig.motor.topic) {
-    return unreadable(
-        fmt::format("{}: has no usable joint states on {}, the rig's motor.topic; what it holds is:{}",
-                    raw.file, *rig.motor.topic, list_of_topics(raw, "")) +
-        first_warning(raw));
+    return unreadable(fmt::format("{}: has no usable joint states on {}, the rig's motor.topic. It holds:{}",
+                                  raw.file, *rig.motor.topic, list_of_topics(raw, "")) +
+                      first_warning(raw));
   }
   return unreadable(nothing_usable(raw, "sensor_msgs/JointState", "/JointState"));
 }

@@ -50,7 +50,7 @@ class Cells {
     const std::string_view text = table_.cell(column);
     if (text.empty()) return 0;
     const auto ns = parse_stamp_ns(text);
-    if (!ns) refuse(column, text, "is no time in decimal seconds from 0 on");
+    if (!ns) refuse(column, text, "is not a time in decimal seconds (0 or more)");
     return ns.value_or(0);
   }
   /// 0 where the cell is empty.
@@ -108,15 +108,15 @@ Result<void> check_columns(const CsvTable& table, const std::vector<Names>& need
   const auto has = [&](std::string_view name) { return table.column(name) < table.columns().size(); };
   for (const Names& group : needed) {
     if (std::ranges::any_of(group, has)) continue;
-    return unreadable(fmt::format("{} names no column {}; it names: {}", table.place(),
+    return unreadable(fmt::format("{} has no column {}; its columns are: {}", table.place(),
                                   fmt::join(group, " or "), fmt::join(table.columns(), ", ")));
   }
   std::vector<std::string> unknown;
   for (const std::string& name : table.columns())
     if (std::ranges::find(known, name) == known.end()) unknown.push_back(name);
   if (!unknown.empty()) {
-    raw.warnings.push_back(fmt::format("{} has columns that are not known and were ignored: {}", file,
-                                       fmt::join(unknown, ", ")));
+    raw.warnings.push_back(
+        fmt::format("{} has unknown columns, which were ignored: {}", file, fmt::join(unknown, ", ")));
   }
   return {};
 }
@@ -173,7 +173,7 @@ std::string ScanLines::take_beams(Cells& cells, RawScan& scan, RawLaser& laser) 
   const std::size_t intensities = cells.list(intensities_, laser.intensities);
   if (intensities != 0 && intensities != scan.beams) {
     cells.refuse(intensities_, std::to_string(intensities),
-                 fmt::format("values stand beside {} in ranges_m", scan.beams));
+                 fmt::format("values, but ranges_m has {}", scan.beams));
   }
   if (!cells.problem().empty()) {
     laser.ranges_m.resize(ranges_before);

@@ -12,17 +12,16 @@
 
 namespace sweepscope {
 
-/// The lines of the two tables of csv_recording.hpp, wherever they come from. Tables, rig and recording must
+/// The lines of the two tables of csv_recording.hpp, from a file or a stream. Tables, rig and recording must
 /// outlive what reads their lines.
 
-/// Fail where a table has neither of the stamps, or not one of each group of columns that are needed; warn of
-/// columns that are not known, under `file`.
+/// Fail if a table has no stamps, or no column of a required group; warn of unknown columns, naming `file`.
 Result<void> check_scan_columns(const CsvTable& table, const std::string& file, RawRecording& raw);
 Result<void> check_motor_columns(const CsvTable& table, const std::string& file, RawRecording& raw);
 
 class Cells;
 
-/// Where a table's stamps are; beyond the last column where they are not there.
+/// The columns of a table's stamps; beyond the last column if there are none.
 struct StampColumns {
   std::size_t header, receive;
 
@@ -34,7 +33,7 @@ struct StampColumns {
 class ScanLines {
  public:
   ScanLines(const CsvTable& table, const Rig& rig, RawRecording& raw);
-  /// Takes the table's present line; gives what is wrong with it, or nothing.
+  /// Reads the table's current line; returns its problem, or nothing.
   std::string take();
 
  private:

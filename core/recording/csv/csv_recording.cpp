@@ -145,7 +145,7 @@ Result<void> write_csv_recording(const RawLaser& laser, const RawJoint& joint,
                                  const std::filesystem::path& folder, const Job& job) {
   if (laser.of_clouds) {
     return failure(ExitCode::kWrongUsage,
-                   fmt::format("{}: the tables have no place for clouds; write {} as MCAP or ROS 1",
+                   fmt::format("{}: CSV tables cannot hold clouds; write {} as MCAP or ROS 1",
                                folder.string(), laser.topic));
   }
   std::error_code error;

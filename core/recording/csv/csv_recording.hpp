@@ -9,18 +9,18 @@
 namespace sweepscope {
 
 /// A recording as a folder of two tables, for rigs without ROS. The first line of each names its columns, in
-/// any order; columns with other names are left aside with a warning. Cells may stand in double quotes.
-/// Stamps are decimal seconds, exact to the nanosecond; empty or 0 where there is none. Numbers are written
-/// with as many digits as give the same number back; NaN and inf are "nan" and "inf".
+/// any order; columns with other names are ignored with a warning. Cells may be in double quotes. Stamps are
+/// decimal seconds, exact to the nanosecond; empty or 0 if there is none. Numbers are written with enough
+/// digits to read back the same number; NaN and inf are "nan" and "inf".
 ///
 /// scans.csv, a line per scan:
-///   stamp_s, receive_s      when it was made (its own clock), when it was received: one of the two at least
+///   stamp_s, receive_s      when it was taken (its own clock), when it was received: at least one of the two
 ///   angle_min_rad, angle_increment_rad     the direction of beam 0, and from beam to beam
 ///   ranges_m                the beams' ranges, with spaces between them
-///   intensities             likewise, as many or none   (this and what follows may be left out)
+///   intensities             as many as ranges, or none  (this and what follows may be left out)
 ///   time_increment_s        from beam to beam            (the rig file's or scan_time_s / beams where 0)
 ///   scan_time_s             from scan to scan
-///   range_min_m, range_max_m    what lies outside is no range
+///   range_min_m, range_max_m    ranges outside are not used
 ///   topic                   the laser's name (default /scan)
 /// motor.csv, a line per sample:
 ///   stamp_s, receive_s      as above
@@ -30,11 +30,11 @@ namespace sweepscope {
 inline constexpr const char* kScansCsv = "scans.csv";
 inline constexpr const char* kMotorCsv = "motor.csv";
 
-/// The first line or cell that is not as it should be fails, with the file, the line and the column; a last
-/// line that was cut short is left aside with a warning.
+/// The first invalid line or cell is an error that names the file, the line and the column; a truncated last
+/// line is ignored with a warning.
 Result<RawRecording> read_csv_recording(const std::filesystem::path& folder, const Rig& rig, const Job& job);
 
-/// Writes both tables, each whole or not at all. The folder is made where there is none.
+/// Writes both tables, each completely or not at all. The folder is created if it does not exist.
 Result<void> write_csv_recording(const RawLaser& laser, const RawJoint& joint,
                                  const std::filesystem::path& folder, const Job& job);
 

@@ -19,20 +19,20 @@ namespace sweepscope {
 ///     scan,1700000000.004,-1.5708,0.004363,1.736e-5,3.21 3.20 nan 3.22
 ///
 /// The first line of each word names its columns, with the tables' names and units, before any of its values;
-/// where the same names come again (a driver that was started anew) they are left aside. Empty lines, and
-/// those that begin with #, are left aside as well.
+/// if the same names come again (a driver that was restarted) they are ignored. Empty lines and lines that
+/// begin with # are ignored too.
 class CsvStream {
  public:
-  /// `name` is what failures and the recording are called. The rig must outlive the stream.
+  /// `name` is the recording's name, also in errors. The rig must outlive the stream.
   CsvStream(std::string name, const Rig& rig);
   ~CsvStream();
   CsvStream(const CsvStream&) = delete;
   CsvStream& operator=(const CsvStream&) = delete;
 
-  /// Takes a line without its end. Fails where columns are named that cannot be used. Any other line that is
-  /// not as it should be is skipped and counted: a live stream may begin or break within one.
+  /// Takes a line without its end. Fails if the named columns cannot be used. Any other invalid line is
+  /// skipped and counted: a live stream may begin or break within a line.
   Result<void> take(std::string_view line);
-  /// All that was taken, as it is.
+  /// Everything read so far, unmodified.
   const RawRecording& so_far() const;
   /// The same with a warning about the lines skipped.
   RawRecording heard() const;

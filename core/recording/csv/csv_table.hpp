@@ -10,24 +10,24 @@
 
 namespace sweepscope {
 
-/// A table of comma-separated values, read line by line. Every failure is one sentence that names the file,
-/// the line and the column.
+/// A table of comma-separated values, read line by line. Every error is one sentence that names the file, the
+/// line and the column.
 class CsvTable {
  public:
   /// Opens the table and reads its first line, the columns' names.
   static Result<CsvTable> open(const std::filesystem::path& path);
 
-  /// A table whose lines are given one by one, the first of them here. `name` is what failures call it.
+  /// A table whose lines are passed one by one, the first of them here. `name` is its name in errors.
   static Result<CsvTable> of_lines(std::string name, std::string_view first_line, std::size_t line_number);
 
   const std::vector<std::string>& columns() const { return columns_; }
-  /// The column of that name; columns().size() where there is none.
+  /// The column of that name; columns().size() if there is none.
   std::size_t column(std::string_view name) const;
 
-  /// Goes to the next line that is not empty; false at the end, or where the last line was cut short. A line
-  /// with more or fewer cells than there are columns fails.
+  /// Goes to the next line that is not empty; false at the end, or if the last line was cut short. Fails for
+  /// a line with more or fewer cells than columns.
   Result<bool> next();
-  /// Takes the next line of those given one by one, as next() does.
+  /// Takes the next line of those passed one by one, like next().
   Result<void> take(std::string_view line, std::size_t line_number);
   /// A cell of this line; empty for a column that is not there.
   std::string_view cell(std::size_t column) const;
@@ -35,7 +35,7 @@ class CsvTable {
   std::string place(std::size_t column) const;
   /// "FILE: line 7".
   std::string place() const;
-  /// The last line has no line end, so what is wrong in it may be that it was cut short.
+  /// The last line has no line end, so an error in it may mean that it was cut short.
   bool at_unended_line() const { return unended_; }
   bool cut_short() const { return cut_short_; }
   std::size_t line() const { return line_number_; }

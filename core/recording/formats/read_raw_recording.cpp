@@ -35,7 +35,7 @@ std::string not_readable(std::string_view start) {
   if (start.starts_with("#ROSBAG")) return "is a ROS 1 bag of an unknown format";
   if (start.starts_with("\x89MCAP")) return "is an MCAP file of an unknown version";
   if (start.starts_with("SQLite format")) return "is an SQLite database of an unknown version";
-  return "byte 0 begins no recording that is known";
+  return "its first bytes are of no known recording format";
 }
 
 Result<RawRecording> read_folder(const fs::path& folder, const Rig& rig, const Job& job, CloudDetail clouds) {

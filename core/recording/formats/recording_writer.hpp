@@ -16,21 +16,21 @@ enum class RecordingFormat { kCsv, kRos1, kMcap };
 
 /// "csv", "ros1" or "mcap"; empty for any other name.
 std::optional<RecordingFormat> recording_format(std::string_view name);
-/// The format that an output's name stands for: .bag, .mcap, or a folder of CSV tables where the name has no
+/// The format by an output's name: .bag, .mcap, or a folder of CSV tables if the name has no
 /// extension; empty for others.
 std::optional<RecordingFormat> recording_format_of(const std::filesystem::path& output);
 
-/// Whether chunks of that format can be compressed so: "none"; "bz2" and "lz4" for ROS 1; "lz4" and "zstd"
+/// The compressions of the chunks of each format: "none"; "bz2" and "lz4" for ROS 1; "lz4" and "zstd"
 /// for MCAP.
 bool can_compress(RecordingFormat format, std::string_view compression);
 
 /// The files that `write_recording` writes: the output, or the tables in its folder.
 std::vector<std::string> written_files(const std::filesystem::path& output, RecordingFormat format);
 
-/// Writes a laser and a motor's joint as they were read: both stamps, ranges before any is judged, positions
-/// before the rig's scale and zero, the names of topics and joint. All formats read back as the same
-/// recording. MCAP files are of the ROS 2 profile. Clouds must have been read whole (CloudDetail), and are
-/// not written as CSV.
+/// Writes a laser and a motor's joint as they were read: both stamps, unfiltered ranges, positions before the
+/// rig's scale and zero, the names of topics and joint. All formats read back as the same recording. MCAP
+/// files are of the ROS 2 profile. Clouds must have been read completely (CloudDetail), and are not written
+/// as CSV.
 Result<void> write_recording(const RawLaser& laser, const RawJoint& joint, RecordingFormat format,
                              const std::string& compression, const std::filesystem::path& output,
                              const Job& job);

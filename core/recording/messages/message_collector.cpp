@@ -37,8 +37,8 @@ std::optional<Error> too_much(const std::string& file, std::size_t beams, std::s
   if (beams <= kMaxBeams && joint_samples <= kMaxJointSamples) return std::nullopt;
   const bool of_beams = beams > kMaxBeams;
   return Error{ExitCode::kUnreadableInput,
-               fmt::format("{}: holds more than {} {}, more than are read at once; cut it into parts, or "
-                           "name the topic{} in a rig file",
+               fmt::format("{}: holds more than {} {}, the limit; cut it into parts, or name the topic{} in "
+                           "a rig file",
                            file, of_beams ? kMaxBeams : kMaxJointSamples,
                            of_beams ? "beams" : "joint samples", of_beams ? "" : " and joint")};
 }
@@ -111,8 +111,8 @@ std::optional<Error> MessageCollector::add(std::size_t topic, std::int64_t recei
   if (!whole && counts.malformed++ == 0) entry.first_malformed = place();
   if (cloud_bytes_ > kMaxCloudBytes)
     return Error{ExitCode::kUnreadableInput,
-                 fmt::format("{}: holds more than {} GiB of clouds, more than are converted at once; cut it "
-                             "into parts, or name the topic in a rig file",
+                 fmt::format("{}: holds more than {} GiB of clouds, the limit; cut it into parts, or name "
+                             "the topic in a rig file",
                              raw_.file, kMaxCloudBytes >> 30)};
   return too_much(raw_.file, beams_, joint_samples_);
 }

@@ -17,39 +17,39 @@
 
 namespace sweepscope {
 
-/// A file or topic holds no more than this of what is kept, so that a small file of highly compressed
-/// messages cannot fill the memory.
+/// The limits of what is kept of a file or topic, so that a small file of highly compressed messages cannot
+/// fill the memory.
 inline constexpr std::size_t kMaxBeams = std::size_t{1} << 29;
 inline constexpr std::size_t kMaxJointSamples = std::size_t{1} << 27;
-/// A message that is packed holds no more than this.
+/// The limit of an unpacked message.
 inline constexpr std::size_t kMaxPackedMessage_bytes = std::size_t{1} << 28;
-/// Where clouds are kept whole, of their bytes.
+/// The limit of the bytes of clouds that are kept completely.
 inline constexpr std::size_t kMaxCloudBytes = std::size_t{1} << 33;
 
-/// The refusal of a file that holds more beams or joint samples than that; empty where it does not.
+/// The error for a file that holds more beams or joint samples than that; otherwise empty.
 std::optional<Error> too_much(const std::string& file, std::size_t beams, std::size_t joint_samples);
 
-/// Sorts the messages of a file, of whatever format, into lasers and joints. Those that the rig rules out by
-/// name are counted and not kept.
+/// Sorts the messages of a file, of any format, into lasers and joints. Those that the rig excludes by name
+/// are counted and not kept.
 class MessageCollector {
  public:
   struct Topic {
     std::string name, type;
     Encoding encoding = Encoding::kRos1;
     bool decodable = true;     // false: the encoding is another one; its messages are only counted
-    std::string md5sum = "*";  // of the ROS 1 definition; "*" where nothing tells
+    std::string md5sum = "*";  // of the ROS 1 definition; "*" if unknown
   };
 
   /// Both must outlive it.
   MessageCollector(const Rig& rig, RawRecording& raw, CloudDetail clouds = CloudDetail::kLines)
       : rig_(rig), raw_(raw), clouds_(clouds) {}
 
-  /// What the messages that follow may unpack to; it must outlive them.
+  /// The limit for unpacking the messages that follow; it must outlive them.
   void begin_file(UnpackingLimit& limit) { limit_ = &limit; }
   /// The number of a topic, for add(): the same for the same name, type and encoding.
   std::size_t number_of(const Topic& topic);
-  /// Takes a message, one of CDR also packed by zstd (rosbag2's compression mode MESSAGE). `place` says where
-  /// it is, and is asked only where the message is malformed.
+  /// Takes a message, one of CDR also packed by zstd (rosbag2's compression mode MESSAGE). `place` gives its
+  /// position, and is called only if the message is malformed.
   std::optional<Error> add(std::size_t topic, std::int64_t receive_ns, std::span<const std::byte> message,
                            const std::function<std::string()>& place);
   /// Call once, last: warns of what was malformed.
@@ -64,7 +64,7 @@ class MessageCollector {
     std::map<std::string, std::size_t, std::less<>> joints;
     std::string first_malformed;  // the place
     CloudReader clouds;
-    std::string cloud_problem;  // of the first cloud that is of no use
+    std::string cloud_problem;  // of the first unusable cloud
   };
 
   const MessageType* type_of(const Topic& topic);

@@ -11,8 +11,8 @@
 namespace sweepscope {
 
 /// The messages that an actuated scanner is recorded with, as ROS 1 and ROS 2 serialise them. Each decoder is
-/// bounded: a length that the message does not hold, or bytes left over, make it malformed, and nothing is
-/// allocated for it. What they give points into the message's bytes.
+/// bounded: a length beyond the message's end, or excess bytes, make it malformed, and nothing is allocated
+/// for it. The results point into the message's bytes.
 
 /// How a message is serialised: by ROS 1, or by ROS 2 as plain CDR (XCDR1) of either byte order.
 enum class Encoding { kRos1, kCdr };
@@ -36,7 +36,7 @@ struct MessageType {
   MessageKind kind;
 };
 
-/// The type with that name, in ROS 1's spelling or in ROS 2's (package/msg/Type); null where it is none of
+/// The type with that name, in ROS 1's spelling or in ROS 2's (package/msg/Type); null if it is not one of
 /// these.
 const MessageType* find_message_type(std::string_view name);
 
@@ -78,7 +78,7 @@ struct DecodedCloud {
   std::vector<CloudField> fields;
   std::span<const std::byte> data;
   bool swapped = false;  // big-endian
-  bool dense = false;    // as it says: no point is invalid
+  bool dense = false;    // as stated in the message: no point is invalid
 
   std::size_t points() const { return std::size_t{height} * width; }
   double value(std::size_t point, const CloudField& field) const;
@@ -105,7 +105,7 @@ struct DecodedTurnRate {
   Eigen::Vector3d rate_rad_s = Eigen::Vector3d::Zero();
 };
 
-/// Where odometry has the base frame, in its own fixed frame.
+/// The pose of the base frame by odometry, in odometry's own fixed frame.
 struct DecodedOdometry {
   std::int64_t header_ns = 0;
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
@@ -118,17 +118,17 @@ std::optional<DecodedScan> decode_laser_scan(Encoding encoding, std::span<const 
 /// A cloud's fields lie within its points, and its points within its data.
 std::optional<DecodedCloud> decode_cloud(Encoding encoding, std::span<const std::byte> message);
 
-/// Fills `joints`, whose memory is used again from call to call; false where the message is malformed. Of a
+/// Fills `joints`, whose memory is reused from call to call; false if the message is malformed. Of a
 /// transform the joint is the child frame, and its position the angle about `axis` (unit length, in the
 /// parent frame), -pi to pi. A joint state without positions has no joints.
 bool decode_joints(MessageKind kind, Encoding encoding, std::span<const std::byte> message,
                    const Eigen::Vector3d& axis, std::vector<DecodedJoint>& joints);
 
-/// Also empty where an IMU says that it has no gyroscope: -1 as the first covariance of its angular velocity.
+/// Also empty if an IMU reports that it has no gyroscope: -1 as the first covariance of its angular velocity.
 std::optional<DecodedTurnRate> decode_imu(Encoding encoding, std::span<const std::byte> message);
 std::optional<DecodedOdometry> decode_odometry(Encoding encoding, std::span<const std::byte> message);
 
-/// Of a message of transforms all that it holds, likewise.
+/// All transforms of a message of transforms, in the same way.
 bool decode_transforms(Encoding encoding, std::span<const std::byte> message,
                        std::vector<DecodedTransform>& transforms);
 

@@ -88,9 +88,8 @@ Result<UnpackedFile> UnpackedFile::unpack(const fs::path& packed, UnpackingLimit
   if (end == Unpacking::kInterrupted)
     return failure(ExitCode::kInterrupted, fmt::format("{}: reading was interrupted", packed.string()));
   if (end == Unpacking::kTooLong)
-    return unreadable(
-        fmt::format("{}: unpacks to more than {} bytes, more than is unpacked; cut it into parts",
-                    packed.string(), max_bytes));
+    return unreadable(fmt::format("{}: unpacks to more than {} bytes, the limit; cut it into parts",
+                                  packed.string(), max_bytes));
   if (end == Unpacking::kNoRoom || std::fclose(output.release()) != 0) return no_room(packed, file.path());
   if (end == Unpacking::kDamaged) file.problem_ = "its zstd data is damaged; what comes before was read";
   if (end == Unpacking::kTooShort) file.problem_ = "its zstd data ends too early; what is there was read";

@@ -16,15 +16,14 @@ namespace sweepscope {
 /// Whether the bytes begin a frame of Zstandard.
 bool begins_zstd(std::span<const std::byte> bytes);
 
-/// A packed file may hold no more than this, however small it is itself.
+/// The limit of the unpacked size of a file, independent of its own size.
 inline constexpr std::uint64_t kMaxUnpackedFile_bytes = std::uint64_t{64} << 30;
 
-/// What a file packed by Zstandard holds: a file in the folder for temporary files (TMPDIR), which goes with
-/// this object.
+/// The content of a file packed by Zstandard, in a temporary file (TMPDIR) that is removed with this object.
 class UnpackedFile {
  public:
-  /// Streamed, with a few MiB of memory. Refuses what cannot be read (ExitCode::kUnreadableInput) or
-  /// written (kWrongUsage: a full disk), and what holds more than `max_bytes`.
+  /// Streamed, with a few MiB of memory. Fails if it cannot be read (ExitCode::kUnreadableInput) or written
+  /// (kWrongUsage, such as a full disk), or unpacks to more than `max_bytes`.
   static Result<UnpackedFile> unpack(const std::filesystem::path& packed, const Job& job,
                                      std::uint64_t max_bytes = kMaxUnpackedFile_bytes);
   /// The same for a file that is one layer of several.
@@ -32,7 +31,7 @@ class UnpackedFile {
                                      const Job& job, std::uint64_t max_bytes = kMaxUnpackedFile_bytes);
 
   const std::filesystem::path& path() const { return file_.path(); }
-  /// What was wrong with the packed file; empty where it was whole. What came before the damage is there.
+  /// The damage of the packed file; empty if intact. The content before the damage is included.
   const std::string& problem() const { return problem_; }
 
  private:

@@ -34,8 +34,8 @@ std::optional<Error> UnpackingLimit::take(std::uint64_t unpacked_bytes) {
   unpacked_bytes_ += unpacked_bytes;
   if (unpacked_bytes_ <= limit_bytes()) return std::nullopt;
   return Error{ExitCode::kUnreadableInput,
-               fmt::format("{}: its {} bytes unpack to more than {} bytes, more than is unpacked of so few; "
-                           "unpack it first if it is sound",
+               fmt::format("{}: its {} bytes unpack to more than {} bytes, the limit for a file of this "
+                           "size; unpack it first if you trust it",
                            name_, packed_bytes_, limit_bytes())};
 }
 

@@ -16,18 +16,18 @@ inline constexpr std::uint64_t kMaxUnpacked_bytes = std::uint64_t{1} << 40;
 inline constexpr std::uint64_t kAlwaysUnpacked_bytes = std::uint64_t{256} << 20;
 inline constexpr std::uint64_t kMaxUnpackedPerPacked = 250;
 
-/// Counts what a file's packed parts, one within the other, have unpacked to: a few kilobytes can be made to
+/// Counts the unpacked bytes of a file's packed parts, also nested ones: a few kilobytes can be made to
 /// unpack for hours.
 class UnpackingLimit {
  public:
-  /// With the size of the file as it lies there, and of its journal where there is one.
+  /// With the size of the file on disk, and of its journal if there is one.
   explicit UnpackingLimit(const std::filesystem::path& file);
   UnpackingLimit(std::string name, std::uint64_t packed_bytes)
       : name_(std::move(name)), packed_bytes_(packed_bytes) {}
 
   /// How much a part of at most `part_bytes` may unpack to before take() refuses it.
   std::uint64_t most(std::uint64_t part_bytes) const;
-  /// The refusal of the file (ExitCode::kUnreadableInput) where it unpacked to too much.
+  /// The error (ExitCode::kUnreadableInput) if the file unpacked to too much.
   std::optional<Error> take(std::uint64_t unpacked_bytes);
 
  private:

@@ -33,7 +33,7 @@ void judge_stamp(const Recording& recording, const LaserSummary& laser, bool giv
   constexpr double kSameClock_s = 1.0;
   const auto& delay_s = recording.report.laser_stamps.receive_minus_header_s;
   if (given) {
-    detected.stamp_at_note = "as the rig file given says";
+    detected.stamp_at_note = "from the given rig file";
   } else if (recording.rig.laser.stamp != StampSource::kHeader) {
     detected.stamp_at_note = "not in the recording; receive times are arrival times";
     detected.rig.laser.stamp_at = StampAt::kArrival;
@@ -51,10 +51,9 @@ void judge_stamp(const Recording& recording, const LaserSummary& laser, bool giv
 void note_increment(const RawScan& first, const Recording& recording, DetectedRig& detected) {
   const double recorded_s = double{first.time_increment_s};
   if (recorded_s != 0) {
-    detected.increment_note =
-        recording.report.beam_time_doubt_s > 0
-            ? fmt::format("recorded: {:.6g}, which cannot be right or can be read in two ways", recorded_s)
-            : fmt::format("recorded: {:.6g}; used where a scan says 0", recorded_s);
+    detected.increment_note = recording.report.beam_time_doubt_s > 0
+                                  ? fmt::format("recorded: {:.6g}, implausible or ambiguous", recorded_s)
+                                  : fmt::format("recorded: {:.6g}; used where a scan says 0", recorded_s);
     return;
   }
   if (recording.report.beam_time_doubt_s > 0) {
@@ -64,7 +63,7 @@ void note_increment(const RawScan& first, const Recording& recording, DetectedRi
     detected.rig.laser.time_increment_s = recording.scans.front().time_increment_s;
     detected.increment_note = "not recorded: scan_time / beams, too long where the scanner has a blind part";
   } else {
-    detected.increment_note = "not recorded: as the rig file given says";
+    detected.increment_note = "not recorded: from the given rig file";
   }
 }
 
@@ -185,7 +184,7 @@ Result<DetectedRig> detect_rig(const std::filesystem::path& path, const ReadOpti
   note_motor(evidence->joint, summary.motor, detected);
   detected.mount_note = fmt::format("not in the recording: {}", kAxes);
   if (mount_given) {
-    detected.mount_note = "as the rig file given says";
+    detected.mount_note = "from the given rig file";
   } else if (evidence->mount) {
     take_mount(*evidence->mount, *recording, detected);
   }

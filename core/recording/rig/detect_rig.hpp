@@ -10,8 +10,8 @@
 
 namespace sweepscope {
 
-/// The rig of a recording, as far as the recording tells it, and what each setting rests on: a word for a
-/// person, empty where there is nothing to say.
+/// The rig of a recording, as far as it can be detected, and the source of each setting: a note for a person,
+/// empty if there is none.
 struct DetectedRig {
   Rig rig;
   std::string recording;
@@ -20,11 +20,11 @@ struct DetectedRig {
   std::vector<RecordedTopic> motion_topics;  // of sensor_msgs/Imu and nav_msgs/Odometry
 };
 
-/// Reads a recording and gives the rig that it is read with: what `options.rig` says, completed by what the
-/// recording says. Where the rig does not name the mount, that is taken from transforms (/tf_static and /tf):
-/// those between the laser's frame and the first frame that turns are the laser's pose in the motor's frame,
-/// and the turning one gives the axis, in its parent frame, with the sign that makes the motor's angle grow.
-/// The stamp is taken to be the last beam's where scans were received too early for a stamp at the first.
+/// Reads a recording and returns the rig that it is read with: `options.rig`, completed from the recording.
+/// If the rig does not give the mount, it is taken from transforms (/tf_static and /tf): those between the
+/// laser's frame and the first frame that turns are the laser's pose in the motor's frame, and the turning
+/// one gives the axis, in its parent frame, with the sign that makes the motor's angle grow. The stamp is
+/// assumed to be the last beam's if scans were received too early for a stamp at the first.
 Result<DetectedRig> detect_rig(const std::filesystem::path& recording, const ReadOptions& options,
                                const Job& job);
 

@@ -8,11 +8,11 @@
 
 namespace sweepscope {
 
-/// How a laser is mounted, by a recording's transforms.
+/// The mount of a laser, from a recording's transforms.
 struct FrameMount {
   /// The chain of frames from the laser's to the one that turns with the motor; that one is the last.
   std::vector<std::string> chain;
-  std::string parent;  // of the frame that turns; empty where none was seen to turn
+  std::string parent;  // of the frame that turns; empty if none turns
   Eigen::Quaterniond motor_from_laser_rotation = Eigen::Quaterniond::Identity();
   Eigen::Vector3d laser_in_motor_m = Eigen::Vector3d::Zero();
   /// The turning frame's pose, its axis in the parent frame, unit length, of either sign.
@@ -20,8 +20,8 @@ struct FrameMount {
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();
 };
 
-/// Follows the transforms up from the laser's frame to the first frame that turns. Empty where the laser's
-/// frame has none.
+/// Follows the transforms up from the laser's frame to the first frame that turns. Empty if the laser's frame
+/// has none.
 std::optional<FrameMount> mount_from_frames(const std::vector<RawFrame>& frames,
                                             const std::string& laser_frame);
 

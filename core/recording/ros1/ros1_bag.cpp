@@ -105,7 +105,7 @@ bool BagReader::read_header(Header& header) {
   };
   const auto stop_cut = [&] {
     cut_short_ = true;
-    return stop(ends_whole_ ? "the file is not cut short, and a length is damaged in the record"
+    return stop(ends_whole_ ? "the file is complete, but a length is damaged in the record"
                             : "it is cut short in the record");
   };
   if (file_.read(length) != length.size()) return stop_cut();
@@ -224,7 +224,7 @@ std::optional<Error> BagReader::read_chunk(const Header& header, const BagFields
     if (auto error = limit_.take(unpacked.bytes.size() + (unpacked.too_long ? 1 : 0))) return error;
   const auto claimed_bytes = fields.number<std::uint32_t>("size");
   if (whole && !unpacked.problem.empty()) {
-    warn(fmt::format("the chunk at {} is damaged ({}); what is whole before the damage was used",
+    warn(fmt::format("the chunk at {} is damaged ({}); the intact part before the damage was used",
                      place.text(), unpacked.problem));
   } else if (whole && claimed_bytes != unpacked.bytes.size()) {
     warn(fmt::format("the chunk at {} claims {} unpacked bytes and holds {}", place.text(),
@@ -241,7 +241,7 @@ std::optional<Error> BagReader::read_unpacked(std::span<const std::byte> chunk, 
     const auto record = parse_record(chunk.subspan(at));
     if (!record) {
       if (whole) {
-        warn(fmt::format("there is no whole record at {}; the rest of the chunk, {} bytes, was skipped",
+        warn(fmt::format("there is no complete record at {}; the rest of the chunk, {} bytes, was skipped",
                          place.text(), chunk.size() - at));
       }
       return std::nullopt;
@@ -313,18 +313,18 @@ void BagReader::warn_of_end(std::uint64_t at, std::uint64_t end) {
                     at, end, file_.size()));
   }
   warn(
-      fmt::format("it is cut short: the record at byte {} ends at byte {} and the file at byte {}; what is "
-                  "whole in it was read",
+      fmt::format("it is cut short: the record at byte {} ends at byte {} and the file at byte {}; its "
+                  "intact part was read",
                   at, end, file_.size()));
 }
 
 void BagReader::check_end() {
-  if (!index_at_) return warn("it has no bag header; what is whole in it was read");
-  if (*index_at_ == 0) return warn("it was never closed (it has no index); what is whole in it was read");
+  if (!index_at_) return warn("it has no bag header; its intact part was read");
+  if (*index_at_ == 0) return warn("it was never closed (it has no index); its intact part was read");
   if (!cut_short_ && *index_at_ >= file_.size()) {
     warn(
-        fmt::format("it is cut short: its index should be at byte {} and the file ends at byte {}; what is "
-                    "whole in it was read",
+        fmt::format("it is cut short: its index should be at byte {} and the file ends at byte {}; its "
+                    "intact part was read",
                     *index_at_, file_.size()));
   }
 }

@@ -17,7 +17,7 @@ namespace sweepscope {
 
 /// ROS 1 bags, format 2.0 (http://wiki.ros.org/Bags/Format/2.0), read record by record from the front. The
 /// index at the end is not needed, so bags that were cut short or never closed read like any other. No size
-/// in the file is trusted: what a record claims is held against what the file still has, and against these
+/// in the file is trusted: the size of a record is checked against the rest of the file and against these
 /// limits.
 inline constexpr std::uint64_t kMaxChunk_bytes = std::uint64_t{256} << 20;  // packed or unpacked
 inline constexpr std::uint64_t kMaxHeader_bytes = std::uint64_t{1} << 20;
@@ -30,7 +30,7 @@ struct BagConnection {
   std::string md5sum;
 };
 
-/// One message. Its bytes and its connection are there for the length of the visit.
+/// One message. Its bytes and its connection are valid during the visit.
 struct BagMessage {
   const BagConnection& connection;
   std::int64_t receive_ns;
@@ -41,8 +41,8 @@ struct BagMessage {
 /// Called with every message in the file's order; an error that it returns ends the reading.
 using BagVisitor = std::function<std::optional<Error>(const BagMessage&)>;
 
-/// Reads a whole bag, one chunk in memory at a time. Gives the warnings: what was damaged or missing, each
-/// naming the place. What is whole in a damaged bag is visited.
+/// Reads a whole bag, one chunk in memory at a time. Returns warnings about what was damaged or missing, each
+/// with its position. The intact part of a damaged bag is visited.
 Result<std::vector<std::string>> read_ros1_bag(const std::filesystem::path& path, const BagVisitor& visit,
                                                const Job& job);
 

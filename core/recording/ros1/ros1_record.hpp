@@ -9,7 +9,7 @@
 
 namespace sweepscope {
 
-/// What a record of a ROS 1 bag is, its field "op".
+/// The kind of a record of a ROS 1 bag, its field "op".
 enum class BagOp : std::uint8_t {
   kMessage = 2,
   kBagHeader = 3,
@@ -34,12 +34,12 @@ inline std::string_view as_text(std::span<const std::byte> bytes) {
 /// The header of a record: fields "name=value", each with its length before it.
 class BagFields {
  public:
-  /// Empty where the bytes are not such fields to the last byte.
+  /// Empty if the bytes are not exactly such fields.
   static std::optional<BagFields> parse(std::span<const std::byte> bytes);
 
   std::optional<std::span<const std::byte>> find(std::string_view name) const;
   std::optional<std::string_view> text(std::string_view name) const;
-  /// Empty where there is no such field, or not one of that size.
+  /// Empty if there is no such field, or it has another size.
   template <typename T>
   std::optional<T> number(std::string_view name) const {
     const auto value = find(name);
@@ -62,7 +62,7 @@ struct BagRecord {
   std::size_t length;  // of the whole record
 };
 
-/// The record at the front of `bytes`; empty where they do not hold a whole one.
+/// The record at the front of `bytes`; empty if they do not hold a complete one.
 std::optional<BagRecord> parse_record(std::span<const std::byte> bytes);
 
 }  // namespace sweepscope

@@ -8,7 +8,7 @@
 
 namespace sweepscope {
 
-/// The scans and joints of a ROS 1 bag. Those that the rig rules out by name are counted and not kept.
+/// The scans and joints of a ROS 1 bag. Those that the rig excludes by name are counted and not kept.
 Result<RawRecording> read_ros1_recording(const std::filesystem::path& path, const Rig& rig, const Job& job,
                                          CloudDetail clouds = CloudDetail::kLines);
 

@@ -7,7 +7,7 @@
 
 namespace sweepscope {
 
-/// ROS's headers ask their allocator for rebind, which C++20's standard allocator no longer has.
+/// ROS's headers use their allocator's rebind, which C++20's standard allocator no longer has.
 template <typename T>
 struct MessageAllocator : std::allocator<T> {
   MessageAllocator() = default;
@@ -19,9 +19,9 @@ struct MessageAllocator : std::allocator<T> {
   };
 };
 
-/// While it lives, ROS's libraries keep what they keep in a folder of ours (ROS_HOME), which goes with it:
-/// rosbag looks for its plugins with rospack, which else makes ~/.ros for a cache, and complains on stderr
-/// where it cannot.
+/// While it lives, ROS's libraries use a temporary folder (ROS_HOME), which is removed with it: rosbag looks
+/// for its plugins with rospack, which would otherwise create ~/.ros as a cache, and print an error if it
+/// cannot.
 class RosHome {
  public:
   RosHome();

@@ -18,8 +18,8 @@ struct RawImu {
 
 /// Writes a laser and a motor's joint as a ROS 1 bag (format 2.0, chunks as they are, bz2 or lz4):
 /// sensor_msgs/LaserScan and sensor_msgs/JointState on the topics that they name, in the order in which they
-/// were received, and an IMU where there is one; a message without a receive time takes its header stamp for
-/// it. Equal input gives equal bytes. Written beside the path and then renamed; where that fails,
+/// were received, and an IMU if there is one; a message without a receive time gets its header stamp. Equal
+/// input gives equal bytes. Written beside the path and then renamed; if that fails,
 /// ExitCode::kUnreadableInput.
 Result<void> write_ros1_bag(const RawLaser& laser, const RawJoint& joint, const std::filesystem::path& path,
                             const std::string& compression, const Job& job,

@@ -204,7 +204,7 @@ std::optional<Error> McapReader::read_chunk(std::span<const std::byte> content, 
     if (auto error = limit_.take(unpacked.bytes.size() + (unpacked.too_long ? 1 : 0))) return error;
   const bool sound = whole && unpacked.problem.empty();
   if (whole && !sound) {
-    warn(fmt::format("the chunk at {} is damaged ({}); what is whole before the damage was used",
+    warn(fmt::format("the chunk at {} is damaged ({}); the intact part before the damage was used",
                      place.text(), unpacked.problem));
   } else if (whole && chunk.unpacked_bytes != unpacked.bytes.size()) {
     warn(fmt::format("the chunk at {} claims {} unpacked bytes and holds {}", place.text(),
@@ -229,7 +229,7 @@ std::optional<Error> McapReader::read_unpacked(std::span<const std::byte> record
     const auto bytes = fields.number<std::uint64_t>();
     if (!fields.whole() || bytes > fields.rest().size()) {
       if (whole) {
-        warn(fmt::format("there is no whole record at {}; the rest of the chunk, {} bytes, was skipped",
+        warn(fmt::format("there is no complete record at {}; the rest of the chunk, {} bytes, was skipped",
                          place.text(), records.size() - at));
       }
       return std::nullopt;
@@ -344,11 +344,11 @@ bool McapReader::ends_whole() {
 
 std::vector<std::string> McapReader::finish() {
   if (cut_short_) {
-    warn(fmt::format("it is cut short at byte {}; what is whole in it was read", file_.size()));
+    warn(fmt::format("it is cut short at byte {}; its intact part was read", file_.size()));
   } else if (!ended_ && !stopped_ && ends_whole_) {
-    warn("its footer is damaged; what is whole before it was read");
+    warn("its footer is damaged; the intact part before it was read");
   } else if (!ended_ && !stopped_) {
-    warn("it was never closed (it has no footer); what is whole in it was read");
+    warn("it was never closed (it has no footer); its intact part was read");
   }
   if (warnings_left_out_ > 0)
     warnings_.push_back(fmt::format("{} more places are damaged", warnings_left_out_));

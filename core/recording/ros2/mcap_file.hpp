@@ -17,9 +17,9 @@
 namespace sweepscope {
 
 /// MCAP files (https://mcap.dev/spec), read record by record from the front. Indexes, statistics and the
-/// footer are not needed, so files that were cut short or never closed read like any other; where there is a
-/// summary, its channels help to read what a damaged chunk introduced. No size in the file is trusted: what a
-/// record claims is held against what the file still has, and against these limits.
+/// footer are not needed, so files that were cut short or never closed read like any other; if there is a
+/// summary, its channels help to read messages whose channel was in a damaged chunk. No size in the file is
+/// trusted: the size of a record is checked against the rest of the file and against these limits.
 inline constexpr std::uint64_t kMaxMcapChunk_bytes = std::uint64_t{256} << 20;  // packed or unpacked
 inline constexpr std::uint64_t kMaxMcapSummary_bytes = std::uint64_t{16} << 20;
 
@@ -27,10 +27,10 @@ struct McapChannel {
   std::string topic;
   std::string encoding;      // of its messages: "cdr", "ros1" or another one
   std::string type;          // its schema's name, for example sensor_msgs/msg/LaserScan
-  std::string md5sum = "*";  // where a converter kept it from ROS 1
+  std::string md5sum = "*";  // if a converter kept it from ROS 1
 };
 
-/// One message. Its bytes and its channel are there for the length of the visit.
+/// One message. Its bytes and its channel are valid during the visit.
 struct McapMessage {
   const McapChannel& channel;
   std::int64_t log_ns;
@@ -41,11 +41,12 @@ struct McapMessage {
 /// Called with every message in the file's order; an error that it returns ends the reading.
 using McapVisitor = std::function<std::optional<Error>(const McapMessage&)>;
 
-/// Reads a whole file, one chunk in memory at a time. Gives the warnings: what was damaged or missing, each
-/// naming the place. What is whole in a damaged file is visited; a chunk whose checksum is wrong is not.
+/// Reads a whole file, one chunk in memory at a time. Returns warnings about what was damaged or missing,
+/// each with its position. The intact part of a damaged file is visited; a chunk whose checksum is wrong is
+/// not.
 Result<std::vector<std::string>> read_mcap(const std::filesystem::path& path, const McapVisitor& visit,
                                            const Job& job);
-/// The same of a file that was itself unpacked, under the limit of the packed one.
+/// The same for a file that was itself unpacked, with the limit of the packed one.
 Result<std::vector<std::string>> read_mcap(const std::filesystem::path& path, UnpackingLimit& limit,
                                            const McapVisitor& visit, const Job& job);
 

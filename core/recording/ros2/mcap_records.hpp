@@ -27,8 +27,7 @@ inline constexpr std::string_view kMcapMagic = "\x89MCAP0\r\n";
 inline constexpr std::size_t kMcapRecordHeader_bytes = 9;
 inline constexpr std::size_t kMcapFooter_bytes = 20;
 
-/// Walks through a record's content. Once something did not fit, all that follows is empty and `whole` is
-/// false.
+/// Reads a record's content. After the first error everything is empty and `whole` is false.
 class McapFields {
  public:
   explicit McapFields(std::span<const std::byte> content) : rest_(content) {}

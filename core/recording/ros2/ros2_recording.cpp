@@ -217,7 +217,8 @@ Result<RawRecording> read_ros2_folder(const fs::path& folder, const Rig& rig, co
   collector.finish();
   raw.warnings.insert(raw.warnings.begin(), damages.begin(), damages.end());
   if (!described)
-    raw.warnings.insert(raw.warnings.begin(), "the folder has no metadata.yaml; its bags were read by name");
+    raw.warnings.insert(raw.warnings.begin(),
+                        "the folder has no metadata.yaml; its bags were read in the order of their names");
   return raw;
 }
 

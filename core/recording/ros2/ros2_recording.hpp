@@ -10,15 +10,15 @@
 
 namespace sweepscope {
 
-/// What a file of a ROS 2 bag is stored as.
+/// The storage format of a file of a ROS 2 bag.
 enum class BagStorage { kMcap, kSqlite };
 
-/// Told by a file's first 16 bytes; empty where they begin neither.
+/// Detected from a file's first 16 bytes; empty if it is neither.
 std::optional<BagStorage> bag_storage(std::string_view beginning);
 
 /// The scans and joints of one file: an SQLite database as rosbag2 writes it, or an MCAP file, of ROS 2's
 /// profile (cdr) or of ROS 1's (ros1); either also packed by zstd as a whole (rosbag2's compression mode
-/// FILE) or message by message (MESSAGE). Those that the rig rules out by name are counted and not kept.
+/// FILE) or message by message (MESSAGE). Those that the rig excludes by name are counted and not kept.
 Result<RawRecording> read_ros2_file(const std::filesystem::path& path, const Rig& rig, const Job& job,
                                     CloudDetail clouds = CloudDetail::kLines);
 
@@ -30,7 +30,7 @@ bool is_ros2_folder(const std::filesystem::path& folder);
 std::vector<std::filesystem::path> ros2_files(const std::filesystem::path& folder);
 
 /// A bag's folder: the files that its metadata.yaml names, in that order; without one, all that are bags, by
-/// name. What is compressed by another format than zstd is refused.
+/// name. Fails for files compressed by another format than zstd.
 Result<RawRecording> read_ros2_folder(const std::filesystem::path& folder, const Rig& rig, const Job& job,
                                       CloudDetail clouds = CloudDetail::kLines);
 

@@ -174,7 +174,7 @@ bool SqliteReader::begin() {
   // Only for reading: with it SQLite believes the file's length, and not its header's.
   sqlite3_exec(database_.get(), "PRAGMA writable_schema = ON", nullptr, nullptr, nullptr);
   if (has_table("topics"))
-    warnings_.push_back("it is damaged or cut short; what is whole before the damage was read");
+    warnings_.push_back("it is damaged or cut short; the intact part before the damage was read");
   return true;
 }
 
@@ -232,8 +232,8 @@ Result<std::vector<std::string>> SqliteReader::read() {
   if (must_be_taken_back()) {
     const std::string name = path_.filename().string();
     return tl::unexpected(unreadable_because(
-        fmt::format("its recorder was ended within a write, which {}-journal takes back; copy both files to "
-                    "a folder that can be written to, run `sqlite3 {} .schema` there, and read that copy",
+        fmt::format("its recorder was killed during a write, which {}-journal rolls back; copy both files to "
+                    "a writable folder, run `sqlite3 {} .schema` there, and read that copy",
                     name, name)));
   }
   if (!has_table("topics") || !has_table("messages")) {

@@ -25,7 +25,7 @@ struct SqliteTopic {
   std::string encoding;  // of its messages: "cdr"
 };
 
-/// One message. Its bytes and its topic are there for the length of the visit.
+/// One message. Its bytes and its topic are valid during the visit.
 struct SqliteMessage {
   const SqliteTopic& topic;
   std::int64_t receive_ns;
@@ -36,8 +36,8 @@ struct SqliteMessage {
 /// Called with every message in the order of the table; an error that it returns ends the reading.
 using SqliteVisitor = std::function<std::optional<Error>(const SqliteMessage&)>;
 
-/// Reads a whole bag. Gives the warnings: what was damaged or missing. What is whole before the damage is
-/// visited.
+/// Reads a whole bag. Returns warnings about what was damaged or missing. The intact part before the damage
+/// is visited.
 Result<std::vector<std::string>> read_sqlite_bag(const std::filesystem::path& path,
                                                  const SqliteVisitor& visit, const Job& job);
 

@@ -191,7 +191,7 @@ std::string message_of(const std::string& bytes) {
 
 TEST(CloudText, ErrorsNameTheFileAndThePlace) {
   const std::string header = kAsciiHeader;
-  EXPECT_EQ(message_of("hello"), "a: neither a PCD nor a PLY file, by its first bytes");
+  EXPECT_EQ(message_of("hello"), "a: is neither a PCD nor a PLY file");
   EXPECT_EQ(message_of(header), "a: the PCD header has no DATA line");
   EXPECT_EQ(message_of(header + "DATA ascii\n1 2 3\n1 2 x\n"), "a: line 9: a point is 3 numbers");
   EXPECT_EQ(message_of(header + "DATA ascii\n1 2 3\n"),

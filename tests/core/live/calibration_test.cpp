@@ -166,8 +166,8 @@ TEST_F(Calibration, TooLittleIsRefusedWithTheReason) {
     EXPECT_FALSE(found->identifiable);
     return found->reasons.empty() ? std::string() : found->reasons.front();
   };
-  EXPECT_EQ(refusal({}), "No scans were heard.");
-  EXPECT_EQ(refusal({all[0], all[1], "scan,1000,-1,0.01,1e-4,1 2 3\n"}), "No angles of a motor were heard.");
+  EXPECT_EQ(refusal({}), "No scans were received.");
+  EXPECT_EQ(refusal({all[0], all[1], "scan,1000,-1,0.01,1e-4,1 2 3\n"}), "No motor angles were received.");
   EXPECT_FALSE(refusal({all.begin(), all.begin() + 60}).empty());
 }
 
@@ -180,7 +180,7 @@ TEST_F(Calibration, ARigThatMovedIsRefused) {
   EXPECT_FALSE(found->identifiable);
   EXPECT_FALSE(found->offset_s);
   EXPECT_EQ(found->kind, RigKind::kMoving);
-  EXPECT_EQ(found->reasons.back(), "The rig moved: a calibration needs a rig that stands still.");
+  EXPECT_EQ(found->reasons.back(), "The rig moved: a calibration requires a stationary rig.");
 }
 
 TEST_F(Calibration, SilenceAndCancellationEndIt) {

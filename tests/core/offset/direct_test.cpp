@@ -114,7 +114,7 @@ TEST(Direct, KnowsThatAMotorSampledSparselyTellsLess) {
   }
   options.sweep_s = 0.2;
   options.encoder_hz = 10;
-  expect_refused(directly(made(options)), "sampled 2.0 times a sweep");
+  expect_refused(directly(made(options)), "sampled only 2.0 times per sweep");
 }
 
 // As if nothing had moved, and yet the valley is where it belongs.

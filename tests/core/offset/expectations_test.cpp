@@ -22,7 +22,7 @@ TEST(Expectations, AreTheExpectedAccuracyAndTheReach) {
             std::string::npos)
       << text;
   EXPECT_NE(text.find("Offsets up to 250 ms to either side"), std::string::npos) << text;
-  EXPECT_NE(text.find("9 whole sweeps are enough of a stationary rig"), std::string::npos) << text;
+  EXPECT_NE(text.find("9 whole sweeps are enough for a stationary rig"), std::string::npos) << text;
 }
 
 TEST(Expectations, ExpectsARefusalOfSweepsThatSeeTheSameFewLines) {
@@ -32,7 +32,7 @@ TEST(Expectations, ExpectsARefusalOfSweepsThatSeeTheSameFewLines) {
   EXPECT_NE(expectations(recording).find("Expect a refusal: all sweeps of a direction see the same 5 scan"),
             std::string::npos)
       << expectations(recording);
-  EXPECT_EQ(expectations(recording).find("Expect an offset"), std::string::npos);
+  EXPECT_EQ(expectations(recording).find("Expect an accuracy"), std::string::npos);
 }
 
 TEST(Expectations, SaysWhatFewSamplesOfTheMotorCost) {
@@ -41,11 +41,11 @@ TEST(Expectations, SaysWhatFewSamplesOfTheMotorCost) {
   };
   EXPECT_EQ(sampled_every(0.01).find("is sampled"), std::string::npos);
   EXPECT_NE(sampled_every(0.1).find(
-                "sampled 5.0 times a sweep only, which costs accuracy: sample it every 0.031 s."),
+                "sampled only 5.0 times per sweep, which reduces the accuracy: sample it every 0.031 s."),
             std::string::npos)
       << sampled_every(0.1);
   EXPECT_NE(sampled_every(0.2).find("Expect a refusal: the motor is sampled 2.5 times"), std::string::npos);
-  EXPECT_EQ(sampled_every(0.2).find("Expect an offset"), std::string::npos);
+  EXPECT_EQ(sampled_every(0.2).find("Expect an accuracy"), std::string::npos);
 }
 
 TEST(Expectations, SaysWhatMakesAnEstimateImpossible) {

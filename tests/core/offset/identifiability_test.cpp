@@ -71,7 +71,7 @@ TEST(StampsReason, IsGivenForReceiveTimesThatTellNotWhichScanWasWhen) {
   const auto bursts = [](int i) { return i / 2 % 2 * 10 * kMs; };
   const Remark reason = stamps_reason(received(bursts), kScale);
   ASSERT_TRUE(reason);
-  EXPECT_NE(reason->find("The scans' receive times come unevenly"), std::string::npos) << *reason;
+  EXPECT_NE(reason->find("The scans' receive times are uneven"), std::string::npos) << *reason;
   EXPECT_FALSE(stamps_reason(received([](int i) { return i / 2 % 2 * 2 * kMs; }), kScale));
   Recording by_header = received(bursts);
   by_header.report.laser_stamps.used = StampSource::kHeader;
@@ -131,7 +131,7 @@ TEST(SamplingReason, IsGivenForAFewSamplesASweepAndAWarningForSomeMore) {
     return sampling_reason(s.track, s.motor, kScale);
   };
   ASSERT_TRUE(reason(2));
-  EXPECT_NE(reason(2)->find("sampled 2.0 times a sweep"), std::string::npos) << *reason(2);
+  EXPECT_NE(reason(2)->find("sampled only 2.0 times per sweep"), std::string::npos) << *reason(2);
   EXPECT_TRUE(reason(1.37));
   EXPECT_TRUE(reason(2.9));
   EXPECT_FALSE(reason(5));

@@ -79,7 +79,7 @@ TEST(Rig, RefusesImpossibleValuesWithTheirPlace) {
 }
 
 TEST(Rig, RefusesAKeyThatComesTwice) {
-  EXPECT_EQ(refusal("motor: {scale: 2, scale: 3}"), "1:19: key \"scale\" comes twice in motor");
+  EXPECT_EQ(refusal("motor: {scale: 2, scale: 3}"), "1:19: duplicate key \"scale\" in motor");
 }
 
 TEST(Rig, RefusesWhatIsNoYamlWithThePlace) {

@@ -84,12 +84,12 @@ TEST_F(CandidateFiles, ASoundLineThatIsNoCandidateIsRefusedWithItsNumber) {
     const auto wrong =
         parse_candidates(text + sealed_line(std::string("{\"offset_ns\": ") + offset_ns + "}") + last, "f");
     ASSERT_FALSE(wrong) << offset_ns;
-    EXPECT_EQ(wrong.error().message, "f: line 3: not a candidate") << offset_ns;
+    EXPECT_EQ(wrong.error().message, "f: line 3: is not a candidate") << offset_ns;
   }
   const auto doubled = parse_candidates(
       text + candidates_text(search(), {point(0.001, 0.6)}).substr(text.find('\n') + 1), "f");
   ASSERT_FALSE(doubled);
-  EXPECT_EQ(doubled.error().message, "f: line 3: the same offset again with other values");
+  EXPECT_EQ(doubled.error().message, "f: line 3: duplicate offset with other values");
 }
 
 /// A file after a change is refused with a line's number, or holds the same points; a line's end that is lost
@@ -138,8 +138,7 @@ TEST_F(CandidateFiles, AChangedLineIsRefusedWithItsNumberAndUntouched) {
   const auto merged = MergedCandidates::read({path()});
   ASSERT_FALSE(resumed || merged);
   EXPECT_EQ(resumed.error().code, ExitCode::kUnreadableInput);
-  EXPECT_NE(resumed.error().message.find("kept.candidates: line 3: its bytes are not those"),
-            std::string::npos)
+  EXPECT_NE(resumed.error().message.find("kept.candidates: line 3: is damaged"), std::string::npos)
       << resumed.error().message;
   EXPECT_EQ(merged.error().message, resumed.error().message);
   EXPECT_EQ(test::contents_of(path()), text);
@@ -157,8 +156,8 @@ TEST_F(CandidateFiles, AnotherVersionIsRefusedWithWhatToDo) {
   ASSERT_FALSE(file);
   EXPECT_EQ(file.error().code, ExitCode::kUnreadableInput);
   EXPECT_EQ(file.error().message, path().string() +
-                                      ": line 1: another version of sweepscope wrote this file of "
-                                      "candidates. Delete it and run the estimate again");
+                                      ": line 1: another version of sweepscope wrote this candidate file. "
+                                      "Delete it and run the estimate again");
   EXPECT_EQ(test::contents_of(path()), kVersion1);
 }
 

@@ -124,7 +124,7 @@ TEST(EstimateJson, ErrorsNameTheFileAndThePlace) {
   const auto message = [](std::string_view text) {
     return parse_estimate_json(text, "a.json").error().message;
   };
-  EXPECT_EQ(message("{\"schema\": "), "a.json: not JSON: broken at byte 12");
+  EXPECT_EQ(message("{\"schema\": "), "a.json: not JSON: invalid at byte 12");
   EXPECT_EQ(message("[]"), "a.json: not an estimate: it is not a JSON object");
   EXPECT_EQ(message("[1e999]"), "a.json: not an estimate: a number in it is too large");
   EXPECT_EQ(message(R"({"schema": "other/1"})"),
@@ -138,7 +138,7 @@ TEST(EstimateJson, ErrorsNameTheFileAndThePlace) {
   for (const char* count : {"5e110", "-8", "1.5", "18446744073709551615", "null"}) {
     text = estimate_to_json(stationary_estimate());
     text.replace(text.find("\"sweeps\": 8"), 11, std::string("\"sweeps\": ") + count);
-    EXPECT_EQ(message(text), "a.json: not an estimate: sweeps is no whole number from 0 to 1000000000000")
+    EXPECT_EQ(message(text), "a.json: not an estimate: sweeps is not a whole number from 0 to 1000000000000")
         << count;
   }
 }

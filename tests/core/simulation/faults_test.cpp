@@ -285,7 +285,8 @@ TEST(Faults, WrongValuesAreRefusedByName) {
   };
   EXPECT_NE(refused([](auto& o) { o.mount_error_deg.y() = 11; }).find("the mount's pitch error is 11 deg"),
             std::string::npos);
-  EXPECT_NE(refused([](auto& o) { o.glass = std::nan(""); }).find("the part of glass"), std::string::npos);
+  EXPECT_NE(refused([](auto& o) { o.glass = std::nan(""); }).find("the fraction of glass"),
+            std::string::npos);
   EXPECT_NE(refused([](auto& o) { o.uneven_motor = 0.6; }).find("the unevenness of the motor is 0.6"),
             std::string::npos);
   EXPECT_NE(refused([](auto& o) { o.people = 51; }).find("the number of people is 51"), std::string::npos);

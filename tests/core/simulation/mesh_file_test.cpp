@@ -142,7 +142,7 @@ TEST(MeshFile, ABadPlyIsRefusedWithItsPlace) {
   EXPECT_EQ(refused(replaced(room, "element face 6", "element face 0")),
             "m.ply: holds no triangle with an area");
   EXPECT_EQ(refused(replaced(room, "element face 6\nproperty list uchar int vertex_indices\n", "")),
-            "m.ply: the PLY header names no element face: a cloud is no mesh");
+            "m.ply: the PLY header names no element face: a cloud is not a mesh");
   EXPECT_EQ(refused(replaced(room, "property float y\n", "")), "m.ply: the element vertex has no property y");
   EXPECT_EQ(refused(replaced(room, "ascii", "text")),
             "m.ply: PLY format text is not read, only ascii, binary_little_endian and binary_big_endian");

@@ -292,7 +292,7 @@ TEST(Assemble, AScanOfMoreBeamsThanCanBeToldApartIsRefused) {
     if (recording) continue;
     EXPECT_EQ(recording.error().code, ExitCode::kUnreadableInput);
     EXPECT_EQ(recording.error().message, "folder/sample.bag: scan 2 on /scan has " + std::to_string(beams) +
-                                             " beams, and at most 65536 a scan are read");
+                                             " beams; at most 65536 are supported");
   }
 }
 
@@ -370,7 +370,7 @@ TEST(Assemble, AMotorWithOneSampleIsRefused) {
   const auto recording = assemble(raw, {}, {});
   ASSERT_FALSE(recording);
   EXPECT_EQ(recording.error().message,
-            "folder/sample.bag: joint roll on /joints has 1 usable samples, and two are needed");
+            "folder/sample.bag: joint roll on /joints has 1 usable samples; at least two are needed");
 }
 
 }  // namespace

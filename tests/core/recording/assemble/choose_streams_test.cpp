@@ -73,9 +73,8 @@ TEST(ChooseLaser, SaysWhatIsThereWhereThereAreNoScans) {
   RawRecording raw;
   raw.file = "a.bag";
   raw.topics.push_back({"/tf", "tf2_msgs/TFMessage", 3, 0});
-  EXPECT_EQ(
-      refusal(choose_laser(raw, {})),
-      "a.bag: holds no sensor_msgs/LaserScan; what it holds is:\n    /tf   tf2_msgs/TFMessage   3 messages");
+  EXPECT_EQ(refusal(choose_laser(raw, {})),
+            "a.bag: holds no sensor_msgs/LaserScan. It holds:\n    /tf   tf2_msgs/TFMessage   3 messages");
 }
 
 TEST(ChooseJoint, TakesTheOnlyOneThatMoves) {
@@ -125,7 +124,7 @@ TEST(ChooseJoint, RefusesAJointThatIsNotThereAndListsTheOthers) {
 
 TEST(ChooseJoint, SaysWhatIsThereWhereThereAreNoJoints) {
   EXPECT_EQ(refusal(choose_joint(with_lasers({"/scan"}), {})),
-            "a.bag: holds no sensor_msgs/JointState; what it holds is:\n    /scan   sensor_msgs/LaserScan   "
+            "a.bag: holds no sensor_msgs/JointState. It holds:\n    /scan   sensor_msgs/LaserScan   "
             "1 messages");
 }
 

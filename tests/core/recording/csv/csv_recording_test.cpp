@@ -68,7 +68,7 @@ TEST_F(CsvRecording, TakesWhatSpreadsheetsAndOtherSystemsWrite) {
   EXPECT_EQ(raw->joints[1].joint, "pan");
   EXPECT_EQ(raw->joints[0].source, JointSource::kNumber);
   ASSERT_EQ(raw->warnings.size(), 1U);
-  EXPECT_EQ(raw->warnings[0], "scans.csv has columns that are not known and were ignored: note");
+  EXPECT_EQ(raw->warnings[0], "scans.csv has unknown columns, which were ignored: note");
 }
 
 TEST_F(CsvRecording, DegreesBecomeRadians) {
@@ -94,23 +94,25 @@ TEST_F(CsvRecording, WhatIsWrongIsNamedWithItsPlace) {
   EXPECT_EQ(refusal(kScans + "1,0,1,0.001,1 x 2\n", kMotor),
             "scans.csv: line 4, column ranges_m: \"x\" is no number");
   EXPECT_EQ(refusal(kScans + "-1,0,1,0,1\n", kMotor),
-            "scans.csv: line 4, column stamp_s: \"-1\" is no time in decimal seconds from 0 on");
+            "scans.csv: line 4, column stamp_s: \"-1\" is not a time in decimal seconds (0 or more)");
   EXPECT_EQ(refusal(kScans + "1e9,0,1,0,1\n", kMotor),
-            "scans.csv: line 4, column stamp_s: \"1e9\" is no time in decimal seconds from 0 on");
+            "scans.csv: line 4, column stamp_s: \"1e9\" is not a time in decimal seconds (0 or more)");
   EXPECT_EQ(refusal(kScans + "99999999999,0,1,0,1\n", kMotor),
-            "scans.csv: line 4, column stamp_s: \"99999999999\" is no time in decimal seconds from 0 on");
+            "scans.csv: line 4, column stamp_s: \"99999999999\" is not a time in decimal seconds (0 or "
+            "more)");
   EXPECT_EQ(refusal(kScans + "1,0,1,1\n", kMotor),
             "scans.csv: line 4 has 4 cells, and line 1 names 5 columns");
   EXPECT_EQ(refusal(kScans, "stamp_s,angle_rad\n1,\n"),
             "motor.csv: line 2, column angle_rad: \"\" is no number");
-  EXPECT_EQ(refusal(kScans, "stamp_s,angle\n1,1\n"),
-            "motor.csv: line 1 names no column angle_rad or angle_deg or position; it names: stamp_s, angle");
+  EXPECT_EQ(
+      refusal(kScans, "stamp_s,angle\n1,1\n"),
+      "motor.csv: line 1 has no column angle_rad or angle_deg or position; its columns are: stamp_s, angle");
   EXPECT_EQ(refusal(kScans, "time,angle_rad\n1,1\n"),
-            "motor.csv: line 1 names no column stamp_s or receive_s; it names: time, angle_rad");
+            "motor.csv: line 1 has no column stamp_s or receive_s; its columns are: time, angle_rad");
   EXPECT_EQ(refusal(kScans, "stamp_s,stamp_s,angle_rad\n"), "motor.csv: line 1 names column stamp_s twice");
   EXPECT_EQ(refusal(kScans, ""), "motor.csv: is empty");
   EXPECT_EQ(refusal("stamp_s,angle_min_rad,angle_increment_rad,ranges_m,intensities\n1,0,1,1 2,3\n", kMotor),
-            "scans.csv: line 2, column intensities: \"1\" values stand beside 2 in ranges_m");
+            "scans.csv: line 2, column intensities: \"1\" values, but ranges_m has 2");
 }
 
 TEST_F(CsvRecording, ALastLineThatWasCutShortIsLeftAside) {

@@ -55,9 +55,9 @@ TEST(CsvStream, ADriverThatBeginsAnewNamesItsColumnsAgain) {
 }
 
 TEST(CsvStream, ColumnsThatCannotBeUsedFail) {
-  for (const auto& [line, why] : {std::pair("scan,stamp_s,ranges_m", "names no column angle_min_rad"),
-                                  {"motor,stamp_s,angle", "names no column angle_rad or angle_deg"},
-                                  {"motor,angle_rad", "names no column stamp_s or receive_s"},
+  for (const auto& [line, why] : {std::pair("scan,stamp_s,ranges_m", "has no column angle_min_rad"),
+                                  {"motor,stamp_s,angle", "has no column angle_rad or angle_deg"},
+                                  {"motor,angle_rad", "has no column stamp_s or receive_s"},
                                   {"motor,stamp_s,stamp_s,angle_rad", "names column stamp_s twice"}}) {
     CsvStream stream("stream", kRig);
     const auto taken = stream.take(line);

@@ -166,13 +166,14 @@ TEST(ReadRecordingOfDamage, AnotherVersionOfAMessageIsNotUsed) {
 
 TEST(ReadRecordingOfDamage, RefusesWhatIsNoRecording) {
   EXPECT_EQ(refusal(""), "a.bag: is empty");
-  EXPECT_EQ(refusal("stamp, range\n0.1, 2\n").substr(0, 66),
-            "a.bag: byte 0 begins no recording that is known; sweepscope reads ");
-  EXPECT_EQ(refusal("#").substr(0, 66), "a.bag: byte 0 begins no recording that is known; sweepscope reads ");
+  EXPECT_EQ(refusal("stamp, range\n0.1, 2\n").substr(0, 74),
+            "a.bag: its first bytes are of no known recording format; sweepscope reads ");
+  EXPECT_EQ(refusal("#").substr(0, 74),
+            "a.bag: its first bytes are of no known recording format; sweepscope reads ");
   EXPECT_EQ(refusal("#ROSBAG V1.2\n1234567890").substr(0, 82),
             "a.bag: is a ROS 1 bag of format 1; convert it with `rosbag fix`; sweepscope reads ");
   EXPECT_EQ(refusal("#ROSBAG V2.0\n"),
-            "a.bag: nothing in it can be used: it has no bag header; what is whole in it was read");
+            "a.bag: nothing in it can be used: it has no bag header; its intact part was read");
   EXPECT_EQ(refusal("#ROSBAG V2.0\n" + std::string(100, '\xFF')).substr(0, 63),
             "a.bag: nothing in it can be used: there is no record at byte 13");
 }

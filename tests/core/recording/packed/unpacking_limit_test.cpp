@@ -18,10 +18,9 @@ TEST(UnpackingLimit, SmallFilesMayUnpackFarBeyondTheirSize) {
   const auto refused = limit.take(1);
   ASSERT_TRUE(refused);
   EXPECT_EQ(refused->code, ExitCode::kUnreadableInput);
-  EXPECT_EQ(
-      refused->message,
-      "a.bag: its 10 bytes unpack to more than 268435456 bytes, more than is unpacked of so few; unpack "
-      "it first if it is sound");
+  EXPECT_EQ(refused->message,
+            "a.bag: its 10 bytes unpack to more than 268435456 bytes, the limit for a file of this size; "
+            "unpack it first if you trust it");
 }
 
 TEST(UnpackingLimit, LargeFilesMayUnpackToAMultipleOfTheirSize) {

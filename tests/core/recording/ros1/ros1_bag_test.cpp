@@ -191,7 +191,7 @@ TEST(Ros1Bag, DamageInAChunkCostsTheRestOfThatChunkOnly) {
       folder, RawBag::chunk("none", records.size(), records) + RawBag::chunk("none", good.size(), good));
   ASSERT_EQ(reading.messages.size(), 3U);
   EXPECT_EQ(reading.messages[2].bytes, "three");
-  EXPECT_NE(reading.all_warnings().find("no whole record at byte"), std::string::npos);
+  EXPECT_NE(reading.all_warnings().find("no complete record at byte"), std::string::npos);
 }
 
 TEST(Ros1Bag, SkipsAChunkOfUnknownCompression) {

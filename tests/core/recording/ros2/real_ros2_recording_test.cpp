@@ -57,9 +57,9 @@ TEST_F(LidarServo, ItsFaultsAreTold) {
   std::string expectations;
   for (const std::string& line : sweepscope::expectations(recording, summary, find_sweeps(recording.motor)))
     expectations += line + "\n";
-  EXPECT_NE(expectations.find("Expect a refusal: the scans' receive times come unevenly"), std::string::npos)
+  EXPECT_NE(expectations.find("Expect a refusal: the scans' receive times are uneven"), std::string::npos)
       << expectations;
-  EXPECT_EQ(expectations.find("Expect an offset good to"), std::string::npos) << expectations;
+  EXPECT_EQ(expectations.find("Expect an accuracy"), std::string::npos) << expectations;
   EXPECT_NE(warnings.find("have no time_increment; scan_time / beams is used"), std::string::npos)
       << warnings;
 }
@@ -75,8 +75,7 @@ TEST_F(LidarServo, NoMethodAnswersForIt) {
     EXPECT_FALSE(answer->identifiable);
     EXPECT_FALSE(answer->offset_s);
     ASSERT_EQ(answer->reasons.size(), 1U);
-    EXPECT_EQ(answer->reasons[0].rfind("The scans' receive times come unevenly", 0), 0U)
-        << answer->reasons[0];
+    EXPECT_EQ(answer->reasons[0].rfind("The scans' receive times are uneven", 0), 0U) << answer->reasons[0];
   }
 }
 
@@ -87,9 +86,9 @@ TEST_F(LidarServo, WithoutARigItIsReadWithTheServosDegreesInDoubt) {
   EXPECT_EQ(recording.report.motor_stamps.used, StampSource::kReceive);
   std::string warnings;
   for (const std::string& warning : recording.report.warnings) warnings += warning + "\n";
-  EXPECT_NE(warnings.find("taken times 1 (the rig's motor.scale) as rad"), std::string::npos) << warnings;
-  EXPECT_NE(warnings.find("the laser goes by header stamps and the motor by receive times"),
-            std::string::npos)
+  EXPECT_NE(warnings.find("multiplied by 1 (the rig's motor.scale) to give rad"), std::string::npos)
+      << warnings;
+  EXPECT_NE(warnings.find("the laser uses header stamps and the motor receive times"), std::string::npos)
       << warnings;
 }
 

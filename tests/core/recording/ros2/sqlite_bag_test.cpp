@@ -106,7 +106,8 @@ TEST_F(SqliteBag, AFoldersFilesAreReadInTheOrderOfItsMetadata) {
   const auto without = read("bag");
   ASSERT_TRUE(without) << without.error().message;
   EXPECT_EQ(without->scans.size(), std::size_t{kScans + 1});
-  EXPECT_EQ(without->report.warnings.at(0), "the folder has no metadata.yaml; its bags were read by name");
+  EXPECT_EQ(without->report.warnings.at(0),
+            "the folder has no metadata.yaml; its bags were read in the order of their names");
 }
 
 TEST_F(SqliteBag, ARecorderThatWasNotEndedLeavesItsJournal) {
@@ -159,7 +160,7 @@ TEST_F(SqliteBag, AWriteThatIsHalfDoneIsRefusedWithWhatToDo) {
   }
   const auto before = test::files_in(folder_ / "left");
   EXPECT_NE(refusal("left/a.db3")
-                .find("a.db3: its recorder was ended within a write, which a.db3-journal takes back"),
+                .find("a.db3: its recorder was killed during a write, which a.db3-journal rolls back"),
             std::string::npos)
       << refusal("left/a.db3");
   EXPECT_TRUE(test::files_in(folder_ / "left") == before);
