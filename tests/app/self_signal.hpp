@@ -12,9 +12,9 @@ struct SelfSignal {
   std::string words;
   int times = 1;
 
-  /// As `run_program` takes it.
+  /// As `run_program` takes it. What a script begins in its background ignores SIGINT: not here.
   std::string environment() const {
-    return "-u DISPLAY ASAN_OPTIONS=\"$ASAN_OPTIONS:verify_asan_link_order=0\" LD_PRELOAD='" SWEEPSCOPE_SIGNAL_ITSELF
+    return "--default-signal -u DISPLAY ASAN_OPTIONS=\"$ASAN_OPTIONS:verify_asan_link_order=0\" LD_PRELOAD='" SWEEPSCOPE_SIGNAL_ITSELF
            "' SIGNAL_ITSELF=" +
            std::to_string(signal) + " SIGNAL_ITSELF_AT='" + words +
            "' SIGNAL_ITSELF_TIMES=" + std::to_string(times);
