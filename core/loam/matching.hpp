@@ -9,7 +9,8 @@
 
 namespace sweepscope {
 
-/// When neighbours count as a plane or a line.
+/// When neighbours count as a plane or a line. The defaults are those of a map of several sweeps, see
+/// MappingOptions.
 struct PatchOptions {
   int plane_neighbours = 10;
   int edge_neighbours = 6;

@@ -17,7 +17,7 @@ namespace sweepscope {
 /// sides of the answer.
 struct MovingDirectOptions {
   WalkOptions walk;
-  double side_s = 0.003;  // where e is asked on both sides
+  double side_s = 0.003;  // where e is asked on both sides: clearly changed by then, figure 6 of the paper
 };
 
 struct MovingDirect {

@@ -35,7 +35,7 @@ struct JointWalkOptions {
   double offset_sigma_s = 0.01;  // of the offset that it starts from
   // Every iteration matches anew, and other matches make another answer: the mean of several errs less.
   int first_iterations = 3, averaged_iterations = 6;
-  std::size_t min_matches = 200;  // of a part
+  std::size_t min_matches = 200;  // of a part; in a furnished place it has some thousands
 };
 
 struct JointWalkPart {

@@ -8,7 +8,7 @@
 namespace sweepscope {
 namespace {
 
-constexpr std::size_t kMinMatches = 120;  // of both sweeps together
+constexpr std::size_t kMinMatches = 120;  // of both sweeps together: twenty for each unknown
 
 struct PointOnPlane {
   Eigen::Vector3d p_m;
@@ -124,6 +124,7 @@ std::optional<SweepShift> shift_between(const StillPoints& points, const LinePoo
   SweepShift shift;
   const std::vector<PointOnPlane> matches = matched_both_ways(points, target, source, grid, shift);
   if (matches.size() < kMinMatches) return std::nullopt;
+  // This width, and those that the searches begin with, were found with the bounds of still_motion.cpp.
   const double width_m = 0.008 + 1.2 * grid.problem->features->range_noise_m;
   const Pose rest = at_rest(matches, grid.problem->recording->rig.mount.axis.normalized(), width_m);
   const double held_at_rest = matches_held(matches, rest, width_m);
