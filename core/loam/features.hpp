@@ -15,7 +15,9 @@ namespace sweepscope {
 
 /// How edge and plane points are chosen on a scan line (LOAM, section V.A; section 3.1 of the paper). Half
 /// window, regions and edges to match are LOAM's. Where points lie on a plane, noise alone takes one in
-/// twenty beyond 2 standard deviations, and none beyond 6.
+/// twenty beyond 2 standard deviations, and none beyond 6. Halved or doubled, those of plane points
+/// change the direct method's answers in two simulated rooms by at most 0.009 ms (sweepscope_option_changes
+/// of tests/benchmark).
 struct FeatureOptions {
   int half_window = 5;  // beams on either side that the curvature is taken over
   double plane_curvature =
