@@ -22,8 +22,7 @@ struct OdometryOptions {
   double search_radius_slope = 0.25;  // of the range, or more where scan lines lie far apart: see for_lines
   double loss_width_m = 0.1;          // Cauchy
   int max_iterations = 20;
-  double step_tolerance =
-      2e-5;  // m and rad: less than a hundredth of the least d of the paper's table 1, 0.0037
+  double step_tolerance = 2e-5;  // m and rad: under a hundredth of the paper's least d, 0.0037
   int min_matches = 100;
   double min_eigenvalue = 0.003;  // of the normal matrix, per match: below, the scene does not tell
 };

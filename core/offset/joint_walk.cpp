@@ -161,25 +161,18 @@ class Part {
     result_.lever_m2 = result_.reach_m2 = 0;
     for (const PlacedSweep& sweep : sweeps) {
       const MappingOptions& mapping = options_.mapping;
-      const SearchRule rule{mapping.patch, mapping.search_radius_m, mapping.search_radius_slope,
-                            sweep.direction > 0 ? SweepFilter::kBackward : SweepFilter::kForward};
-      for (const PlacedFeature& feature : sweep.planes) {
-        if (!feature.sharp) continue;
-        ++result_.features;
-        const Vector3d p_m = in_map_m(sweep, feature);
-        const auto plane = find_plane(planes, p_m, feature.range_m, rule, near_);
-        if (plane)
-          add(line_of(sweep, feature), p_m, plane->normal, (p_m - plane->centre_m).dot(plane->normal), use);
-      }
-      for (const PlacedFeature& feature : sweep.edges) {
-        if (!feature.sharp) continue;
-        ++result_.features;
-        const Vector3d p_m = in_map_m(sweep, feature);
-        const auto line = find_line(edges, p_m, feature.range_m, rule, near_);
-        const Vector3d away_m = line ? from_line(*line, p_m) : Vector3d::Zero();
-        const double distance_m = away_m.norm();
-        if (distance_m > 1e-9) add(line_of(sweep, feature), p_m, away_m / distance_m, distance_m, use);
-      }
+      PatchSearch search{edges,
+                         planes,
+                         {mapping.patch, mapping.search_radius_m, mapping.search_radius_slope,
+                          sweep.direction > 0 ? SweepFilter::kBackward : SweepFilter::kForward}};
+      const auto place = [&](const PlacedFeature& feature) { return in_map_m(sweep, feature); };
+      match_features(sweep, place, search,
+                     [&](MatchedKind, const PlacedFeature& feature, const Vector3d& p_m,
+                         const std::optional<MatchResidual>& residual) {
+                       ++result_.features;
+                       if (residual && residual->has_normal)
+                         add(line_of(sweep, feature), p_m, *residual, search.near, use);
+                     });
     }
   }
 
@@ -219,19 +212,21 @@ class Part {
 
   // One match: a point of one direction, its surface from points of the other.
   template <typename Use>
-  void add(std::uint32_t line, const Vector3d& p_m, const Vector3d& normal, double distance_m,
+  void add(std::uint32_t line, const Vector3d& p_m, const MatchResidual& match, const Neighbours& near,
            const Use& use) {
+    const Vector3d& normal = match.normal;
     row_.clear();
     double slope = row_.add_point(path_, scans_[line], p_m, normal, 1);
     result_.lever_m2 += square(normal.dot(arm_m(line, p_m)));
     result_.reach_m2 += arm_m(line, p_m).squaredNorm();
-    for (int i = 0; i < near_.count; ++i) {
+    for (int i = 0; i < near.count; ++i) {
       const auto at = std::size_t(i);
-      slope += row_.add_point(path_, scans_[near_.line[at]], near_.p_m[at].cast<double>(), normal,
-                              -1.0 / near_.count);
+      slope += row_.add_point(path_, scans_[near.line[at]], near.p_m[at].cast<double>(), normal,
+                              -1.0 / near.count);
     }
-    const double weight = cauchy_weight(distance_m, options_.loss_width_m) / square(options_.match_sigma_m);
-    use(row_, slope, distance_m, weight, p_m);
+    const double weight =
+        cauchy_weight(match.distance_m, options_.loss_width_m) / square(options_.match_sigma_m);
+    use(row_, slope, match.distance_m, weight, p_m);
     ++result_.matches;
   }
 
@@ -250,7 +245,6 @@ class Part {
   std::vector<ScanMotion> scans_;
   static constexpr std::uint32_t kNoLine = 0xffffffffu;
   std::uint32_t last_line_ = kNoLine;  // whose motion was worked out last
-  Neighbours near_;
   KnotRow row_;
 };
 

@@ -64,17 +64,14 @@ Pose registered(const std::vector<PointOnPlane>& matches, Pose pose, const Regis
   constexpr int kMaxIterations = 20;
   double width_m = options.first_width_m;
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
-    Matrix6d a = Matrix6d::Zero();
-    Vector6d g = Vector6d::Zero();
+    RigidEquations equations;
     for (const PointOnPlane& match : matches) {
-      const double d_m = distance_m(match, pose), weight = cauchy_weight(d_m, width_m);
-      const Vector6d row = distance_jacobian(pose * match.p_m, match.patch.normal, Eigen::Vector3d::Zero());
-      a.noalias() += weight * row * row.transpose();
-      g += weight * d_m * row;
+      const double d_m = distance_m(match, pose);
+      equations.add(pose * match.p_m, match.patch.normal, d_m, cauchy_weight(d_m, width_m));
     }
     int free_directions = 0;
-    const Vector6d step =
-        solve_determined(a, g, options.min_eigenvalue * double(matches.size()), free_directions);
+    const Vector6d step = solve_determined(equations.matrix, equations.gradient,
+                                           options.min_eigenvalue * double(matches.size()), free_directions);
     pose = stepped(pose, step, Eigen::Vector3d::Zero());
     if (width_m <= options.width_m && step.cwiseAbs().maxCoeff() < 1e-5) break;
     width_m = std::max(options.width_m, 0.6 * width_m);
