@@ -8,8 +8,6 @@
 namespace sweepscope {
 namespace {
 
-using test::kMs;
-
 constexpr double kTruth_s = 0.024;
 
 MotionTest tested(const Recording& recording, double offset_s) {

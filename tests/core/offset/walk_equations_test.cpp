@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 
 #include "core/loam/given_motion.hpp"
 #include "core/offset/jerk_prior.hpp"
