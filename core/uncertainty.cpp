@@ -27,7 +27,7 @@ double student_factor(double degrees_of_freedom) {
 }
 
 std::optional<double> jackknife_sigma(double estimate, const std::vector<WithoutPart>& without) {
-  constexpr double kMinShare = 1e-3;
+  constexpr double kMinShare = 1e-3;  // of less, pseudo-values are differences of rounding errors
   double shares = 0;
   for (const WithoutPart& part : without) shares += std::max(0.0, part.share);
   std::vector<double> pseudo_values, ratios;  // h = 1 / share

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <cstdlib>
 #include <string>
@@ -31,23 +30,6 @@ inline Outcome run_shell(const std::filesystem::path& folder, const std::string&
 inline Outcome run_program(const std::filesystem::path& folder, const std::string& arguments,
                            const std::string& environment = "-u DISPLAY") {
   return run_shell(folder, "env " + environment + " '" SWEEPSCOPE_EXECUTABLE "' " + arguments);
-}
-
-/// Begins it and does not wait: gives its process.
-inline pid_t begin_program(const std::filesystem::path& folder, const std::string& arguments) {
-  const pid_t child = fork();
-  if (child != 0) return child;
-  const std::string line = "cd '" + folder.string() + "' && exec '" SWEEPSCOPE_EXECUTABLE "' " + arguments +
-                           " >said.out 2>said.err";
-  execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
-  _exit(127);
-}
-
-/// Waits for its end.
-inline Outcome ended(pid_t child, const std::filesystem::path& folder) {
-  int status = 0;
-  waitpid(child, &status, 0);
-  return outcome_of(status, folder);
 }
 
 /// A test that runs the executable in a folder of its own.

@@ -28,7 +28,7 @@ struct Line {
 
 template <typename Visit>
 void for_some_scans(const Recording& recording, const Visit& visit) {
-  constexpr std::size_t kScans = 200;
+  constexpr std::size_t kScans = 200;  // over 100,000 beams: noise and losses are known to 1 %
   const std::size_t stride = std::max<std::size_t>(1, recording.scans.size() / kScans);
   for (std::size_t s = 0; s < recording.scans.size(); s += stride)
     visit(recording.ranges(recording.scans[s]));
@@ -50,7 +50,7 @@ double lost_part(const Recording& recording) {
 
 // So many beams in a row are lost by chance with this probability, where one is with `lost`.
 double lost_in_a_row(double lost, double probability) {
-  constexpr double kMax = 0.9;
+  constexpr double kMax = 0.9;  // the logarithm of 1 is 0
   return std::log(probability) / std::log(std::min(lost, kMax));
 }
 
@@ -279,7 +279,7 @@ class LineFeatures {
   const Recording& recording_;
   const Kinematics& kinematics_;
   const FeatureOptions& options_;
-  static constexpr int kBehind = 3;
+  static constexpr int kBehind = 3;             // beams, where none is lost
   static constexpr double kFalseEnds = 0.001;   // of all beams, those that seem to end a surface by chance
   static constexpr double kWindowsLost = 0.05;  // of all beams, those beside a hole that is not bridged
   double noise_m_;
@@ -326,7 +326,7 @@ Result<FeatureSet> extract_features(const Recording& recording, const FeatureOpt
   const double lost = lost_part(recording);
   const std::size_t scans = recording.scans.size();
   // A part of the scans at a time: all features twice would be more than the ranges themselves.
-  constexpr std::size_t kScansAtOnce = 4096;
+  constexpr std::size_t kScansAtOnce = 4096;  // bounds the memory for what is not yet put in order
   std::vector<ScanFeatures> per_scan;
   std::atomic<std::size_t> done{0};
   for (std::size_t first = 0; first < scans; first += kScansAtOnce) {

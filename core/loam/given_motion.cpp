@@ -11,6 +11,8 @@ namespace {
 
 using Eigen::Vector3d;
 
+// A walking body sways at about 1 Hz, and over a quarter of a period a cubic follows it. Where all poses come
+// slower than that, two may be missing.
 constexpr double kLongestGap_s = 0.25, kLongestGapInSpacings = 3;
 
 double longest_gap_s(const std::vector<StampedPose>& poses) {

@@ -8,6 +8,8 @@
 namespace sweepscope {
 namespace {
 
+// Ten samples a scan at 40 Hz: linear between them, at 30 rad/s^2, to 0.02 mrad. The margin is for time
+// shifts and places beside the path.
 constexpr double kSample_s = 0.0025, kMargin_s = 0.1;
 
 double time_of(const SweepPose& sweep, std::size_t knot) {
@@ -33,7 +35,7 @@ GuidedPath::GuidedPath(const std::vector<SweepPose>& sweeps, double knot_s, cons
 
 // A part of the given motion from which the sweeps deviate less smoothly than they move would spoil them.
 void GuidedPath::choose_parts(const std::vector<SweepPose>& sweeps) {
-  constexpr std::size_t kPartsOfSweep = 2;
+  constexpr std::size_t kPartsOfSweep = 2;  // as jerk_sigma
   const Eigen::Vector2d of_deviation = jerk(deviations(sweeps), kPartsOfSweep);
   const Eigen::Vector2d of_path = jerk(sweeps, kPartsOfSweep);
   uses_rotation_ = of_deviation[0] < of_path[0];
@@ -71,7 +73,7 @@ Pose GuidedPath::at(double time_s) const {
 
 SweepPose GuidedPath::as_sweep(SweepPose sweep) const {
   if (!given_) return deviation_->as_sweep(std::move(sweep));
-  constexpr double kStep_s = 0.025;
+  constexpr double kStep_s = 0.025;  // a scan at 40 Hz
   const auto steps =
       std::max<std::size_t>(1, std::size_t(std::lround((sweep.end_s - sweep.begin_s) / kStep_s)));
   sweep.knots.resize(steps + 1);
@@ -105,7 +107,7 @@ GuidedPath::Place GuidedPath::place(double time_s) const {
 void GuidedPath::move(const std::vector<Vector6d>& steps) {
   if (deviation_) deviation_->move({steps.begin(), steps.begin() + std::ptrdiff_t(knots())});
   if (!given_) return;
-  constexpr double kLongestStep_s = 0.02;
+  constexpr double kLongestStep_s = 0.02;  // over which the path goes about linearly
   const double step_s = std::clamp(steps[knots()][0], -kLongestStep_s, kLongestStep_s);
   given_ = given_->with_time_shift(given_->time_shift_s() + step_s);
   sample();

@@ -50,4 +50,17 @@ inline Vector6d solve_determined(const Matrix6d& a, const Vector6d& g, double mi
   return step;
 }
 
+/// Normal equations of the step of a rigid pose, about the map's origin, from points at distances along
+/// normals.
+struct RigidEquations {
+  Matrix6d matrix = Matrix6d::Zero();
+  Vector6d gradient = Vector6d::Zero();
+
+  void add(const Eigen::Vector3d& p_m, const Eigen::Vector3d& normal, double distance_m, double weight) {
+    const Vector6d row = distance_jacobian(p_m, normal, Eigen::Vector3d::Zero());
+    matrix.noalias() += weight * row * row.transpose();
+    gradient += weight * distance_m * row;
+  }
+};
+
 }  // namespace sweepscope

@@ -107,7 +107,7 @@ class Walk {
   // Sweeps from which on the rig moved little, over as many as a first pose is found from; the calmest first,
   // and the first one of all before those that are hardly better. None where the job was cancelled.
   std::vector<std::size_t> calm_starts(Range range) const {
-    constexpr double kHardlyBetter = 0.8;
+    constexpr double kHardlyBetter = 0.8;  // tuned with MappingOptions
     const std::size_t pairs = min_sweeps() - 1;
     std::vector<double> costs_m;
     std::vector<Start> starts;
@@ -127,7 +127,8 @@ class Walk {
 
   // A few of them that lie apart.
   std::vector<std::size_t> apart(const std::vector<Start>& starts) const {
-    constexpr std::size_t kApart = 3;
+    constexpr std::size_t kApart =
+        3;  // nearer ones share most of the sweeps of a first pose, see first_sweeps
     std::vector<std::size_t> chosen;
     for (const Start& start : starts) {
       const bool is_apart = std::ranges::all_of(chosen, [&](std::size_t other) {

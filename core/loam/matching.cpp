@@ -32,7 +32,7 @@ Eigen::Vector3d eigenvalues_of(const Spread& s) {
   const double minors = xy + xz + yz;
   const double determinant =
       s.xx * yz - s.xy * (s.xy * s.zz - s.yz * s.xz) + s.xz * (s.xy * s.yz - s.yy * s.xz);
-  constexpr int kMaxSteps = 40;
+  constexpr int kMaxSteps = 40;  // halving from 1 to the tolerance of 1e-12
   const double tolerance = 1e-12 * trace;
   double least = 0;
   for (int i = 0; i < kMaxSteps; ++i) {

@@ -9,7 +9,8 @@
 
 namespace sweepscope {
 
-/// When neighbours count as a plane or a line.
+/// When neighbours count as a plane or a line. The defaults are those of a map of several sweeps, see
+/// MappingOptions.
 struct PatchOptions {
   int plane_neighbours = 10;
   int edge_neighbours = 6;
@@ -39,10 +40,29 @@ std::optional<PlanePatch> fit_plane(const Neighbours& neighbours, const PatchOpt
 /// second).
 std::optional<LinePatch> fit_line(const Neighbours& neighbours, const PatchOptions& options, double radius_m);
 
-/// The vector from the line to the point, normal to the line.
-inline Eigen::Vector3d from_line(const LinePatch& line, const Eigen::Vector3d& p_m) {
+/// How far a point lies from its patch, along which unit vector.
+struct MatchResidual {
+  Eigen::Vector3d normal;
+  double distance_m = 0;   // of a plane signed, of a line not
+  bool has_normal = true;  // not where the point lies on its line
+};
+
+inline MatchResidual residual_of(const PlanePatch& plane, const Eigen::Vector3d& p_m) {
+  return {plane.normal, (p_m - plane.centre_m).dot(plane.normal)};
+}
+
+inline MatchResidual residual_of(const LinePatch& line, const Eigen::Vector3d& p_m) {
+  constexpr double kOnLine_m = 1e-9;  // nearer, rounding decides where the normal points
   const Eigen::Vector3d d = p_m - line.centre_m;
-  return d - line.direction.dot(d) * line.direction;
+  const Eigen::Vector3d away_m = d - line.direction.dot(d) * line.direction;
+  const double distance_m = away_m.norm();
+  if (!(distance_m > kOnLine_m)) return {Eigen::Vector3d::Zero(), distance_m, false};
+  return {away_m / distance_m, distance_m};
+}
+
+template <typename Patch>
+std::optional<MatchResidual> residual_of(const std::optional<Patch>& patch, const Eigen::Vector3d& p_m) {
+  return patch ? std::optional(residual_of(*patch, p_m)) : std::nullopt;
 }
 
 }  // namespace sweepscope

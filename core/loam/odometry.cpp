@@ -1,63 +1,57 @@
 #include "core/loam/odometry.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/loam/least_squares.hpp"
+#include "core/loam/patch_search.hpp"
 
 namespace sweepscope {
 namespace {
 
-struct Accumulated {
-  Matrix6d matrix = Matrix6d::Zero();
-  Vector6d gradient = Vector6d::Zero();
-  std::size_t features = 0, matches = 0;
-  double distance_sum_m = 0;
+// The patches at a point among the neighbours within one radius.
+struct PatchesWithin {
+  const SweepMap& target;
+  const OdometryOptions& options;
+  Neighbours near{};
 
-  void add(const Eigen::Vector3d& p_m, const Eigen::Vector3d& normal, double distance_m, double weight) {
-    const Vector6d row = distance_jacobian(p_m, normal, Eigen::Vector3d::Zero());
-    matrix.noalias() += weight * row * row.transpose();
-    gradient += weight * distance_m * row;
+  double gather(const FeatureMap& map, const Eigen::Vector3d& p_m, float range_m, int most) {
+    const int level = map.level_for(std::max(options.search_radius_m, options.search_radius_slope * range_m));
+    map.nearest(p_m.cast<float>(), level, SweepFilter::kAny, most, options.patch.per_line, near);
+    return map.search_radius_m(level);
+  }
+  std::optional<PlanePatch> plane(const Eigen::Vector3d& p_m, float range_m) {
+    const double radius_m = gather(target.planes, p_m, range_m, options.patch.plane_neighbours);
+    return fit_plane(near, options.patch, radius_m);
+  }
+  std::optional<LinePatch> line(const Eigen::Vector3d& p_m, float range_m) {
+    const double radius_m = gather(target.edges, p_m, range_m, options.patch.edge_neighbours);
+    return fit_line(near, options.patch, radius_m);
   }
 };
 
-void add_planes(const SweepMap& target, const PlacedSweep& source, const Pose& pose,
-                const OdometryOptions& options, Accumulated& sum) {
-  Neighbours near;
-  for (const PlacedFeature& feature : source.planes) {
-    if (!feature.sharp) continue;
-    ++sum.features;
-    const Eigen::Vector3d p_m = pose * feature.p_in_base_m;
-    const int level = target.planes.level_for(
-        std::max(options.search_radius_m, options.search_radius_slope * feature.range_m));
-    target.planes.nearest(p_m.cast<float>(), level, SweepFilter::kAny, options.patch.plane_neighbours,
-                          options.patch.per_line, near);
-    const auto plane = fit_plane(near, options.patch, target.planes.search_radius_m(level));
-    if (!plane) continue;
-    const double distance_m = (p_m - plane->centre_m).dot(plane->normal);
-    sum.add(p_m, plane->normal, distance_m, cauchy_weight(distance_m, options.loss_width_m));
-    sum.distance_sum_m += std::abs(distance_m);
-    ++sum.matches;
-  }
-}
+struct Matches {
+  RigidEquations equations;
+  std::size_t features = 0, count = 0;
+  double distance_sum_m = 0;
+};
 
-void add_edges(const SweepMap& target, const PlacedSweep& source, const Pose& pose,
-               const OdometryOptions& options, Accumulated& sum) {
-  Neighbours near;
-  for (const PlacedFeature& feature : source.edges) {
-    if (!feature.sharp) continue;
-    ++sum.features;
-    const Eigen::Vector3d p_m = pose * feature.p_in_base_m;
-    const int level = target.edges.level_for(
-        std::max(options.search_radius_m, options.search_radius_slope * feature.range_m));
-    target.edges.nearest(p_m.cast<float>(), level, SweepFilter::kAny, options.patch.edge_neighbours,
-                         options.patch.per_line, near);
-    const auto line = fit_line(near, options.patch, target.edges.search_radius_m(level));
-    if (!line) continue;
-    const Eigen::Vector3d away_m = from_line(*line, p_m);
-    const double distance_m = away_m.norm();
-    if (distance_m > 1e-9)
-      sum.add(p_m, away_m / distance_m, distance_m, cauchy_weight(distance_m, options.loss_width_m));
-    sum.distance_sum_m += distance_m;
-    ++sum.matches;
-  }
+Matches matches_at(const Pose& pose, const SweepMap& target, const PlacedSweep& source,
+                   const OdometryOptions& options) {
+  Matches matches;
+  PatchesWithin search{target, options};
+  const auto place = [&](const PlacedFeature& feature) { return pose * feature.p_in_base_m; };
+  match_features(source, place, search,
+                 [&](MatchedKind, const PlacedFeature&, const Eigen::Vector3d& p_m, const auto& residual) {
+                   ++matches.features;
+                   if (!residual) return;
+                   ++matches.count;
+                   matches.distance_sum_m += std::abs(residual->distance_m);
+                   if (residual->has_normal)
+                     matches.equations.add(p_m, residual->normal, residual->distance_m,
+                                           cauchy_weight(residual->distance_m, options.loss_width_m));
+                 });
+  return matches;
 }
 
 }  // namespace
@@ -80,15 +74,14 @@ Registration register_rigidly(const SweepMap& target, const PlacedSweep& source,
                               const OdometryOptions& options) {
   Registration result;
   for (; result.iterations < options.max_iterations; ++result.iterations) {
-    Accumulated sum;
-    add_planes(target, source, result.target_from_source, options, sum);
-    add_edges(target, source, result.target_from_source, options, sum);
-    result.features = sum.features;
-    result.matches = sum.matches;
-    if (sum.matches < std::size_t(options.min_matches)) return result;
-    result.mean_distance_m = sum.distance_sum_m / double(sum.matches);
-    const Vector6d step = solve_determined(
-        sum.matrix, sum.gradient, options.min_eigenvalue * double(sum.matches), result.free_directions);
+    const Matches found = matches_at(result.target_from_source, target, source, options);
+    result.features = found.features;
+    result.matches = found.count;
+    if (found.count < std::size_t(options.min_matches)) return result;
+    result.mean_distance_m = found.distance_sum_m / double(found.count);
+    const Vector6d step =
+        solve_determined(found.equations.matrix, found.equations.gradient,
+                         options.min_eigenvalue * double(found.count), result.free_directions);
     result.target_from_source = stepped(result.target_from_source, step, Eigen::Vector3d::Zero());
     if (step.head<3>().norm() < options.step_tolerance && step.tail<3>().norm() < options.step_tolerance)
       break;

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "core/loam/matching.hpp"
+#include "core/loam/sweep_features.hpp"
 
 namespace sweepscope {
 
@@ -21,5 +22,39 @@ std::optional<PlanePatch> find_plane(const FeatureMap& map, const Eigen::Vector3
                                      const SearchRule& rule, Neighbours& near);
 std::optional<LinePatch> find_line(const FeatureMap& map, const Eigen::Vector3d& p_m, float range_m,
                                    const SearchRule& rule, Neighbours& near);
+
+/// Searches two maps by a rule.
+struct PatchSearch {
+  const FeatureMap& edge_map;
+  const FeatureMap& plane_map;
+  SearchRule rule;
+  Neighbours near{};  // those of the last patch
+
+  std::optional<PlanePatch> plane(const Eigen::Vector3d& p_m, float range_m) {
+    return find_plane(plane_map, p_m, range_m, rule, near);
+  }
+  std::optional<LinePatch> line(const Eigen::Vector3d& p_m, float range_m) {
+    return find_line(edge_map, p_m, range_m, rule, near);
+  }
+};
+
+enum class MatchedKind { kPlane, kEdge };
+
+/// Matches a sweep's sharp features, planes first: `place(feature)` says where a feature lies in the map,
+/// `search` finds its patch, as PatchSearch does, and `use(kind, feature, p_m, residual)` gets each one, with
+/// a residual where it has a patch.
+template <typename Place, typename Search, typename Use>
+void match_features(const PlacedSweep& sweep, const Place& place, Search& search, const Use& use) {
+  for (const PlacedFeature& feature : sweep.planes) {
+    if (!feature.sharp) continue;
+    const Eigen::Vector3d p_m = place(feature);
+    use(MatchedKind::kPlane, feature, p_m, residual_of(search.plane(p_m, feature.range_m), p_m));
+  }
+  for (const PlacedFeature& feature : sweep.edges) {
+    if (!feature.sharp) continue;
+    const Eigen::Vector3d p_m = place(feature);
+    use(MatchedKind::kEdge, feature, p_m, residual_of(search.line(p_m, feature.range_m), p_m));
+  }
+}
 
 }  // namespace sweepscope

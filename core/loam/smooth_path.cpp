@@ -100,7 +100,7 @@ void SmoothPath::sample() {
 }
 
 SweepPose SmoothPath::as_sweep(SweepPose sweep) const {
-  constexpr double kStep_s = 0.025;
+  constexpr double kStep_s = 0.025;  // a scan at 40 Hz
   const double duration_s = sweep.end_s - sweep.begin_s;
   const auto steps = std::max<std::size_t>(1, std::size_t(std::lround(duration_s / kStep_s)));
   sweep.knots.clear();

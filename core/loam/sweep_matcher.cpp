@@ -56,45 +56,44 @@ std::vector<SweepMatcher::Matched<Patch>> SweepMatcher::to_match(const std::vect
 
 SweepMatcher::SweepMatcher(const SweepMaps& maps, const PlacedSweep& sweep, const SearchRule& rule,
                            const MappingOptions& options)
-    : maps_(maps),
-      rule_(rule),
+    : search_{maps.edges, maps.planes, rule},
       options_(options),
       planes_(to_match<PlanePatch>(sweep.planes)),
       edges_(to_match<LinePatch>(sweep.edges)) {}
 
+template <typename Patch, typename Search>
+void SweepMatcher::linearise(std::vector<Matched<Patch>>& features, const SweepMotion& motion, Share share,
+                             const Vector3d& pivot_m, double gate_m, const Search& search,
+                             PathEquations& equations, MatchCount& count) const {
+  for (std::size_t i = 0; i < features.size() && features[i].u <= share.end_u; i += share.stride) {
+    Matched<Patch>& feature = features[i];
+    const Vector3d p_m = motion(feature.p_in_base_m, feature.u);
+    refresh(feature, p_m, search);
+    const auto residual = residual_of(feature.patch, p_m);
+    const double distance_m = residual ? residual->distance_m : 0.0;
+    count.add(residual.has_value(), std::abs(distance_m), gate_m, options_.cost_cap_m);
+    if (residual && residual->has_normal)
+      equations.add(feature.u, distance_jacobian(p_m, residual->normal, pivot_m), distance_m,
+                    weight_of(distance_m));
+  }
+}
+
 MatchCount SweepMatcher::linearise(const SweepMotion& motion, Share share, const Vector3d& pivot_m,
                                    PathEquations& equations) {
   MatchCount count;
-  for (std::size_t i = 0; i < planes_.size() && planes_[i].u <= share.end_u; i += share.stride) {
-    Matched<PlanePatch>& feature = planes_[i];
-    const Vector3d p_m = motion(feature.p_in_base_m, feature.u);
-    refresh(feature, p_m, [&] { return find_plane(maps_.planes, p_m, feature.range_m, rule_, near_); });
-    const auto& plane = feature.patch;
-    const double distance_m = plane ? (p_m - plane->centre_m).dot(plane->normal) : 0.0;
-    count.add(plane.has_value(), std::abs(distance_m), options_.plane_gate_m, options_.cost_cap_m);
-    if (plane)
-      equations.add(feature.u, distance_jacobian(p_m, plane->normal, pivot_m), distance_m,
-                    weight_of(distance_m));
-  }
-  for (std::size_t i = 0; i < edges_.size() && edges_[i].u <= share.end_u; i += share.stride) {
-    Matched<LinePatch>& feature = edges_[i];
-    const Vector3d p_m = motion(feature.p_in_base_m, feature.u);
-    refresh(feature, p_m, [&] { return find_line(maps_.edges, p_m, feature.range_m, rule_, near_); });
-    const auto& line = feature.patch;
-    const Vector3d away_m = line ? from_line(*line, p_m) : Vector3d::Zero();
-    const double distance_m = away_m.norm();
-    count.add(line.has_value(), distance_m, options_.edge_gate_m, options_.cost_cap_m);
-    if (distance_m > 1e-9)
-      equations.add(feature.u, distance_jacobian(p_m, away_m / distance_m, pivot_m), distance_m,
-                    weight_of(distance_m));
-  }
+  linearise(
+      planes_, motion, share, pivot_m, options_.plane_gate_m,
+      [&](const Vector3d& p_m, float range_m) { return search_.plane(p_m, range_m); }, equations, count);
+  linearise(
+      edges_, motion, share, pivot_m, options_.edge_gate_m,
+      [&](const Vector3d& p_m, float range_m) { return search_.line(p_m, range_m); }, equations, count);
   return count;
 }
 
 template <typename Patch, typename Search>
 void SweepMatcher::refresh(Matched<Patch>& feature, const Vector3d& p_m, const Search& search) const {
   if ((p_m - feature.searched_at_m).squaredNorm() < options_.reuse_within_m * options_.reuse_within_m) return;
-  feature.patch = search();
+  feature.patch = search(p_m, feature.range_m);
   feature.searched_at_m = p_m;
 }
 
@@ -106,33 +105,24 @@ MatchCount count_sweep(const SweepMaps& maps, const PlacedSweep& sweep, const Sw
                        const SearchRule& rule, const MappingOptions& options, const Vector3d& motor_axis) {
   MatchCount count;
   const SweepMotion motion = pose.motion();
-  Neighbours near;
-  const auto add_roll = [&](const PlacedFeature& feature, const Vector3d& p_m, const Vector3d& normal,
-                            double distance_m) {
-    // How the distance changes as the sweep turns on about the motor's axis.
-    const Pose base = pose.at(feature.u);
-    const double lever_m =
-        (sweep.direction * (base.rotation * motor_axis)).cross(p_m - base.translation_m).dot(normal);
-    count.roll_moment_m2 += lever_m * distance_m;
-    count.roll_inertia_m2 += lever_m * lever_m;
-  };
-  for (const PlacedFeature& feature : sweep.planes) {
-    if (!feature.sharp) continue;
-    const Vector3d p_m = motion(feature.p_in_base_m, feature.u);
-    const auto plane = find_plane(maps.planes, p_m, feature.range_m, rule, near);
-    const double distance_m = plane ? (p_m - plane->centre_m).dot(plane->normal) : 0.0;
-    count.add(plane.has_value(), std::abs(distance_m), options.plane_gate_m, options.cost_cap_m);
-    if (plane) add_roll(feature, p_m, plane->normal, distance_m);
-  }
-  for (const PlacedFeature& feature : sweep.edges) {
-    if (!feature.sharp) continue;
-    const Vector3d p_m = motion(feature.p_in_base_m, feature.u);
-    const auto line = find_line(maps.edges, p_m, feature.range_m, rule, near);
-    const Vector3d away_m = line ? from_line(*line, p_m) : Vector3d::Zero();
-    const double distance_m = away_m.norm();
-    count.add(line.has_value(), distance_m, options.edge_gate_m, options.cost_cap_m);
-    if (distance_m > 1e-9) add_roll(feature, p_m, away_m / distance_m, distance_m);
-  }
+  PatchSearch search{maps.edges, maps.planes, rule};
+  const auto place = [&](const PlacedFeature& feature) { return motion(feature.p_in_base_m, feature.u); };
+  match_features(sweep, place, search,
+                 [&](MatchedKind kind, const PlacedFeature& feature, const Vector3d& p_m,
+                     const std::optional<MatchResidual>& residual) {
+                   const double distance_m = residual ? residual->distance_m : 0.0;
+                   count.add(residual.has_value(), std::abs(distance_m),
+                             kind == MatchedKind::kPlane ? options.plane_gate_m : options.edge_gate_m,
+                             options.cost_cap_m);
+                   if (!residual || !residual->has_normal) return;
+                   // How the distance changes as the sweep turns on about the motor's axis.
+                   const Pose base = pose.at(feature.u);
+                   const double lever_m = (sweep.direction * (base.rotation * motor_axis))
+                                              .cross(p_m - base.translation_m)
+                                              .dot(residual->normal);
+                   count.roll_moment_m2 += lever_m * distance_m;
+                   count.roll_inertia_m2 += lever_m * lever_m;
+                 });
   return count;
 }
 

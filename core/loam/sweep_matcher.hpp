@@ -72,15 +72,17 @@ class SweepMatcher {
   template <typename Patch>
   static std::vector<Matched<Patch>> to_match(const std::vector<PlacedFeature>& features);
   template <typename Patch, typename Search>
+  void linearise(std::vector<Matched<Patch>>& features, const SweepMotion& motion, Share share,
+                 const Eigen::Vector3d& pivot_m, double gate_m, const Search& search,
+                 PathEquations& equations, MatchCount& count) const;
+  template <typename Patch, typename Search>
   void refresh(Matched<Patch>& feature, const Eigen::Vector3d& p_m, const Search& search) const;
   double weight_of(double distance_m) const;
 
-  const SweepMaps& maps_;
-  SearchRule rule_;
+  PatchSearch search_;
   const MappingOptions& options_;
   std::vector<Matched<PlanePatch>> planes_;
   std::vector<Matched<LinePatch>> edges_;
-  Neighbours near_;
 };
 
 /// A sweep's matches at a pose, nothing solved for; `motor_axis` in the base frame.

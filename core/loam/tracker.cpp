@@ -13,7 +13,8 @@ namespace {
 // Beyond the sweep's end, so that no feature of it is left out.
 constexpr double kWhole = 2;
 
-// Of the first sweep, and where scans are missing, the velocity is carried on for no longer than this.
+// Of the first sweep, and where scans are missing, the velocity is carried on for no longer than this: a
+// sweep of most recordings, and about half a stride.
 constexpr double kLongestGap_s = 0.5;
 
 std::size_t steps_of(const PlacedSweep& sweep, const MappingOptions& options) {

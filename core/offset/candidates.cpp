@@ -91,7 +91,7 @@ double ExtremumFit::at(double offset_s) const {
 
 namespace {
 
-constexpr std::size_t kMinFitted = 5;
+constexpr std::size_t kMinFitted = 5;  // a parabola has three unknowns: two more points say that it is one
 
 struct Span {
   std::size_t first, last;
@@ -151,7 +151,8 @@ std::optional<ExtremumFit> fit_of_extremum(const std::vector<CurvePoint>& curve,
 
 std::optional<ExtremumFit> fit_behind(const std::vector<CurvePoint>& curve, CurveValue value,
                                       const CriterionOptimum& optimum) {
-  constexpr double kUsualReach_s = 3e-3, kSame_s = 1e-10, kSameGridPoint_s = 2e-12;
+  constexpr double kUsualReach_s = 3e-3;                       // 3 units of most motors, see search_scale
+  constexpr double kSame_s = 1e-10, kSameGridPoint_s = 2e-12;  // rounding: a curve may come from a file
   const std::size_t best = value == &CurvePoint::n ? index_of_max(curve, value) : index_of_min(curve, value);
   if (best == curve.size() || std::abs(curve[best].offset_s - optimum.offset_s) <= kSameGridPoint_s)
     return std::nullopt;

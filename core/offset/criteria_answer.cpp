@@ -40,7 +40,8 @@ Remark rotation_reason(const std::vector<CurvePoint>& curve, double speed_rad_s)
   const double spread = sxx - sx * sx / std::max(1.0, n);
   if (n < 3 || !(spread > 0)) return std::nullopt;
   const double slope = (sxy - sx * sy / n) / spread / (2 * speed_rad_s);
-  if (slope >= 0.3) return std::nullopt;
+  constexpr double kMinSlope = 0.3;  // 1.1 of simulated rooms, see tests/benchmark/thresholds
+  if (slope >= kMinSlope) return std::nullopt;
   return fmt::format(
       "The scene does not constrain the offset: turning the motor by 1 deg turns the registered sweeps by "
       "only {:.2f} deg.",
@@ -48,6 +49,8 @@ Remark rotation_reason(const std::vector<CurvePoint>& curve, double speed_rad_s)
 }
 
 Remark apart_reason(const CurvePoint& best) {
+  // Five times the largest d of the stationary sets of the paper's table 1, 0.03 m, and of the rooms of
+  // tests/benchmark/thresholds.
   constexpr double kMaxTranslation_m = 0.15;
   if (*best.translation_m <= kMaxTranslation_m) return std::nullopt;
   return fmt::format("The rig moved: at the best offset the sweeps still lie {:.2f} m apart.",

@@ -69,7 +69,7 @@ CurvePoint kept_or_computed(const OffsetSearch& search, const SharedByCandidates
 bool coarse_to_fine(const OffsetSearch& search, Curve& curve, const Job& job) {
   const SearchScale& scale = search.scale;
   double centre_s = search.coarse.offset_or(search.window.middle_s());
-  constexpr int kMaxMoves = 5;
+  constexpr int kMaxMoves = 5;  // by up to 5 units each; they bound the cost
   for (int move = 0; move < kMaxMoves; ++move) {
     centre_s = rounded_to(centre_s, scale.unit_s);
     const double from_s = std::max(centre_s - 5 * scale.unit_s, -scale.max_half_width_s);

@@ -17,7 +17,8 @@ namespace sweepscope {
 /// sides of the answer.
 struct MovingDirectOptions {
   WalkOptions walk;
-  double side_s = 0.003;  // distance from the answer at which e is computed on both sides
+  double side_s = 0.003;  // from the answer to where e is computed on both sides: figure 6 of the paper
+                          // clearly changes by then
 };
 
 struct MovingDirect {

@@ -11,6 +11,7 @@
 namespace sweepscope {
 namespace {
 
+// As MappingOptions::cost_cap_m. Beside edges ranges differ by metres at any offset.
 constexpr double kCoarseCap_m = 0.3;
 
 struct CoarseSum {
@@ -231,7 +232,7 @@ std::vector<WithoutPart> offsets_without(const Linearisation& at, const Parts& p
 // What each block of at least two sweeps asks for by itself.
 void fill_blocks(const Linearisation& at, const StillGrid& grid, double loss_width_m,
                  StationaryDirect& result) {
-  constexpr std::size_t kMaxBlocks = 10;
+  constexpr std::size_t kMaxBlocks = 10;  // a trend over time needs no more, and each wants several sweeps
   const Blocks sweeps = blocks_of_sweeps(at.points(), std::size_t(-1));
   const Blocks blocks =
       blocks_of_sweeps(at.points(), std::clamp<std::size_t>(sweeps.count / 2, 1, kMaxBlocks));
@@ -268,6 +269,8 @@ void fill_levers(const std::vector<LineResiduals>& lines, StationaryDirect& resu
 // Sweeps are the parts where there are enough of them.
 void resample(const StillGrid& grid, const Linearisation& at, const std::vector<LineResiduals>& lines,
               double loss_width_m, StationaryDirect& result) {
+  // The sigma of a jackknife of n parts is itself uncertain by 1 / sqrt(2 (n - 1)): by 24 % of 10 parts, 32 %
+  // of 6, 15 % of 24 views and 21 % of 12 combs. Each part costs one more iteration.
   constexpr std::size_t kMaxParts = 10, kMinBlocks = 6, kSectors = 8, kSections = 3, kCombs = 12;
   const Blocks blocks = blocks_of_sweeps(at.points(), kMaxParts);
   const Parts parts = blocks.count < kMinBlocks ? views(at.points(), kSectors, kSections)

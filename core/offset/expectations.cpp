@@ -41,7 +41,7 @@ Remark refusal(const Recording& recording, const MotorMotion& motor) {
 // What the encoder, its samples and the scan lines leave uncertain at best, and on a walk of 40 s what bends
 // of the path within the sweeps leave besides.
 std::string accuracy(const Recording& recording, const MotorMotion& motor) {
-  constexpr double kParts = 4;  // of a walk of 40 s
+  constexpr double kParts = 4;  // of a walk of 40 s, see JointWalkOptions::part_s
   const double stationary_s = unseen_sigma_s(recording, motor, 0);
   const double of_part_s = unseen_of_part_s(recording, motor, std::size_t(10 / motor.median_sweep_s));
   return fmt::format(
@@ -50,7 +50,7 @@ std::string accuracy(const Recording& recording, const MotorMotion& motor) {
 }
 
 Remark sparse_samples(const Recording& recording, const MotorMotion& motor) {
-  constexpr double kEnough = 16;  // a sweep
+  constexpr double kEnough = 16;  // a sweep: 2 T n^-5 is a microsecond of 0.5 s then
   if (!sampling_warning(recording.motor, motor)) return std::nullopt;
   return fmt::format(
       "The motor is sampled only {:.1f} times per sweep, which reduces the accuracy: sample it every {:.2g} "
@@ -59,6 +59,8 @@ Remark sparse_samples(const Recording& recording, const MotorMotion& motor) {
 }
 
 Remark few_sweeps(std::size_t sweeps) {
+  // The 4 s of the paper's stationary sets, and the 20 s below which a walk's answer comes with a warning, in
+  // sweeps of 0.5 s.
   constexpr std::size_t kStationary = 8, kMoving = 40;
   if (sweeps < kStationary)
     return fmt::format(

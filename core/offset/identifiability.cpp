@@ -39,6 +39,7 @@ Remark edge_reason(const std::vector<CurvePoint>& coarse, std::size_t best) {
 }
 
 Remark rival_reason(const std::vector<CurvePoint>& coarse, std::size_t best, const SearchScale& scale) {
+  // No simulated room or walk has a second valley; see tests/benchmark/thresholds.
   constexpr double kApart = 8;   // units
   constexpr double kLike = 0.2;  // of the least one's depth
   const double min_m = *coarse[best].capped_cost_m, depth_m = median_cost(coarse) - min_m;
@@ -55,7 +56,8 @@ Remark rival_reason(const std::vector<CurvePoint>& coarse, std::size_t best, con
 }
 
 Remark flat_reason(const std::vector<CurvePoint>& coarse, std::size_t best) {
-  constexpr double kMinDepth = 0.15;
+  constexpr double kMinDepth =
+      0.15;  // 0.68 to 0.86 of simulated rooms and walks, see tests/benchmark/thresholds
   const double min_m = *coarse[best].capped_cost_m, median_m = median_cost(coarse);
   if (median_m - min_m > kMinDepth * median_m) return std::nullopt;
   return fmt::format(
@@ -65,7 +67,7 @@ Remark flat_reason(const std::vector<CurvePoint>& coarse, std::size_t best) {
 }
 
 Remark stamps_reason(const Recording& recording, const SearchScale& scale) {
-  constexpr std::size_t kMinScans = 20;
+  constexpr std::size_t kMinScans = 20;  // so that two spacings lie beyond nine in ten
   if (recording.report.laser_stamps.used != StampSource::kReceive) return std::nullopt;
   if (recording.scans.size() < kMinScans) return std::nullopt;
   const double spread_s = unevenness_s(scan_stamps_s(recording)),
@@ -101,7 +103,8 @@ Remark drift_reason(const Trend& trend, double duration_s, double sigma_s) {
 }
 
 Remark lever_reason(double lever_m, double reach_m) {
-  constexpr double kMinLever = 0.05;
+  constexpr double kMinLever =
+      0.05;  // 0.38 to 0.61 of simulated rooms and walks, see tests/benchmark/thresholds
   if (lever_m > kMinLever * reach_m) return std::nullopt;
   return fmt::format(
       "The scene does not constrain the offset: turning the motor by 1 deg moves the points only {:.1f} mm "
@@ -118,7 +121,7 @@ double encoder_step_sigma_s(const MotorTrack& track, const MotorMotion& motor) {
   // Steps and samples beat: neighbouring samples err alike, and the next sweeps repeat them, those of both
   // directions. Found by simulation.
   constexpr double kMaxIndependent = 32;
-  constexpr double kSame_rad = 1e-7;
+  constexpr double kSame_rad = 1e-7;  // rounding: no encoder has 26 bits
   std::vector<double> angles_rad = track.angle_rad;
   std::sort(angles_rad.begin(), angles_rad.end());
   double step_rad = std::numeric_limits<double>::infinity();
@@ -131,21 +134,23 @@ double encoder_step_sigma_s(const MotorTrack& track, const MotorMotion& motor) {
 }
 
 double encoder_sampling_sigma_s(const MotorTrack& track, const MotorMotion& motor) {
-  // Found by simulation of motors that turn evenly, with ramps and as a sine, 3 to 20 samples a sweep.
+  // Found by simulation of motors that turn evenly, with ramps and as a sine, 3 to 20 samples a sweep; shown
+  // by tests/benchmark/laws.
   constexpr double kOfASweep = 2;
   const double samples = samples_per_sweep(track, motor);
   return samples > 0 ? kOfASweep * motor.median_sweep_s / std::pow(samples, 5) : 0;
 }
 
 double lines_sigma_s(const MotorMotion& motor, double distinct_lines) {
-  // Found by simulation of sweeps that take 7 to 20 scans, in rooms.
+  // Found by simulation of sweeps that take 7 to 20 scans, in rooms; shown by tests/benchmark/laws.
   constexpr double kOfASweep = 0.115;
   return kOfASweep * motor.median_sweep_s / std::pow(distinct_lines, 3);
 }
 
 double stamps_sigma_s(const Recording& recording) {
   constexpr double kNineInTenOfSpacings = 1.645 * std::numbers::sqrt2;  // standard deviations of a stamp
-  constexpr double kConcentration = 1.75;  // a part of the scans decides; found by simulation of rooms
+  // A part of the scans decides; found by simulation of rooms, shown by tests/benchmark/laws.
+  constexpr double kConcentration = 1.75;
   const std::vector<double> stamps_s = scan_stamps_s(recording);
   if (stamps_s.empty()) return 0;
   return kConcentration * unevenness_s(stamps_s) / kNineInTenOfSpacings / std::sqrt(double(stamps_s.size()));
@@ -180,7 +185,7 @@ Remark lines_reason(double distinct_lines) {
 }
 
 Remark sampling_reason(const MotorTrack& track, const MotorMotion& motor, const SearchScale& scale) {
-  constexpr double kMin = 3;
+  constexpr double kMin = 3;  // the law of encoder_sampling_sigma_s is known down to it
   const double samples = samples_per_sweep(track, motor);
   if (samples > kMin && encoder_sampling_sigma_s(track, motor) < scale.unit_s) return std::nullopt;
   return fmt::format("The motor is sampled only {:.1f} times per sweep: its motion in between is not known.",
@@ -261,6 +266,7 @@ Remark smooth_motor_warning(double sway_s, double sigma_s) {
 }
 
 double unseen_of_part_s(const Recording& recording, const MotorMotion& motor, std::size_t sweeps) {
+  // What the scatter of the parts of the 14 walks of tuning/ in tests/benchmark/walks leaves unexplained.
   constexpr double kUnseen_rad = 0.6e-3, kUnseenOfSameAngles_rad = 1.7e-3;
   return (sees_same_angles(recording, motor, sweeps) ? kUnseenOfSameAngles_rad : kUnseen_rad) *
          bending(recording, motor) / motor.median_speed_rad_s;
@@ -281,7 +287,7 @@ Remark encoder_warning(const MotorTrack& track) {
 }
 
 Remark sampling_warning(const MotorTrack& track, const MotorMotion& motor) {
-  constexpr double kFew = 8;
+  constexpr double kFew = 8;  // below, 2 T n^-5 is more than 0.03 ms of a sweep of 0.5 s
   const double samples = samples_per_sweep(track, motor);
   if (samples > kFew) return std::nullopt;
   return fmt::format(

@@ -10,7 +10,9 @@
 namespace sweepscope {
 namespace {
 
-constexpr Eigen::Index kProbes = 6;  // of the rotation, and as many of the translation
+// Of the rotation, and as many of the translation: over the 500 jerks of a part the trace errs by
+// sqrt(2 / (6 * 500)), 3 %.
+constexpr Eigen::Index kProbes = 6;
 
 // How much faster the motor turns in the middle half of its sweeps than over all: 1 where it turns evenly,
 // and the square root of 2 where its angle is a sine.
@@ -32,7 +34,7 @@ double haste_in_the_middle(const OffsetProblem& problem) {
 }  // namespace
 
 bool turns_back_smoothly(const OffsetProblem& problem) {
-  constexpr double kSmooth = 1.25;
+  constexpr double kSmooth = 1.25;  // about half way from an even motor's 1 to a sine's 1.41
   return haste_in_the_middle(problem) > kSmooth;
 }
 

@@ -1,6 +1,5 @@
 #include "core/offset/joint_walk.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,6 +10,7 @@
 #include "core/loam/path_equations.hpp"
 #include "core/offset/identifiability.hpp"
 #include "core/offset/jerk_prior.hpp"
+#include "core/offset/walk_equations.hpp"
 #include "core/parallel.hpp"
 
 namespace sweepscope {
@@ -18,7 +18,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-// A ring of a 3D scanner takes a whole turn: its points share a motion only over a part of that.
+// A ring of a 3D scanner takes a whole turn: its points share a motion only over a part of that, as long as a
+// scan of a 2D scanner at 40 Hz takes.
 constexpr double kLongestSlice_s = 0.025;
 
 std::uint32_t slices_per_scan(const Recording& recording) {
@@ -26,124 +27,9 @@ std::uint32_t slices_per_scan(const Recording& recording) {
   double longest_s = 0;
   for (const LaserScan& scan : recording.scans)
     longest_s = std::max(longest_s, scan.last_beam_s() - scan.first_beam_s);
-  constexpr double kMax = 64;
+  constexpr double kMax = 64;  // bounds the memory: scans that take more than 1.6 s have longer slices
   return static_cast<std::uint32_t>(std::clamp(std::ceil(longest_s / kLongestSlice_s), 1.0, kMax));
 }
-
-// What the points of a scan, or of a slice of one, share: where the motor's axis was, how fast it turned, and
-// between which knots.
-struct ScanMotion {
-  GuidedPath::Place place;
-  Vector3d base_in_map_m, turning_rad_s;
-};
-
-// How a distance changes with the steps of the knots that it depends on: its own point's four, and those of
-// the neighbours that its surface was fitted to; and with that of a given motion's time shift.
-class KnotRow {
- public:
-  void clear() { count_ = 0; }
-
-  void add(std::size_t knot, const Vector6d& row) {
-    for (std::size_t i = 0; i < count_; ++i) {
-      if (knots_[i] != knot) continue;
-      rows_[i] += row;
-      return;
-    }
-    knots_[count_] = knot;
-    rows_[count_] = row;
-    ++count_;
-  }
-  std::size_t size() const { return count_; }
-  double times(const Eigen::VectorXd& knot_steps) const {
-    double sum = 0;
-    for (std::size_t i = 0; i < count_; ++i)
-      sum += rows_[i].dot(knot_steps.segment<6>(Eigen::Index(6 * knots_[i])));
-    return sum;
-  }
-  std::size_t knot(std::size_t i) const { return knots_[i]; }
-  const Vector6d& row(std::size_t i) const { return rows_[i]; }
-
- private:
-  static constexpr std::size_t kMax = 5 + 4 * Neighbours::kMax;
-  std::size_t count_ = 0;
-  std::array<std::size_t, kMax> knots_;
-  std::array<Vector6d, kMax> rows_;
-};
-
-// Normal equations of a part: the path's blocks of six unknowns, and the offset last. Only the lower
-// triangle.
-class PartEquations {
- public:
-  explicit PartEquations(std::size_t blocks)
-      : matrix_(Eigen::MatrixXd::Zero(Eigen::Index(6 * blocks + 1), Eigen::Index(6 * blocks + 1))),
-        gradient_(Eigen::VectorXd::Zero(matrix_.rows())) {}
-
-  void add(const KnotRow& row, double offset_slope, double residual, double weight) {
-    const Eigen::Index last = matrix_.rows() - 1;
-    for (std::size_t a = 0; a < row.size(); ++a) {
-      const Vector6d weighted = weight * row.row(a);
-      const auto ka = Eigen::Index(6 * row.knot(a));
-      for (std::size_t b = 0; b < row.size(); ++b)
-        if (row.knot(b) <= row.knot(a))
-          matrix_.block<6, 6>(ka, Eigen::Index(6 * row.knot(b))).noalias() +=
-              weighted * row.row(b).transpose();
-      matrix_.block<1, 6>(last, ka) += offset_slope * weighted.transpose();
-      gradient_.segment<6>(ka) += residual * weighted;
-    }
-    matrix_(last, last) += weight * offset_slope * offset_slope;
-    gradient_[last] += weight * offset_slope * residual;
-  }
-
-  // The acceleration of the walk, or of its deviation from a given motion, changes little: third differences
-  // of the knots are near zero, to within sigma (rotation, translation).
-  void add_jerks(const GuidedPath& path, const Eigen::Vector2d& sigma) {
-    const std::vector<Vector6d> residuals = third_differences(path);
-    Vector6d weights;
-    weights << Vector3d::Constant(1 / (sigma[0] * sigma[0])), Vector3d::Constant(1 / (sigma[1] * sigma[1]));
-    for (std::size_t k = 0; k < residuals.size(); ++k) {
-      for (std::size_t a = 0; a < kJerkStencil.size(); ++a) {
-        const auto row = Eigen::Index(6 * (k + a));
-        gradient_.segment<6>(row) += kJerkStencil[a] * weights.cwiseProduct(residuals[k]);
-        for (std::size_t b = 0; b <= a; ++b)
-          matrix_.block<6, 6>(row, Eigen::Index(6 * (k + b))).diagonal() +=
-              kJerkStencil[a] * kJerkStencil[b] * weights;
-      }
-    }
-  }
-
-  // A map can be moved as a whole where there are knots, and a knot that sees little stays where it is.
-  void hold(std::size_t knots, double first_sigma, double knot_sigma, double offset_sigma_s) {
-    const Eigen::Index last = matrix_.rows() - 1;
-    matrix_.diagonal().head(last).array() += 1 / (knot_sigma * knot_sigma);
-    if (knots > 0) matrix_.diagonal().head<6>().array() += 1 / (first_sigma * first_sigma);
-    matrix_(last, last) += 1 / (offset_sigma_s * offset_sigma_s);
-  }
-
-  struct Solution {
-    std::vector<Vector6d> block_steps;
-    double offset_step_s, offset_sigma_s;
-    Eigen::VectorXd influence, shift_influence;  // of the gradient on the offset, and on a time shift
-    Eigen::MatrixXd solved_probes;
-  };
-  std::optional<Solution> solve(std::optional<std::size_t> shift_block, const Eigen::MatrixXd& probes) {
-    const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>, Eigen::Lower> cholesky(matrix_);
-    if (cholesky.info() != Eigen::Success) return std::nullopt;
-    const Eigen::Index last = matrix_.rows() - 1;
-    const Eigen::VectorXd x = cholesky.solve(-gradient_);
-    Solution solution{{}, x[last], 1 / matrix_(last, last),
-                      {}, {},      cholesky.solve(probes)};  // now the factor's
-    solution.influence = cholesky.solve(Eigen::VectorXd::Unit(matrix_.rows(), last));
-    if (shift_block)
-      solution.shift_influence =
-          cholesky.solve(Eigen::VectorXd::Unit(matrix_.rows(), Eigen::Index(6 * *shift_block)));
-    for (Eigen::Index k = 0; k < last / 6; ++k) solution.block_steps.push_back(x.segment<6>(6 * k));
-    return solution;
-  }
-
- private:
-  Eigen::MatrixXd matrix_;
-  Eigen::VectorXd gradient_;
-};
 
 // One part of the walk on its way to its own offset.
 class Part {
@@ -161,16 +47,17 @@ class Part {
 
   void solve(const Job& job) {
     std::vector<double> offsets_s, shifts_s;
-    std::optional<PartEquations::Solution> solution;
+    std::optional<WalkEquations::Solution> solution;
     const int iterations = options_.first_iterations + options_.averaged_iterations;
     const auto rows = Eigen::Index(6 * path_.blocks() + 1);
     std::optional<JerkEvidence> evidence;
     if (path_.shift_block() && path_.knots() > 0) evidence.emplace(path_.knots(), rows);
     for (int i = 0; i < iterations && !job.cancelled(); ++i) {
-      PartEquations equations(path_.blocks());
+      WalkEquations equations(path_.blocks());
       linearise(equations);
       if (result_.matches < options_.min_matches) return;
       equations.add_jerks(path_, std::pow(options_.knot_s, 3) * jerk_sigma_);
+      // rad and m. The first is a gauge, far below what is asked for; the second far above any step.
       constexpr double kFirstSigma = 1e-4, kKnotSigma = 0.5;
       equations.hold(path_.knots(), kFirstSigma, kKnotSigma, options_.offset_sigma_s);
       solution =
@@ -220,7 +107,7 @@ class Part {
     double squares_s2 = 0;
     for (const double offset_s : offsets_s) squares_s2 += square(offset_s - result_.offset_s);
     result_.sigma_s = std::sqrt(square(sigma_s) + squares_s2 / (n - 1) / n);
-    constexpr double kSettled = 1.5;  // sigmas
+    constexpr double kSettled = 1.5;  // sigmas: by judgement
     result_.converged = std::abs(result_.step_s) < kSettled * result_.sigma_s;
   }
 
@@ -231,7 +118,7 @@ class Part {
     return path_.at(time_s(sweep, feature)) * feature.p_in_base_m;
   }
 
-  void linearise(PartEquations& equations) {
+  void linearise(WalkEquations& equations) {
     for_each_match([&](const KnotRow& row, double slope, double distance_m, double weight, const Vector3d&) {
       equations.add(row, slope, distance_m, weight);
     });
@@ -244,7 +131,7 @@ class Part {
   double clustered_sigma_s(const Eigen::VectorXd& influences, double sigma_s) {
     std::map<std::array<int, 3>, double> pulls_s;
     double formal_s2 = 0;
-    constexpr double kCell_m = 1;
+    constexpr double kCell_m = 1;  // about the size of a piece of furniture, or of a bay of a wall
     for_each_match(
         [&](const KnotRow& row, double slope, double distance_m, double weight, const Vector3d& p_m) {
           const double influence = row.times(influences) + slope * influences[influences.size() - 1];
@@ -274,25 +161,18 @@ class Part {
     result_.lever_m2 = result_.reach_m2 = 0;
     for (const PlacedSweep& sweep : sweeps) {
       const MappingOptions& mapping = options_.mapping;
-      const SearchRule rule{mapping.patch, mapping.search_radius_m, mapping.search_radius_slope,
-                            sweep.direction > 0 ? SweepFilter::kBackward : SweepFilter::kForward};
-      for (const PlacedFeature& feature : sweep.planes) {
-        if (!feature.sharp) continue;
-        ++result_.features;
-        const Vector3d p_m = in_map_m(sweep, feature);
-        const auto plane = find_plane(planes, p_m, feature.range_m, rule, near_);
-        if (plane)
-          add(line_of(sweep, feature), p_m, plane->normal, (p_m - plane->centre_m).dot(plane->normal), use);
-      }
-      for (const PlacedFeature& feature : sweep.edges) {
-        if (!feature.sharp) continue;
-        ++result_.features;
-        const Vector3d p_m = in_map_m(sweep, feature);
-        const auto line = find_line(edges, p_m, feature.range_m, rule, near_);
-        const Vector3d away_m = line ? from_line(*line, p_m) : Vector3d::Zero();
-        const double distance_m = away_m.norm();
-        if (distance_m > 1e-9) add(line_of(sweep, feature), p_m, away_m / distance_m, distance_m, use);
-      }
+      PatchSearch search{edges,
+                         planes,
+                         {mapping.patch, mapping.search_radius_m, mapping.search_radius_slope,
+                          sweep.direction > 0 ? SweepFilter::kBackward : SweepFilter::kForward}};
+      const auto place = [&](const PlacedFeature& feature) { return in_map_m(sweep, feature); };
+      match_features(sweep, place, search,
+                     [&](MatchedKind, const PlacedFeature& feature, const Vector3d& p_m,
+                         const std::optional<MatchResidual>& residual) {
+                       ++result_.features;
+                       if (residual && residual->has_normal)
+                         add(line_of(sweep, feature), p_m, *residual, search.near, use);
+                     });
     }
   }
 
@@ -332,30 +212,22 @@ class Part {
 
   // One match: a point of one direction, its surface from points of the other.
   template <typename Use>
-  void add(std::uint32_t line, const Vector3d& p_m, const Vector3d& normal, double distance_m,
+  void add(std::uint32_t line, const Vector3d& p_m, const MatchResidual& match, const Neighbours& near,
            const Use& use) {
+    const Vector3d& normal = match.normal;
     row_.clear();
-    double slope = add_point(line, p_m, normal, 1);
+    double slope = row_.add_point(path_, scans_[line], p_m, normal, 1);
     result_.lever_m2 += square(normal.dot(arm_m(line, p_m)));
     result_.reach_m2 += arm_m(line, p_m).squaredNorm();
-    for (int i = 0; i < near_.count; ++i) {
+    for (int i = 0; i < near.count; ++i) {
       const auto at = std::size_t(i);
-      slope += add_point(near_.line[at], near_.p_m[at].cast<double>(), normal, -1.0 / near_.count);
+      slope += row_.add_point(path_, scans_[near.line[at]], near.p_m[at].cast<double>(), normal,
+                              -1.0 / near.count);
     }
-    const double weight = cauchy_weight(distance_m, options_.loss_width_m) / square(options_.match_sigma_m);
-    use(row_, slope, distance_m, weight, p_m);
+    const double weight =
+        cauchy_weight(match.distance_m, options_.loss_width_m) / square(options_.match_sigma_m);
+    use(row_, slope, match.distance_m, weight, p_m);
     ++result_.matches;
-  }
-
-  // How a share of a point's distance changes with the knots; gives how it changes with the offset.
-  double add_point(std::uint32_t line, const Vector3d& p_m, const Vector3d& normal, double share) {
-    const ScanMotion& scan = scans_[line];
-    const Vector6d row = share * distance_jacobian(p_m, normal, scan.base_in_map_m);
-    const auto& [first_knot, weights] = scan.place.knots;
-    for (std::size_t i = 0; i < 4 && path_.knots() > 0; ++i) row_.add(first_knot + i, weights[i] * row);
-    if (const auto block = path_.shift_block())
-      row_.add(*block, row.dot(scan.place.per_shift_second) * Vector6d::Unit(0));
-    return share * normal.dot(scan.turning_rad_s.cross(p_m - scan.base_in_map_m));
   }
 
   Vector3d arm_m(std::uint32_t line, const Vector3d& p_m) const {
@@ -373,13 +245,12 @@ class Part {
   std::vector<ScanMotion> scans_;
   static constexpr std::uint32_t kNoLine = 0xffffffffu;
   std::uint32_t last_line_ = kNoLine;  // whose motion was worked out last
-  Neighbours near_;
   KnotRow row_;
 };
 
 using Sweeps = std::vector<SweepPose>;
 
-// A part shorter than this has little to say, and may say it wrongly.
+// A part shorter than this, 4 s of sweeps of 0.5 s, has little to say, and may say it wrongly.
 constexpr std::size_t kMinSweeps = 8;
 
 // The sweeps of one stretch cut into parts that are about equally long.
@@ -420,7 +291,8 @@ void summarise(JointWalk& walk) {
   walk.reach_m = std::sqrt(reach_m2 / double(walk.matches));
   walk.sigma_s = std::sqrt(1 / weights);
   // What the parts' own sigma leaves out (surfaces that are not flat, matches that are wrong) shows in how
-  // they scatter. A few parts tell that badly: what was seen on other walks counts as kPriorParts more.
+  // they scatter. A few parts tell that badly: what was seen on the walks of tests/benchmark/walks counts as
+  // kPriorParts more.
   constexpr double kPriorParts = 4, kPriorScatter2 = 1.1;
   double scatter2 = kPriorParts * kPriorScatter2;
   for (const JointWalkPart& part : walk.parts)
@@ -487,7 +359,8 @@ std::optional<Trend> drift_of(const JointWalk& walk) {
     sigmas_s.push_back(std::hypot(part.sigma_s, kUnseen_s));
   }
   auto trend = trend_of(middles_s, offsets_s, sigmas_s);
-  // Of a few parts that scatter by chance, some lie in a row.
+  // Of a few parts that scatter by chance, some lie in a row. Between Student's factors for the 2 degrees of
+  // freedom of 4 parts, 1.3 at one sigma and 2.2 at two.
   constexpr double kFewParts = 1.5;
   if (trend) trend->sigma *= kFewParts;
   return trend;

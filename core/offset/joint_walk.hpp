@@ -36,7 +36,7 @@ struct JointWalkOptions {
   // Every iteration matches again, and other matches give another answer: the mean of several is more
   // accurate.
   int first_iterations = 3, averaged_iterations = 6;
-  std::size_t min_matches = 200;  // of a part
+  std::size_t min_matches = 200;  // of a part; in a furnished place it has some thousands
 };
 
 struct JointWalkPart {

@@ -17,7 +17,7 @@ std::string span_text(double from_s, double to_s) {
 }
 
 bool overlap(const Recording& recording, const GivenMotion& motion) {
-  constexpr double kMin_s = 3;
+  constexpr double kMin_s = 3;  // as correlate_turns needs
   const double from_s = std::max(recording.scans.front().first_beam_s, motion.begin_s());
   const double to_s = std::min(recording.scans.back().last_beam_s(), motion.end_s());
   return to_s - from_s > kMin_s;
@@ -43,7 +43,7 @@ struct Attempt {
 Result<std::optional<TimeShift>> shift_of_turns(const OffsetProblem& problem, double offset_s,
                                                 const MappingOptions& mapping, const GivenMotion& motion,
                                                 bool overlaps, const Job& job) {
-  constexpr double kAside_units = 3;
+  constexpr double kAside_units = 3;  // twice as far as the coarse search errs in coarse_search_test
   const SearchScale scale = search_scale(problem.motor);
   const double aside_s = kAside_units * scale.unit_s;
   for (const Attempt& attempt : {Attempt{offset_s, false}, Attempt{offset_s, true},

@@ -34,7 +34,7 @@ Result<std::vector<double>> checked_offsets(const std::vector<OffsetRange>& rang
   for (const OffsetRange& range : ranges)
     if (!(range.step_s > 0) || !(range.from_s <= range.to_s))
       return failure(ExitCode::kWrongUsage, "A range of offsets needs FROM <= TO and a STEP above 0.");
-  constexpr double kMaxCandidates = 100000;
+  constexpr double kMaxCandidates = 100000;  // a day's work at a second each: a slip of the pen
   for (const OffsetRange& range : ranges)
     if ((range.to_s - range.from_s) / range.step_s > kMaxCandidates)
       return failure(ExitCode::kWrongUsage, "A range of offsets holds more than 100000 candidates.");

@@ -9,6 +9,7 @@
 namespace sweepscope {
 namespace {
 
+// They bound the cost: beyond, a recording's length adds nothing to it.
 constexpr std::size_t kMaxPairs = 16, kMaxFarPairs = 4;
 
 using SweepPair = std::pair<std::size_t, std::size_t>;
@@ -72,7 +73,7 @@ std::vector<SweepPair> near_pairs(const std::vector<std::size_t>& whole) {
 
 // Of the same direction, the first with the last, the second with the last but one, and so on.
 std::vector<SweepPair> far_pairs(const std::vector<std::size_t>& whole) {
-  constexpr std::size_t kMinSweepsApart = 4;
+  constexpr std::size_t kMinSweepsApart = 4;  // twice as far as near pairs lie
   std::vector<SweepPair> chosen;
   std::size_t first = 0, end = whole.size();
   for (; chosen.size() < kMaxFarPairs && first + 1 < end; ++first) {
@@ -85,13 +86,14 @@ std::vector<SweepPair> far_pairs(const std::vector<std::size_t>& whole) {
   return chosen;
 }
 
-// Found by simulation of stationary rigs among trees and people, and of walks.
+// Found by simulation of stationary rigs among trees and people, and of walks: those of still_motion_test.
 bool moved(const SweepShift& shift) {
   constexpr double kMinGainedMatches = 12, kMinApart_m = 0.006;
   return shift.gained_matches > kMinGainedMatches && shift.apart_m > kMinApart_m;
 }
 
 // Whether two pairs, one after the other, show the same long shift, and fit about as well there as at rest.
+// The bounds were found as those above.
 bool same_long_shift(const SweepShift& one, const SweepShift& next) {
   constexpr double kMin_m = 0.15, kMaxDifference = 0.3, kMaxLostMatches = 0.05;
   const auto fits = [](const SweepShift& shift) {

@@ -9,7 +9,8 @@
 namespace sweepscope {
 namespace {
 
-constexpr double kSpeedSpan_s = 0.010;  // the motor's speed is taken over this much to either side
+// The motor's speed is taken over this much to either side: a sample of an encoder at 100 Hz.
+constexpr double kSpeedSpan_s = 0.010;
 
 // Bins as wide as the spacing of the features, so that a bin holds at most one of a scan.
 std::size_t beams_per_bin(const FeatureOptions& options) {
@@ -19,7 +20,7 @@ std::size_t beams_per_bin(const FeatureOptions& options) {
 // Enough for the longest scan; but where a few scans are that much longer than the others that the grid would
 // be empty mostly, their far ends are left out of it.
 std::size_t bins_of(const std::vector<LaserScan>& scans, std::size_t beams_a_bin) {
-  constexpr std::size_t kSparsest = 16;
+  constexpr std::size_t kSparsest = 16;  // bounds the grid's memory by so many times that of its beams
   std::size_t most = 0, all = 0;
   for (const LaserScan& scan : scans) {
     most = std::max<std::size_t>(most, scan.beams);
@@ -124,6 +125,8 @@ std::vector<LinePool> pools_by_sweep(const StillPoints& points) {
 }
 
 StillPatchOptions still_patch_options(const OffsetProblem& problem) {
+  // A gap of 0.6 deg is seven steps of a usual encoder, 0.088 deg; within reach there is room for three lines
+  // to a side.
   StillPatchOptions options;
   options.min_gap_rad = std::max(0.2 * problem.line_spacing_rad, 0.6 * kRadPerDeg);
   options.reach_rad = std::max(1.6 * problem.line_spacing_rad, 4 * options.min_gap_rad);

@@ -8,7 +8,7 @@
 namespace sweepscope {
 namespace {
 
-constexpr std::size_t kMinMatches = 120;  // of both sweeps together
+constexpr std::size_t kMinMatches = 120;  // of both sweeps together: twenty for each unknown
 
 struct PointOnPlane {
   Eigen::Vector3d p_m;
@@ -64,17 +64,14 @@ Pose registered(const std::vector<PointOnPlane>& matches, Pose pose, const Regis
   constexpr int kMaxIterations = 20;
   double width_m = options.first_width_m;
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
-    Matrix6d a = Matrix6d::Zero();
-    Vector6d g = Vector6d::Zero();
+    RigidEquations equations;
     for (const PointOnPlane& match : matches) {
-      const double d_m = distance_m(match, pose), weight = cauchy_weight(d_m, width_m);
-      const Vector6d row = distance_jacobian(pose * match.p_m, match.patch.normal, Eigen::Vector3d::Zero());
-      a.noalias() += weight * row * row.transpose();
-      g += weight * d_m * row;
+      const double d_m = distance_m(match, pose);
+      equations.add(pose * match.p_m, match.patch.normal, d_m, cauchy_weight(d_m, width_m));
     }
     int free_directions = 0;
-    const Vector6d step =
-        solve_determined(a, g, options.min_eigenvalue * double(matches.size()), free_directions);
+    const Vector6d step = solve_determined(equations.matrix, equations.gradient,
+                                           options.min_eigenvalue * double(matches.size()), free_directions);
     pose = stepped(pose, step, Eigen::Vector3d::Zero());
     if (width_m <= options.width_m && step.cwiseAbs().maxCoeff() < 1e-5) break;
     width_m = std::max(options.width_m, 0.6 * width_m);
@@ -124,6 +121,7 @@ std::optional<SweepShift> shift_between(const StillPoints& points, const LinePoo
   SweepShift shift;
   const std::vector<PointOnPlane> matches = matched_both_ways(points, target, source, grid, shift);
   if (matches.size() < kMinMatches) return std::nullopt;
+  // This width, and those that the searches begin with, were found with the bounds of still_motion.cpp.
   const double width_m = 0.008 + 1.2 * grid.problem->features->range_noise_m;
   const Pose rest = at_rest(matches, grid.problem->recording->rig.mount.axis.normalized(), width_m);
   const double held_at_rest = matches_held(matches, rest, width_m);

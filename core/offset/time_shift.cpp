@@ -13,8 +13,9 @@ namespace {
 
 using Eigen::Vector3d;
 
+// A step is a scan at 40 Hz; windows of four overlap, so that a turn between two steps is not missed.
 constexpr double kStep_s = 0.025, kWindow_s = 0.1;
-constexpr double kShortest_s = 3;  // of what is compared
+constexpr double kShortest_s = 3;  // of what is compared: six turns that err independently
 constexpr double kKnot_s = 0.06;   // of the tracked path, as in JointWalkOptions
 
 // How the base turned from an instant to kWindow_s later, in the base frame.
@@ -76,7 +77,7 @@ struct Axis {
 // where they have nothing to do with each other; 0 where they overlap too little. Each axis has an unknown
 // noise: about the motor's axis tracked sweeps turn to and fro.
 double likelihood(const std::vector<Turn>& turns, const GivenTurns& given, std::int64_t lag) {
-  constexpr double kIndependent_s = 0.5;  // turns that lie so far apart err independently
+  constexpr double kIndependent_s = 0.5;  // a sweep: turns that lie so far apart err independently
   std::array<Axis, 3> axes;
   double count = 0;
   for (const Turn& turn : turns) {
@@ -153,11 +154,14 @@ std::optional<TurnCorrelation> correlate_turns(const std::vector<SweepPose>& swe
   const double shift_s = time_of(least + (best - likelihoods.begin()));
   TurnCorrelation found;
   found.likelihood = *best - prior_of(shift_s);
-  constexpr std::ptrdiff_t kApart = 16;  // steps
+  constexpr std::ptrdiff_t kApart =
+      16;  // steps: four windows, so that the flanks of the best peak are no rival
   double rival = 0;
   for (auto at = likelihoods.begin(); at != likelihoods.end(); ++at)
     if (std::abs(at - best) > kApart) rival = std::max(rival, *at);
   found.lead = *best - rival;
+  // Of the thousands of shifts tried, one is likelier by e^15 by chance once in some thousand times; and the
+  // best one is to be e^4, 55 times, as likely as its rival.
   constexpr double kClear = 15, kClearLead = 4;
   found.clear = found.likelihood > kClear && found.lead > kClearLead;
   found.shift = refined(turns, unshifted, shift_s);

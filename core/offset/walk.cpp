@@ -92,7 +92,7 @@ std::vector<Interval> lost_times(const std::vector<SweepPose>& sweeps, const Rec
 std::optional<std::string> lost_warning(const std::vector<Interval>& lost) {
   if (lost.empty()) return std::nullopt;
   std::string when;
-  constexpr std::size_t kMax = 5;
+  constexpr std::size_t kMax = 5;  // a sentence holds no more
   for (std::size_t i = 0; i < std::min(kMax, lost.size()); ++i)
     when += fmt::format("{}{:.1f} to {:.1f} s", i == 0 ? "" : ", ", lost[i].begin_s, lost[i].end_s);
   if (lost.size() > kMax) when += fmt::format(" and {} more times", lost.size() - kMax);

@@ -1,31 +1,24 @@
 // What every long command does when it is interrupted, or its output cannot be written.
 #include <fcntl.h>
 #include <gtest/gtest.h>
-#include <poll.h>
 #include <pty.h>
 #include <signal.h>
-#include <sys/resource.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
-#include <functional>
 #include <initializer_list>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <stdexcept>
 #include <string>
-#include <thread>
-#include <utility>
 #include <vector>
 
+#include "tests/app/self_signal.hpp"
 #include "tests/program.hpp"
 
 namespace sweepscope {
 namespace {
-
-using std::chrono::milliseconds;
 
 /// A command line, in a folder that holds room.bag, walk.bag, recipe.yaml and wait.script, and the outputs
 /// that it must not leave half written.
@@ -33,10 +26,9 @@ struct Case {
   const char* name;
   const char* arguments;
   const char* output;  // what it writes
-  // When it is interrupted, beside at once: as soon as its progress bar names these phases, or once the file
-  // is there. Each is followed by a hundred times the work that a signal needs.
-  std::vector<std::string> phases = {};
-  const char* file = nullptr;
+  // When it is interrupted, beside at once: as soon as its progress bar names these phases, or this file is
+  // there.
+  std::vector<std::string> moments = {};
 };
 
 std::ostream& operator<<(std::ostream& out, const Case& one) {
@@ -47,14 +39,14 @@ const Case kCases[] = {
     {"estimate",
      "estimate walk.bag --method moving --range 14:34:0.1 --json out.json",
      "out.json",
-     {"reading", "candidates"}},
-    {"directly", "estimate walk.bag --json out.json", "out.json", {"reading", "features", "tracking"}},
-    {"map", "map walk.bag --offset-ms 24 -o out.pcd", "out.pcd", {"reading", "tracking"}},
-    {"compare", "compare walk.bag --offsets-ms 19,24 -o out.png", "out.png", {"reading", "candidates"}},
-    {"figures", "figures recipe.yaml -o out", "out/curve.png", {"figures", "candidates"}},
-    {"report", "report walk.bag -o out", "out/report.html", {"reading", "candidates"}},
-    {"simulate", "simulate metro-station -o out.bag", "out.bag", {"casting"}},
-    {"view", "view walk.bag --headless --script wait.script", "out.png", {}, "first.png"},
+     {"reading ", "candidates "}},
+    {"directly", "estimate walk.bag --json out.json", "out.json", {"reading ", "features ", "tracking "}},
+    {"map", "map walk.bag --offset-ms 24 -o out.pcd", "out.pcd", {"reading ", "tracking "}},
+    {"compare", "compare walk.bag --offsets-ms 19,24 -o out.png", "out.png", {"reading ", "candidates "}},
+    {"figures", "figures recipe.yaml -o out", "out/curve.png", {"figures ", "candidates "}},
+    {"report", "report walk.bag -o out", "out/report.html", {"reading ", "candidates "}},
+    {"simulate", "simulate metro-station -o out.bag", "out.bag", {"casting "}},
+    {"view", "view walk.bag --headless --script wait.script", "out.png", {"first.png"}},
 };
 
 /// Makes the inputs once; each test works in a copy.
@@ -79,8 +71,6 @@ class Interruption : public test::ProgramTest, public ::testing::WithParamInterf
       std::filesystem::copy(inputs_ / name, folder_ / name);
   }
 
-  pid_t begin(const std::string& arguments) const { return test::begin_program(folder_, arguments); }
-  Outcome ended(pid_t child) const { return test::ended(child, folder_); }
   std::string said(const std::string& where) const { return test::contents_of(folder_ / ("said." + where)); }
 
   /// Names of the files that were not there before, in the folder and below.
@@ -109,128 +99,56 @@ std::size_t lines_in(const std::string& text) {
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
 }
 
-/// Until the program handles the signal: before that its libraries are loaded, and any signal ends it.
-void wait_until_it_listens(pid_t child, int signal) {
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-  while (std::chrono::steady_clock::now() < deadline) {
-    std::error_code gone;
-    const auto program = std::filesystem::read_symlink("/proc/" + std::to_string(child) + "/exe", gone);
-    // The shell that begins it handles signals of its own; so first who it is, and then what it handles.
-    const bool begun = program == std::filesystem::canonical(SWEEPSCOPE_EXECUTABLE);
-    const std::string status = test::contents_of("/proc/" + std::to_string(child) + "/status");
-    const std::size_t at = status.find("SigCgt:");
-    const unsigned long long caught =
-        at == std::string::npos ? 0 : std::strtoull(status.c_str() + at + 7, nullptr, 16);
-    if (begun && (caught >> (signal - 1) & 1) != 0) return;
-    std::this_thread::sleep_for(milliseconds(1));
-  }
-  ADD_FAILURE() << "it never handles signal " << signal;
-}
-
-/// A program with a terminal as its stderr: there it draws how far it is.
-class OnATerminal {
- public:
-  explicit OnATerminal(const std::filesystem::path& folder, const std::string& arguments) {
-    int terminal = -1;
-    if (openpty(&screen_, &terminal, nullptr, nullptr, nullptr) != 0) throw std::runtime_error("no terminal");
-    const std::string command =
-        "cd '" + folder.string() + "' && exec '" SWEEPSCOPE_EXECUTABLE "' " + arguments + " >said.out";
-    child_ = fork();
-    if (child_ == 0) {
-      constexpr int kAfterTheTest = 3;  // who signals comes first, however busy the machine is
-      (void)setpriority(PRIO_PROCESS, 0, kAfterTheTest);
-      dup2(terminal, STDERR_FILENO);
-      close(terminal);
-      close(screen_);
-      execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
-      _exit(127);
-    }
-    close(terminal);
-  }
-  ~OnATerminal() {
-    kill(child_, SIGKILL);
-    waitpid(child_, nullptr, 0);
-    close(screen_);
-  }
-  OnATerminal(const OnATerminal&) = delete;
-  OnATerminal& operator=(const OnATerminal&) = delete;
-
-  pid_t child() const { return child_; }
-  bool has_ended() const {
-    siginfo_t info{};
-    return waitid(P_PID, static_cast<id_t>(child_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
-           info.si_pid == child_;
-  }
-  /// Until it has drawn these words; false where it ends without them.
-  bool draws(const std::string& words) {
-    while (drawn_.find(words) == std::string::npos)
-      if (!read_more()) return false;
-    return true;
-  }
-  /// All that it drew until its end, and its exit code.
-  std::pair<std::string, int> end() {
-    while (read_more()) {
-    }
-    int status = 0;
-    waitpid(child_, &status, 0);
-    return {drawn_, WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status)};
-  }
-
- private:
-  bool read_more() {
-    constexpr int kLongest_ms = 120'000;
-    pollfd ready{screen_, POLLIN, 0};
-    if (poll(&ready, 1, kLongest_ms) <= 0) return false;
-    char bytes[4096];
-    const ssize_t got = read(screen_, bytes, sizeof bytes);  // fails once nobody draws any more
-    if (got <= 0) return false;
-    drawn_.append(bytes, static_cast<std::size_t>(got));
-    return true;
-  }
-
-  int screen_ = -1;
-  pid_t child_ = -1;
-  std::string drawn_;
+struct Drawn {
+  std::string text;
+  int exit_code = -1;
 };
+
+/// Runs the program with a terminal as its stderr: there it draws how far it is.
+Drawn run_on_a_terminal(const std::filesystem::path& folder, const std::string& arguments,
+                        const std::string& environment) {
+  int screen = -1, terminal = -1;
+  if (openpty(&screen, &terminal, nullptr, nullptr, nullptr) != 0) throw std::runtime_error("no terminal");
+  const std::string command = "cd '" + folder.string() + "' && exec env " + environment +
+                              " '" SWEEPSCOPE_EXECUTABLE "' " + arguments + " >said.out";
+  const pid_t child = fork();
+  if (child == 0) {
+    dup2(terminal, STDERR_FILENO);
+    close(terminal);
+    close(screen);
+    execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
+    _exit(127);
+  }
+  close(terminal);
+  Drawn drawn;
+  char bytes[4096];
+  for (ssize_t got = 0; (got = read(screen, bytes, sizeof bytes)) > 0;)  // fails once nobody draws any more
+    drawn.text.append(bytes, static_cast<std::size_t>(got));
+  close(screen);
+  int status = 0;
+  waitpid(child, &status, 0);
+  if (WIFEXITED(status)) drawn.exit_code = WEXITSTATUS(status);
+  return drawn;
+}
 
 class Signals : public Interruption {
  protected:
-  /// The command is ended by a signal at differing moments: one sentence, exit code 130, within seconds.
+  /// The command is ended by a signal at differing moments: one sentence, and exit code 130.
   void interrupt(int signal) const {
-    const Case& one = GetParam();
-    interrupt_once(signal, "at once", [&](OnATerminal& program) {
-      wait_until_it_listens(program.child(), signal);
-      return true;
-    });
-    for (const std::string& phase : one.phases)
-      interrupt_once(signal, phase, [&](OnATerminal& program) { return program.draws(phase + " "); });
-    if (one.file != nullptr) {
-      std::filesystem::remove(folder_ / one.file);
-      interrupt_once(signal, one.file, [&](OnATerminal& program) {
-        while (!std::filesystem::exists(folder_ / one.file)) {
-          if (program.has_ended()) return false;
-          std::this_thread::sleep_for(milliseconds(1));
-        }
-        return true;
-      });
-    }
+    interrupt_once({signal, ""});
+    for (const std::string& moment : GetParam().moments) interrupt_once({signal, moment});
   }
 
  private:
-  void interrupt_once(int signal, const std::string& moment,
-                      const std::function<bool(OnATerminal&)>& comes) const {
-    OnATerminal program(folder_, GetParam().arguments);
-    ASSERT_TRUE(comes(program)) << moment << " never came";
-    kill(program.child(), signal);
-    const auto begun = std::chrono::steady_clock::now();
-    const auto [drawn, exit_code] = program.end();
-    EXPECT_LT(std::chrono::steady_clock::now() - begun, std::chrono::seconds(10)) << moment;
-    EXPECT_EQ(exit_code, 130) << moment << ": " << drawn;
-    const std::size_t sentence = drawn.rfind("sweepscope: ");
-    ASSERT_NE(sentence, std::string::npos) << moment << ": " << drawn;
-    EXPECT_EQ(drawn.find("sweepscope: "), sentence) << "one sentence alone: " << drawn;
-    EXPECT_EQ(lines_in(drawn.substr(sentence)), 1U) << "and it is the last: " << drawn;
-    EXPECT_NE(drawn.find("nterrupted", sentence), std::string::npos) << drawn;
+  void interrupt_once(const test::SelfSignal& signal) const {
+    const std::string moment = signal.words.empty() ? "at once" : signal.words;
+    const Drawn drawn = run_on_a_terminal(folder_, GetParam().arguments, signal.environment());
+    EXPECT_EQ(drawn.exit_code, 130) << moment << ": " << drawn.text;
+    const std::size_t sentence = drawn.text.rfind("sweepscope: ");
+    ASSERT_NE(sentence, std::string::npos) << moment << ": " << drawn.text;
+    EXPECT_EQ(drawn.text.find("sweepscope: "), sentence) << "one sentence alone: " << drawn.text;
+    EXPECT_EQ(lines_in(drawn.text.substr(sentence)), 1U) << "and it is the last: " << drawn.text;
+    EXPECT_NE(drawn.text.find("nterrupted", sentence), std::string::npos) << drawn.text;
     expect_nothing_half_written();
   }
 };
@@ -246,16 +164,12 @@ TEST_P(Signals, TerminationEndsItWithOneSentence) {
 INSTANTIATE_TEST_SUITE_P(OfEveryCommand, Signals, ::testing::ValuesIn(kCases),
                          [](const auto& one) { return one.param.name; });
 
+constexpr const char* kKept = "offset_ns";  // in the line of every candidate that is kept
+
 TEST_F(Interruption, AnInterruptedEstimateKeepsItsFinishedCandidates) {
   const std::string arguments =
       "estimate walk.bag --method moving --range 14:34:0.1 --json out.json --resume kept.candidates";
-  const pid_t child = begin(arguments);
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-  while (lines_in(test::contents_of(folder_ / "kept.candidates")) < 5 &&
-         std::chrono::steady_clock::now() < deadline)
-    std::this_thread::sleep_for(milliseconds(2));
-  kill(child, SIGINT);
-  const Outcome outcome = ended(child);
+  const Outcome outcome = run(arguments, test::SelfSignal{SIGINT, kKept, 5}.environment());
   EXPECT_EQ(outcome.exit_code, 130);
   EXPECT_NE(outcome.err.find("finished candidates are in kept.candidates"), std::string::npos) << outcome.err;
   EXPECT_GE(lines_in(test::contents_of(folder_ / "kept.candidates")), 5U);
@@ -282,13 +196,8 @@ class Keepers : public Interruption {
     }
     return std::filesystem::is_regular_file(path) ? lines_in(test::contents_of(path)) : 0;
   }
-  Outcome interrupted_after(std::size_t lines) const {
-    const pid_t child = begin(GetParam().arguments);
-    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(120);
-    while (kept_lines() < lines && std::chrono::steady_clock::now() < deadline)
-      std::this_thread::sleep_for(milliseconds(2));
-    kill(child, SIGINT);
-    return ended(child);
+  Outcome interrupted_after(int candidates) const {
+    return run(GetParam().arguments, test::SelfSignal{SIGINT, kKept, candidates}.environment());
   }
 };
 
@@ -299,7 +208,7 @@ TEST_P(Keepers, GoOnFromWhereTheyWereInterrupted) {
       << first.err;
   const std::size_t kept = kept_lines();
   EXPECT_GE(kept, 3U);
-  const Outcome second = interrupted_after(kept + 1);
+  const Outcome second = interrupted_after(1);
   EXPECT_EQ(second.exit_code, 130) << second.err;
   EXPECT_GT(kept_lines(), kept);
 }
@@ -309,16 +218,10 @@ INSTANTIATE_TEST_SUITE_P(WithoutBeingAsked, Keepers, ::testing::ValuesIn(kKeeper
 
 TEST_F(Interruption, AComparisonThatWentOnIsTheSameAndLeavesNothingBehind) {
   const std::string arguments = "compare walk.bag --offsets-ms 20,22 -o out.png";
-  const pid_t child = begin(arguments);
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(120);
-  while (lines_in(test::contents_of(folder_ / "out.png.candidates")) < 3 &&
-         std::chrono::steady_clock::now() < deadline)
-    std::this_thread::sleep_for(milliseconds(2));
-  kill(child, SIGINT);
-  ASSERT_EQ(ended(child).exit_code, 130);
-  ASSERT_EQ(ended(begin(arguments)).exit_code, 0);
+  ASSERT_EQ(run(arguments, test::SelfSignal{SIGINT, kKept, 3}.environment()).exit_code, 130);
+  ASSERT_EQ(run(arguments).exit_code, 0);
   EXPECT_FALSE(std::filesystem::exists(folder_ / "out.png.candidates"));
-  ASSERT_EQ(ended(begin("compare walk.bag --offsets-ms 20,22 -o whole.png")).exit_code, 0);
+  ASSERT_EQ(run("compare walk.bag --offsets-ms 20,22 -o whole.png").exit_code, 0);
   EXPECT_EQ(test::contents_of(folder_ / "out.png"), test::contents_of(folder_ / "whole.png"));
 }
 

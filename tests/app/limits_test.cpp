@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
+#include "tests/app/self_signal.hpp"
 #include "tests/core/recording/zstd_bytes.hpp"
 #include "tests/program.hpp"
 
@@ -119,28 +119,17 @@ TEST_F(Limits, WithoutADisplayAWindowIsNoUnreadableInput) {
   }
 }
 
-/// A run with a file that it unpacks is killed as soon as that is there. False where it ended before.
-bool killed_with_its_file(const fs::path& folder) {
-  setenv("TMPDIR", (folder / "tmp").c_str(), 1);
-  const pid_t child = test::begin_program(folder, "info room.mcap.zstd");
-  unsetenv("TMPDIR");
-  while (fs::is_empty(folder / "tmp"))
-    if (waitpid(child, nullptr, WNOHANG) == child) return false;
-  kill(child, SIGKILL);
-  waitpid(child, nullptr, 0);
-  return !fs::is_empty(folder / "tmp");
-}
-
 TEST_F(Limits, WhatAKilledRunUnpackedIsRemovedByTheNext) {
   ASSERT_EQ(run("simulate room-2 -o room.bag").exit_code, 0);
   ASSERT_EQ(run("convert room.bag -o room.mcap").exit_code, 0);
   std::ofstream(folder_ / "room.mcap.zstd", std::ios::binary)
       << test::packed_by_zstd(test::contents_of(folder_ / "room.mcap"));
   fs::create_directory(folder_ / "tmp");
-  constexpr int kMaxTries = 100;  // it may be done before it is seen
-  int tries = 0;
-  while (!killed_with_its_file(folder_)) ASSERT_LT(++tries, kMaxTries);
-  const Outcome next = run("info room.bag", "TMPDIR='" + (folder_ / "tmp").string() + "'");
+  const std::string there = " TMPDIR='" + (folder_ / "tmp").string() + "'";
+  const test::SelfSignal killed{SIGKILL, "MCAP0"};  // what the unpacked file begins with
+  ASSERT_EQ(run("info room.mcap.zstd", killed.environment() + there).exit_code, test::kKilled);
+  ASSERT_FALSE(fs::is_empty(folder_ / "tmp"));
+  const Outcome next = run("info room.bag", "-u DISPLAY" + there);
   EXPECT_EQ(next.exit_code, 0) << next.err;
   EXPECT_TRUE(fs::is_empty(folder_ / "tmp"));
 }

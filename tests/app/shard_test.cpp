@@ -1,13 +1,11 @@
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "core/results/candidate_file.hpp"
+#include "tests/app/self_signal.hpp"
 #include "tests/program.hpp"
 
 namespace sweepscope {
@@ -28,16 +26,10 @@ class Shards : public test::ProgramTest {
     EXPECT_EQ(outcome.exit_code, 0) << arguments << "\n" << outcome.err;
   }
 
-  /// Begins the command, and kills it once `path` holds that many lines.
-  void kill_at(const std::string& arguments, const std::string& path, std::size_t lines) const {
-    const pid_t child = test::begin_program(folder_, arguments);
-    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(120);
-    while (lines_in(file(path)) < lines && std::chrono::steady_clock::now() < deadline)
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    kill(child, SIGKILL);
-    int status = 0;
-    waitpid(child, &status, 0);
-    ASSERT_TRUE(WIFSIGNALED(status)) << "it ended before it could be killed";
+  /// Runs the command, which is killed once it has kept so many candidates.
+  void kill_at(const std::string& arguments, int candidates) const {
+    const test::SelfSignal killed{SIGKILL, "offset_ns", candidates};
+    ASSERT_EQ(run(arguments, killed.environment()).exit_code, test::kKilled);
   }
 };
 
@@ -80,8 +72,7 @@ TEST_F(Shards, HaveTheSameBytesForAnyNumberOfThreads) {
 TEST_F(Shards, AKilledRunGoesOnWhereItWas) {
   const std::string search = "room.bag --method stationary --range 20:28:0.1 ";
   expect_done("estimate " + search + "--no-timing --json one.json --threads 1");
-  kill_at("estimate " + search + "--resume kept.candidates --json resumed.json --threads 1",
-          "kept.candidates", 15);
+  kill_at("estimate " + search + "--resume kept.candidates --json resumed.json --threads 1", 15);
   const std::string kept = file("kept.candidates");
   ASSERT_LT(lines_in(kept), 1U + 81U);
   EXPECT_FALSE(exists("resumed.json"));
@@ -92,7 +83,7 @@ TEST_F(Shards, AKilledRunGoesOnWhereItWas) {
 
 TEST_F(Shards, TheDefaultSearchResumesToo) {
   expect_done("estimate room.bag --method stationary --no-timing --json one.json");
-  kill_at("estimate room.bag --resume kept.candidates --threads 1", "kept.candidates", 15);
+  kill_at("estimate room.bag --resume kept.candidates --threads 1", 15);
   expect_done("estimate room.bag --resume kept.candidates --no-timing --json resumed.json");
   EXPECT_EQ(file("resumed.json"), file("one.json"));
 }

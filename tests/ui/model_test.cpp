@@ -22,11 +22,9 @@ namespace {
 
 /// Frames until nothing is left to do.
 void rest(Explorer& explorer) {
-  const auto begin = std::chrono::steady_clock::now();
   do {
     explorer.update(1.0 / 60);
     if (explorer.background().busy()) std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    ASSERT_LT(std::chrono::steady_clock::now() - begin, std::chrono::minutes(5));
   } while (!explorer.at_rest());
 }
 

@@ -57,6 +57,18 @@ TEST(GivenMotion, IsNearAMotionOfWhichItHasFewPoses) {
   for (double t_s = 0.5; t_s < 19; t_s += 0.0371) EXPECT_LT(apart(given.at(t_s), pose_at(t_s)), 3e-4) << t_s;
 }
 
+// Its rates by finite differences, before and after a pose: the derivative of the rotation vector is right.
+TEST(GivenMotion, TurnsOnWithoutAKinkAtItsPoses) {
+  constexpr double kSpacing_s = 0.1, kStep_s = 1e-4;
+  const GivenMotion given = motion(Role::kPrior, kSpacing_s);
+  for (int i = 20; i < 60; ++i) {
+    const double t_s = i * kSpacing_s;
+    const Vector3d before = difference(given.at(t_s), given.at(t_s - kStep_s)).head<3>() / kStep_s,
+                   after = difference(given.at(t_s + kStep_s), given.at(t_s)).head<3>() / kStep_s;
+    EXPECT_LT((after - before).norm(), 1e-3 * after.norm()) << t_s;
+  }
+}
+
 TEST(GivenMotion, ATimeShiftIsAddedToItsStamps) {
   const GivenMotion given = motion().with_time_shift(0.137);
   EXPECT_LT(apart(given.at(5.137), pose_at(5)), 1e-5);

@@ -90,8 +90,9 @@ TEST(FitLine, FindsTheLineFarFromTheOrigin) {
   const auto line = fit_line(column(0.004), PatchOptions(), kRadius_m);
   ASSERT_TRUE(line);
   EXPECT_NEAR(std::abs(line->direction.dot(kAlong)), 1, 1e-3);
-  EXPECT_NEAR(from_line(*line, kCentre).norm(), 0, 5e-3);
-  EXPECT_NEAR((from_line(*line, kCentre + 0.4 * kAcross) - 0.4 * kAcross).norm(), 0, 0.02);
+  EXPECT_NEAR(residual_of(*line, kCentre).distance_m, 0, 5e-3);
+  const MatchResidual beside = residual_of(*line, kCentre + 0.4 * kAcross);
+  EXPECT_NEAR((beside.distance_m * beside.normal - 0.4 * kAcross).norm(), 0, 0.02);
 }
 
 TEST(FitLine, RefusesAPatch) {
@@ -106,6 +107,36 @@ TEST(FitLine, RefusesPointsOfASingleScanLine) {
   Neighbours neighbours = column(0.004);
   neighbours.lines = 1;
   EXPECT_FALSE(fit_line(neighbours, PatchOptions(), kRadius_m));
+}
+
+// By central differences of the distance.
+Vector3d numeric_normal(const auto& patch, const Vector3d& p_m) {
+  constexpr double kStep_m = 1e-5;
+  Vector3d slope;
+  for (int i = 0; i < 3; ++i)
+    slope[i] = (residual_of(patch, p_m + kStep_m * Vector3d::Unit(i)).distance_m -
+                residual_of(patch, p_m - kStep_m * Vector3d::Unit(i)).distance_m) /
+               (2 * kStep_m);
+  return slope;
+}
+
+TEST(MatchResidual, ChangesAlongItsNormal) {
+  const PlanePatch plane{kCentre, kNormal};
+  const LinePatch line{kCentre, kAlong};
+  for (const double side : {-0.3, 0.2}) {
+    const Vector3d p_m = kCentre + side * kNormal + 0.7 * kAcross + 0.1 * kAlong;
+    EXPECT_NEAR(residual_of(plane, p_m).distance_m, side, 1e-12);
+    EXPECT_NEAR(residual_of(line, p_m).distance_m, std::hypot(side, 0.7), 1e-12);
+    EXPECT_LT((residual_of(plane, p_m).normal - numeric_normal(plane, p_m)).norm(), 1e-8);
+    EXPECT_LT((residual_of(line, p_m).normal - numeric_normal(line, p_m)).norm(), 1e-8);
+  }
+}
+
+TEST(MatchResidual, OnALineHasNoNormal) {
+  const LinePatch line{kCentre, kAlong};
+  EXPECT_FALSE(residual_of(line, kCentre).has_normal);
+  EXPECT_EQ(residual_of(line, kCentre).distance_m, 0);
+  EXPECT_FALSE(residual_of(std::optional<LinePatch>(), kCentre));
 }
 
 }  // namespace

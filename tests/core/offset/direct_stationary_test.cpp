@@ -82,10 +82,9 @@ TEST(DirectStationary, NoOptionAsksForMoreNeighboursThanThereIsRoomFor) {
   const double angle_rad = points.angle_rad[line * points.bins + bin];
   const StillPatch of_many = StillNeighbours(points, pool, line, many).patch(angle_rad, bin, 3);
   const StillPatch of_most = StillNeighbours(points, pool, line, most).patch(angle_rad, bin, 3);
-  EXPECT_EQ(of_many.found, of_most.found);
-  if (of_many.found) {
-    EXPECT_EQ(of_many.centre_m, of_most.centre_m);
-  }
+  ASSERT_TRUE(of_many.found);
+  ASSERT_TRUE(of_most.found);
+  EXPECT_EQ(of_many.centre_m, of_most.centre_m);
 }
 
 }  // namespace

@@ -117,25 +117,6 @@ TEST(Direct, KnowsThatAMotorSampledSparselyTellsLess) {
   expect_refused(directly(made(options)), "sampled only 2.0 times per sweep");
 }
 
-// As if nothing had moved, and yet the valley is where it belongs.
-class CoarseSearchTest : public testing::TestWithParam<const char*> {};
-
-TEST_P(CoarseSearchTest, FindsTheRightMillisecondFromAnywhere) {
-  for (const double truth_s : {-0.047, 0.024}) {
-    const Recording& recording = test::simulated(GetParam(), truth_s, 8).recording;
-    const OffsetProblem problem = test::problem_of(recording);
-    const CoarseSearch found =
-        search_coarsely(problem, -60 * kMs, 60 * kMs, search_scale(problem.motor), Job());
-    ASSERT_TRUE(found.best);
-    EXPECT_NEAR(found.offset_s(), truth_s, 1.5 * kMs);
-    EXPECT_NEAR(found.curve.front().offset_s, -60 * kMs, 1e-12);
-    EXPECT_NEAR(found.curve.back().offset_s, 60 * kMs, 1e-12);
-  }
-}
-
-INSTANTIATE_TEST_SUITE_P(StandingAndWalking, CoarseSearchTest,
-                         testing::Values("room-2", "metro-station", "cemetery"));
-
 TEST(Direct, FindsTheOffsetOfAWalkAndKnowsHowWell) {
   const Estimate found = directly(test::simulated("metro-station", 0.024, 30).recording);
   EXPECT_EQ(found.method, Method::kDirect);

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "core/offset/rig_motion.hpp"
-#include "core/offset/still_motion.hpp"
 #include "tests/core/engine_fixtures.hpp"
 
 namespace sweepscope {
@@ -52,109 +50,6 @@ TEST_F(Room, APairThatIsMissingMakesTheCandidateFail) {
   EXPECT_FALSE(point.d);
   EXPECT_FALSE(point.signed_rotation_rad);
   EXPECT_FALSE(candidate(0, {}).d);
-}
-
-MotionTest tested(const Recording& recording, double offset_s) {
-  const OffsetProblem problem = test::problem_of(recording);
-  return test_motion(still_grid(problem), offset_s);
-}
-
-TEST(MotionOfTheRig, ARoomStandsAlsoAtAWrongOffset) {
-  for (const double offset_s : {kTruth_s, -0.04}) {
-    const MotionTest test = tested(test::room(kTruth_s), offset_s);
-    EXPECT_GE(test.pairs, 4u);
-    EXPECT_FALSE(test.moving()) << test.moved << " of " << test.pairs;
-    EXPECT_LT(test.median_translation_m, 0.01);
-  }
-}
-
-TEST(MotionOfTheRig, AWalkMovesAlsoAtAWrongOffset) {
-  for (const double offset_s : {kTruth_s, -0.04}) {
-    const MotionTest test = tested(test::simulated("metro-station", kTruth_s, 8).recording, offset_s);
-    EXPECT_TRUE(test.moving()) << test.moved << " of " << test.pairs;
-  }
-}
-
-// Rough ground, trunks, twigs, and leaves from the ground up, which every sweep hits elsewhere.
-simulation::Mesh forest(std::uint64_t seed) {
-  simulation::Random random(seed, 1, 0);
-  const auto about = [&](double middle, double reach) { return middle + reach * (2 * random.uniform() - 1); };
-  simulation::Mesh mesh = simulation::box({-14, -14, -2.2}, {14, 14, -1.2});
-  for (int tree = 0; tree < 24; ++tree) {
-    const double away_m = 1.7 + 7 * random.uniform(), angle_rad = 2 * test::kPi * random.uniform();
-    const Eigen::Vector3d foot_m(away_m * std::cos(angle_rad), away_m * std::sin(angle_rad), -1.4);
-    mesh.add(simulation::rod(foot_m, foot_m + Eigen::Vector3d(about(0, 0.4), about(0, 0.4), 5), 0.1));
-    for (int leaf = 0; leaf < 900; ++leaf) {
-      const Eigen::Vector3d a = foot_m + Eigen::Vector3d(about(0, 0.9), about(0, 0.9), about(1.7, 1.6));
-      const auto corner = [&] { return a + 0.1 * Eigen::Vector3d(about(0, 1), about(0, 1), about(0, 1)); };
-      if (a.head<2>().norm() > 0.7) mesh.triangles.push_back({a, corner(), corner()});
-    }
-  }
-  return mesh;
-}
-
-TEST(MotionOfTheRig, IsNoneAmongTrees) {
-  for (const std::uint64_t seed : {1, 2, 3, 4}) {
-    for (const double sweep_s : {0.3, 0.7}) {
-      test::Bench bench;
-      bench.mesh = forest(seed);
-      bench.noise_m = 0.01;
-      bench.duration_s = 7;
-      bench.sweep_s = sweep_s;
-      bench.offset_s = kTruth_s;
-      const MotionTest test = tested(bench.record(), 0);
-      EXPECT_GE(test.pairs, 4u);
-      EXPECT_FALSE(test.moving()) << seed << ": " << test.moved << " of " << test.pairs << ", "
-                                  << test.far_moved << " of " << test.far_pairs;
-    }
-  }
-}
-
-TEST(MotionOfTheRig, IsNoneWherePeopleWalkBy) {
-  SimulationOptions options;
-  options.duration_s = 6;
-  options.people = 6;
-  options.sweep_s = 0.3;
-  for (const std::uint64_t seed : {4, 5, 6}) {
-    options.seed = seed;
-    const MotionTest test = tested(simulate(options, Job()).value().recording, options.offset_s);
-    EXPECT_FALSE(test.moving()) << seed << ": " << test.moved << " of " << test.pairs;
-  }
-}
-
-TEST(MotionOfTheRig, IsSeenInTheFirstSecondsOfEveryWalk) {
-  for (const char* scene : {"metro-station", "parking-area", "cemetery", "lecture-room"})
-    for (const double sweep_s : {0.5, 0.556}) {
-      const MotionTest test = tested(test::simulated(scene, kTruth_s, 6, sweep_s).recording, kTruth_s);
-      EXPECT_TRUE(test.moving()) << scene << " " << sweep_s << ": " << test.moved << " of " << test.pairs;
-    }
-}
-
-// 1.5 cm from one sweep to the next but one, in a hall.
-TEST(MotionOfTheRig, IsSeenWhereItIsSlow) {
-  test::Bench bench;
-  bench.mesh = test::hall();
-  bench.noise_m = 0.01;
-  bench.duration_s = 7;
-  bench.offset_s = kTruth_s;
-  bench.world_from_base = [](double t_s) {
-    return Eigen::Isometry3d(Eigen::Translation3d(0.015 * t_s, 0.005 * t_s, 0));
-  };
-  const MotionTest test = tested(bench.record(), kTruth_s);
-  EXPECT_TRUE(test.moving()) << test.moved << " of " << test.pairs << ", " << test.far_moved << " of "
-                             << test.far_pairs;
-}
-
-TEST(MotionOfTheRig, IsNoneWhereTheClocksDriftApart) {
-  SimulationOptions options;
-  options.duration_s = 10;
-  options.clock_drift_ppm = 500;
-  EXPECT_FALSE(tested(simulate(options, Job()).value().recording, options.offset_s).moving());
-}
-
-TEST(MotionOfTheRig, TooFewSweepsAreNoAnswer) {
-  const Recording part = window(test::room(kTruth_s), 0, 0.9);
-  EXPECT_FALSE(test_motion(still_grid(test::problem_of(part)), kTruth_s).answered());
 }
 
 }  // namespace

@@ -147,12 +147,15 @@ TEST(Simulate, RangesAreWholeMillimetresAndAnglesWholeSteps) {
   SimulationOptions options;
   options.duration_s = 0.5;
   const Recording recording = simulated(options).recording;
+  std::size_t measured = 0;
   for (const float range_m : recording.ranges_m) {
     if (std::isnan(range_m)) continue;
+    ++measured;
     EXPECT_EQ(range_m, static_cast<float>(std::round(range_m * 1e3) / 1e3));
     EXPECT_GE(range_m, 0.1F);
     EXPECT_LE(range_m, 30.0F);
   }
+  EXPECT_GT(measured, 10000U);
   for (const double angle_rad : recording.motor.angle_rad) {
     const double steps = degrees(angle_rad) / 0.088;
     EXPECT_NEAR(steps, std::round(steps), 1e-6);
