@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "core/apply/applied_records.hpp"
 #include "core/apply/apply_output.hpp"
@@ -72,12 +73,11 @@ class Copier {
 
   std::size_t add_topic(const StreamTopic& topic);
   std::optional<Error> add(const StreamMessage& message);
-  /// The topics of what is added are to be added before.
-  void insert(const AddedMessages* added, std::size_t first_topic, Encoding encoding);
   Result<void> finish(const std::vector<std::string>& records);
 
   std::uint64_t moved() const { return moved_; }
   std::uint64_t malformed() const { return malformed_; }
+  const std::set<std::string>& other_joints() const { return other_joints_; }
   WrittenFile written() const { return written_; }
 
  private:
@@ -87,7 +87,8 @@ class Copier {
   };
   std::optional<Error> write(const StreamMessage& message);
   std::optional<Error> write_moved(const Entry& entry, StreamMessage message);
-  std::optional<Error> write_added_before(std::int64_t log_ns);
+  std::optional<bool> is_of_motor(const Entry& entry, std::span<const std::byte> plain);
+  std::optional<Error> refuse_absolute_times(const Entry& entry, std::span<const std::byte> plain) const;
   Error out_of_range(const StreamMessage& message) const;
 
   MessageSink& sink_;
@@ -98,10 +99,9 @@ class Copier {
   std::optional<Error> problem_;
   WrittenFile written_;
   std::vector<std::byte> plain_, copy_;
+  std::vector<DecodedJoint> joints_;
+  std::set<std::string> other_joints_;  // in messages that were moved
   std::uint64_t moved_ = 0, malformed_ = 0;
-  const AddedMessages* added_ = nullptr;
-  std::size_t next_added_ = 0, first_added_topic_ = 0;
-  Encoding added_encoding_ = Encoding::kRos1;
 };
 
 std::size_t Copier::add_topic(const StreamTopic& recorded) {
@@ -117,32 +117,12 @@ std::size_t Copier::add_topic(const StreamTopic& recorded) {
   return written_.topics.size() - 1;
 }
 
-void Copier::insert(const AddedMessages* added, std::size_t first_topic, Encoding encoding) {
-  added_ = added;
-  first_added_topic_ = first_topic;
-  added_encoding_ = encoding;
-}
-
 std::optional<Error> Copier::write(const StreamMessage& message) {
   if (auto written = sink_.write(message); !written) return written.error();
   const bool first = written_.messages++ == 0;
   written_.first_ns = first ? message.log_ns : std::min(written_.first_ns, message.log_ns);
   written_.last_ns = first ? message.log_ns : std::max(written_.last_ns, message.log_ns);
   ++written_.counts[message.topic];
-  return std::nullopt;
-}
-
-std::optional<Error> Copier::write_added_before(std::int64_t log_ns) {
-  while (added_ != nullptr && next_added_ < added_->messages.size() &&
-         added_->messages[next_added_].log_ns < log_ns) {
-    const AddedMessage& added = added_->messages[next_added_++];
-    const std::string bytes = added.bytes(added_encoding_);
-    StreamMessage message;
-    message.topic = first_added_topic_ + added.topic;
-    message.log_ns = message.publish_ns = added.log_ns;
-    message.bytes = std::as_bytes(std::span(bytes));
-    if (auto error = write(message)) return error;
-  }
   return std::nullopt;
 }
 
@@ -153,7 +133,40 @@ Error Copier::out_of_range(const StreamMessage& message) const {
                       name_, move_.stream.topic, static_cast<double>(message.log_ns) / kNs_per_s)};
 }
 
+/// Whether a message on the motor's topic holds the motor's joint: several publishers may share a topic.
+/// Empty where it is malformed.
+std::optional<bool> Copier::is_of_motor(const Entry& entry, std::span<const std::byte> plain) {
+  if (!decode_joints(entry.type->kind, entry.encoding, plain, Eigen::Vector3d::UnitX(), joints_))
+    return std::nullopt;
+  const bool found = std::ranges::find(joints_, move_.stream.joint, &DecodedJoint::name) != joints_.end();
+  const bool frames_apart =
+      entry.type->kind == MessageKind::kTransforms && move_.stream.stamp == StampSource::kHeader;
+  if (found && !frames_apart)
+    for (const DecodedJoint& joint : joints_)
+      if (joint.name != move_.stream.joint) other_joints_.emplace(joint.name);
+  return found;
+}
+
+std::optional<Error> Copier::refuse_absolute_times(const Entry& entry,
+                                                   std::span<const std::byte> plain) const {
+  if (entry.type->kind != MessageKind::kCloud || !has_absolute_times(entry.encoding, plain))
+    return std::nullopt;
+  return Error{
+      ExitCode::kWrongUsage,
+      fmt::format("{}: the points on {} have times of their own since 1970, which --shift laser does "
+                  "not move; use --shift motor",
+                  name_, move_.stream.topic)};
+}
+
 std::optional<Error> Copier::write_moved(const Entry& entry, StreamMessage message) {
+  const auto plain = plain_message(written_.topics[message.topic], message.bytes, plain_);
+  if (move_.shifted == ShiftedStream::kMotor) {
+    const auto of_motor = is_of_motor(entry, plain);
+    if (!of_motor) ++malformed_;
+    if (!of_motor.value_or(false)) return write(message);
+  } else if (auto refused = refuse_absolute_times(entry, plain)) {
+    return refused;
+  }
   const auto moved_ns = [&](std::int64_t ns) { return move_.moved_ns(ns); };
   if (move_.stream.stamp == StampSource::kReceive) {
     message.log_ns = moved_ns(message.log_ns);
@@ -161,8 +174,6 @@ std::optional<Error> Copier::write_moved(const Entry& entry, StreamMessage messa
     ++moved_;
     return write(message);
   }
-  const StreamTopic& topic = written_.topics[message.topic];
-  const auto plain = plain_message(topic, message.bytes, plain_);
   const bool packed = plain.data() != message.bytes.data();
   copy_.assign(plain.begin(), plain.end());
   const StampShift shift =
@@ -171,25 +182,20 @@ std::optional<Error> Copier::write_moved(const Entry& entry, StreamMessage messa
   if (shift == StampShift::kMalformed) ++malformed_;
   if (shift != StampShift::kShifted) return write(message);
   ++moved_;
-  if (!packed) {
-    message.bytes = copy_;
-    return write(message);
-  }
   const std::string again =
-      compressed(Compression::kZstd, {reinterpret_cast<const char*>(copy_.data()), copy_.size()});
-  message.bytes = std::as_bytes(std::span(again));
+      packed ? compressed(Compression::kZstd, {reinterpret_cast<const char*>(copy_.data()), copy_.size()})
+             : std::string();
+  message.bytes = packed ? std::as_bytes(std::span(again)) : std::span<const std::byte>(copy_);
   return write(message);
 }
 
 std::optional<Error> Copier::add(const StreamMessage& message) {
   if (problem_) return problem_;
-  if (auto error = write_added_before(message.log_ns)) return error;
   const Entry& entry = entries_[message.topic];
   return entry.type == nullptr ? write(message) : write_moved(entry, message);
 }
 
 Result<void> Copier::finish(const std::vector<std::string>& records) {
-  if (!problem_) problem_ = write_added_before(std::numeric_limits<std::int64_t>::max());
   if (problem_) return tl::unexpected(*problem_);
   return sink_.finish(records);
 }
@@ -207,11 +213,9 @@ class Application {
   Result<void> prepare();
   Result<void> check_not_applied();
   Result<std::unique_ptr<MessageSink>> create_sink(const OutputFile& file, const fs::path& path) const;
-  void add_topics(Copier& copier) const;
   Result<void> write_file(const OutputFile& file, const fs::path& folder);
   Result<void> write_folder();
   std::vector<std::string> records_for(const OutputFile& file) const;
-  void warn_of_neighbours();
 
   const StreamRecording& recording_;
   fs::path output_;
@@ -222,6 +226,7 @@ class Application {
   Move move_;
   Applied result_;
   std::uint64_t malformed_ = 0;
+  std::set<std::string> other_joints_;
   std::vector<WrittenFile> written_;
 };
 
@@ -241,14 +246,6 @@ Result<void> Application::check_not_applied() {
                   recording_.path.string(), kAppliedMetadata));
 }
 
-/// Besides the motor, what else the moved messages hold.
-void Application::warn_of_neighbours() {
-  if (move_.stream.other_joints.empty()) return;
-  result_.warnings.push_back(
-      fmt::format("the messages on {} hold the joints {} too, whose stamps are moved with those of {}",
-                  move_.stream.topic, fmt::join(move_.stream.other_joints, ", "), move_.stream.joint));
-}
-
 Result<void> Application::prepare() {
   auto kind = output_kind(recording_, output_);
   if (!kind) return tl::unexpected(kind.error());
@@ -263,7 +260,6 @@ Result<void> Application::prepare() {
   if (!move) return tl::unexpected(move.error());
   move_ = std::move(*move);
   result_.warnings = survey_.warnings;
-  warn_of_neighbours();
   result_.provenance = {recording_.path.filename().string(),
                         options_.estimate,
                         options_.shifted,
@@ -272,8 +268,7 @@ Result<void> Application::prepare() {
                         move_.stream.stamp,
                         options_.offset,
                         0};
-  for (std::size_t i = 0; i < survey_.topics.size(); ++i)
-    if (survey_.topics[i].name == move_.stream.topic) result_.provenance.messages += survey_.messages[i];
+  result_.provenance.messages = move_.stream.messages;
   return {};
 }
 
@@ -302,33 +297,12 @@ std::vector<std::string> Application::records_for(const OutputFile& file) const 
   return records;
 }
 
-/// What is added is spelt as the recording's messages are.
-void Application::add_topics(Copier& copier) const {
-  const auto ros1_messages = [](const StreamTopic& topic) { return topic.encoding == "ros1"; };
-  const bool ros1 = std::ranges::any_of(survey_.topics, ros1_messages);
-  std::size_t first = 0;
-  for (std::size_t i = 0; i < options_.added.topics.size(); ++i) {
-    const AddedMessages::Topic& added = options_.added.topics[i];
-    StreamTopic topic{added.name, added.type, "cdr", "ros2msg", added.ros2_definition, "", {}};
-    if (ros1) {
-      const MessageType* type = find_message_type(added.type);
-      topic = {added.name, std::string(type->name), "ros1", "ros1msg", added.ros1_definition, "", {}};
-      topic.metadata = {{"md5sum", std::string(type->md5)}, {"callerid", "/sweepscope"}};
-    }
-    const std::size_t number = copier.add_topic(topic);
-    if (i == 0) first = number;
-  }
-  copier.insert(&options_.added, first, ros1 ? Encoding::kRos1 : Encoding::kCdr);
-}
-
 Result<void> Application::write_file(const OutputFile& file, const fs::path& folder) {
   const fs::path path = folder / file.name;
   const fs::path plain = file.packed ? fs::path(path.string() + ".plain") : path;
   auto sink = create_sink(file, plain);
   if (!sink) return tl::unexpected(sink.error());
   Copier copier(**sink, kind_.format, move_, recording_.path.string());
-  const bool last = file.inputs.back().path == recording_.files.back().path;
-  if (last && !options_.added.topics.empty()) add_topics(copier);
   const StreamVisitor visitor{[&](const StreamTopic& topic) { return copier.add_topic(topic); },
                               [&](const StreamMessage& message) { return copier.add(message); }};
   for (const StreamFile& input : file.inputs)
@@ -336,6 +310,7 @@ Result<void> Application::write_file(const OutputFile& file, const fs::path& fol
   if (const auto finished = copier.finish(records_for(file)); !finished) return finished;
   result_.moved += copier.moved();
   malformed_ += copier.malformed();
+  other_joints_.insert(copier.other_joints().begin(), copier.other_joints().end());
   written_.push_back(copier.written());
   written_.back().name = file.name;
   written_.back().packed = file.packed;
@@ -348,7 +323,7 @@ Result<void> Application::write_folder() {
   if (!folder) return tl::unexpected(folder.error());
   for (const OutputFile& file : output_files(recording_, kind_, output_))
     if (auto written = write_file(file, folder->part_path()); !written) return written;
-  const bool as_before = options_.added.topics.empty() && move_.stream.stamp == StampSource::kHeader;
+  const bool as_before = move_.stream.stamp == StampSource::kHeader;
   std::error_code ignored;
   const fs::path described = recording_.path / "metadata.yaml";
   auto metadata = recording_.is_folder && as_before && fs::exists(described, ignored)
@@ -369,6 +344,10 @@ Result<Applied> Application::run() {
   if (malformed_ > 0)
     result_.warnings.push_back(fmt::format("{} messages on {} are malformed, and were copied as they are",
                                            malformed_, move_.stream.topic));
+  if (!other_joints_.empty())
+    result_.warnings.push_back(fmt::format("messages of {} on {} hold {} too, which is moved with it",
+                                           move_.stream.joint, move_.stream.topic,
+                                           fmt::join(other_joints_, ", ")));
   return result_;
 }
 

@@ -2,36 +2,16 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "core/apply/message_stream.hpp"
 #include "core/apply/provenance.hpp"
 #include "core/error.hpp"
 #include "core/job.hpp"
-#include "core/recording/messages/messages.hpp"
 #include "core/recording/rig.hpp"
 
 namespace sweepscope {
-
-/// A message that the output holds beside those of the recording.
-struct AddedMessage {
-  std::size_t topic = 0;  // in AddedMessages::topics
-  std::int64_t log_ns = 0;
-  std::function<std::string(Encoding)> bytes;
-};
-
-/// Each goes before the first message of the recording that was received later.
-struct AddedMessages {
-  /// As ROS 2 spells their types; `definition` as ROS 1 and as ROS 2 have it, in that order.
-  struct Topic {
-    std::string name, type, ros1_definition, ros2_definition;
-  };
-  std::vector<Topic> topics;
-  std::vector<AddedMessage> messages;  // ascending in time
-};
 
 struct ApplyOptions {
   AppliedOffset offset;
@@ -40,7 +20,6 @@ struct ApplyOptions {
   Rig rig;
   std::optional<StampSource> stamps;  // for both streams, whatever the rig says
   bool again = false;                 // also to a recording that it was applied to
-  AddedMessages added;
 };
 
 struct Applied {

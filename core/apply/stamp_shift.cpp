@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 namespace sweepscope {
@@ -84,6 +86,27 @@ StampShift shift_header_stamps(MessageKind kind, Encoding encoding, const std::s
     if (one == StampShift::kShifted) all = one;
   }
   return all;
+}
+
+bool has_absolute_times(Encoding encoding, std::span<const std::byte> cloud) {
+  constexpr double kMin = 1e8, kMinWhole = 1e17;  // s; ns
+  const auto decoded = decode_cloud(encoding, cloud);
+  if (!decoded) return false;
+  for (const std::string_view name : {"t", "time", "timestamp", "offset_time"}) {
+    const auto field = std::ranges::find(decoded->fields, name, &CloudField::name);
+    if (field == decoded->fields.end() || field->size() == 0) continue;
+    double least = HUGE_VAL, most = -HUGE_VAL;
+    for (std::size_t i = 0; i < decoded->points(); ++i) {
+      const double value = decoded->value(i, *field);
+      if (!std::isfinite(value)) continue;
+      least = std::min(least, value);
+      most = std::max(most, value);
+    }
+    const double since_1970 = std::abs(least);
+    return most >= least && since_1970 > (field->whole_number() ? kMinWhole : kMin) &&
+           since_1970 > 10 * (most - least);
+  }
+  return false;
 }
 
 }  // namespace sweepscope

@@ -26,4 +26,8 @@ using StampMap = std::function<std::int64_t(std::int64_t ns)>;
 StampShift shift_header_stamps(MessageKind kind, Encoding encoding, const std::string& joint,
                                const StampMap& moved, std::span<std::byte> message);
 
+/// Whether a cloud's points have times of their own since 1970, which its header's stamp does not move; as
+/// CloudReader tells them.
+bool has_absolute_times(Encoding encoding, std::span<const std::byte> cloud);
+
 }  // namespace sweepscope

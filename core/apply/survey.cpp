@@ -228,9 +228,7 @@ Result<MovedStream> find_motor(StreamSurvey& survey, const Rig& rig, std::option
   moved.stamp =
       stamp_of(joint.stamps.front(), stamps.value_or(rig.motor.stamp.value_or(StampSource::kHeader)),
                joint.topic, survey);
-  if (joint.source == JointSource::kTransform) return moved;
-  for (const RawJoint& other : survey.raw.joints)
-    if (other.topic == joint.topic && other.joint != joint.joint) moved.other_joints.push_back(other.joint);
+  moved.messages = joint.positions.size() + joint.left_out;
   return moved;
 }
 
@@ -243,6 +241,8 @@ Result<MovedStream> find_laser(StreamSurvey& survey, const Rig& rig, std::option
       stamp_of(laser.scans.front().stamps, stamps.value_or(rig.laser.stamp.value_or(StampSource::kHeader)),
                laser.topic, survey);
   moved.first_ns = stamp_ns(survey.first_scans[*chosen], moved.stamp);
+  for (std::size_t i = 0; i < survey.topics.size(); ++i)
+    if (survey.topics[i].name == laser.topic) moved.messages += survey.messages[i];
   moved.last_ns = stamp_ns(survey.last_scans[*chosen], moved.stamp);
   return moved;
 }

@@ -35,8 +35,8 @@ struct MovedStream {
   std::string topic;
   std::string joint;  // of the motor; empty of the laser
   StampSource stamp = StampSource::kHeader;
-  std::vector<std::string> other_joints = {};  // whose positions the same messages hold
-  std::int64_t first_ns = 0, last_ns = 0;      // of the laser, by that stamp
+  std::uint64_t messages = 0;              // of the joint, or of the laser
+  std::int64_t first_ns = 0, last_ns = 0;  // of the laser, by that stamp
 };
 
 /// The motor's and the laser's stream, chosen as for an estimate; `stamps` overrides the rig.
