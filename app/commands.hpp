@@ -8,6 +8,7 @@ namespace sweepscope::app {
 
 /// Each declares one subcommand on `app`: its options, and a callback that runs it and stores the exit code.
 /// One file per subcommand, without algorithms.
+void add_apply(CLI::App& app, ExitCode& exit_code);
 void add_info(CLI::App& app, ExitCode& exit_code);
 void add_convert(CLI::App& app, ExitCode& exit_code);
 void add_rig(CLI::App& app, ExitCode& exit_code);

@@ -55,6 +55,7 @@ int run(int argc, char** argv) {
   ExitCode exit_code = ExitCode::kDone;
   app::add_info(app, exit_code);
   app::add_convert(app, exit_code);
+  app::add_apply(app, exit_code);
   app::add_rig(app, exit_code);
   app::add_simulate(app, exit_code);
   app::add_estimate(app, exit_code);

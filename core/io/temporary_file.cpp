@@ -79,7 +79,8 @@ void forget_unfinished(const std::filesystem::path& path) {
 
 void remove_unfinished_files() {
   unfinished().mutex.lock();
-  for (const auto& path : unfinished().paths) std::remove(path.c_str());
+  std::error_code ignored;
+  for (const auto& path : unfinished().paths) fs::remove_all(path, ignored);  // a folder with its files
 }
 
 Result<TemporaryFile> TemporaryFile::create() {

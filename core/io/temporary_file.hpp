@@ -11,7 +11,7 @@ namespace sweepscope {
 /// removal until it is forgotten. Returns its descriptor, or -1 with errno.
 int create_unfinished(const std::filesystem::path& path);
 
-/// Registers a file that the caller created, until it is forgotten.
+/// Registers a file or a folder that the caller created, until it is forgotten.
 void remember_unfinished(const std::filesystem::path& path);
 void forget_unfinished(const std::filesystem::path& path);
 

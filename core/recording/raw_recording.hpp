@@ -80,6 +80,7 @@ struct RawJoint {
   JointSource source = JointSource::kJointState;
   std::vector<MessageStamps> stamps;
   std::vector<double> positions;  // raw: before the rig's scale and zero
+  std::size_t left_out = 0;       // samples that were counted and not kept
 };
 
 /// The known poses of a frame in its parent frame: the first transform, and the one rotated farthest from it.

@@ -50,7 +50,7 @@ std::string list_of_joints(const RawRecording& raw, const std::vector<std::size_
   for (const std::size_t i : which) {
     const RawJoint& joint = raw.joints[i];
     lines.push_back(fmt::format("{:{}}   turns over {:.1f} deg   {} samples   on {}", joint.joint, width,
-                                turn_deg(joint, rig), joint.positions.size(), joint.topic));
+                                turn_deg(joint, rig), joint.positions.size() + joint.left_out, joint.topic));
   }
   return list_of(lines);
 }

@@ -40,8 +40,13 @@ bool fits_its_op(const BagFields& fields) {
 /// Reads one bag. Members hold what is known so far; memory holds one chunk, packed and unpacked.
 class BagReader {
  public:
-  BagReader(InputFile& file, std::string name, const BagVisitor& visit)
-      : file_(file), name_(std::move(name)), visit_(visit), limit_(name_, file.size()) {}
+  BagReader(InputFile& file, std::string name, const BagVisitor& visit,
+            const BagConnectionVisitor& visit_connection)
+      : file_(file),
+        name_(std::move(name)),
+        visit_(visit),
+        visit_connection_(visit_connection),
+        limit_(name_, file.size()) {}
 
   Result<std::vector<std::string>> read(const Job& job);
 
@@ -74,10 +79,12 @@ class BagReader {
   InputFile& file_;
   std::string name_;
   const BagVisitor& visit_;
+  const BagConnectionVisitor& visit_connection_;
   UnpackingLimit limit_;
   std::map<std::uint32_t, BagConnection> connections_;
   std::vector<std::byte> packed_, unpacked_;
-  std::optional<std::uint64_t> index_at_;  // as claimed; 0 in a bag that was never closed
+  Compression compression_ = Compression::kNone;  // of the chunk that is read
+  std::optional<std::uint64_t> index_at_;         // as claimed; 0 in a bag that was never closed
   bool cut_short_ = false;
   bool ends_whole_ = false;  // its index lies where it should, up to the file's end: it is not cut short
   std::size_t orphans_ = 0;  // messages of connections that nothing describes
@@ -217,6 +224,7 @@ std::optional<Error> BagReader::read_chunk(const Header& header, const BagFields
                     place.text(), name.value_or("")));
     return std::nullopt;
   }
+  compression_ = *compression;
   const std::span<const std::byte> packed = read_data(header);
   const bool whole = packed.size() == header.data_bytes;
   const Decompressed unpacked = decompress(*compression, packed, limit_.most(kMaxChunk_bytes), unpacked_);
@@ -267,15 +275,16 @@ void BagReader::add_connection(const BagFields& fields, std::span<const std::byt
     warn(fmt::format("the connection at {} is damaged and was skipped", place.text()));
     return;
   }
-  describe(
-      {*id, std::string(*topic), std::string(*type), std::string(description->text("md5sum").value_or("*"))},
-      place);
+  describe({*id, std::string(*topic), std::string(*type),
+            std::string(description->text("md5sum").value_or("*")), std::string(as_text(data))},
+           place);
 }
 
 /// The chunk that introduces a connection and the index describe it alike.
 void BagReader::describe(BagConnection connection, const BagPlace& place) {
   const auto [known, is_new] = connections_.try_emplace(connection.id, connection);
   BagConnection& before = known->second;
+  if (is_new && visit_connection_) visit_connection_(before);
   if (is_new || (before.topic == connection.topic && before.type == connection.type &&
                  before.md5sum == connection.md5sum))
     return;
@@ -285,6 +294,7 @@ void BagReader::describe(BagConnection connection, const BagPlace& place) {
                   place.text(), connection.topic, connection.type, connection.md5sum, before.topic,
                   before.type, before.md5sum));
   before = std::move(connection);
+  if (visit_connection_) visit_connection_(before);
 }
 
 std::optional<Error> BagReader::visit_message(const BagFields& fields, std::span<const std::byte> data,
@@ -300,7 +310,7 @@ std::optional<Error> BagReader::visit_message(const BagFields& fields, std::span
     }
     return std::nullopt;
   }
-  return visit_({connection->second, *receive_ns, data, place});
+  return visit_({connection->second, *receive_ns, data, place, compression_});
 }
 
 /// Of a record that claims to end beyond the file.
@@ -359,7 +369,7 @@ Result<std::vector<std::string>> BagReader::read(const Job& job) {
 }  // namespace
 
 Result<std::vector<std::string>> read_ros1_bag(const std::filesystem::path& path, const BagVisitor& visit,
-                                               const Job& job) {
+                                               const Job& job, const BagConnectionVisitor& visit_connection) {
   auto file = InputFile::open(path);
   if (!file) return tl::unexpected(file.error());
   std::array<std::byte, kMagic.size()> magic{};
@@ -367,7 +377,7 @@ Result<std::vector<std::string>> read_ros1_bag(const std::filesystem::path& path
   if (as_text(magic) != kMagic) {
     return unreadable(fmt::format("{}: byte 0 does not begin a ROS 1 bag of format 2.0", path.string()));
   }
-  return BagReader(*file, path.string(), visit).read(job);
+  return BagReader(*file, path.string(), visit, visit_connection).read(job);
 }
 
 }  // namespace sweepscope

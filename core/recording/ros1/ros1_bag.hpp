@@ -28,6 +28,7 @@ struct BagConnection {
   std::string topic;
   std::string type;  // for example sensor_msgs/LaserScan
   std::string md5sum;
+  std::string header;  // as recorded: fields of type, md5sum, message_definition, callerid and others
 };
 
 /// One message. Its bytes and its connection are valid during the visit.
@@ -36,14 +37,18 @@ struct BagMessage {
   std::int64_t receive_ns;
   std::span<const std::byte> bytes;
   BagPlace place;
+  Compression compression;  // of its chunk
 };
 
+/// Called with each connection, before its first message, and again where the bag describes it otherwise.
+using BagConnectionVisitor = std::function<void(const BagConnection&)>;
 /// Called with every message in the file's order; an error that it returns ends the reading.
 using BagVisitor = std::function<std::optional<Error>(const BagMessage&)>;
 
 /// Reads a whole bag, one chunk in memory at a time. Returns warnings about what was damaged or missing, each
 /// with its position. The intact part of a damaged bag is visited.
 Result<std::vector<std::string>> read_ros1_bag(const std::filesystem::path& path, const BagVisitor& visit,
-                                               const Job& job);
+                                               const Job& job,
+                                               const BagConnectionVisitor& visit_connection = {});
 
 }  // namespace sweepscope

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <array>
-#include <boost/crc.hpp>
 #include <map>
 
 #include "core/io/input_file.hpp"
+#include "core/recording/packed/compress.hpp"
 #include "core/recording/packed/decompress.hpp"
 #include "core/recording/ros2/mcap_records.hpp"
 
@@ -27,6 +27,10 @@ struct Chunk {
   std::uint32_t crc = 0;             // 0: not given
   std::string_view compression;
   std::span<const std::byte> records;  // as far as they are there
+};
+
+struct Schema {
+  std::string name, encoding, definition;
 };
 
 std::optional<Compression> mcap_compression(std::string_view name) {
@@ -51,17 +55,12 @@ std::int64_t as_ns(std::uint64_t ns) {
   return ns <= static_cast<std::uint64_t>(INT64_MAX) ? static_cast<std::int64_t>(ns) : 0;
 }
 
-std::uint32_t checksum(std::span<const std::byte> bytes) {
-  boost::crc_32_type crc;
-  crc.process_bytes(bytes.data(), bytes.size());
-  return crc.checksum();
-}
-
 /// Reads one file. Members hold what is known so far; memory holds one chunk, packed and unpacked.
 class McapReader {
  public:
-  McapReader(InputFile& file, std::string name, UnpackingLimit& limit, const McapVisitor& visit)
-      : file_(file), name_(std::move(name)), limit_(limit), visit_(visit) {}
+  McapReader(InputFile& file, std::string name, UnpackingLimit& limit, const McapVisitor& visit,
+             const McapChannelVisitor& visit_channel)
+      : file_(file), name_(std::move(name)), limit_(limit), visit_(visit), visit_channel_(visit_channel) {}
 
   Result<std::vector<std::string>> read(const Job& job);
 
@@ -86,9 +85,11 @@ class McapReader {
   std::string name_;
   UnpackingLimit& limit_;
   const McapVisitor& visit_;
-  std::map<std::uint16_t, std::string> schemas_;
+  const McapChannelVisitor& visit_channel_;
+  std::map<std::uint16_t, Schema> schemas_;
   std::map<std::uint16_t, McapChannel> channels_;
   std::vector<std::byte> packed_, unpacked_;
+  Compression compression_ = Compression::kNone;  // of the chunk that is read
   bool ended_ = false, cut_short_ = false, in_summary_ = false;
   bool ends_whole_ = false;  // with the magic bytes that end a file: it is not cut short
   bool stopped_ = false;     // at damage that the file is read no further than
@@ -198,6 +199,7 @@ std::optional<Error> McapReader::read_chunk(std::span<const std::byte> content, 
                      place.text(), chunk.compression));
     return std::nullopt;
   }
+  compression_ = *compression;
   const Decompressed unpacked =
       decompress(*compression, chunk.records, limit_.most(kMaxMcapChunk_bytes), unpacked_);
   if (*compression != Compression::kNone)
@@ -210,7 +212,7 @@ std::optional<Error> McapReader::read_chunk(std::span<const std::byte> content, 
     warn(fmt::format("the chunk at {} claims {} unpacked bytes and holds {}", place.text(),
                      chunk.unpacked_bytes, unpacked.bytes.size()));
   }
-  if (sound && chunk.crc != 0 && checksum(unpacked.bytes) != chunk.crc) {
+  if (sound && chunk.crc != 0 && crc32_of(unpacked.bytes) != chunk.crc) {
     warn(fmt::format("the chunk at {} does not have the checksum that it claims, and was skipped",
                      place.text()));
     return std::nullopt;
@@ -249,9 +251,9 @@ std::optional<Error> McapReader::read_unpacked(std::span<const std::byte> record
 void McapReader::add_schema(std::span<const std::byte> content, const BagPlace& place) {
   McapFields fields(content);
   const auto id = fields.number<std::uint16_t>();
-  const std::string_view name = fields.text();
+  const std::string_view name = fields.text(), encoding = fields.text(), definition = fields.text();
   if (fields.whole() && id != 0) {
-    schemas_.insert_or_assign(id, std::string(name));
+    schemas_.insert_or_assign(id, Schema{std::string(name), std::string(encoding), std::string(definition)});
   } else {
     warn(fmt::format("the schema at {} is damaged and was skipped", place.text()));
   }
@@ -268,22 +270,30 @@ void McapReader::add_channel(std::span<const std::byte> content, const BagPlace&
     warn(fmt::format("the channel at {} is damaged and was skipped", place.text()));
     return;
   }
-  if (schema != schemas_.end()) channel.type = schema->second;
+  if (schema != schemas_.end()) {
+    channel.type = schema->second.name;
+    channel.schema_encoding = schema->second.encoding;
+    channel.definition = schema->second.definition;
+  }
   fields.number<std::uint32_t>();  // the bytes of the metadata: names and values to the end
   while (fields.whole() && !fields.rest().empty()) {
     const std::string_view name = fields.text(), value = fields.text();
     if (name == "md5sum" && !value.empty()) channel.md5sum = value;
+    if (fields.whole()) channel.metadata.emplace_back(name, value);
   }
-  channels_.insert_or_assign(id, std::move(channel));
+  const auto [entry, is_new] = channels_.try_emplace(id);
+  McapChannel& known = entry->second;
+  if (!is_new && known == channel) return;
+  known = std::move(channel);
+  if (visit_channel_) visit_channel_(known);
 }
 
 std::optional<Error> McapReader::visit_message(std::span<const std::byte> content, const BagPlace& place) {
   if (in_summary_) return std::nullopt;  // no place for a message
   McapFields fields(content);
   const auto id = fields.number<std::uint16_t>();
-  fields.number<std::uint32_t>();  // sequence
-  const auto log_ns = fields.number<std::uint64_t>();
-  fields.number<std::uint64_t>();  // publish time
+  const auto sequence = fields.number<std::uint32_t>();
+  const auto log_ns = fields.number<std::uint64_t>(), publish_ns = fields.number<std::uint64_t>();
   const auto channel = channels_.find(id);
   if (!fields.whole() || channel == channels_.end()) {
     if (orphans_++ == 0) {
@@ -293,7 +303,8 @@ std::optional<Error> McapReader::visit_message(std::span<const std::byte> conten
     }
     return std::nullopt;
   }
-  return visit_({channel->second, as_ns(log_ns), fields.rest(), place});
+  return visit_(
+      {channel->second, as_ns(log_ns), fields.rest(), place, sequence, as_ns(publish_ns), compression_});
 }
 
 /// The schemas and channels of the summary, where there is a sound one. What is wrong there is said when the
@@ -386,14 +397,15 @@ Result<std::vector<std::string>> read_mcap(const std::filesystem::path& path, co
 }
 
 Result<std::vector<std::string>> read_mcap(const std::filesystem::path& path, UnpackingLimit& limit,
-                                           const McapVisitor& visit, const Job& job) {
+                                           const McapVisitor& visit, const Job& job,
+                                           const McapChannelVisitor& visit_channel) {
   auto file = InputFile::open(path);
   if (!file) return tl::unexpected(file.error());
   std::array<char, kMcapMagic.size()> magic{};
   file->read(std::as_writable_bytes(std::span(magic)));
   if (std::string_view(magic.data(), magic.size()) != kMcapMagic)
     return unreadable(fmt::format("{}: byte 0 does not begin an MCAP file of version 0", path.string()));
-  return McapReader(*file, path.string(), limit, visit).read(job);
+  return McapReader(*file, path.string(), limit, visit, visit_channel).read(job);
 }
 
 }  // namespace sweepscope

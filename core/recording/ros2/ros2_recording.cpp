@@ -51,38 +51,11 @@ Result<std::vector<std::string>> collect_sqlite(const fs::path& path, MessageCol
 
 constexpr std::size_t kBeginning_bytes = 16;
 
-/// How a bag's file lies there.
-struct StoredFile {
-  BagStorage storage;
-  bool packed;  // as a whole, by Zstandard
-};
-
 /// The first bytes of what a packed file holds, of which `packed` is the beginning.
 std::string unpacked_beginning(std::span<const std::byte> packed) {
   std::vector<std::byte> plain;
   const auto bytes = decompress(Compression::kZstd, packed, kBeginning_bytes, plain).bytes;
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
-std::optional<StoredFile> stored_as(const fs::path& path) {
-  constexpr std::size_t kMaxZstdBlock_bytes = std::size_t{1} << 18;
-  std::error_code ignored;
-  if (!fs::is_regular_file(path, ignored)) return std::nullopt;
-  auto file = InputFile::open(path);
-  if (!file) return std::nullopt;
-  std::vector<std::byte> bytes(kBeginning_bytes);
-  bytes.resize(file->read(bytes));
-  const bool packed = begins_zstd(bytes);
-  if (packed) {
-    file->seek(0);
-    bytes.resize(kMaxZstdBlock_bytes);
-    bytes.resize(file->read(bytes));
-  }
-  const auto storage =
-      bag_storage(packed ? unpacked_beginning(bytes)
-                         : std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
-  if (!storage) return std::nullopt;
-  return StoredFile{*storage, packed};
 }
 
 Result<std::vector<std::string>> collect_as(BagStorage storage, const fs::path& path, UnpackingLimit& limit,
@@ -176,6 +149,33 @@ std::optional<BagStorage> bag_storage(std::string_view beginning) {
   return std::nullopt;
 }
 
+std::optional<StoredFile> stored_as(const fs::path& path) {
+  constexpr std::size_t kMaxZstdBlock_bytes = std::size_t{1} << 18;
+  std::error_code ignored;
+  if (!fs::is_regular_file(path, ignored)) return std::nullopt;
+  auto file = InputFile::open(path);
+  if (!file) return std::nullopt;
+  std::vector<std::byte> bytes(kBeginning_bytes);
+  bytes.resize(file->read(bytes));
+  const bool packed = begins_zstd(bytes);
+  if (packed) {
+    file->seek(0);
+    bytes.resize(kMaxZstdBlock_bytes);
+    bytes.resize(file->read(bytes));
+  }
+  const auto storage =
+      bag_storage(packed ? unpacked_beginning(bytes)
+                         : std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+  if (!storage) return std::nullopt;
+  return StoredFile{*storage, packed};
+}
+
+Result<std::vector<fs::path>> bag_files_of(const fs::path& folder) {
+  std::error_code ignored;
+  if (fs::exists(folder / kMetadata, ignored)) return named_files(folder);
+  return found_files(folder);
+}
+
 Result<RawRecording> read_ros2_file(const fs::path& path, const Rig& rig, const Job& job,
                                     CloudDetail clouds) {
   RawRecording raw = named_recording(path);
@@ -203,7 +203,7 @@ Result<RawRecording> read_ros2_folder(const fs::path& folder, const Rig& rig, co
                                       CloudDetail clouds) {
   std::error_code ignored;
   const bool described = fs::exists(folder / kMetadata, ignored);
-  const auto files = described ? named_files(folder) : found_files(folder);
+  const auto files = bag_files_of(folder);
   if (!files) return tl::unexpected(files.error());
   RawRecording raw = named_recording(folder);
   MessageCollector collector(rig, raw, clouds);

@@ -16,6 +16,18 @@ enum class BagStorage { kMcap, kSqlite };
 /// Detected from a file's first 16 bytes; empty if it is neither.
 std::optional<BagStorage> bag_storage(std::string_view beginning);
 
+/// How a bag's file lies there.
+struct StoredFile {
+  BagStorage storage;
+  bool packed;  // as a whole, by Zstandard
+};
+/// Told by its content; empty where it is no file of a ROS 2 bag.
+std::optional<StoredFile> stored_as(const std::filesystem::path& path);
+
+/// The files of a bag's folder in their order: those that metadata.yaml names; without one, all that are
+/// stored as bags are, by name.
+Result<std::vector<std::filesystem::path>> bag_files_of(const std::filesystem::path& folder);
+
 /// The scans and joints of one file: an SQLite database as rosbag2 writes it, or an MCAP file, of ROS 2's
 /// profile (cdr) or of ROS 1's (ros1); either also packed by zstd as a whole (rosbag2's compression mode
 /// FILE) or message by message (MESSAGE). Those that the rig excludes by name are counted and not kept.

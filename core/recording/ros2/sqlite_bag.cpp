@@ -85,8 +85,9 @@ Opening opening_of(const fs::path& database) {
 /// Reads one bag.
 class SqliteReader {
  public:
-  SqliteReader(const fs::path& path, const SqliteVisitor& visit, const Job& job)
-      : path_(path), visit_(visit), job_(job) {}
+  SqliteReader(const fs::path& path, const SqliteVisitor& visit, const Job& job,
+               const SqliteTopicVisitor& visit_topic)
+      : path_(path), visit_(visit), visit_topic_(visit_topic), job_(job) {}
 
   Result<std::vector<std::string>> read();
 
@@ -96,6 +97,8 @@ class SqliteReader {
   bool must_be_taken_back();
   Statement prepare(const char* sql);
   bool read_topics();
+  void read_descriptions();
+  std::string text_of(sqlite3_stmt* row, int column);
   std::optional<Error> read_messages();
   std::optional<Error> visit_row(sqlite3_stmt* row);
   bool has_table(const char* name);
@@ -106,6 +109,7 @@ class SqliteReader {
 
   fs::path path_;
   const SqliteVisitor& visit_;
+  const SqliteTopicVisitor& visit_topic_;
   const Job& job_;
   Database database_{nullptr, sqlite3_close};
   std::map<std::int64_t, SqliteTopic> topics_;
@@ -178,17 +182,38 @@ bool SqliteReader::begin() {
   return true;
 }
 
+std::string SqliteReader::text_of(sqlite3_stmt* row, int column) {
+  const auto* bytes = reinterpret_cast<const char*>(sqlite3_column_text(row, column));
+  return bytes == nullptr ? "" : bytes;
+}
+
 bool SqliteReader::read_topics() {
   const Statement rows = prepare("SELECT id, name, type, serialization_format FROM topics");
   if (!rows) return false;
-  const auto text = [&](int column) {
-    const auto* bytes = reinterpret_cast<const char*>(sqlite3_column_text(rows.get(), column));
-    return std::string(bytes == nullptr ? "" : bytes);
-  };
   int code = 0;
   while ((code = sqlite3_step(rows.get())) == SQLITE_ROW)
-    topics_[sqlite3_column_int64(rows.get(), 0)] = {text(1), text(2), text(3)};
+    topics_[sqlite3_column_int64(rows.get(), 0)] = {text_of(rows.get(), 1), text_of(rows.get(), 2),
+                                                    text_of(rows.get(), 3)};
   return code == SQLITE_DONE;
+}
+
+/// What only some versions of ROS 2 record of a topic.
+void SqliteReader::read_descriptions() {
+  if (const Statement rows = prepare("SELECT id, offered_qos_profiles FROM topics"))
+    while (sqlite3_step(rows.get()) == SQLITE_ROW)
+      topics_[sqlite3_column_int64(rows.get(), 0)].qos = text_of(rows.get(), 1);
+  if (const Statement rows = prepare("SELECT id, type_description_hash FROM topics"))
+    while (sqlite3_step(rows.get()) == SQLITE_ROW)
+      topics_[sqlite3_column_int64(rows.get(), 0)].type_hash = text_of(rows.get(), 1);
+  const Statement rows =
+      prepare("SELECT topic_type, encoding, encoded_message_definition FROM message_definitions");
+  while (rows && sqlite3_step(rows.get()) == SQLITE_ROW) {
+    for (auto& [id, topic] : topics_) {
+      if (topic.type != text_of(rows.get(), 0)) continue;
+      topic.schema_encoding = text_of(rows.get(), 1);
+      topic.definition = text_of(rows.get(), 2);
+    }
+  }
 }
 
 std::optional<Error> SqliteReader::visit_row(sqlite3_stmt* row) {
@@ -246,6 +271,10 @@ Result<std::vector<std::string>> SqliteReader::read() {
   if (!read_topics())
     return tl::unexpected(
         unreadable_because(fmt::format("its table of topics cannot be read: {}", problem())));
+  if (visit_topic_) {
+    read_descriptions();
+    for (const auto& [id, topic] : topics_) visit_topic_(topic);
+  }
   if (auto error = read_messages()) return tl::unexpected(std::move(*error));
   if (orphans_ > 0) warnings_.push_back(fmt::format("{} messages belong to no topic", orphans_));
   return std::move(warnings_);
@@ -254,9 +283,9 @@ Result<std::vector<std::string>> SqliteReader::read() {
 }  // namespace
 
 Result<std::vector<std::string>> read_sqlite_bag(const fs::path& path, const SqliteVisitor& visit,
-                                                 const Job& job) {
+                                                 const Job& job, const SqliteTopicVisitor& visit_topic) {
   if (const auto file = InputFile::open(path); !file) return tl::unexpected(file.error());
-  return SqliteReader(path, visit, job).read();
+  return SqliteReader(path, visit, job, visit_topic).read();
 }
 
 }  // namespace sweepscope

@@ -12,6 +12,7 @@
 #include "core/io/atomic_file.hpp"
 #include "core/recording/raw_recording.hpp"
 #include "core/recording/ros2/cdr_writer.hpp"
+#include "core/recording/ros2/mcap_content.hpp"
 #include "core/recording/ros2/mcap_records.hpp"
 
 namespace sweepscope {
@@ -22,31 +23,7 @@ constexpr int kZstdLevel = 3;
 enum ChannelId : std::uint16_t { kScans = 1, kJoints = 2 };
 constexpr std::array<std::uint16_t, 2> kChannels{kScans, kJoints};
 
-/// The content of a record, little-endian.
-class Content {
- public:
-  template <typename T>
-  Content& number(T value) {
-    bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
-    return *this;
-  }
-  Content& text(std::string_view text) { return number(static_cast<std::uint32_t>(text.size())).raw(text); }
-  Content& raw(std::string_view bytes) {
-    bytes_.append(bytes);
-    return *this;
-  }
-  const std::string& bytes() const { return bytes_; }
-
- private:
-  std::string bytes_;
-};
-
-std::string record(McapOp op, const Content& content) {
-  std::string bytes(1, static_cast<char>(op));
-  const std::uint64_t length = content.bytes().size();
-  bytes.append(reinterpret_cast<const char*>(&length), sizeof length);
-  return bytes + content.bytes();
-}
+using Content = McapContent;
 
 std::string packed(const std::string& bytes, const std::string& compression) {
   if (compression == "lz4") {
@@ -110,10 +87,10 @@ Result<void> McapWriter::begin(const RawLaser& laser, const std::string& joint_t
                             const std::string& topic) {
     const std::uint16_t number = id;
     descriptions_ +=
-        record(McapOp::kSchema, Content().number(number).text(type).text("ros2msg").text(definition));
+        mcap_record(McapOp::kSchema, Content().number(number).text(type).text("ros2msg").text(definition));
     descriptions_ +=
-        record(McapOp::kChannel,
-               Content().number(number).number(number).text(topic).text("cdr").number(std::uint32_t{0}));
+        mcap_record(McapOp::kChannel,
+                    Content().number(number).number(number).text(topic).text("cdr").number(std::uint32_t{0}));
   };
   if (laser.of_clouds)
     describe(kScans, "sensor_msgs/msg/PointCloud2", point_cloud_definition(), laser.topic);
@@ -122,7 +99,7 @@ Result<void> McapWriter::begin(const RawLaser& laser, const std::string& joint_t
   describe(kJoints, "sensor_msgs/msg/JointState", joint_state_definition(), joint_topic);
   chunk_ = descriptions_;
   return write(std::string(kMcapMagic) +
-               record(McapOp::kHeader, Content().text("ros2").text("sweepscope " SWEEPSCOPE_VERSION)));
+               mcap_record(McapOp::kHeader, Content().text("ros2").text("sweepscope " SWEEPSCOPE_VERSION)));
 }
 
 Result<void> McapWriter::message(ChannelId channel, std::uint64_t log_ns, std::uint64_t publish_ns,
@@ -131,12 +108,12 @@ Result<void> McapWriter::message(ChannelId channel, std::uint64_t log_ns, std::u
   index_[channel - 1].number(log_ns).number(std::uint64_t{chunk_.size()});
   chunk_times_.add(log_ns);
   times_.add(log_ns);
-  chunk_ += record(McapOp::kMessage, Content()
-                                         .number(static_cast<std::uint16_t>(channel))
-                                         .number(sequence)
-                                         .number(log_ns)
-                                         .number(publish_ns)
-                                         .raw(data));
+  chunk_ += mcap_record(McapOp::kMessage, Content()
+                                              .number(static_cast<std::uint16_t>(channel))
+                                              .number(sequence)
+                                              .number(log_ns)
+                                              .number(publish_ns)
+                                              .raw(data));
   return chunk_.size() < kChunk_bytes ? Result<void>() : end_chunk();
 }
 
@@ -147,33 +124,33 @@ Result<void> McapWriter::end_chunk() {
   crc.process_bytes(chunk_.data(), chunk_.size());
   const std::string records = packed(chunk_, compression_);
   const std::uint64_t chunk_at = at_;
-  const std::string chunk = record(McapOp::kChunk, Content()
-                                                       .number(chunk_times_.start_ns())
-                                                       .number(chunk_times_.last_ns)
-                                                       .number(std::uint64_t{chunk_.size()})
-                                                       .number(std::uint32_t{crc.checksum()})
-                                                       .text(compression_)
-                                                       .number(std::uint64_t{records.size()})
-                                                       .raw(records));
+  const std::string chunk = mcap_record(McapOp::kChunk, Content()
+                                                            .number(chunk_times_.start_ns())
+                                                            .number(chunk_times_.last_ns)
+                                                            .number(std::uint64_t{chunk_.size()})
+                                                            .number(std::uint32_t{crc.checksum()})
+                                                            .text(compression_)
+                                                            .number(std::uint64_t{records.size()})
+                                                            .raw(records));
   std::string indexes;
   Content offsets;
   for (const std::uint16_t channel : kChannels) {
     Content& index = index_[channel - 1];
     if (index.bytes().empty()) continue;
     offsets.number(channel).number(std::uint64_t{chunk_at + chunk.size() + indexes.size()});
-    indexes += record(McapOp::kMessageIndex, Content().number(channel).text(index.bytes()));
+    indexes += mcap_record(McapOp::kMessageIndex, Content().number(channel).text(index.bytes()));
     index = {};
   }
-  chunk_indexes_ += record(McapOp::kChunkIndex, Content()
-                                                    .number(chunk_times_.start_ns())
-                                                    .number(chunk_times_.last_ns)
-                                                    .number(chunk_at)
-                                                    .number(std::uint64_t{chunk.size()})
-                                                    .text(offsets.bytes())
-                                                    .number(std::uint64_t{indexes.size()})
-                                                    .text(compression_)
-                                                    .number(std::uint64_t{records.size()})
-                                                    .number(std::uint64_t{chunk_.size()}));
+  chunk_indexes_ += mcap_record(McapOp::kChunkIndex, Content()
+                                                         .number(chunk_times_.start_ns())
+                                                         .number(chunk_times_.last_ns)
+                                                         .number(chunk_at)
+                                                         .number(std::uint64_t{chunk.size()})
+                                                         .text(offsets.bytes())
+                                                         .number(std::uint64_t{indexes.size()})
+                                                         .text(compression_)
+                                                         .number(std::uint64_t{records.size()})
+                                                         .number(std::uint64_t{chunk_.size()}));
   ++chunks_;
   chunk_.clear();
   chunk_times_ = {};
@@ -183,25 +160,25 @@ Result<void> McapWriter::end_chunk() {
 /// The last chunk, the summary and the footer.
 Result<void> McapWriter::end() {
   if (auto ended = end_chunk(); !ended) return ended;
-  std::string tail = record(McapOp::kDataEnd, Content().number(std::uint32_t{0}));
+  std::string tail = mcap_record(McapOp::kDataEnd, Content().number(std::uint32_t{0}));
   const std::uint64_t summary_at = at_ + tail.size();
   Content counts;
   for (const std::uint16_t channel : kChannels) counts.number(channel).number(counts_[channel - 1]);
   tail += descriptions_;
-  tail += record(McapOp::kStatistics, Content()
-                                          .number(std::uint64_t{counts_[0] + counts_[1]})
-                                          .number(std::uint16_t{2})  // schemas
-                                          .number(std::uint32_t{2})  // channels
-                                          .number(std::uint32_t{0})  // attachments
-                                          .number(std::uint32_t{0})  // metadata
-                                          .number(chunks_)
-                                          .number(times_.start_ns())
-                                          .number(times_.last_ns)
-                                          .text(counts.bytes()));
+  tail += mcap_record(McapOp::kStatistics, Content()
+                                               .number(std::uint64_t{counts_[0] + counts_[1]})
+                                               .number(std::uint16_t{2})  // schemas
+                                               .number(std::uint32_t{2})  // channels
+                                               .number(std::uint32_t{0})  // attachments
+                                               .number(std::uint32_t{0})  // metadata
+                                               .number(chunks_)
+                                               .number(times_.start_ns())
+                                               .number(times_.last_ns)
+                                               .text(counts.bytes()));
   tail += chunk_indexes_;
   // No groups of the summary are listed, and the summary has no checksum.
-  tail +=
-      record(McapOp::kFooter, Content().number(summary_at).number(std::uint64_t{0}).number(std::uint32_t{0}));
+  tail += mcap_record(McapOp::kFooter,
+                      Content().number(summary_at).number(std::uint64_t{0}).number(std::uint32_t{0}));
   return write(tail + std::string(kMcapMagic));
 }
 

@@ -1,0 +1,38 @@
+#include "core/apply/clock_shift.hpp"
+
+#include <cmath>
+
+namespace sweepscope {
+namespace {
+
+constexpr double kNs_per_s = 1e9;
+
+}  // namespace
+
+double ClockShift::offset_s(std::int64_t laser_ns) const {
+  double offset_s = offset_s_ + rate_ * (static_cast<double>(laser_ns - at_laser_ns_) / kNs_per_s);
+  for (const OffsetStep& step : steps_) {
+    if (step.laser_ns <= laser_ns && step.laser_ns > at_laser_ns_) offset_s += step.size_s;
+    if (step.laser_ns > laser_ns && step.laser_ns <= at_laser_ns_) offset_s -= step.size_s;
+  }
+  return offset_s;
+}
+
+std::int64_t ClockShift::motor_ns(std::int64_t laser_ns) const {
+  return laser_ns + std::llround(offset_s(laser_ns) * kNs_per_s);
+}
+
+std::int64_t ClockShift::laser_ns(std::int64_t motor_ns) const {
+  // Clocks differ by parts in a hundred at the most, so each step leaves a hundredth of the error; beside a
+  // step of the offset they may go to and fro, and the last one counts.
+  constexpr int kSteps = 8;
+  std::int64_t laser_ns = motor_ns - std::llround(offset_s(motor_ns) * kNs_per_s);
+  for (int i = 0; i < kSteps; ++i) {
+    const std::int64_t next = motor_ns - std::llround(offset_s(laser_ns) * kNs_per_s);
+    if (next == laser_ns) break;
+    laser_ns = next;
+  }
+  return laser_ns;
+}
+
+}  // namespace sweepscope

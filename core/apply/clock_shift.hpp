@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace sweepscope {
+
+/// A sudden change of the offset, from an instant of the laser's clock on.
+struct OffsetStep {
+  std::int64_t laser_ns = 0;
+  double size_s = 0;
+};
+
+/// t_motor = t_laser + offset, with an offset that may drift and step. In whole nanoseconds both ways.
+class ClockShift {
+ public:
+  /// The same offset at all times.
+  explicit ClockShift(double offset_s) : offset_s_(offset_s) {}
+  /// The offset at an instant of the laser's clock, its rate (seconds per second) and its steps before and
+  /// after that instant.
+  ClockShift(double offset_s, std::int64_t at_laser_ns, double rate, std::vector<OffsetStep> steps)
+      : offset_s_(offset_s), at_laser_ns_(at_laser_ns), rate_(rate), steps_(std::move(steps)) {}
+
+  /// The offset at an instant of the laser's clock.
+  double offset_s(std::int64_t laser_ns) const;
+  /// What a stamp of the laser reads on the motor's clock.
+  std::int64_t motor_ns(std::int64_t laser_ns) const;
+  /// What a stamp of the motor reads on the laser's clock. Where the offset steps, the motor's clock shows
+  /// some times twice or never; those belong to one of the step's sides.
+  std::int64_t laser_ns(std::int64_t motor_ns) const;
+
+ private:
+  double offset_s_;
+  std::int64_t at_laser_ns_ = 0;
+  double rate_ = 0;
+  std::vector<OffsetStep> steps_;
+};
+
+}  // namespace sweepscope

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/apply/message_stream.hpp"
+#include "core/error.hpp"
+
+namespace sweepscope {
+
+/// A recording that is being written, message by message in the order of its file. It appears whole, with its
+/// index, once it is finished, or not at all. Takes memory for one chunk and the index.
+class MessageSink {
+ public:
+  MessageSink() = default;
+  virtual ~MessageSink() = default;
+  MessageSink(const MessageSink&) = delete;
+  MessageSink& operator=(const MessageSink&) = delete;
+
+  /// Call with topics 0, 1, 2 ... before their messages. A topic that the format cannot hold is
+  /// ExitCode::kWrongUsage.
+  virtual Result<void> add_topic(const StreamTopic& topic) = 0;
+  virtual Result<void> write(const StreamMessage& message) = 0;
+  /// Call once, last. `records` say what was done to the recording (provenance.hpp).
+  virtual Result<void> finish(const std::vector<std::string>& records) = 0;
+};
+
+/// A ROS 1 bag of format 2.0; chunks are compressed as `compression` says (none, bz2 or LZ4).
+Result<std::unique_ptr<MessageSink>> create_ros1_sink(const std::filesystem::path& path,
+                                                      Compression compression);
+
+/// An MCAP file; chunks are compressed as `compression` says (none, LZ4 or Zstandard). The attachments,
+/// metadata and private records of the MCAP files `kept_from` are taken over, and the profile of the first;
+/// `profile` is used where there is none.
+Result<std::unique_ptr<MessageSink>> create_mcap_sink(const std::filesystem::path& path,
+                                                      Compression compression, const std::string& profile,
+                                                      const std::vector<std::filesystem::path>& kept_from);
+
+/// A database as rosbag2 writes it (storage "sqlite3"). Messages keep their numbers where these ascend.
+Result<std::unique_ptr<MessageSink>> create_sqlite_sink(const std::filesystem::path& path);
+
+}  // namespace sweepscope

@@ -1,0 +1,112 @@
+#include "core/apply/stamp_shift.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace sweepscope {
+namespace {
+
+constexpr std::int64_t kSecond_ns = 1'000'000'000;
+constexpr std::size_t kStamp_bytes = 8;  // seconds and nanoseconds
+
+std::uint32_t load(const std::byte* at, bool swapped) {
+  std::array<std::byte, 4> bytes;
+  std::memcpy(bytes.data(), at, bytes.size());
+  if (swapped) std::ranges::reverse(bytes);
+  return std::bit_cast<std::uint32_t>(bytes);
+}
+
+void store(std::byte* at, std::uint32_t value, bool swapped) {
+  auto bytes = std::bit_cast<std::array<std::byte, 4>>(value);
+  if (swapped) std::ranges::reverse(bytes);
+  std::memcpy(at, bytes.data(), bytes.size());
+}
+
+StampShift shift_stamp(std::byte* at, Encoding encoding, bool swapped, const StampMap& moved) {
+  const std::int64_t before_ns = load(at, swapped) * kSecond_ns + load(at + 4, swapped);
+  if (before_ns == 0) return StampShift::kNone;
+  const std::int64_t after_ns = moved(before_ns);
+  // ROS 2 counts seconds with a sign.
+  const std::int64_t max_s = encoding == Encoding::kCdr
+                                 ? std::int64_t{std::numeric_limits<std::int32_t>::max()}
+                                 : std::int64_t{std::numeric_limits<std::uint32_t>::max()};
+  if (after_ns <= 0 || after_ns / kSecond_ns > max_s) return StampShift::kOutOfRange;
+  store(at, static_cast<std::uint32_t>(after_ns / kSecond_ns), swapped);
+  store(at + 4, static_cast<std::uint32_t>(after_ns % kSecond_ns), swapped);
+  return StampShift::kShifted;
+}
+
+/// Where the stamps lie. Empty without a value where the message is malformed.
+std::optional<std::vector<std::size_t>> stamp_places(MessageKind kind, Encoding encoding,
+                                                     const std::string& joint,
+                                                     std::span<const std::byte> message) {
+  constexpr std::size_t kFrameLength_bytes = 4;
+  std::vector<std::size_t> places;
+  if (kind == MessageKind::kTransforms) {
+    std::vector<DecodedTransform> transforms;
+    if (!decode_transforms(encoding, message, transforms)) return std::nullopt;
+    for (const DecodedTransform& transform : transforms) {
+      if (transform.child != joint) continue;
+      // The stamp, the length of the parent's name and the name follow each other.
+      const auto* const name = reinterpret_cast<const std::byte*>(transform.parent.data());
+      places.push_back(static_cast<std::size_t>(name - message.data()) - kFrameLength_bytes - kStamp_bytes);
+    }
+    return places;
+  }
+  const bool headerless =
+      kind == MessageKind::kFloat64 || kind == MessageKind::kFloat32 || kind == MessageKind::kInt32;
+  if (headerless) return places;
+  // After ROS 1's number of the message; after the identifier of CDR's representation.
+  constexpr std::size_t kBefore_bytes = 4;
+  if (message.size() < kBefore_bytes + kStamp_bytes) return std::nullopt;
+  const bool plain_cdr = message[0] == std::byte{0} && message[1] <= std::byte{1};
+  if (encoding == Encoding::kCdr && !plain_cdr) return std::nullopt;
+  places.push_back(kBefore_bytes);
+  return places;
+}
+
+}  // namespace
+
+StampShift shift_header_stamps(MessageKind kind, Encoding encoding, const std::string& joint,
+                               const StampMap& moved, std::span<std::byte> message) {
+  const auto places = stamp_places(kind, encoding, joint, message);
+  if (!places) return StampShift::kMalformed;
+  const bool swapped = encoding == Encoding::kCdr && message[1] == std::byte{0};
+  StampShift all = StampShift::kNone;
+  for (const std::size_t place : *places) {
+    const StampShift one = shift_stamp(message.data() + place, encoding, swapped, moved);
+    if (one == StampShift::kOutOfRange) return one;
+    if (one == StampShift::kShifted) all = one;
+  }
+  return all;
+}
+
+bool has_absolute_times(Encoding encoding, std::span<const std::byte> cloud) {
+  constexpr double kMin = 1e8, kMinWhole = 1e17;  // s; ns
+  const auto decoded = decode_cloud(encoding, cloud);
+  if (!decoded) return false;
+  for (const std::string_view name : {"t", "time", "timestamp", "offset_time"}) {
+    const auto field = std::ranges::find(decoded->fields, name, &CloudField::name);
+    if (field == decoded->fields.end() || field->size() == 0) continue;
+    double least = HUGE_VAL, most = -HUGE_VAL;
+    for (std::size_t i = 0; i < decoded->points(); ++i) {
+      const double value = decoded->value(i, *field);
+      if (!std::isfinite(value)) continue;
+      least = std::min(least, value);
+      most = std::max(most, value);
+    }
+    const double since_1970 = std::abs(least);
+    return most >= least && since_1970 > (field->whole_number() ? kMinWhole : kMin) &&
+           since_1970 > 10 * (most - least);
+  }
+  return false;
+}
+
+}  // namespace sweepscope

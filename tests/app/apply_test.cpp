@@ -1,0 +1,58 @@
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "tests/program.hpp"
+
+namespace sweepscope {
+namespace {
+
+class ApplyCommand : public test::ProgramTest {
+ protected:
+  void SetUp() override {
+    ASSERT_EQ(run("simulate room-1 -o room.bag").exit_code, 0);
+    ASSERT_EQ(run("estimate room.bag --no-timing --json room.json").exit_code, 0);
+  }
+  nlohmann::json estimate(const std::string& recording) const {
+    const Outcome outcome = run("estimate " + recording + " --no-timing --json -");
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return nlohmann::json::parse(outcome.out, nullptr, false);
+  }
+};
+
+TEST_F(ApplyCommand, TheRecordingHasNoOffsetAfterwardsInAnyFormat) {
+  ASSERT_EQ(run("convert room.bag -o room.mcap").exit_code, 0);
+  for (const char* arguments : {"room.bag -o out.bag", "room.bag -o out1.mcap", "room.mcap -o out2.mcap",
+                                "room.mcap -o out.db3", "room.bag -o laser.bag --shift laser"}) {
+    const Outcome outcome = run(std::string("apply --estimate room.json ") + arguments);
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const std::string output = outcome.out.substr(0, outcome.out.find(':'));
+    const nlohmann::json found = estimate(output);
+    EXPECT_LT(std::abs(found["offset_ms"].get<double>()), 0.01) << output;
+  }
+  ASSERT_EQ(run("apply out.db3 -o folder --offset-ms 0 --again").exit_code, 0);
+  EXPECT_TRUE(exists("folder/metadata.yaml"));
+  EXPECT_LT(std::abs(estimate("folder")["offset_ms"].get<double>()), 0.01);
+}
+
+TEST_F(ApplyCommand, WrongUsageSaysWhatIsWrongAndWritesNothing) {
+  const auto refused = [&](const std::string& arguments, int exit_code = 2) {
+    const Outcome outcome = run("apply " + arguments);
+    EXPECT_EQ(outcome.exit_code, exit_code) << arguments;
+    return outcome.err;
+  };
+  EXPECT_NE(refused("room.bag -o out.bag").find("one of --estimate and --offset-ms"), std::string::npos);
+  EXPECT_NE(refused("room.bag -o out.bag --offset-ms 24 --estimate room.json").find("one of --estimate"),
+            std::string::npos);
+  EXPECT_NE(refused("room.bag -o room.bag --offset-ms 24").find("is an input of this command"),
+            std::string::npos);
+  EXPECT_NE(refused("room.bag -o no/such/out.bag --offset-ms 24").find("cannot be created"),
+            std::string::npos);
+  EXPECT_NE(refused("room.bag -o out.xyz --offset-ms 24").find("stands for no format"), std::string::npos);
+  refused("missing.bag -o out.bag --offset-ms 24", 3);
+  ASSERT_EQ(run("convert room.bag -o tables").exit_code, 0);
+  EXPECT_NE(refused("tables -o out.bag --offset-ms 24").find("is a folder of CSV tables"), std::string::npos);
+  EXPECT_FALSE(exists("out.bag"));
+}
+
+}  // namespace
+}  // namespace sweepscope
