@@ -24,6 +24,12 @@ const CloudField* field_of(const DecodedCloud& cloud, std::initializer_list<std:
   return nullptr;
 }
 
+/// A Livox scanner's tag: bits 0 and 1 say how likely a point is noise by where it lies, bits 2 and 3 by its
+/// intensity. Those above count returns, or mark other points that are near the scanner.
+bool tagged_as_noise(double tag) {
+  return (static_cast<unsigned>(std::clamp(tag, 0.0, 255.0)) & 0xfU) != 0;
+}
+
 double wrapped(double angle_rad) {
   return std::remainder(angle_rad, 2 * std::numbers::pi);
 }
@@ -81,6 +87,8 @@ bool CloudReader::read_points(const DecodedCloud& cloud) {
   if (time == nullptr)
     return problem_ = "its points have no time of their own (a field t, time, timestamp or offset_time)",
            false;
+  const CloudField* tag = ring != nullptr && ring->name == "line" ? field_of(cloud, {"tag"}) : nullptr;
+  if (tag != nullptr && !tag->whole_number()) tag = nullptr;
   has_ring_ = ring != nullptr;
   has_intensity_ = intensity != nullptr;
   points_.clear();
@@ -89,6 +97,7 @@ bool CloudReader::read_points(const DecodedCloud& cloud) {
     for (int k = 0; k < 3; ++k) point.p_m[k] = static_cast<float>(cloud.value(i, *xyz[k]));
     point.time = cloud.value(i, *time);
     if (!point.p_m.allFinite() || point.p_m.isZero() || !std::isfinite(point.time)) continue;
+    if (tag != nullptr && tagged_as_noise(cloud.value(i, *tag))) continue;
     if (ring != nullptr) {
       const double number = cloud.value(i, *ring);
       if (!(number >= 0 && number < kMaxRings)) continue;
@@ -98,13 +107,14 @@ bool CloudReader::read_points(const DecodedCloud& cloud) {
     points_.push_back(point);
   }
   std::ranges::stable_sort(points_, {}, [](const Point& p) { return std::pair(p.ring, p.time); });
-  return points_.empty() || unit_s_ > 0 || choose_unit(time->whole_number());
+  return points_.empty() || unit_s_ > 0 || choose_unit(time->whole_number(), cloud.time_unit_s);
 }
 
-/// False where the points have one time all together.
-bool CloudReader::choose_unit(bool whole_numbers) {
+/// False where the points have one time all together. `known_s`: the unit where the format says it, else 0.
+bool CloudReader::choose_unit(bool whole_numbers, double known_s) {
   const auto [least, most] = std::ranges::minmax(points_, {}, &Point::time);
   if (!(most.time > least.time)) return problem_ = "its points all have the same time", false;
+  if (known_s > 0) return unit_s_ = known_s, true;
   const double since_1970 = std::abs(least.time), span = most.time - least.time;
   absolute_ = since_1970 > 1e8 && since_1970 > 10 * span;
   if (absolute_ && !(whole_numbers && since_1970 < 1e17)) {
@@ -183,10 +193,8 @@ void CloudReader::add_line(std::span<const Point> points, const RawScan& common,
   laser.scans.push_back(line);
 }
 
-bool CloudReader::add(Encoding encoding, std::span<const std::byte> message, std::int64_t receive_ns,
-                      RawLaser& laser) {
+bool CloudReader::add(const std::optional<DecodedCloud>& cloud, std::int64_t receive_ns, RawLaser& laser) {
   problem_.clear();
-  const auto cloud = decode_cloud(encoding, message);
   if (!cloud) return problem_ = "it is malformed", false;
   if (!read_points(*cloud)) return false;
   if (points_.empty()) return true;

@@ -94,6 +94,21 @@ TEST(CloudOffset, APlaneScannerWhoseDriverSendsClouds) {
   expect_answer(estimated(bench.record(), direct()), RigKind::kStationary, bench.offset_s, 0.2);
 }
 
+TEST(CloudOffset, ALivoxDriversMessageGivesTheEstimateOfThePointCloud) {
+  CloudBench bench;
+  bench.duration_s = 9;
+  bench.driver = CloudBench::Driver::kNanoseconds;
+  const Estimate of_cloud = estimated(bench.record(), direct());
+  expect_answer(of_cloud, RigKind::kStationary, bench.offset_s, 1.0);
+  for (const auto driver : {CloudBench::Driver::kLivox, CloudBench::Driver::kLivox2}) {
+    bench.driver = driver;
+    const Estimate of_livox = estimated(bench.record(), direct());
+    EXPECT_EQ(of_livox.offset_s, of_cloud.offset_s);
+    EXPECT_EQ(of_livox.sigma_s, of_cloud.sigma_s);
+    EXPECT_EQ(of_livox.scans, of_cloud.scans);
+  }
+}
+
 TEST(CloudOffset, AWalkInAHall) {
   CloudBench bench;
   bench.world_from_base = test::walk_in_hall;
