@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 
 #include "core/numbers.hpp"
@@ -62,6 +63,27 @@ Remark flat_reason(const std::vector<CurvePoint>& coarse, std::size_t best) {
       "The scene does not constrain the offset: sweeps of opposite directions fit each other about equally "
       "well at every offset ({:.1f} mm apart at best, {:.1f} mm at the median).",
       min_m * 1e3, median_m * 1e3);
+}
+
+Remark unrepeated_lines_reason(const Recording& recording) {
+  constexpr std::size_t kLines = 400, kBeams = 7;
+  constexpr double kMaxApart_rad = 5 * kRadPerDeg;  // rings and slices of turns repeat themselves to a degree
+  if (recording.directions.empty()) return std::nullopt;
+  std::map<std::uint16_t, const LaserScan*> first_of_ring;
+  std::vector<double> apart_rad;
+  const std::size_t stride = std::max<std::size_t>(1, recording.scans.size() / kLines);
+  for (std::size_t i = 0; i < recording.scans.size(); i += stride) {
+    const LaserScan& line = recording.scans[i];
+    const LaserScan& first = *first_of_ring.try_emplace(line.ring, &line).first->second;
+    for (std::uint32_t beam = 0; beam < std::min(line.beams, first.beams); beam += kBeams) {
+      const Eigen::Vector3d a = recording.direction(first, beam), b = recording.direction(line, beam);
+      if (&line != &first && !a.isZero() && !b.isZero())
+        apart_rad.push_back(std::atan2(a.cross(b).norm(), a.dot(b)));
+    }
+  }
+  if (median(std::move(apart_rad)) < kMaxApart_rad) return std::nullopt;
+  return "The scanner's lines do not repeat themselves, and the direct method compares equal beams of a "
+         "stationary rig. Use --method stationary.";
 }
 
 Remark stamps_reason(const Recording& recording, const SearchScale& scale) {

@@ -58,6 +58,21 @@ double angle_between_rad(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
   return double{std::atan2(a.cross(b).norm(), a.dot(b))};
 }
 
+/// Whether the points of each ring, in the order of time, go round the z axis one way.
+template <typename Points>
+bool go_round(const Points& points) {
+  constexpr double kMaxBack = 0.1, kStill_rad = 1e-5;
+  std::size_t left = 0, right = 0;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    if (points[i].ring != points[i - 1].ring) continue;
+    const Eigen::Vector3f &a = points[i - 1].p_m, &b = points[i].p_m;
+    const double step_rad = wrapped(double{std::atan2(b.y(), b.x())} - double{std::atan2(a.y(), a.x())});
+    if (std::abs(step_rad) < kStill_rad) continue;
+    ++(step_rad > 0 ? left : right);
+  }
+  return static_cast<double>(std::min(left, right)) <= kMaxBack * static_cast<double>(left + right);
+}
+
 /// Why points in the order of time are no line where no field says which beam each is of; empty where they
 /// are.
 template <typename Points>
@@ -193,12 +208,24 @@ void CloudReader::add_line(std::span<const Point> points, const RawScan& common,
   laser.scans.push_back(line);
 }
 
+/// A slice is taken for a ring of its own: the same slice of the next cloud lies where it did, or anywhere.
+void CloudReader::number_slices(double first_time) {
+  constexpr std::uint32_t kMaxSlices_a_ring = 64;  // rings are counted in 16 bits
+  const double slice = kSlice_s / unit_s_;
+  const std::uint32_t most = has_ring_ ? kMaxSlices_a_ring : kMaxRings;
+  for (Point& point : points_) {
+    const double number = std::min(std::floor((point.time - first_time) / slice), double(most - 1));
+    point.ring = (has_ring_ ? point.ring * most : 0) + static_cast<std::uint32_t>(number);
+  }
+}
+
 bool CloudReader::add(const std::optional<DecodedCloud>& cloud, std::int64_t receive_ns, RawLaser& laser) {
   problem_.clear();
   if (!cloud) return problem_ = "it is malformed", false;
   if (!read_points(*cloud)) return false;
   if (points_.empty()) return true;
   if (!has_ring_ && !(problem_ = no_line(points_)).empty()) return false;
+  if (!goes_round_) goes_round_ = has_ring_ && go_round(points_);
   if (laser.scans.empty()) laser.frame = cloud->frame;
   laser.has_intensities = laser.has_intensities && has_intensity_;
   if (!laser.has_intensities) std::vector<float>().swap(laser.intensities);
@@ -212,16 +239,11 @@ bool CloudReader::add(const std::optional<DecodedCloud>& cloud, std::int64_t rec
     common.stamps.header_ns = static_cast<std::int64_t>(std::llround(first.time * (unit_s_ * 1e9)));
   }
   common.cloud_end_after_stamp_s = (last.time - origin) * unit_s_;
-  // A slice is taken for a ring of its own: the same slice of the next cloud lies where it did.
-  const double slice = kSlice_s / unit_s_;
-  if (!has_ring_)
-    for (Point& point : points_)
-      point.ring = static_cast<std::uint32_t>(
-          std::min(std::floor((point.time - first.time) / slice), double{kMaxRings - 1}));
+  if (!*goes_round_) number_slices(first.time);
   for (auto begin = points_.begin(); begin != points_.end();) {
     const auto end =
         std::find_if(begin, points_.end(), [&](const Point& p) { return p.ring != begin->ring; });
-    add_line({begin, end}, common, origin, has_ring_, laser);
+    add_line({begin, end}, common, origin, *goes_round_, laser);
     begin = end;
   }
   return true;

@@ -17,7 +17,8 @@ namespace sweepscope {
 /// within the cloud like rings; points that neighbours in time lie far beside are then of several beams, and
 /// refused. Points of a line are sorted by time and laid on a grid of equal time steps, the median step from
 /// point to point, since drivers leave out beams that returned nothing; those are NaN. All lines of a ring
-/// begin near one azimuth, that of the first cloud.
+/// begin near one azimuth, that of the first cloud. Where the points of a ring do not go round, as those of
+/// scanners whose pattern does not repeat itself, each ring is cut into slices of 10 ms.
 ///
 /// A point's time is a field `t`, `time`, `timestamp` or `offset_time`, in the units of drivers: an integer
 /// counts ns, or us where a cloud would take less than 0.5 ms; a number beyond any recording's length is a
@@ -44,6 +45,7 @@ class CloudReader {
     std::uint32_t ring = 0;
   };
   bool read_points(const DecodedCloud& cloud);
+  void number_slices(double first_time);
   bool choose_unit(bool whole_numbers, double known_s);
   std::size_t beams_before(double azimuth_rad, double step_rad);
   void add_line(std::span<const Point> points, const RawScan& common, double origin, bool ringed,
@@ -52,9 +54,10 @@ class CloudReader {
   std::string problem_;
   std::vector<Point> points_;
   bool has_intensity_ = false, has_ring_ = false;
-  double unit_s_ = 0;              // of the times; 0: not known yet
-  bool absolute_ = false;          // they are since 1970
-  std::optional<double> cut_rad_;  // a little before the azimuth at which turns begin
+  std::optional<bool> goes_round_;  // the points of each ring, about the z axis; judged by the first cloud
+  double unit_s_ = 0;               // of the times; 0: not known yet
+  bool absolute_ = false;           // they are since 1970
+  std::optional<double> cut_rad_;   // a little before the azimuth at which turns begin
 };
 
 }  // namespace sweepscope

@@ -109,6 +109,27 @@ TEST(CloudOffset, ALivoxDriversMessageGivesTheEstimateOfThePointCloud) {
   }
 }
 
+TEST(CloudOffset, APatternThatDoesNotRepeatItself) {
+  CloudBench bench;
+  bench.rosette = true;
+  bench.rings = 2;
+  bench.beams = 1000;
+  bench.duration_s = 14;
+  bench.driver = CloudBench::Driver::kLivox2;
+  const Recording recording = bench.record();
+  EXPECT_TRUE(recording.report.warnings.empty()) << recording.report.warnings.front();
+  EXPECT_EQ(recording.scans.size(), 140U * 2U * 10U);  // slices of 10 ms of each line
+  EstimateOptions stationary;
+  stationary.method = Method::kStationary;
+  stationary.ranges = {{bench.offset_s - 0.006, bench.offset_s + 0.0061, 0.002}};
+  const Estimate found = estimated(recording, stationary);
+  ASSERT_TRUE(found.offset_s) << reasons(found);
+  EXPECT_NEAR(*found.offset_s * 1e3, bench.offset_s * 1e3, 1.0);
+  const Estimate refused = estimated(recording, direct());
+  ASSERT_FALSE(refused.offset_s);
+  EXPECT_NE(reasons(refused).find("lines do not repeat themselves"), std::string::npos) << reasons(refused);
+}
+
 TEST(CloudOffset, AWalkInAHall) {
   CloudBench bench;
   bench.world_from_base = test::walk_in_hall;
