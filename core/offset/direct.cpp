@@ -94,7 +94,7 @@ Answer of_stationary(const OffsetSearch& search, Answer answer, const Job& job) 
   if (sigma_s)
     sigma_s = std::hypot(*sigma_s, unseen_sigma_s(recording, search.problem.motor, found.offset_s));
   const double of_motion_s =
-      motion_sigma_s(search.motion, found.lever_m, search.problem.motor.median_speed_rad_s);
+      motion_sigma_s(search.motion, found.lever_m, search.problem.motor.lever_speed_rad_s());
   if (const auto moved_far = motion_reason(of_motion_s, search.scale))
     answer.reasons.push_back(*moved_far);
   else if (sigma_s)

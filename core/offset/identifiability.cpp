@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <numeric>
 
 #include "core/numbers.hpp"
 #include "core/recording/stream_stamps.hpp"
@@ -142,6 +143,8 @@ double encoder_step_sigma_s(const MotorTrack& track, const MotorMotion& motor) {
   constexpr double kMaxIndependent = 32;
   constexpr double kSame_rad = 1e-7;
   std::vector<double> angles_rad = track.angle_rad;
+  // A motor that turns one way never comes back to an angle; what it turns between samples is in steps too.
+  if (motor.one_way()) std::adjacent_difference(angles_rad.begin(), angles_rad.end(), angles_rad.begin());
   std::sort(angles_rad.begin(), angles_rad.end());
   double step_rad = std::numeric_limits<double>::infinity();
   for (std::size_t i = 1; i < angles_rad.size(); ++i)
@@ -149,7 +152,7 @@ double encoder_step_sigma_s(const MotorTrack& track, const MotorMotion& motor) {
       step_rad = std::min(step_rad, gap_rad);
   if (!std::isfinite(step_rad)) return 0;
   const double independent = std::clamp(2 * samples_per_sweep(track, motor), 1.0, kMaxIndependent);
-  return step_rad / motor.median_speed_rad_s / std::sqrt(12 * independent);
+  return step_rad / motor.lever_speed_rad_s() / std::sqrt(12 * independent);
 }
 
 double encoder_sampling_sigma_s(const MotorTrack& track, const MotorMotion& motor) {
@@ -312,7 +315,7 @@ Remark sampling_warning(const MotorTrack& track, const MotorMotion& motor) {
 }
 
 Remark slow_motor_warning(const MotorMotion& motor) {
-  const double turned_deg = motor.median_speed_rad_s * 1e-3 / kRadPerDeg;
+  const double turned_deg = motor.lever_speed_rad_s() * 1e-3 / kRadPerDeg;
   if (turned_deg > 0.1) return std::nullopt;
   return fmt::format("The motor turns slowly: 1 ms is only {:.3f} deg here.", turned_deg);
 }
