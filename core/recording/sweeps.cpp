@@ -127,9 +127,8 @@ bool turned_on(const MotorTrack& track, const MotorMotion& motion) {
 }  // namespace
 
 bool MotorMotion::one_way() const {
-  return sweeps.size() > 1 && std::ranges::all_of(sweeps, [&](const Sweep& sweep) {
-           return sweep.direction == sweeps.front().direction;
-         });
+  const auto as_first = [&](const Sweep& sweep) { return sweep.direction == sweeps.front().direction; };
+  return sweeps.size() > 1 && sweeps.front().direction != 0 && std::ranges::all_of(sweeps, as_first);
 }
 
 double MotorMotion::speeds_apart_rad_s() const {

@@ -99,7 +99,7 @@ TEST(FindSweeps, ALongRestBetweenSweepsBelongsToNone) {
 MotorTrack turning_on(double first_dps, double last_dps, bool ramp, double sign = 1) {
   const simulation::SpeedCourse course{{first_dps * kDegree, last_dps * kDegree}, ramp, 8};
   const Motor motor(MotorKind::kOneWay, 0.5, 0, {}, course);
-  return track_of([&](double t_s) { return sign * motor.angle_rad(t_s); }, 0, 8);
+  return track_of([&](double t_s) { return sign * motor.angle_rad(t_s); }, 0, 7.9);
 }
 
 TEST(FindSweeps, AMotorThatTurnsOneWayIsCutWhereItsAnglePassesHalfTurns) {
@@ -107,7 +107,7 @@ TEST(FindSweeps, AMotorThatTurnsOneWayIsCutWhereItsAnglePassesHalfTurns) {
     const MotorTrack track = turning_on(360, 180, false, sign);
     const MotorMotion motion = find_sweeps(track);
     EXPECT_TRUE(motion.one_way());
-    ASSERT_EQ(motion.sweeps.size(), 12U);  // 8 in the first 4 s, then 4
+    ASSERT_EQ(motion.sweeps.size(), 13U);  // 2160 deg less a little, the first and the last half turn cut off
     for (std::size_t i = 0; i + 1 < motion.sweeps.size(); ++i) {
       EXPECT_EQ(motion.sweeps[i].direction, sign);
       EXPECT_EQ(motion.sweeps[i].end_s, motion.sweeps[i + 1].begin_s);
@@ -120,7 +120,7 @@ TEST(FindSweeps, HalfTurnsArePartedIntoFasterAndSlowerOnes) {
   const MotorMotion steps = find_sweeps(turning_on(360, 180, false));
   for (const Sweep& sweep : steps.sweeps)
     EXPECT_EQ(sweep.side, sweep.begin_s < 3.8 ? 1 : -1) << sweep.begin_s;
-  EXPECT_NEAR(steps.speeds_apart_rad_s(), kPi, 0.05 * kPi);
+  EXPECT_NEAR(steps.speeds_apart_rad_s(), kPi, 0.1 * kPi);  // a half turn changes from one to the other
   EXPECT_EQ(steps.lever_speed_rad_s(), steps.speeds_apart_rad_s() / 2);
   const MotorMotion ramp = find_sweeps(turning_on(180, 360, true));
   EXPECT_NEAR(ramp.speeds_apart_rad_s(), 0.5 * kPi, 0.05 * kPi);  // of the halves' mean speeds
