@@ -224,6 +224,13 @@ void add_simulate(CLI::App& app, ExitCode& exit_code) {
   option("--dropout", options.dropout, "Fraction of beams without a return");
   option("--sweep-s", options.sweep_s, "Duration of one half turn of the motor");
   option("--motor", typed->motor, "triangle, trapezoid, sine, one-way or stuck");
+  simulate
+      ->add_option("--speeds-dps", options.speeds_dps,
+                   "Speeds of a motor that turns one way (deg/s), each for an equal part of the recording")
+      ->delimiter(',')
+      ->type_name("A,B,...");
+  simulate->add_flag("--speed-ramp", options.speed_ramp,
+                     "Turn evenly faster or slower from one of --speeds-dps to the next");
   option("--encoder-step-deg", options.encoder_step_deg, "The encoder's resolution");
   option("--encoder-hz", options.encoder_hz, "Motor samples per second");
   option("--encoder-jitter-ms", typed->encoder_jitter_ms, "Standard deviation of the sampling instants");

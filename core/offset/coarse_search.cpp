@@ -25,7 +25,9 @@ std::vector<double> every_second(const std::vector<double>& offsets_s) {
 
 CoarseSearch search_coarsely(const OffsetProblem& problem, double from_s, double to_s,
                              const SearchScale& scale, const Job& job) {
-  const OffsetProblem part = beginning_of(problem, (from_s + to_s) / 2, kMaxSweeps);
+  const double middle_s = (from_s + to_s) / 2;
+  const OffsetProblem part = problem.motor.one_way() ? beginnings_of_sides(problem, middle_s, kMaxSweeps / 2)
+                                                     : beginning_of(problem, middle_s, kMaxSweeps);
   const StillGrid grid = still_grid(part);
   CoarseSearch search;
   const auto compute = [&](const std::vector<double>& offsets_s) {

@@ -112,7 +112,7 @@ Answer of_stationary(const OffsetSearch& search, Answer answer, const Job& job) 
     sigma_s = std::hypot(*sigma_s, encoder_s);
   }
   const double of_motion_s =
-      motion_sigma_s(search.motion, found.lever_m, search.problem.motor.median_speed_rad_s);
+      motion_sigma_s(search.motion, found.lever_m, search.problem.motor.lever_speed_rad_s());
   if (const auto moved_far = motion_reason(of_motion_s, search.scale))
     answer.reasons.push_back(*moved_far);
   else if (sigma_s)
@@ -251,6 +251,7 @@ Result<Answer> answer_directly(const OffsetSearch& search, const Job& job) {
   Answer answer;
   answer.curve = coarse.curve;
   if (!coarse.best) {
+    add(answer.reasons, unrepeated_lines_reason(recording));
     answer.reasons.push_back(
         "Sweeps of opposite directions hardly see the same surfaces at any candidate offset.");
     return answer;
@@ -259,7 +260,9 @@ Result<Answer> answer_directly(const OffsetSearch& search, const Job& job) {
   // A walk blurs the valley of the coarse search: only the least squares tells whether there is one.
   if (!search.as_moving()) {
     add(answer.reasons, edge_reason(coarse.curve, *coarse.best));
-    add(answer.reasons, flat_reason(coarse.curve, *coarse.best));
+    const Remark flat = flat_reason(coarse.curve, *coarse.best);
+    if (flat) add(answer.reasons, unrepeated_lines_reason(recording));
+    add(answer.reasons, flat);
     add(answer.reasons, rival_reason(coarse.curve, *coarse.best, search.scale));
   }
   add(answer.warnings, aliased_warning(recording, motor));

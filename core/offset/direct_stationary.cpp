@@ -44,9 +44,14 @@ std::optional<double> coarse_cost_m(const StillGrid& grid, const StillPatchOptio
   const StillPoints points = place_still(grid, offset_s, StillDetail::kAngles);
   const std::vector<LinePool> pools = pools_by_sweep(points);
   CoarseSum total;
+  const bool one_way = grid.problem->motor.one_way();
   for (std::size_t line = 0; line < points.lines(); ++line) {
     const std::size_t sweep = points.sweep[line];
     if (sweep == kNoSweep) continue;
+    if (one_way) {
+      add_differences(grid, points, line, points.against(points.direction[line]), patches, total);
+      continue;
+    }
     if (sweep > 0) add_differences(grid, points, line, pools[sweep - 1], patches, total);
     if (sweep + 1 < pools.size()) add_differences(grid, points, line, pools[sweep + 1], patches, total);
   }

@@ -124,6 +124,7 @@ Estimate judged(Estimate result, const OffsetSearch& search, const KindDecision&
   result.kind_reason = kind.reason;
   result.method = search.method;
   append(result.warnings, kind.warnings);
+  append(result.reasons, one_way_reasons(search.problem.motor, search.kind, search.method));
   if (search.method == Method::kStationary && search.kind == RigKind::kMoving)
     result.reasons.push_back(moved_text(search.motion) +
                              " Use --method moving, or --assume stationary if it was stationary.");

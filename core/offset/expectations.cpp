@@ -12,13 +12,13 @@ namespace sweepscope {
 namespace {
 
 // What stands in the way of any estimate; empty where nothing does.
-std::vector<std::string> obstacles(const LaserSummary& laser, const MotorSummary& motor) {
+std::vector<std::string> obstacles(const LaserSummary& laser, const MotorSummary& motor,
+                                   const MotorTrack& track, const MotorMotion& motion) {
   if (!motor.turns) return {"The motor does not turn: there is no offset to see."};
   if (motor.one_way)
-    return {
-        "The motor turns one way only: the offset cannot be distinguished from the encoder's zero. Record it "
-        "turning back and forth."};
-  if (motor.reversals == 0) return {"The motor never turns back: there are no two sweeps to compare."};
+    if (std::vector<std::string> reasons = motor_reasons(track, motion); !reasons.empty()) return reasons;
+  if (motor.reversals == 0 && !motor.one_way)
+    return {"The motor never turns back: there are no two sweeps to compare."};
   if (laser.used == laser.scans_without_motor)
     return {"No scan has motor samples around it at offset 0: choose other stamps."};
   return {};
@@ -43,6 +43,11 @@ Remark refusal(const Recording& recording, const MotorMotion& motor) {
 std::string accuracy(const Recording& recording, const MotorMotion& motor) {
   constexpr double kParts = 4;  // of a walk of 40 s, see JointWalkOptions::part_s
   const double stationary_s = unseen_sigma_s(recording, motor, 0);
+  if (motor.one_way())
+    return fmt::format(
+        "The motor turns one way, at speeds that are {:.3g} deg/s apart: expect an offset good to about {:.2g} "
+        "ms of a stationary rig. A moving one is refused.",
+        motor.speeds_apart_rad_s() / kRadPerDeg, 1e3 * std::max(stationary_s, 0.01e-3));
   const double of_part_s = unseen_of_part_s(recording, motor, std::size_t(10 / motor.median_sweep_s));
   return fmt::format(
       "Expect an accuracy of about {:.2g} ms for a stationary rig and {:.2g} ms for a moving one (40 s).",
@@ -77,7 +82,7 @@ Remark few_sweeps(std::size_t sweeps) {
 std::vector<std::string> expectations(const Recording& recording, const RecordingSummary& summary,
                                       const MotorMotion& motor) {
   const LaserSummary& laser = summary.laser;
-  std::vector<std::string> lines = obstacles(laser, summary.motor);
+  std::vector<std::string> lines = obstacles(laser, summary.motor, recording.motor, motor);
   if (!lines.empty()) return lines;
   const auto add = [&](const Remark& line) {
     if (line) lines.push_back(*line);
@@ -87,11 +92,12 @@ std::vector<std::string> expectations(const Recording& recording, const Recordin
                   deg_per_ms, laser.median_range_m * deg_per_ms * kRadPerDeg * 1000, laser.median_range_m));
   const Remark refused = refusal(recording, motor);
   add(refused ? *refused : accuracy(recording, motor));
-  add(fmt::format(
-      "Offsets up to {:.4g} ms to either side can be distinguished (a quarter of the motor's period).",
-      1e3 * search_scale(motor).max_half_width_s));
+  if (!motor.one_way())
+    add(fmt::format(
+        "Offsets up to {:.4g} ms to either side can be distinguished (a quarter of the motor's period).",
+        1e3 * search_scale(motor).max_half_width_s));
   if (!refused) add(sparse_samples(recording, motor));
-  add(few_sweeps(summary.motor.whole_sweeps()));
+  if (!motor.one_way()) add(few_sweeps(summary.motor.whole_sweeps()));
   for (const auto& [stream, name] :
        {std::pair<const StreamSummary&, const char*>{laser, "scans'"}, {summary.motor, "motor's"}}) {
     if (stream.stamp != StampSource::kReceive || !stream.receive_jitter_s) continue;

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
+#include <numeric>
 
 #include "core/numbers.hpp"
 #include "core/recording/stream_stamps.hpp"
@@ -66,6 +68,27 @@ Remark flat_reason(const std::vector<CurvePoint>& coarse, std::size_t best) {
       min_m * 1e3, median_m * 1e3);
 }
 
+Remark unrepeated_lines_reason(const Recording& recording) {
+  constexpr std::size_t kLines = 400, kBeams = 7;
+  constexpr double kMaxApart_rad = 5 * kRadPerDeg;  // rings and slices of turns repeat themselves to a degree
+  if (recording.directions.empty()) return std::nullopt;
+  std::map<std::uint16_t, const LaserScan*> first_of_ring;
+  std::vector<double> apart_rad;
+  const std::size_t stride = std::max<std::size_t>(1, recording.scans.size() / kLines);
+  for (std::size_t i = 0; i < recording.scans.size(); i += stride) {
+    const LaserScan& line = recording.scans[i];
+    const LaserScan& first = *first_of_ring.try_emplace(line.ring, &line).first->second;
+    for (std::uint32_t beam = 0; beam < std::min(line.beams, first.beams); beam += kBeams) {
+      const Eigen::Vector3d a = recording.direction(first, beam), b = recording.direction(line, beam);
+      if (&line != &first && !a.isZero() && !b.isZero())
+        apart_rad.push_back(std::atan2(a.cross(b).norm(), a.dot(b)));
+    }
+  }
+  if (median(std::move(apart_rad)) < kMaxApart_rad) return std::nullopt;
+  return "The scanner's lines do not repeat themselves, and the direct method compares equal beams of a "
+         "stationary rig. Use --method stationary.";
+}
+
 Remark stamps_reason(const Recording& recording, const SearchScale& scale) {
   constexpr std::size_t kMinScans = 20;  // so that two spacings lie beyond nine in ten
   if (recording.report.laser_stamps.used != StampSource::kReceive) return std::nullopt;
@@ -123,6 +146,8 @@ double encoder_step_sigma_s(const MotorTrack& track, const MotorMotion& motor) {
   constexpr double kMaxIndependent = 32;
   constexpr double kSame_rad = 1e-7;  // rounding: no encoder has 26 bits
   std::vector<double> angles_rad = track.angle_rad;
+  // A motor that turns one way never comes back to an angle; what it turns between samples is in steps too.
+  if (motor.one_way()) std::adjacent_difference(angles_rad.begin(), angles_rad.end(), angles_rad.begin());
   std::sort(angles_rad.begin(), angles_rad.end());
   double step_rad = std::numeric_limits<double>::infinity();
   for (std::size_t i = 1; i < angles_rad.size(); ++i)
@@ -130,7 +155,7 @@ double encoder_step_sigma_s(const MotorTrack& track, const MotorMotion& motor) {
       step_rad = std::min(step_rad, gap_rad);
   if (!std::isfinite(step_rad)) return 0;
   const double independent = std::clamp(2 * samples_per_sweep(track, motor), 1.0, kMaxIndependent);
-  return step_rad / motor.median_speed_rad_s / std::sqrt(12 * independent);
+  return step_rad / motor.lever_speed_rad_s() / std::sqrt(12 * independent);
 }
 
 double encoder_sampling_sigma_s(const MotorTrack& track, const MotorMotion& motor) {
@@ -297,7 +322,7 @@ Remark sampling_warning(const MotorTrack& track, const MotorMotion& motor) {
 }
 
 Remark slow_motor_warning(const MotorMotion& motor) {
-  const double turned_deg = motor.median_speed_rad_s * 1e-3 / kRadPerDeg;
+  const double turned_deg = motor.lever_speed_rad_s() * 1e-3 / kRadPerDeg;
   if (turned_deg > 0.1) return std::nullopt;
   return fmt::format("The motor turns slowly: 1 ms is only {:.3f} deg here.", turned_deg);
 }

@@ -21,6 +21,10 @@ Remark edge_reason(const std::vector<CurvePoint>& coarse, std::size_t best);
 Remark rival_reason(const std::vector<CurvePoint>& coarse, std::size_t best, const SearchScale& scale);
 Remark flat_reason(const std::vector<CurvePoint>& coarse, std::size_t best);
 
+/// The lines of a 3D scanner do not come back to where they were, as those of Livox's patterns do not: beams
+/// of one number point elsewhere in each. The direct method compares them where a rig stood still.
+Remark unrepeated_lines_reason(const Recording& recording);
+
 /// The scans' receive times are so uneven that when each scan was taken is not known: their deviation from
 /// whole periods, nine times in ten, is as much as +- a quarter of a period and more than the motor's speed
 /// allows.

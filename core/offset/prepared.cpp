@@ -58,4 +58,16 @@ OffsetProblem beginning_of(const OffsetProblem& problem, double offset_s, std::s
   return part;
 }
 
+OffsetProblem beginnings_of_sides(const OffsetProblem& problem, double offset_s, std::size_t max_sweeps) {
+  OffsetProblem part = problem;
+  const std::vector<Sweep>& sweeps = part.motor.sweeps;
+  std::size_t of_side[2] = {0, 0};
+  std::vector<char> kept;
+  for (const Sweep& sweep : sweeps) kept.push_back(of_side[sweep.side > 0]++ < max_sweeps);
+  const std::vector<std::size_t> sweep_of = assign_sweeps(part.recording->scans, sweeps, offset_s);
+  for (std::size_t i = 0; i < part.scan_used.size(); ++i)
+    if (sweep_of[i] != kNoSweep && !kept[sweep_of[i]]) part.scan_used[i] = 0;
+  return part;
+}
+
 }  // namespace sweepscope

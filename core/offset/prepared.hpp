@@ -34,4 +34,7 @@ OffsetProblem problem_for(const PreparedRecording& prepared, double min_s, doubl
 /// The problem cut down to its first sweeps.
 OffsetProblem beginning_of(const OffsetProblem& problem, double offset_s, std::size_t max_sweeps);
 
+/// The first `max_sweeps` sweeps of each side: of a motor that turns one way the other side may come late.
+OffsetProblem beginnings_of_sides(const OffsetProblem& problem, double offset_s, std::size_t max_sweeps);
+
 }  // namespace sweepscope

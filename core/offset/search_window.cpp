@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/numbers.hpp"
 
@@ -22,10 +23,11 @@ double rounded_up(double value) {
 
 SearchScale search_scale(const MotorMotion& motor) {
   SearchScale scale;
-  scale.max_half_width_s = motor.median_sweep_s / 2;
-  scale.unit_s = rounded_up(std::max(1e-3, 0.36 * kRadPerDeg / motor.median_speed_rad_s));
+  scale.max_half_width_s =
+      motor.one_way() ? std::numbers::pi / (2 * motor.speeds_apart_rad_s()) : motor.median_sweep_s / 2;
+  scale.unit_s = rounded_up(std::max(1e-3, 0.36 * kRadPerDeg / motor.lever_speed_rad_s()));
   scale.half_width_s =
-      std::min(scale.max_half_width_s, std::max(0.060, 5 * kRadPerDeg / motor.median_speed_rad_s));
+      std::min(scale.max_half_width_s, std::max(0.060, 5 * kRadPerDeg / motor.lever_speed_rad_s()));
   return scale;
 }
 
@@ -56,11 +58,27 @@ std::vector<std::string> motor_reasons(const MotorTrack& track, const MotorMotio
   if (motor.sweeps.empty())
     return {fmt::format("The motor does not move: its angle stays within {:.2f} deg.",
                         motor.range_rad / kRadPerDeg)};
-  if (motor.sweeps.size() < 2)
+  // Slower changes of speed than this are no two speeds: the motor's own unevenness, or the encoder's.
+  constexpr double kMinSpeedChange = 0.1;
+  const bool one_speed = motor.speeds_apart_rad_s() < kMinSpeedChange * motor.median_speed_rad_s;
+  if (motor.sweeps.size() < 2 || (motor.one_way() && one_speed))
+    return {fmt::format(
+        "The motor turns one way only, at one speed ({:.0f} deg in {:.1f} s): an offset cannot be "
+        "distinguished from the encoder's zero. Record 5 s at one speed and 5 s at half of it.",
+        motor.range_rad / kRadPerDeg, track.time_s.back() - track.time_s.front())};
+  return {};
+}
+
+std::vector<std::string> one_way_reasons(const MotorMotion& motor, RigKind kind, Method method) {
+  if (!motor.one_way()) return {};
+  if (method != Method::kDirect)
     return {
-        fmt::format("The motor turns one way only ({:.0f} deg in {:.1f} s): an offset cannot be "
-                    "distinguished from the encoder's zero.",
-                    motor.range_rad / kRadPerDeg, track.time_s.back() - track.time_s.front())};
+        "The paper's criteria compare sweeps of opposite directions, and this motor turns one way. Use "
+        "--method direct."};
+  if (kind == RigKind::kMoving)
+    return {
+        "The rig moved, and its motor turns one way: an offset turns the rig about the motor's axis, which "
+        "a moving rig may do itself. Record 5 s at one speed and 5 s at half of it while it is stationary."};
   return {};
 }
 

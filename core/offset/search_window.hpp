@@ -16,7 +16,9 @@ struct SearchScale {
   double unit_s =
       0;  // 1 ms, or more for a motor that turns less than 0.36 deg in it: what the data can resolve
   double half_width_s = 0;      // of the default window about 0
-  double max_half_width_s = 0;  // a quarter of the motor's period: beyond, a mirror image fits as well
+  double max_half_width_s = 0;  // a quarter of the motor's period: beyond, a mirror image fits as well; of a
+                                // motor that turns one way of the offset by which its sides turn against each
+                                // other by a whole turn
 };
 SearchScale search_scale(const MotorMotion& motor);
 
@@ -26,5 +28,9 @@ Result<std::vector<double>> checked_offsets(const std::vector<OffsetRange>& rang
 
 /// Why this motor's track does not determine an offset; empty if it does.
 std::vector<std::string> motor_reasons(const MotorTrack& track, const MotorMotion& motor);
+
+/// Why a motor that turns one way does not tell the offset of a rig that moved, or by the paper's criteria;
+/// empty where it turns to and fro.
+std::vector<std::string> one_way_reasons(const MotorMotion& motor, RigKind kind, Method method);
 
 }  // namespace sweepscope

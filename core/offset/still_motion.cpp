@@ -1,6 +1,8 @@
 #include "core/offset/still_motion.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <numbers>
 #include <utility>
 
 #include "core/numbers.hpp"
@@ -44,6 +46,22 @@ StillGrid lines_of(const StillGrid& grid, const std::vector<std::size_t>& sweep_
   return part;
 }
 
+// Half turns take the longer and have the more lines the slower they are.
+std::vector<std::size_t> whole_half_turns(const MotorMotion& motor, const std::vector<std::size_t>& lines) {
+  std::vector<std::size_t> full;
+  std::vector<double> lines_per_s(lines.size(), 0.0);
+  double most_per_s = 0;
+  for (std::size_t sweep = 0; sweep < lines.size(); ++sweep) {
+    const double duration_s = motor.sweeps[sweep].end_s - motor.sweeps[sweep].begin_s;
+    if (motor.sweeps[sweep].speed_rad_s * duration_s < 0.7 * std::numbers::pi) continue;
+    lines_per_s[sweep] = double(lines[sweep]) / duration_s;
+    most_per_s = std::max(most_per_s, lines_per_s[sweep]);
+    full.push_back(sweep);
+  }
+  std::erase_if(full, [&](std::size_t sweep) { return lines_per_s[sweep] < 0.7 * most_per_s; });
+  return full;
+}
+
 std::vector<std::size_t> whole_sweeps(const StillGrid& grid, const std::vector<std::size_t>& sweep_of) {
   std::vector<std::size_t> lines;
   for (const std::size_t sweep : sweep_of) {
@@ -51,21 +69,28 @@ std::vector<std::size_t> whole_sweeps(const StillGrid& grid, const std::vector<s
     if (sweep >= lines.size()) lines.resize(sweep + 1);
     ++lines[sweep];
   }
+  const MotorMotion& motion = grid.problem->motor;
+  if (motion.one_way()) return whole_half_turns(motion, lines);
   const std::size_t most = lines.empty() ? 0 : *std::max_element(lines.begin(), lines.end());
   std::vector<std::size_t> whole;
   for (std::size_t sweep = 0; sweep < lines.size(); ++sweep) {
-    const Sweep& motor = grid.problem->motor.sweeps[sweep];
-    const bool full_turn = motor.end_s - motor.begin_s > 0.7 * grid.problem->motor.median_sweep_s;
+    const Sweep& motor = motion.sweeps[sweep];
+    const bool full_turn = motor.end_s - motor.begin_s > 0.7 * motion.median_sweep_s;
     if (full_turn && 10 * lines[sweep] > 7 * most) whole.push_back(sweep);
   }
   return whole;
 }
 
 // Of the same direction, one after the other, spread over the recording.
-std::vector<SweepPair> near_pairs(const std::vector<std::size_t>& whole) {
+std::vector<SweepPair> near_pairs(const MotorMotion& motor, const std::vector<std::size_t>& whole) {
   std::vector<SweepPair> all, chosen;
-  for (const std::size_t sweep : whole)
-    if (std::binary_search(whole.begin(), whole.end(), sweep + 2)) all.push_back({sweep, sweep + 2});
+  const bool one_way = motor.one_way();
+  for (const std::size_t sweep : whole) {
+    if (!std::binary_search(whole.begin(), whole.end(), sweep + 2)) continue;
+    // An offset turns half turns of different speeds against each other.
+    if (one_way && motor.sweeps[sweep].side != motor.sweeps[sweep + 2].side) continue;
+    all.push_back({sweep, sweep + 2});
+  }
   const std::size_t stride = std::max<std::size_t>(1, all.size() / kMaxPairs);
   for (std::size_t i = 0; i < all.size(); i += stride) chosen.push_back(all[i]);
   return chosen;
@@ -82,6 +107,20 @@ std::vector<SweepPair> far_pairs(const std::vector<std::size_t>& whole) {
     if (whole[last] - whole[first] < kMinSweepsApart) break;
     chosen.push_back({whole[first], whole[last]});
     end = last;
+  }
+  return chosen;
+}
+
+// The same of a motor that turns one way, of each side by itself.
+std::vector<SweepPair> far_pairs_of_sides(const MotorMotion& motor, const std::vector<std::size_t>& whole) {
+  if (!motor.one_way()) return far_pairs(whole);
+  std::vector<SweepPair> chosen;
+  for (const int side : {-1, 1}) {
+    std::vector<std::size_t> of_side;
+    std::ranges::copy_if(whole, std::back_inserter(of_side),
+                         [&](std::size_t sweep) { return motor.sweeps[sweep].side == side; });
+    const std::vector<SweepPair> pairs = far_pairs(of_side);
+    chosen.insert(chosen.end(), pairs.begin(), pairs.end());
   }
   return chosen;
 }
@@ -141,7 +180,8 @@ class Shifts {
 MotionTest test_motion(const StillGrid& grid, double offset_s) {
   const std::vector<std::size_t> sweep_of = sweep_of_lines(grid, offset_s);
   const std::vector<std::size_t> whole = whole_sweeps(grid, sweep_of);
-  const std::vector<SweepPair> near = near_pairs(whole), far = far_pairs(whole);
+  const std::vector<SweepPair> near = near_pairs(grid.problem->motor, whole),
+                               far = far_pairs_of_sides(grid.problem->motor, whole);
   const Shifts shifts(grid, sweep_of, near, far, offset_s);
   MotionTest test;
   const std::vector<SweepShift> of_near = shifts.of(near), of_far = shifts.of(far);

@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/numbers.hpp"
 
@@ -28,6 +29,14 @@ std::size_t bins_of(const std::vector<LaserScan>& scans, std::size_t beams_a_bin
   }
   const std::size_t mean = all / std::max<std::size_t>(1, scans.size()) + 1;
   return std::min(most, kSparsest * mean) / beams_a_bin + 1;
+}
+
+// The whole turns of a motor that turns one way before a line, by its middle: lines of all turns then lie
+// beside each other, and a line's cells keep their order.
+double whole_turns_before(MotorReader& motor, const StillGrid& grid, std::size_t line, double offset_s) {
+  constexpr double kTurn_rad = 2 * std::numbers::pi;
+  const double middle_rad = motor.angle_at(grid.time_s[line * grid.bins + grid.bins / 2] + offset_s);
+  return kTurn_rad * std::floor(middle_rad / kTurn_rad);
 }
 
 }  // namespace
@@ -79,14 +88,16 @@ StillPoints place_still(const StillGrid& grid, double offset_s, StillDetail deta
     points.speed_rad_s.resize(grid.feature.size());
     points.p_m.resize(grid.feature.size());
   }
+  const bool one_way = problem.motor.one_way();
   for (std::size_t line = 0; line < grid.lines(); ++line) {
     points.sweep[line] = sweep_of[grid.scan[line]];
     if (points.sweep[line] == kNoSweep) continue;
     const Sweep& sweep = problem.motor.sweeps[points.sweep[line]];
-    points.direction[line] = sweep.direction;
+    points.direction[line] = sweep.side;
+    const double whole_turns_rad = one_way ? whole_turns_before(motor, grid, line, offset_s) : 0;
     for (std::size_t cell = line * grid.bins; cell < (line + 1) * grid.bins; ++cell) {
       const double motor_s = grid.time_s[cell] + offset_s;
-      points.angle_rad[cell] = motor.angle_at(motor_s);
+      points.angle_rad[cell] = motor.angle_at(motor_s) - whole_turns_rad;
       if (grid.feature[cell] == StillGrid::kNone) continue;
       if (motor_s < sweep.steady_begin_s || motor_s > sweep.steady_end_s) continue;
       points.placed[cell] = 1;
@@ -98,7 +109,7 @@ StillPoints place_still(const StillGrid& grid, double offset_s, StillDetail deta
           float((after.angle_at(motor_s + kSpeedSpan_s) - before.angle_at(motor_s - kSpeedSpan_s)) /
                 (2 * kSpeedSpan_s));
     }
-    points.pool[sweep.direction > 0 ? 1 : 0].push_back(std::uint32_t(line));
+    points.pool[sweep.side > 0 ? 1 : 0].push_back(std::uint32_t(line));
   }
   const auto ring_of = [&](std::uint32_t scan) { return problem.recording->scans[scan].ring; };
   if (std::ranges::any_of(grid.scan,

@@ -30,21 +30,21 @@ struct StillGrid {
 /// The grid of the scans that are used. The problem must outlive it.
 StillGrid still_grid(const OffsetProblem& problem);
 
-/// The scan lines of some sweeps of one direction, ring by ring, in the order of their motor angle.
+/// The scan lines of some sweeps of one side (see Sweep), ring by ring, in the order of their motor angle.
 using LinePool = std::vector<std::uint32_t>;
 
 /// The grid's points at one offset. Cells within a reversal's unsteady part are not `placed`.
 struct StillPoints {
   std::size_t bins = 0;
   double offset_s = 0;
-  std::vector<std::size_t> sweep;    // per line; kNoSweep where the line belongs to none
-  std::vector<int> direction;        // per line
-  std::vector<double> angle_rad;     // per cell, the motor's
-  std::vector<float> speed_rad_s;    // per cell, the motor's, signed
+  std::vector<std::size_t> sweep;  // per line; kNoSweep where the line belongs to none
+  std::vector<int> direction;      // per line; of a motor that turns one way Sweep::side
+  std::vector<double> angle_rad;   // per cell, the motor's; of a motor that turns one way without whole turns
+  std::vector<float> speed_rad_s;  // per cell, the motor's, signed
   std::vector<Eigen::Vector3d> p_m;  // per cell, base frame
   std::vector<char> placed;          // per cell
   std::vector<std::uint16_t> ring;   // per line; empty where there is one ring only
-  std::array<LinePool, 2> pool;      // all lines turning down, up
+  std::array<LinePool, 2> pool;      // all lines turning down, up; or slower, faster
 
   std::size_t lines() const { return sweep.size(); }
   std::uint16_t ring_of(std::uint32_t line) const { return ring.empty() ? std::uint16_t{0} : ring[line]; }

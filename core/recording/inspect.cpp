@@ -95,7 +95,7 @@ MotorSummary inspect_motor(const Recording& recording, const MotorMotion& motion
   motor.min_deg = min_rad * kDegPerRad;
   motor.max_deg = max_rad * kDegPerRad;
   motor.median_speed_deg_s = motion.median_speed_rad_s * kDegPerRad;
-  motor.reversals = motion.sweeps.empty() ? 0 : motion.sweeps.size() - 1;
+  motor.reversals = motion.sweeps.empty() || motion.one_way() ? 0 : motion.sweeps.size() - 1;
   if (motor.whole_sweeps() > 0) motor.median_sweep_s = motion.median_sweep_s;
   motor.turns = !motion.sweeps.empty() && motor.max_deg - motor.min_deg > 1;
   motor.one_way = motor.reversals == 0 && motor.max_deg - motor.min_deg > 360;

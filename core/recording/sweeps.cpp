@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "core/numbers.hpp"
 
@@ -66,7 +67,79 @@ void join_at_reversal(Sweep& before, Sweep& after, const Crossings& near_before,
   after.begin_s = reversal_s;
 }
 
+// The half turns of a motor that turned one way.
+std::vector<Sweep> half_turns(const MotorTrack& track) {
+  const auto& angle = track.angle_rad;
+  const int direction = angle.back() > angle.front() ? 1 : -1;
+  std::vector<Sweep> sweeps;
+  double begin_s = track.time_s.front(), begin_rad = angle.front();
+  const auto close = [&](double end_s, double end_rad) {
+    if (!(end_s > begin_s)) return;
+    const double speed_rad_s = std::abs(end_rad - begin_rad) / (end_s - begin_s);
+    sweeps.push_back({begin_s, end_s, begin_s, end_s, direction, 0, speed_rad_s});
+    begin_s = end_s;
+    begin_rad = end_rad;
+  };
+  double next_rad = std::numbers::pi * (direction > 0 ? std::floor(begin_rad / std::numbers::pi) + 1
+                                                      : std::ceil(begin_rad / std::numbers::pi) - 1);
+  for (std::size_t i = 1; i < angle.size(); ++i)
+    for (; direction * (angle[i] - next_rad) >= 0; next_rad += direction * std::numbers::pi)
+      close(crossing_s(track, i, next_rad), next_rad);
+  close(track.time_s.back(), angle.back());
+  return sweeps;
+}
+
+struct TurnedBy {
+  double duration_s = 0, turned_rad = 0;
+  void add(const Sweep& sweep) {
+    duration_s += sweep.end_s - sweep.begin_s;
+    turned_rad += sweep.speed_rad_s * (sweep.end_s - sweep.begin_s);
+  }
+  double mean_rad_s() const { return turned_rad / duration_s; }
+};
+
+// Parts half turns into slower and faster ones.
+void part_by_speed(std::vector<Sweep>& sweeps) {
+  std::vector<Sweep> ascending = sweeps;
+  std::ranges::stable_sort(ascending, {}, &Sweep::speed_rad_s);
+  TurnedBy all, slow;
+  for (const Sweep& sweep : ascending) all.add(sweep);
+  double best = 0, threshold_rad_s = 0;
+  for (std::size_t i = 0; i + 1 < ascending.size(); ++i) {
+    slow.add(ascending[i]);
+    const TurnedBy fast{all.duration_s - slow.duration_s, all.turned_rad - slow.turned_rad};
+    const double apart_rad_s = fast.mean_rad_s() - slow.mean_rad_s();
+    const double between = slow.duration_s * fast.duration_s * apart_rad_s * apart_rad_s;
+    if (between <= best) continue;
+    best = between;
+    threshold_rad_s = ascending[i].speed_rad_s;
+  }
+  for (Sweep& sweep : sweeps) sweep.side = sweep.speed_rad_s > threshold_rad_s ? 1 : -1;
+}
+
+// Whether a track with one sweep is that of a motor that turned on and on; a jump is none.
+bool turned_on(const MotorTrack& track, const MotorMotion& motion) {
+  constexpr double kMinTurned_rad = 4 * std::numbers::pi;
+  return motion.sweeps.size() == 1 && motion.range_rad > kMinTurned_rad &&
+         motion.range_rad < std::numbers::pi * double(track.angle_rad.size());
+}
+
 }  // namespace
+
+bool MotorMotion::one_way() const {
+  const auto as_first = [&](const Sweep& sweep) { return sweep.direction == sweeps.front().direction; };
+  return sweeps.size() > 1 && sweeps.front().direction != 0 && std::ranges::all_of(sweeps, as_first);
+}
+
+double MotorMotion::speeds_apart_rad_s() const {
+  TurnedBy slow, fast;
+  for (const Sweep& sweep : sweeps) (sweep.side > 0 ? fast : slow).add(sweep);
+  return slow.duration_s > 0 && fast.duration_s > 0 ? fast.mean_rad_s() - slow.mean_rad_s() : 0;
+}
+
+double MotorMotion::lever_speed_rad_s() const {
+  return one_way() ? speeds_apart_rad_s() / 2 : median_speed_rad_s;
+}
 
 MotorMotion find_sweeps(const MotorTrack& track) {
   MotorMotion motion;
@@ -84,7 +157,7 @@ MotorMotion find_sweeps(const MotorTrack& track) {
     const double margin_rad = std::min(0.03 * motion.range_rad, std::abs(turned_rad) / 4);
     const Crossings crossings = between(track, turns[i], turns[i + 1], margin_rad);
     Sweep sweep;
-    sweep.direction = turned_rad > 0 ? 1 : -1;
+    sweep.direction = sweep.side = turned_rad > 0 ? 1 : -1;
     sweep.begin_s = sweep.steady_begin_s = crossings.leave_s;
     sweep.end_s = sweep.steady_end_s = crossings.arrive_s;
     if (sweep.end_s <= sweep.begin_s) continue;
@@ -95,6 +168,10 @@ MotorMotion find_sweeps(const MotorTrack& track) {
     if (joined) join_at_reversal(motion.sweeps.back(), sweep, near.back(), crossings);
     motion.sweeps.push_back(sweep);
     near.push_back(crossings);
+  }
+  if (turned_on(track, motion)) {
+    motion.sweeps = half_turns(track);
+    part_by_speed(motion.sweeps);
   }
   std::vector<double> speeds, durations;
   for (std::size_t i = 0; i < motion.sweeps.size(); ++i) {
@@ -131,7 +208,7 @@ double distinct_lines(const Recording& recording, const MotorMotion& motor, doub
     const Sweep& sweep = motor.sweeps[sweep_of[i]];
     const LaserScan& scan = recording.scans[i];
     const double middle_s = (scan.first_beam_s + scan.last_beam_s()) / 2 + offset_s;
-    places[sweep.direction > 0].push_back((middle_s - sweep.begin_s) / (sweep.end_s - sweep.begin_s));
+    places[sweep.side > 0].push_back((middle_s - sweep.begin_s) / (sweep.end_s - sweep.begin_s));
   }
   double least = kUncounted;
   for (std::vector<double>& of_direction : places) {

@@ -9,28 +9,41 @@
 
 namespace sweepscope {
 
-/// Duration of one half turn of the motor: from reversal to reversal, or, first and last, the part of one
-/// that was recorded. Times are on the motor's clock, so sweeps do not depend on the offset.
+/// Duration of one half turn of the motor: from reversal to reversal, or of a motor that turns one way from
+/// one multiple of 180 deg to the next; first and last, the part of one that was recorded. Times are on the
+/// motor's clock, so sweeps do not depend on the offset.
 struct Sweep {
   double begin_s = 0;  // of the half turn, at the reversal
   double end_s = 0;
   double steady_begin_s = 0;  // the part away from the reversals, where the motor's speed is steady
   double steady_end_s = 0;
-  int direction = 0;       // +1 where the angle grows, -1 where it falls
+  int direction = 0;  // +1 where the angle grows, -1 where it falls
+  int side = 0;  // which sweeps it is compared with, those of the other: its direction, or of a motor that
+                 // turns one way +1 for the faster ones and -1 for the slower
   double speed_rad_s = 0;  // mean over the steady part, > 0
 };
 
 /// The motion of the motor over the whole track.
 struct MotorMotion {
-  std::vector<Sweep> sweeps;      // in the order of time; neighbours turn in opposite directions
+  std::vector<Sweep> sweeps;      // in the order of time; neighbours turn in opposite directions, or one way
   double range_rad = 0;           // greatest minus least angle
   double median_speed_rad_s = 0;  // over the sweeps' steady parts
   double median_sweep_s = 0;      // over whole sweeps; over all where none is whole
+
+  /// It turned by more than two turns and never back: all sweeps have one direction.
+  bool one_way() const;
+  /// One way: by how much the mean speeds of the two sides differ; 0 where there is one side only.
+  double speeds_apart_rad_s() const;
+  /// An offset turns the sides against each other by twice this times it: the speed itself where they turn in
+  /// opposite directions, half the difference of their speeds where the motor turns one way.
+  double lever_speed_rad_s() const;
 };
 
 /// Cuts a motor track at its reversals. A reversal is where the angle turns back by more than a twentieth of
 /// its range and at least half a degree, so that encoder steps and jitter do not count. Pauses do not belong
-/// to any sweep.
+/// to any sweep. A motor that turns one way is cut where its angle passes multiples of 180 deg, and its half
+/// turns are divided into slower and faster ones so that the sides' mean speeds differ the most, by their
+/// spread (Otsu's threshold).
 MotorMotion find_sweeps(const MotorTrack& track);
 
 /// Which sweep each scan belongs to at an offset, by the middle of its beams; kNoSweep where none.

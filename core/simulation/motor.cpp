@@ -33,6 +33,28 @@ double trapezoid(double u) {
   return u < 0 ? -reached : reached;
 }
 
+struct TimedSpeed {
+  double t_s, speed_radps;
+};
+
+/// Where the speed begins or ends to change.
+std::vector<TimedSpeed> timed_speeds(const SpeedCourse& course) {
+  constexpr double kChange_s = 0.3;
+  std::vector<TimedSpeed> timed;
+  const auto count = static_cast<double>(course.speeds_radps.size());
+  for (std::size_t i = 0; i < course.speeds_radps.size(); ++i) {
+    const double speed_radps = course.speeds_radps[i], number = static_cast<double>(i);
+    if (course.ramp) {
+      timed.push_back({count > 1 ? course.duration_s * number / (count - 1) : 0, speed_radps});
+      continue;
+    }
+    const double part_s = course.duration_s / count, half_change_s = std::min(kChange_s, part_s) / 2;
+    timed.push_back({part_s * number + half_change_s, speed_radps});
+    timed.push_back({part_s * (number + 1) - half_change_s, speed_radps});
+  }
+  return timed;
+}
+
 }  // namespace
 
 std::optional<MotorKind> motor_kind(std::string_view name) {
@@ -53,8 +75,14 @@ std::vector<std::string_view> motor_names() {
   return names;
 }
 
-Motor::Motor(MotorKind kind, double sweep_s, double phase_s, const Unevenness& uneven)
+Motor::Motor(MotorKind kind, double sweep_s, double phase_s, const Unevenness& uneven,
+             const SpeedCourse& course)
     : kind_(kind), sweep_s_(sweep_s), phase_s_(phase_s) {
+  for (const auto& [t_s, speed_radps] : timed_speeds(course)) {
+    const SpeedKnot before = knots_.empty() ? SpeedKnot{t_s, speed_radps, 0} : knots_.back();
+    const double turned_rad = (t_s - before.t_s) * (before.speed_radps + speed_radps) / 2;
+    knots_.push_back({t_s, speed_radps, before.angle_rad + turned_rad});
+  }
   constexpr int kWaves = 5;
   Random random(uneven.seed, kUnevenPurpose, 0);
   for (int i = 0; uneven.part > 0 && i < kWaves; ++i) {
@@ -71,9 +99,22 @@ double Motor::warped_s(double t_s) const {
   return warped_s;
 }
 
+double Motor::one_way_rad(double t_s) const {
+  if (knots_.empty()) return 2 * kReach_rad * (warped_s(t_s) + phase_s_) / sweep_s_;
+  const double even_s = warped_s(t_s), first_rad = 2 * kReach_rad * phase_s_ / sweep_s_;
+  const auto next =
+      std::find_if(knots_.begin(), knots_.end(), [&](const SpeedKnot& knot) { return knot.t_s > even_s; });
+  const SpeedKnot& from = next == knots_.begin() ? *next : *(next - 1);
+  const double since_s = even_s - from.t_s;
+  double turned_rad = from.speed_radps * since_s;
+  if (next != knots_.begin() && next != knots_.end())
+    turned_rad += (next->speed_radps - from.speed_radps) / (next->t_s - from.t_s) * since_s * since_s / 2;
+  return first_rad + from.angle_rad + turned_rad;
+}
+
 Motor::Swing Motor::swing(double t_s) const {
+  if (kind_ == MotorKind::kOneWay) return {one_way_rad(t_s), true};
   const double sweeps = (warped_s(t_s) + phase_s_) / sweep_s_;
-  if (kind_ == MotorKind::kOneWay) return {2 * kReach_rad * sweeps, true};
   if (kind_ == MotorKind::kStuck) return {2 * kReach_rad * phase_s_ / sweep_s_, true};
   const double nearest = std::floor(sweeps + 0.5);
   const double u = sweeps - nearest;

@@ -25,11 +25,21 @@ struct Unevenness {
   std::uint64_t seed = 1;
 };
 
+/// The speeds of a motor that turns one way, over a recording of `duration_s`: each for an equal part of it,
+/// with changes of 0.3 s between, or evenly from one to the next (`ramp`) from the first at its start to the
+/// last at its end. Before and after it keeps the first and the last.
+struct SpeedCourse {
+  std::vector<double> speeds_radps;  // empty: half a turn in sweep_s
+  bool ramp = false;
+  double duration_s = 0;
+};
+
 /// The motor's true angle over true time. It swings between -90 and +90 deg in sweep_s; phase_s, in [0, 2
 /// sweep_s), is how long after a passage through 0 deg, upwards, true time 0 falls.
 class Motor {
  public:
-  Motor(MotorKind kind, double sweep_s, double phase_s, const Unevenness& uneven = {});
+  Motor(MotorKind kind, double sweep_s, double phase_s, const Unevenness& uneven = {},
+        const SpeedCourse& course = {});
 
   /// The reading of an ideal encoder without steps, on the motor's side of the gears.
   double angle_rad(double t_s) const;
@@ -44,13 +54,19 @@ class Motor {
   struct Wave {
     double rate_radps, phase_rad, amplitude_s;
   };
+  /// Between this and the next one the speed changes evenly.
+  struct SpeedKnot {
+    double t_s, speed_radps, angle_rad;
+  };
   Swing swing(double t_s) const;
+  double one_way_rad(double t_s) const;
   /// The time that a motor of constant speed takes to the angle of this one at t_s.
   double warped_s(double t_s) const;
 
   MotorKind kind_;
   double sweep_s_, phase_s_;
   std::vector<Wave> waves_;
+  std::vector<SpeedKnot> knots_;  // of a motor that turns one way
 };
 
 }  // namespace sweepscope::simulation

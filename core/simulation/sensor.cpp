@@ -25,6 +25,12 @@ double phase_s(const SimulationOptions& options, std::uint64_t which, double per
   return Random(options.seed, kPhases, which).uniform() * period_s;
 }
 
+SpeedCourse course_of(const SimulationOptions& options) {
+  SpeedCourse course{{}, options.speed_ramp, options.duration_s.value_or(0)};
+  for (const double speed_dps : options.speeds_dps) course.speeds_radps.push_back(radians(speed_dps));
+  return course;
+}
+
 Trajectory trajectory_of(const Scene& scene, std::uint64_t seed) {
   if (const WalkSpec* walk = std::get_if<WalkSpec>(&scene.motion)) return Trajectory(*walk, seed);
   if (const RecordedPath* path = std::get_if<RecordedPath>(&scene.motion))
@@ -62,7 +68,7 @@ Sensor::Sensor(const SimulationOptions& options, const Scene& scene)
       caster_(scene.mesh),
       trajectory_(trajectory_of(scene, options.seed)),
       motor_(options.motor, options.sweep_s, phase_s(options, 0, 2 * options.sweep_s),
-             {options.uneven_motor, options.seed}),
+             {options.uneven_motor, options.seed}, course_of(options)),
       encoder_phase_s_(phase_s(options, 1, 1 / options.encoder_hz)),
       glass_(options.glass, options.seed) {
   const Eigen::Matrix3d motor_from_laser = rotation_of(options.mount_error_deg);

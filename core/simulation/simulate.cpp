@@ -78,6 +78,13 @@ Result<void> check(const SimulationOptions& o) {
       {"the trajectory's start", o.own.from_s, 0, 1e6, " s"},
       {"the trajectory's smoothing", o.own.placement.smoothing_s * 1e3, 10, 1000, " ms"},
   };
+  for (const double speed_dps : o.speeds_dps)
+    if (!(speed_dps >= 1 && speed_dps <= 3600))
+      return wrong(fmt::format("a speed of the motor is {:g} deg/s, but must lie between 1 and 3600 deg/s",
+                               speed_dps));
+  if (!o.speeds_dps.empty() && o.motor != MotorKind::kOneWay)
+    return wrong("speeds are those of a motor that turns one way: use it with --motor one-way");
+  if (o.speed_ramp && o.speeds_dps.size() < 2) return wrong("a ramp needs at least two speeds");
   for (const Bound& b : bounds)
     if (!(b.value >= b.least && b.value <= b.most))
       return wrong(fmt::format("{} is {:g}{}, but must lie between {:g} and {:g}{}", b.name, b.value, b.unit,

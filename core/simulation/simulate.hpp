@@ -37,6 +37,10 @@ struct SimulationOptions {
   double dropout = 0.002;  // fraction of the beams without a return, 0 to 1
   double sweep_s = 0.5;    // one half turn of the motor, 0.05 to 60
   simulation::MotorKind motor = simulation::MotorKind::kTrapezoid;
+  /// Of a motor that turns one way, instead of sweep_s: each for an equal part of the recording, or with
+  /// speed_ramp evenly from one to the next. 1 to 3600 each; empty: one speed, half a turn in sweep_s.
+  std::vector<double> speeds_dps = {};
+  bool speed_ramp = false;
   double encoder_step_deg = 0.088;   // above 0, up to 10
   double encoder_hz = 100;           // 5 to 2000
   double encoder_jitter_s = 0.0005;  // standard deviation of the sampling instants, up to 0.3 / encoder_hz

@@ -106,12 +106,16 @@ double receive_offset_s(const Simulation& simulation) {
 }
 
 Json options_json(const SimulationOptions& o) {
+  Json speeds = Json::array();
+  for (const double speed_dps : o.speeds_dps) speeds.push_back(tidy(speed_dps));
   return {{"seed", o.seed},
           {"duration_s", tidy(*o.duration_s)},
           {"noise_mm", tidy(o.noise_m * 1e3)},
           {"dropout", tidy(o.dropout)},
           {"sweep_s", tidy(o.sweep_s)},
           {"motor", simulation::name_of(o.motor)},
+          {"speeds_dps", speeds},
+          {"speed_ramp", o.speed_ramp},
           {"encoder_step_deg", tidy(o.encoder_step_deg)},
           {"encoder_hz", tidy(o.encoder_hz)},
           {"encoder_jitter_ms", tidy(o.encoder_jitter_s * 1e3)},

@@ -22,6 +22,13 @@ struct CloudBench {
   int rings = 16;
   double ring_spacing_deg = 2;
   bool ring_field = true;
+  /// Who sends the clouds: a driver with a PointCloud2 whose times are floating seconds, or whole
+  /// nanoseconds, or one of Livox's drivers with its own message.
+  enum class Driver { kSeconds, kNanoseconds, kLivox, kLivox2 };
+  Driver driver = Driver::kSeconds;
+  /// Instead of rings round the z axis lines along one path about the x axis that does not repeat itself, as
+  /// two prisms that turn lay it.
+  bool rosette = false;
   int beams = 450;  // of a ring and turn
   double turn_s = 0.1;
   bool clockwise = true;  // seen from above
@@ -50,8 +57,7 @@ struct CloudBench {
       const double received_s = turn * turn_s + 1.1 * turn_s;
       for (; sample * 0.01 + 0.002 < received_s; ++sample) play_motor(sample, form, take);
       const auto [seconds, nanoseconds] = stamp(turn * turn_s);
-      take("/points", "sensor_msgs/PointCloud2", receive_ns(received_s),
-           cloud(caster, turn).message(form, seconds, nanoseconds));
+      take("/points", cloud_type(), receive_ns(received_s), cloud(caster, turn, form, seconds, nanoseconds));
     }
     for (; sample * 0.01 < duration_s + 0.3; ++sample) play_motor(sample, form, take);
   }
@@ -96,17 +102,42 @@ struct CloudBench {
          joint_bytes(form, seconds, nanoseconds, {"tilt"},
                      {std::round(angle_rad(t_s) / step_rad) * step_rad}));
   }
-  CloudBytes cloud(const simulation::RayCaster& caster, int turn) const {
-    CloudBytes bytes("time", CloudType::kFloat32, ring_field);
+  const char* cloud_type() const {
+    if (driver == Driver::kLivox) return "livox_ros_driver/CustomMsg";
+    return driver == Driver::kLivox2 ? "livox_ros_driver2/CustomMsg" : "sensor_msgs/PointCloud2";
+  }
+  /// The cloud of a turn, as the driver's message.
+  std::string cloud(const simulation::RayCaster& caster, int turn, MessageBytes::Form form,
+                    std::uint32_t seconds, std::uint32_t nanoseconds) const {
+    LivoxBytes livox;
+    CloudBytes in_s("time", CloudType::kFloat32, ring_field);
+    CloudBytes in_ns("offset_time", CloudType::kUint32, ring_field);
+    cast_turn(caster, turn, [&](const Eigen::Vector3f& p, double since_s, int ring) {
+      const auto ns = static_cast<std::uint32_t>(std::llround(since_s * 1e9));
+      in_s.point(p.x(), p.y(), p.z(), since_s, static_cast<std::uint16_t>(ring));
+      in_ns.point(p.x(), p.y(), p.z(), ns, static_cast<std::uint16_t>(ring));
+      livox.point({p.x(), p.y(), p.z(), ns, static_cast<std::uint8_t>(ring)});
+    });
+    if (driver == Driver::kSeconds) return in_s.message(form, seconds, nanoseconds);
+    if (driver == Driver::kNanoseconds) return in_ns.message(form, seconds, nanoseconds);
+    return livox.message(form, seconds, nanoseconds, seconds * std::uint64_t{1'000'000'000} + nanoseconds);
+  }
+  template <typename Add>
+  void cast_turn(const simulation::RayCaster& caster, int turn, const Add& add) const {
     simulation::Random random(seed, 7, std::uint64_t(turn));
     for (int beam = 0; beam < beams; ++beam) {
       const double since_s = beam * turn_s / beams, t_s = turn * turn_s + since_s;
       const Eigen::Isometry3d world_from_laser = world_from_base(t_s) *
                                                  Eigen::AngleAxisd(angle_rad(t_s), axis.normalized()) *
                                                  Eigen::Translation3d(laser_in_motor_m);
-      const double azimuth = (clockwise ? -1 : 1) * (-kPi + beam * 2 * kPi / beams);
+      constexpr double kPrism_rad = 0.3, kFirst_radps = 115, kSecond_radps = -73.3;
+      const double in_ring = (clockwise ? -1 : 1) * (-kPi + beam * 2 * kPi / beams);
+      const double azimuth =
+          rosette ? kPrism_rad * (std::cos(kFirst_radps * t_s) + std::cos(kSecond_radps * t_s)) : in_ring;
+      const double up =
+          rosette ? kPrism_rad * (std::sin(kFirst_radps * t_s) + std::sin(kSecond_radps * t_s)) : 0;
       for (int ring = 0; ring < rings; ++ring) {
-        const double elevation = (ring - (rings - 1) / 2.0) * ring_spacing_deg * kDegree;
+        const double elevation = up + (ring - (rings - 1) / 2.0) * ring_spacing_deg * kDegree;
         const Eigen::Vector3d direction(std::cos(elevation) * std::cos(azimuth),
                                         std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
         const auto hit = caster.cast(world_from_laser.translation(),
@@ -116,10 +147,9 @@ struct CloudBench {
         // Some return nothing, and drivers leave them out.
         if (!hit || dropped) continue;
         const Eigen::Vector3f p = ((hit->range_m + noise) * direction).cast<float>();
-        bytes.point(p.x(), p.y(), p.z(), since_s, static_cast<std::uint16_t>(ring));
+        add(p, since_s, ring);
       }
     }
-    return bytes;
   }
 };
 

@@ -1,5 +1,5 @@
-// Clouds of 3D scanners: the first byte chooses the encoding, the rest are messages of a few hundred bytes
-// each, one after the other, to one reader.
+// Clouds of 3D scanners: the first byte chooses the encoding and the message's type, the rest are messages of
+// a few hundred bytes each, one after the other, to one reader.
 #include "core/recording/messages/point_cloud.hpp"
 
 #include "tests/fuzz/memory_file.hpp"
@@ -14,7 +14,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   for (std::int64_t time_ns = 0; !rest.empty(); time_ns += 100'000'000) {
     const std::span<const std::byte> message = rest.first(std::min(rest.size(), most));
     const std::size_t lines_before = laser.scans.size();
-    if (!reader.add(encoding, message, time_ns, laser) && laser.scans.size() != lines_before)
+    const auto cloud = (bytes[0] & 2) == 0 ? sweepscope::decode_cloud(encoding, message)
+                                           : sweepscope::decode_livox(encoding, message);
+    if (!reader.add(cloud, time_ns, laser) && laser.scans.size() != lines_before)
       __builtin_trap();  // nothing is added where it refuses
     rest = rest.subspan(message.size());
   }

@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "core/numbers.hpp"
+#include "core/recording/messages/messages.hpp"
 
 namespace sweepscope {
 namespace {
@@ -36,7 +37,8 @@ std::string list_of(const std::vector<std::string>& lines) {
 std::string list_of_topics(const RawRecording& raw, std::string_view type_end) {
   std::vector<std::string> lines;
   for (const RecordedTopic& topic : raw.topics) {
-    const bool cloud = type_end == "/LaserScan" && topic.type.ends_with("/PointCloud2");
+    const MessageType* const type = find_message_type(topic.type);
+    const bool cloud = type_end == "/LaserScan" && type != nullptr && is_cloud(type->kind);
     if (!topic.type.ends_with(type_end) && !cloud) continue;
     lines.push_back(fmt::format("{}   {}   {} messages", topic.name, topic.type, topic.messages));
   }

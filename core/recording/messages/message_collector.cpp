@@ -11,7 +11,7 @@ namespace sweepscope {
 namespace {
 
 bool is_laser(MessageKind kind) {
-  return kind == MessageKind::kLaserScan || kind == MessageKind::kCloud;
+  return kind == MessageKind::kLaserScan || is_cloud(kind);
 }
 
 bool is_motion(MessageKind kind) {
@@ -74,7 +74,7 @@ std::size_t MessageCollector::number_of(const Topic& topic) {
     raw_.topics.push_back({topic.name, topic.type});
     if (entry.type != nullptr && is_laser(entry.type->kind)) {
       raw_.lasers.emplace_back().topic = topic.name;
-      raw_.lasers.back().of_clouds = entry.type->kind == MessageKind::kCloud;
+      raw_.lasers.back().of_clouds = is_cloud(entry.type->kind);
     }
   }
   return found->second;
@@ -105,7 +105,7 @@ std::optional<Error> MessageCollector::add(std::size_t topic, std::int64_t recei
     message = *plain;
   }
   const bool whole = entry.type->kind == MessageKind::kLaserScan ? add_scan(entry, receive_ns, message)
-                     : entry.type->kind == MessageKind::kCloud   ? add_cloud(entry, receive_ns, message)
+                     : is_cloud(entry.type->kind)                ? add_cloud(entry, receive_ns, message)
                      : is_motion(entry.type->kind)               ? add_motion(entry, receive_ns, message)
                                                                  : add_joints(entry, receive_ns, message);
   if (!whole && counts.malformed++ == 0) entry.first_malformed = place();
@@ -149,28 +149,30 @@ bool MessageCollector::add_cloud(Entry& entry, std::int64_t receive_ns, std::spa
   constexpr std::size_t kBeamsOfScans_a_beam = 4;  // a beam of a cloud has a direction besides
   RawLaser& laser = raw_.lasers[entry.laser];
   const std::size_t before = laser.ranges_m.size();
-  const bool used = entry.clouds.add(entry.topic.encoding, message, receive_ns, laser);
+  const auto cloud = entry.type->kind == MessageKind::kLivox ? decode_livox(entry.topic.encoding, message)
+                                                             : decode_cloud(entry.topic.encoding, message);
+  const bool used = entry.clouds.add(cloud, receive_ns, laser);
   beams_ += kBeamsOfScans_a_beam * (laser.ranges_m.size() - before);
-  if (used && clouds_ == CloudDetail::kWhole) keep_cloud(entry, receive_ns, message, laser);
+  if (used && clouds_ == CloudDetail::kWhole) keep_cloud(*cloud, receive_ns, laser);
   if (!used && entry.cloud_problem.empty()) entry.cloud_problem = entry.clouds.problem();
   return used;
 }
 
-void MessageCollector::keep_cloud(const Entry& entry, std::int64_t receive_ns,
-                                  std::span<const std::byte> message, RawLaser& laser) {
-  const auto decoded = decode_cloud(entry.topic.encoding, message);
+void MessageCollector::keep_cloud(const DecodedCloud& decoded, std::int64_t receive_ns, RawLaser& laser) {
   RawCloud& cloud = laser.clouds.emplace_back();
-  cloud.stamps = {decoded->header_ns, receive_ns};
-  cloud.frame = decoded->frame;
-  cloud.height = decoded->height;
-  cloud.width = decoded->width;
-  cloud.point_bytes = decoded->point_bytes;
-  cloud.row_bytes = decoded->row_bytes;
-  cloud.big_endian = decoded->swapped;
-  cloud.dense = decoded->dense;
-  for (const CloudField& field : decoded->fields)
+  cloud.stamps = {decoded.header_ns, receive_ns};
+  cloud.frame = decoded.frame;
+  cloud.height = decoded.height;
+  cloud.width = decoded.width;
+  cloud.point_bytes = decoded.point_bytes;
+  cloud.row_bytes = decoded.row_bytes;
+  cloud.big_endian = decoded.swapped;
+  cloud.dense = decoded.dense;
+  for (const CloudField& field : decoded.fields)
     cloud.fields.push_back({std::string(field.name), field.offset, field.datatype, field.count});
-  cloud.data.assign(decoded->data.begin(), decoded->data.end());
+  cloud.data.assign(decoded.data.begin(), decoded.data.end());
+  // A Livox scanner's last point.
+  cloud.data.resize(std::max(cloud.data.size(), std::size_t{cloud.height} * cloud.row_bytes));
   cloud_bytes_ += cloud.data.size();
 }
 

@@ -71,8 +71,7 @@ class MessageCollector {
   Result<std::span<const std::byte>> unpacked(std::span<const std::byte> message);
   bool add_scan(const Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message);
   bool add_cloud(Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message);
-  void keep_cloud(const Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message,
-                  RawLaser& laser);
+  void keep_cloud(const DecodedCloud& decoded, std::int64_t receive_ns, RawLaser& laser);
   bool add_joints(Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message);
   bool add_motion(const Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message);
   bool add_frames(const Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message);

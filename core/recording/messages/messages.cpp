@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <numbers>
 
 namespace sweepscope {
@@ -16,6 +17,8 @@ namespace {
 constexpr MessageType kTypes[] = {
     {"sensor_msgs/LaserScan", "90c7ef2dc6895d81024acba2ac42f369", MessageKind::kLaserScan},
     {"sensor_msgs/PointCloud2", "1158d486dd51d683ce2f1be655c3c181", MessageKind::kCloud},
+    {"livox_ros_driver/CustomMsg", "e4d6829bdfe657cb6c21a746c86b21a6", MessageKind::kLivox},
+    {"livox_ros_driver2/CustomMsg", "e4d6829bdfe657cb6c21a746c86b21a6", MessageKind::kLivox},
     {"sensor_msgs/JointState", "3066dcd76a6cfaef579bd0f34173e9fd", MessageKind::kJointState},
     {"dynamixel_msgs/JointState", "2b8449320cde76616338e2539db27c32", MessageKind::kDynamixel},
     {"std_msgs/Float64", "fdb28210bfa9d7c91146260178d9a584", MessageKind::kFloat64},
@@ -72,6 +75,16 @@ class Cursor {
     if (count > 0) align(sizeof(T));
     return {take(count * sizeof(T)), swapped_};
   }
+  /// An array of so many bytes each; in CDR their first number is aligned to 4, and none lie behind the last.
+  std::span<const std::byte> records(std::uint32_t count, std::uint32_t record_bytes) {
+    constexpr std::uint32_t kAligned_bytes = 4;
+    if (count == 0) return {};
+    align(kAligned_bytes);
+    const std::uint64_t step = cdr_ ? (record_bytes + kAligned_bytes - 1) / kAligned_bytes * kAligned_bytes
+                                    : std::uint64_t{record_bytes};
+    return take(step * (count - 1) + record_bytes);
+  }
+  bool swapped() const { return swapped_; }
   /// std_msgs/Header: in ROS 1 a number; the stamp, the frame's name.
   std::int64_t header_ns(std::string_view* frame = nullptr) {
     if (!cdr_) number<std::uint32_t>();
@@ -268,6 +281,30 @@ std::optional<DecodedCloud> decode_cloud(Encoding encoding, std::span<const std:
   return cloud;
 }
 
+std::optional<DecodedCloud> decode_livox(Encoding encoding, std::span<const std::byte> message) {
+  constexpr std::uint32_t kPoint_bytes = 19, kPointInCdr_bytes = 20;
+  constexpr std::uint64_t kSince1970_ns = 100'000'000'000'000'000, kLatest_ns = std::uint64_t{1} << 62;
+  constexpr std::uint8_t kUint8 = 2, kUint32 = 6, kFloat32 = 7;
+  Cursor cursor(encoding, message);
+  DecodedCloud cloud;
+  cloud.header_ns = cursor.header_ns(&cloud.frame);
+  const auto base_ns = cursor.number<std::uint64_t>();
+  cursor.number<std::uint32_t>();                                 // point_num: the array says it too
+  for (int i = 0; i < 1 + 3; ++i) cursor.number<std::uint8_t>();  // lidar_id, and three that are reserved
+  cloud.height = 1;
+  cloud.width = cursor.number<std::uint32_t>();
+  cloud.point_bytes = encoding == Encoding::kCdr ? kPointInCdr_bytes : kPoint_bytes;
+  cloud.row_bytes = cloud.width * cloud.point_bytes;
+  cloud.data = cursor.records(cloud.width, kPoint_bytes);
+  cloud.swapped = cursor.swapped();
+  if (!cursor.at_end() || cloud.data.size() > std::numeric_limits<std::uint32_t>::max()) return std::nullopt;
+  cloud.fields = {{"offset_time", 0, kUint32},  {"x", 4, kFloat32},  {"y", 8, kFloat32},  {"z", 12, kFloat32},
+                  {"reflectivity", 16, kUint8}, {"tag", 17, kUint8}, {"line", 18, kUint8}};
+  cloud.time_unit_s = 1e-9;
+  if (base_ns > kSince1970_ns && base_ns < kLatest_ns) cloud.header_ns = static_cast<std::int64_t>(base_ns);
+  return cloud;
+}
+
 bool decode_joints(MessageKind kind, Encoding encoding, std::span<const std::byte> message,
                    const Eigen::Vector3d& axis, std::vector<DecodedJoint>& joints) {
   joints.clear();
@@ -287,6 +324,7 @@ bool decode_joints(MessageKind kind, Encoding encoding, std::span<const std::byt
       return decode_turned_frames(cursor, axis, joints);
     case MessageKind::kLaserScan:
     case MessageKind::kCloud:
+    case MessageKind::kLivox:
     case MessageKind::kImu:
     case MessageKind::kOdometry:
       break;

@@ -20,6 +20,7 @@ enum class Encoding { kRos1, kCdr };
 enum class MessageKind {
   kLaserScan,
   kCloud,
+  kLivox,  // a cloud in the own format of Livox scanners' drivers
   kJointState,
   kDynamixel,
   kFloat64,
@@ -29,6 +30,11 @@ enum class MessageKind {
   kImu,
   kOdometry
 };
+
+/// A message of a 3D scanner, which CloudReader reads.
+inline bool is_cloud(MessageKind kind) {
+  return kind == MessageKind::kCloud || kind == MessageKind::kLivox;
+}
 
 struct MessageType {
   std::string_view name;  // as in ROS 1: package/Type
@@ -77,8 +83,9 @@ struct DecodedCloud {
   std::uint32_t height = 0, width = 0, point_bytes = 0, row_bytes = 0;
   std::vector<CloudField> fields;
   std::span<const std::byte> data;
-  bool swapped = false;  // big-endian
-  bool dense = false;    // as stated in the message: no point is invalid
+  bool swapped = false;    // big-endian
+  bool dense = false;      // as stated in the message: no point is invalid
+  double time_unit_s = 0;  // of the points' times, if the format states it; otherwise 0
 
   std::size_t points() const { return std::size_t{height} * width; }
   double value(std::size_t point, const CloudField& field) const;
@@ -117,6 +124,12 @@ std::optional<DecodedScan> decode_laser_scan(Encoding encoding, std::span<const 
 
 /// A cloud's fields lie within its points, and its points within its data.
 std::optional<DecodedCloud> decode_cloud(Encoding encoding, std::span<const std::byte> message);
+
+/// A CustomMsg of livox_ros_driver or livox_ros_driver2, as the cloud with the same numbers; its last point
+/// may be shorter than `point_bytes` by what lies behind the last field. The header's stamp is that of the
+/// cloud's base time where this counts since 1970: the header's own may then be the publisher's. A base time
+/// since the scanner was switched on is on no other clock, and the header's own stamp stands for it.
+std::optional<DecodedCloud> decode_livox(Encoding encoding, std::span<const std::byte> message);
 
 /// Fills `joints`, whose memory is reused from call to call; false if the message is malformed. Of a
 /// transform the joint is the child frame, and its position the angle about `axis` (unit length, in the

@@ -24,6 +24,12 @@ const CloudField* field_of(const DecodedCloud& cloud, std::initializer_list<std:
   return nullptr;
 }
 
+/// A Livox scanner's tag: bits 0 and 1 say how likely a point is noise by where it lies, bits 2 and 3 by its
+/// intensity. Those above count returns, or mark other points that are near the scanner.
+bool tagged_as_noise(double tag) {
+  return (static_cast<unsigned>(std::clamp(tag, 0.0, 255.0)) & 0xfU) != 0;
+}
+
 double wrapped(double angle_rad) {
   return std::remainder(angle_rad, 2 * std::numbers::pi);
 }
@@ -50,6 +56,21 @@ double angle_step_rad(const std::vector<Eigen::Vector3f>& directions, const std:
 
 double angle_between_rad(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
   return double{std::atan2(a.cross(b).norm(), a.dot(b))};
+}
+
+/// Whether the points of each ring, in the order of time, go round the z axis one way.
+template <typename Points>
+bool go_round(const Points& points) {
+  constexpr double kMaxBack = 0.1, kStill_rad = 1e-5;
+  std::size_t left = 0, right = 0;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    if (points[i].ring != points[i - 1].ring) continue;
+    const Eigen::Vector3f &a = points[i - 1].p_m, &b = points[i].p_m;
+    const double step_rad = wrapped(double{std::atan2(b.y(), b.x())} - double{std::atan2(a.y(), a.x())});
+    if (std::abs(step_rad) < kStill_rad) continue;
+    ++(step_rad > 0 ? left : right);
+  }
+  return static_cast<double>(std::min(left, right)) <= kMaxBack * static_cast<double>(left + right);
 }
 
 /// Why points in the order of time are no line where no field says which beam each is of; empty where they
@@ -81,6 +102,8 @@ bool CloudReader::read_points(const DecodedCloud& cloud) {
   if (time == nullptr)
     return problem_ = "its points have no time of their own (a field t, time, timestamp or offset_time)",
            false;
+  const CloudField* tag = ring != nullptr && ring->name == "line" ? field_of(cloud, {"tag"}) : nullptr;
+  if (tag != nullptr && !tag->whole_number()) tag = nullptr;
   has_ring_ = ring != nullptr;
   has_intensity_ = intensity != nullptr;
   points_.clear();
@@ -89,6 +112,7 @@ bool CloudReader::read_points(const DecodedCloud& cloud) {
     for (int k = 0; k < 3; ++k) point.p_m[k] = static_cast<float>(cloud.value(i, *xyz[k]));
     point.time = cloud.value(i, *time);
     if (!point.p_m.allFinite() || point.p_m.isZero() || !std::isfinite(point.time)) continue;
+    if (tag != nullptr && tagged_as_noise(cloud.value(i, *tag))) continue;
     if (ring != nullptr) {
       const double number = cloud.value(i, *ring);
       if (!(number >= 0 && number < kMaxRings)) continue;
@@ -98,13 +122,14 @@ bool CloudReader::read_points(const DecodedCloud& cloud) {
     points_.push_back(point);
   }
   std::ranges::stable_sort(points_, {}, [](const Point& p) { return std::pair(p.ring, p.time); });
-  return points_.empty() || unit_s_ > 0 || choose_unit(time->whole_number());
+  return points_.empty() || unit_s_ > 0 || choose_unit(time->whole_number(), cloud.time_unit_s);
 }
 
-/// False where the points have one time all together.
-bool CloudReader::choose_unit(bool whole_numbers) {
+/// False where the points have one time all together. `known_s`: the unit where the format says it, else 0.
+bool CloudReader::choose_unit(bool whole_numbers, double known_s) {
   const auto [least, most] = std::ranges::minmax(points_, {}, &Point::time);
   if (!(most.time > least.time)) return problem_ = "its points all have the same time", false;
+  if (known_s > 0) return unit_s_ = known_s, true;
   const double since_1970 = std::abs(least.time), span = most.time - least.time;
   absolute_ = since_1970 > 1e8 && since_1970 > 10 * span;
   if (absolute_ && !(whole_numbers && since_1970 < 1e17)) {
@@ -183,14 +208,24 @@ void CloudReader::add_line(std::span<const Point> points, const RawScan& common,
   laser.scans.push_back(line);
 }
 
-bool CloudReader::add(Encoding encoding, std::span<const std::byte> message, std::int64_t receive_ns,
-                      RawLaser& laser) {
+/// A slice is taken for a ring of its own: the same slice of the next cloud lies where it did, or anywhere.
+void CloudReader::number_slices(double first_time) {
+  constexpr std::uint32_t kMaxSlices_a_ring = 64;  // rings are counted in 16 bits
+  const double slice = kSlice_s / unit_s_;
+  const std::uint32_t most = has_ring_ ? kMaxSlices_a_ring : kMaxRings;
+  for (Point& point : points_) {
+    const double number = std::min(std::floor((point.time - first_time) / slice), double(most - 1));
+    point.ring = (has_ring_ ? point.ring * most : 0) + static_cast<std::uint32_t>(number);
+  }
+}
+
+bool CloudReader::add(const std::optional<DecodedCloud>& cloud, std::int64_t receive_ns, RawLaser& laser) {
   problem_.clear();
-  const auto cloud = decode_cloud(encoding, message);
   if (!cloud) return problem_ = "it is malformed", false;
   if (!read_points(*cloud)) return false;
   if (points_.empty()) return true;
   if (!has_ring_ && !(problem_ = no_line(points_)).empty()) return false;
+  if (!goes_round_) goes_round_ = has_ring_ && go_round(points_);
   if (laser.scans.empty()) laser.frame = cloud->frame;
   laser.has_intensities = laser.has_intensities && has_intensity_;
   if (!laser.has_intensities) std::vector<float>().swap(laser.intensities);
@@ -204,16 +239,11 @@ bool CloudReader::add(Encoding encoding, std::span<const std::byte> message, std
     common.stamps.header_ns = static_cast<std::int64_t>(std::llround(first.time * (unit_s_ * 1e9)));
   }
   common.cloud_end_after_stamp_s = (last.time - origin) * unit_s_;
-  // A slice is taken for a ring of its own: the same slice of the next cloud lies where it did.
-  const double slice = kSlice_s / unit_s_;
-  if (!has_ring_)
-    for (Point& point : points_)
-      point.ring = static_cast<std::uint32_t>(
-          std::min(std::floor((point.time - first.time) / slice), double{kMaxRings - 1}));
+  if (!*goes_round_) number_slices(first.time);
   for (auto begin = points_.begin(); begin != points_.end();) {
     const auto end =
         std::find_if(begin, points_.end(), [&](const Point& p) { return p.ring != begin->ring; });
-    add_line({begin, end}, common, origin, has_ring_, laser);
+    add_line({begin, end}, common, origin, *goes_round_, laser);
     begin = end;
   }
   return true;

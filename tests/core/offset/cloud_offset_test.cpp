@@ -94,6 +94,42 @@ TEST(CloudOffset, APlaneScannerWhoseDriverSendsClouds) {
   expect_answer(estimated(bench.record(), direct()), RigKind::kStationary, bench.offset_s, 0.2);
 }
 
+TEST(CloudOffset, ALivoxDriversMessageGivesTheEstimateOfThePointCloud) {
+  CloudBench bench;
+  bench.duration_s = 9;
+  bench.driver = CloudBench::Driver::kNanoseconds;
+  const Estimate of_cloud = estimated(bench.record(), direct());
+  expect_answer(of_cloud, RigKind::kStationary, bench.offset_s, 1.0);
+  for (const auto driver : {CloudBench::Driver::kLivox, CloudBench::Driver::kLivox2}) {
+    bench.driver = driver;
+    const Estimate of_livox = estimated(bench.record(), direct());
+    EXPECT_EQ(of_livox.offset_s, of_cloud.offset_s);
+    EXPECT_EQ(of_livox.sigma_s, of_cloud.sigma_s);
+    EXPECT_EQ(of_livox.scans, of_cloud.scans);
+  }
+}
+
+TEST(CloudOffset, APatternThatDoesNotRepeatItself) {
+  CloudBench bench;
+  bench.rosette = true;
+  bench.rings = 2;
+  bench.beams = 1000;
+  bench.duration_s = 14;
+  bench.driver = CloudBench::Driver::kLivox2;
+  const Recording recording = bench.record();
+  EXPECT_TRUE(recording.report.warnings.empty()) << recording.report.warnings.front();
+  EXPECT_EQ(recording.scans.size(), 140U * 2U * 10U);  // slices of 10 ms of each line
+  EstimateOptions stationary;
+  stationary.method = Method::kStationary;
+  stationary.ranges = {{bench.offset_s - 0.006, bench.offset_s + 0.0061, 0.002}};
+  const Estimate found = estimated(recording, stationary);
+  ASSERT_TRUE(found.offset_s) << reasons(found);
+  EXPECT_NEAR(*found.offset_s * 1e3, bench.offset_s * 1e3, 1.0);
+  const Estimate refused = estimated(recording, direct());
+  ASSERT_FALSE(refused.offset_s);
+  EXPECT_NE(reasons(refused).find("lines do not repeat themselves"), std::string::npos) << reasons(refused);
+}
+
 TEST(CloudOffset, AWalkInAHall) {
   CloudBench bench;
   bench.world_from_base = test::walk_in_hall;

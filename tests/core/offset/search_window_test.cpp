@@ -82,7 +82,9 @@ TEST(MotorReasons, AMotorThatIsStuckOrTurnsOneWaySaysSo) {
   ASSERT_EQ(reasons_for(MotorKind::kStuck).size(), 1u);
   EXPECT_NE(reasons_for(MotorKind::kStuck)[0].find("does not move"), std::string::npos);
   ASSERT_EQ(reasons_for(MotorKind::kOneWay).size(), 1u);
-  EXPECT_NE(reasons_for(MotorKind::kOneWay)[0].find("one way"), std::string::npos);
+  const std::string one_way = reasons_for(MotorKind::kOneWay)[0];
+  EXPECT_NE(one_way.find("one way only, at one speed"), std::string::npos) << one_way;
+  EXPECT_NE(one_way.find("Record 5 s at one speed and 5 s at half of it."), std::string::npos) << one_way;
 }
 
 TEST(MotorReasons, ATrackOfHardlyAnySampleSaysSo) {

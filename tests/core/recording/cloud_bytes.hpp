@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -62,6 +63,40 @@ class CloudBytes {
   bool rings_;
   std::uint32_t points_ = 0;
   std::string data_;
+};
+
+/// A CustomMsg of livox_ros_driver or livox_ros_driver2 being written point by point, as their definitions
+/// order its members.
+class LivoxBytes {
+ public:
+  struct Point {
+    float x = 0, y = 0, z = 0;
+    std::uint32_t offset_ns = 0;
+    std::uint8_t line = 0, tag = 0, reflectivity = 40;
+  };
+
+  LivoxBytes& point(const Point& point) {
+    points_.push_back(point);
+    return *this;
+  }
+  /// `base_ns`: the time that the points' count from. `count`: as the array says, where that is not its
+  /// length.
+  std::string message(MessageBytes::Form form, std::uint32_t seconds, std::uint32_t nanoseconds,
+                      std::uint64_t base_ns, std::optional<std::uint32_t> count = std::nullopt) const {
+    MessageBytes message(form);
+    const auto size = static_cast<std::uint32_t>(points_.size());
+    message.header(seconds, nanoseconds, "livox_frame").number(base_ns).number(size);
+    message.number(std::uint8_t{1}).fill(3);  // lidar_id, and three that are reserved
+    message.number(count.value_or(size));
+    for (const Point& point : points_) {
+      message.number(point.offset_ns).number(point.x).number(point.y).number(point.z);
+      message.number(point.reflectivity).number(point.tag).number(point.line);
+    }
+    return message.bytes();
+  }
+
+ private:
+  std::vector<Point> points_;
 };
 
 }  // namespace sweepscope::test

@@ -95,8 +95,48 @@ TEST(FindSweeps, ALongRestBetweenSweepsBelongsToNone) {
   EXPECT_EQ(motion.sweeps.size(), 6u);
 }
 
-TEST(FindSweeps, AMotorThatTurnsOneWayIsASingleSweep) {
-  EXPECT_EQ(find_sweeps(turning(MotorKind::kOneWay, 0, 4)).sweeps.size(), 1u);
+// A motor that turns one way, from one speed (deg/s) to the other, over 8 s.
+MotorTrack turning_on(double first_dps, double last_dps, bool ramp, double sign = 1) {
+  const simulation::SpeedCourse course{{first_dps * kDegree, last_dps * kDegree}, ramp, 8};
+  const Motor motor(MotorKind::kOneWay, 0.5, 0, {}, course);
+  return track_of([&](double t_s) { return sign * motor.angle_rad(t_s); }, 0, 7.9);
+}
+
+TEST(FindSweeps, AMotorThatTurnsOneWayIsCutWhereItsAnglePassesHalfTurns) {
+  for (const double sign : {1.0, -1.0}) {
+    const MotorTrack track = turning_on(360, 180, false, sign);
+    const MotorMotion motion = find_sweeps(track);
+    EXPECT_TRUE(motion.one_way());
+    ASSERT_EQ(motion.sweeps.size(), 13U);  // 2160 deg less a little, the first and the last half turn cut off
+    for (std::size_t i = 0; i + 1 < motion.sweeps.size(); ++i) {
+      EXPECT_EQ(motion.sweeps[i].direction, sign);
+      EXPECT_EQ(motion.sweeps[i].end_s, motion.sweeps[i + 1].begin_s);
+      EXPECT_NEAR(std::remainder(track.angle_at(motion.sweeps[i].end_s), kPi), 0, 1e-6);
+    }
+  }
+}
+
+TEST(FindSweeps, HalfTurnsArePartedIntoFasterAndSlowerOnes) {
+  const MotorMotion steps = find_sweeps(turning_on(360, 180, false));
+  for (const Sweep& sweep : steps.sweeps)
+    EXPECT_EQ(sweep.side, sweep.begin_s < 3.8 ? 1 : -1) << sweep.begin_s;
+  EXPECT_NEAR(steps.speeds_apart_rad_s(), kPi, 0.1 * kPi);  // a half turn changes from one to the other
+  EXPECT_EQ(steps.lever_speed_rad_s(), steps.speeds_apart_rad_s() / 2);
+  const MotorMotion ramp = find_sweeps(turning_on(180, 360, true));
+  EXPECT_NEAR(ramp.speeds_apart_rad_s(), 0.5 * kPi, 0.05 * kPi);  // of the halves' mean speeds
+  EXPECT_LT(find_sweeps(turning_on(360, 360, false)).speeds_apart_rad_s(), 1e-3);
+}
+
+TEST(FindSweeps, AMotorThatTurnsToAndFroIsNotOneWay) {
+  const MotorMotion motion = find_sweeps(turning(MotorKind::kTriangle, 0, 4));
+  EXPECT_FALSE(motion.one_way());
+  EXPECT_EQ(motion.lever_speed_rad_s(), motion.median_speed_rad_s);
+  for (const Sweep& sweep : motion.sweeps) EXPECT_EQ(sweep.side, sweep.direction);
+}
+
+TEST(FindSweeps, AJumpOfManyTurnsIsNoMotorThatTurnsOneWay) {
+  const MotorMotion motion = find_sweeps(track_of([](double t_s) { return t_s < 2 ? 0 : 1e300; }, 0, 4));
+  EXPECT_FALSE(motion.one_way());
 }
 
 TEST(FindSweeps, AStuckMotorHasNoSweepThoughItsEncoderJitters) {

@@ -56,6 +56,29 @@ TEST(Motor, OneWayTurnsOnAndStuckStays) {
   EXPECT_EQ(stuck.angle_rad(0.0), stuck.angle_rad(1.234));
 }
 
+TEST(Motor, OneWayKeepsEachSpeedForItsPart) {
+  const Motor motor(MotorKind::kOneWay, 0.5, 0, {}, {{radians(360), radians(180)}, false, 10});
+  const auto speed_dps = [&](double t_s) {
+    return degrees(motor.angle_rad(t_s + 0.01) - motor.angle_rad(t_s - 0.01)) / 0.02;
+  };
+  for (const double t_s : {-0.2, 0.0, 2.0, 4.8}) EXPECT_NEAR(speed_dps(t_s), 360, 1e-6) << t_s;
+  EXPECT_NEAR(speed_dps(5), 270, 1e-6);  // while it changes
+  for (const double t_s : {5.2, 8.0, 10.0, 10.2}) EXPECT_NEAR(speed_dps(t_s), 180, 1e-6) << t_s;
+  EXPECT_NEAR(degrees(motor.angle_rad(10) - motor.angle_rad(0)), 5 * 360 + 5 * 180, 1e-6);
+}
+
+TEST(Motor, OneWayWithARampTurnsEvenlyFasterOrSlower) {
+  const Motor motor(MotorKind::kOneWay, 0.5, 0, {}, {{radians(100), radians(300), radians(200)}, true, 8});
+  const auto speed_dps = [&](double t_s) {
+    return degrees(motor.angle_rad(t_s + 0.01) - motor.angle_rad(t_s - 0.01)) / 0.02;
+  };
+  EXPECT_NEAR(speed_dps(1), 150, 1e-6);
+  EXPECT_NEAR(speed_dps(2), 200, 1e-6);
+  EXPECT_NEAR(speed_dps(6), 250, 1e-6);
+  EXPECT_NEAR(speed_dps(-0.1), 100, 1e-6);
+  EXPECT_NEAR(speed_dps(8.1), 200, 1e-6);
+}
+
 TEST(Motor, BacklashLeavesTheLaserBehindInEitherDirection) {
   const Motor motor(MotorKind::kTriangle, 0.5, 0);
   const double play_rad = radians(2);

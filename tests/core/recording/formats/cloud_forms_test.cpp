@@ -94,6 +94,21 @@ TEST_F(CloudForms, EveryFormReadsAsTheSameRecording) {
   }
 }
 
+TEST_F(CloudForms, ALivoxScannersCloudsAreWrittenAsPointClouds) {
+  CloudBench bench = short_bench();
+  bench.driver = CloudBench::Driver::kLivox2;
+  const Recording expected = bench.record();
+  const RawRecording whole = bench.raw(CloudDetail::kWhole);
+  ReadOptions options;
+  options.rig = bench.rig();
+  for (const auto& form :
+       {write(whole, "l.bag", RecordingFormat::kRos1), write(whole, "l.mcap", RecordingFormat::kMcap)}) {
+    const auto read = read_recording(form, options, Job());
+    ASSERT_TRUE(read) << read.error().message;
+    expect_same(*read, expected);
+  }
+}
+
 TEST_F(CloudForms, TablesHaveNoPlaceForClouds) {
   const RawRecording whole = short_bench().raw(CloudDetail::kWhole);
   const auto written = write_recording(whole.lasers.at(0), whole.joints.at(0), RecordingFormat::kCsv, "none",

@@ -127,6 +127,22 @@ TEST(PointCloud, WithoutRingsALineIsASliceOfTime) {
   }
 }
 
+TEST(PointCloud, RingsThatDoNotGoRoundAreCutIntoSlices) {
+  CloudBytes cloud("offset_time", CloudType::kUint32, true);
+  for (int i = 0; i < 300; ++i)
+    for (const std::uint16_t ring : {std::uint16_t{0}, std::uint16_t{1}})
+      add(cloud, i % 100 < 50 ? i % 50 : 50 - i % 50, i * 1e5, ring * 0.1, ring);  // to and fro
+  const RawLaser laser = read(cloud.message(MessageBytes::kCdr, 12, 0));
+  ASSERT_EQ(laser.scans.size(), 6U);
+  for (std::size_t i = 0; i < 6; ++i) {
+    const RawScan& line = laser.scans[i];
+    EXPECT_EQ(line.beams, 100U);
+    EXPECT_EQ(line.ring, i / 3 * 64 + i % 3);
+    EXPECT_NEAR(line.first_beam_after_stamp_s, 0.01 * double(i % 3), 1e-9);
+    EXPECT_NEAR(line.angle_increment_rad, kStep_rad, 0.05 * kStep_rad);  // along the path
+  }
+}
+
 TEST(PointCloud, CloudsWithoutTimesAreOfNoUseAndItIsSaid) {
   CloudReader reader;
   RawLaser laser;
