@@ -15,6 +15,8 @@
 namespace sweepscope {
 namespace {
 
+constexpr double kMinPart_s = 5;  // of a walk over time: shorter parts hold too few turns
+
 void add(std::vector<std::string>& to, const Remark& remark) {
   if (remark) to.push_back(*remark);
 }
@@ -101,7 +103,8 @@ Answer of_stationary(const OffsetSearch& search, Answer answer, const Job& job) 
     sigma_s = std::hypot(*sigma_s, of_motion_s);
   if (const auto trend = trend_of(found.block_s, found.block_offset_s)) {
     answer.drift_ppm = trend->slope * 1e6;
-    add(answer.reasons, drift_reason(*trend, search.recorded_s(), sigma_s.value_or(0)));
+    if (!search.options.over_time_s)
+      add(answer.reasons, drift_reason(*trend, search.recorded_s(), sigma_s.value_or(0)));
   }
   const HalvesCheck halves = check_halves(sigma_s, found.block_offset_s);
   add(answer.warnings, halves.warning);
@@ -158,8 +161,10 @@ Answer of_walk(const OffsetSearch& search, const MappingOptions& mapping,
                const std::optional<MotionSource>& source, Answer answer, const Job& job) {
   const OffsetProblem& problem = search.problem;
   const SearchScale& scale = search.scale;
-  const auto solved =
-      solve_moving(problem, search.coarse.offset_s(), {walk_options(mapping, scale), 3 * scale.unit_s}, job);
+  WalkOptions walk_by = walk_options(mapping, scale);
+  if (search.options.over_time_s && *search.options.over_time_s > 0)
+    walk_by.joint.part_s = std::max(kMinPart_s, *search.options.over_time_s);
+  const auto solved = solve_moving(problem, search.coarse.offset_s(), {walk_by, 3 * scale.unit_s}, job);
   if (!solved) return answer;
   answer.walk = solved->walk;
   answer.lost = lost_times(answer.walk->sweeps, *problem.recording);
@@ -191,7 +196,8 @@ Answer of_walk(const OffsetSearch& search, const MappingOptions& mapping,
   const auto drift = sigma_reason(sigma_s, scale) ? std::nullopt : drift_of(walk);
   if (drift) {
     answer.drift_ppm = drift->slope * 1e6;
-    add(answer.reasons, drift_reason(*drift, search.recorded_s(), walk.sigma_s));
+    if (!search.options.over_time_s)
+      add(answer.reasons, drift_reason(*drift, search.recorded_s(), walk.sigma_s));
   }
   const HalvesCheck halves = check_halves(sigma_s, offsets_of_parts(walk));
   add(answer.warnings, halves.warning);

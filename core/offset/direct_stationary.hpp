@@ -18,6 +18,10 @@ namespace sweepscope {
 /// An offset that grows turns the point by omega_p and the patch by omega_c about the motor's axis a, so
 ///   dr / d offset = (omega_p - omega_c) n . (a x p),
 /// and Gauss-Newton's step is - sum w r J / sum w J^2, with Cauchy weights w.
+/// What is solved anew to see how sure the answer is: everything, or parts of the sweeps alone, at half the
+/// cost.
+enum class Resampling { kAll, kParts };
+
 struct StationaryDirectOptions {
   int max_iterations = 10;
   double step_tolerance_s = 1e-6;
@@ -25,6 +29,7 @@ struct StationaryDirectOptions {
   double loss_widths = 2.5;
   double min_loss_width_m = 0.004;
   std::size_t min_matches = 100;
+  Resampling resampling = Resampling::kAll;
 };
 
 /// A point against a patch of the other direction, at one offset.
@@ -47,6 +52,8 @@ struct StationaryDirect {
   double step_s = 0;  // the last one
   int iterations = 0;
   std::size_t features = 0, matches = 0;
+  double middle_s =
+      0;  // laser clock, mean time of the matches by their weight: where a drifting offset is right
   double residual_m = 0;  // robust deviation of the distances
   double lever_m = 0;     // rms of n . (a x p): by how much a turn of 1 rad lifts the points off the patches
   double reach_m = 0;     // rms of |a x p|: as far as they could be lifted

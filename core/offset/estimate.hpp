@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/loam/mapping.hpp"
+#include "core/offset/offset_course.hpp"
 
 namespace sweepscope {
 
@@ -60,6 +61,11 @@ struct FitEvidence {
          reach_m = 0;  // rms of n . (a x p) and of |a x p|: how far a turn of 1 rad moves the points
 };
 
+/// Of a long recording of a stationary rig groups of sweeps, spread evenly, are used.
+struct SweepSample {
+  std::size_t groups = 0, sweeps = 0, of_sweeps = 0;  // `of_sweeps`: that the recording has
+};
+
 /// The answer to "what is the offset?", with its evidence. t_motor = t_laser + offset.
 struct Estimate {
   std::string recording;
@@ -70,6 +76,8 @@ struct Estimate {
   std::optional<double> offset_s;
   std::optional<double> sigma_s;
   std::optional<double> drift_ppm;  // by how much the motor's clock runs faster than the laser's, as measured
+  std::optional<OffsetOverTime> over_time;  // where it was asked for; offset_s then holds at the middle
+  std::optional<SweepSample> sample;        // none: all sweeps are used
   std::vector<Interval> lost;  // when a moving rig's trajectory is not known: left out; since the first scan
   std::vector<std::string> warnings;
   std::vector<std::string> reasons;  // why it is not identifiable, whole sentences

@@ -34,7 +34,8 @@ struct EstimateOptions {
   FeatureOptions features;
   OdometryOptions odometry;
   MappingOptions mapping;
-  std::optional<GivenPoses> poses;  // of a moving rig, for the direct method
+  std::optional<double> over_time_s;  // the offset in windows of at least this length; 0: default_window_s
+  std::optional<GivenPoses> poses;    // of a moving rig, for the direct method
   /// The trajectory that an estimate of the same recording was judged by: criteria along it cost no tracking.
   std::shared_ptr<const SolvedWalk> walk;
 };
@@ -55,6 +56,7 @@ struct EstimateOption {
   std::string help;                  // a sentence
   std::vector<std::string> choices;  // all values that it takes; empty: see `type`
   bool repeats = false;
+  bool value_optional = false;  // then `set` takes an empty text as well
   /// Sets it from text. A value that it does not take is ExitCode::kWrongUsage, with what it needs.
   std::function<Result<void>(EstimateOptions&, const std::string&)> set;
 };

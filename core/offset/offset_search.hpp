@@ -55,6 +55,7 @@ struct Answer {
   std::optional<UsedMotion> motion;
   std::optional<FitEvidence> fit;
   std::shared_ptr<const SolvedWalk> walk;
+  std::optional<OffsetOverTime> over_time;
   std::vector<std::string> warnings, reasons;
 };
 

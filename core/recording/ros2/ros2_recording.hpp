@@ -6,7 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/job.hpp"
-#include "core/recording/raw_recording.hpp"
+#include "core/recording/read_detail.hpp"
 
 namespace sweepscope {
 
@@ -20,7 +20,7 @@ std::optional<BagStorage> bag_storage(std::string_view beginning);
 /// profile (cdr) or of ROS 1's (ros1); either also packed by zstd as a whole (rosbag2's compression mode
 /// FILE) or message by message (MESSAGE). Those that the rig rules out by name are counted and not kept.
 Result<RawRecording> read_ros2_file(const std::filesystem::path& path, const Rig& rig, const Job& job,
-                                    CloudDetail clouds = CloudDetail::kLines);
+                                    const ReadDetail& detail = {});
 
 /// True where the folder is a ROS 2 bag's: it has a metadata.yaml, or files that are stored as one.
 bool is_ros2_folder(const std::filesystem::path& folder);
@@ -32,6 +32,6 @@ std::vector<std::filesystem::path> ros2_files(const std::filesystem::path& folde
 /// A bag's folder: the files that its metadata.yaml names, in that order; without one, all that are bags, by
 /// name. What is compressed by another format than zstd is refused.
 Result<RawRecording> read_ros2_folder(const std::filesystem::path& folder, const Rig& rig, const Job& job,
-                                      CloudDetail clouds = CloudDetail::kLines);
+                                      const ReadDetail& detail = {});
 
 }  // namespace sweepscope
