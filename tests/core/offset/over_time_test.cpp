@@ -8,9 +8,12 @@
 
 #include "core/offset/estimator.hpp"
 #include "core/offset/sampled_sweeps.hpp"
+#include "core/recording/formats/read_parts.hpp"
 #include "core/results/estimate_json.hpp"
 #include "core/simulation/portable_math.hpp"
+#include "core/simulation/write_simulation.hpp"
 #include "tests/core/engine_fixtures.hpp"
+#include "tests/folder_test.hpp"
 
 namespace sweepscope {
 namespace {
@@ -275,6 +278,45 @@ TEST(SampledSweeps, RefuseAnOffsetThatChangesAndNameTheCommand) {
   }
   EXPECT_TRUE(says(estimate(drifting_room(), {}, Job())->reasons, "drift apart"));
   EXPECT_TRUE(says(estimate(jumping_room(), {}, Job())->reasons, "The offset "));
+}
+
+class OverTimeFile : public test::FolderTest {};
+
+// Parts of a file are as good as all of it.
+TEST_F(OverTimeFile, PartsGiveTheBytesOfTheWhole) {
+  SimulationOptions made;
+  made.scene = "room-4";
+  made.sweep_s = 0.51;
+  made.duration_s = 70;
+  const std::filesystem::path bag = folder_ / "room.bag";
+  ASSERT_TRUE(write_bag(simulate(made, Job()).value(), bag, Job()));
+  ReadOptions how;
+  how.keep_intensities = false;
+  const Recording whole = read_recording(bag, how, Job()).value();
+  const Recording outline = read_without_ranges(bag, how, Job()).value();
+  EXPECT_TRUE(outline.ranges_m.empty());
+  EXPECT_EQ(outline.scans.size(), whole.scans.size());
+  for (const std::optional<double> over_time_s : {std::optional<double>(), std::optional<double>(30)}) {
+    EstimateOptions options;
+    options.over_time_s = over_time_s;
+    const auto parts = parts_of_estimate(outline, options);
+    ASSERT_TRUE(parts);
+    const Recording read = read_parts(bag, how, outline, *parts, Job()).value();
+    EXPECT_LT(read.scans.size(), whole.scans.size());
+    const auto of_parts = estimate_by_parts(read, options, Job()).value();
+    ASSERT_TRUE(of_parts);
+    EXPECT_EQ(estimate_to_json(*of_parts, Timing::kNull),
+              estimate_to_json(estimate(whole, options, Job()).value(), Timing::kNull));
+  }
+}
+
+TEST_F(OverTimeFile, PartsOfAWalkAreNotEnough) {
+  const Recording walk = test::simulated("metro-station", 0.024, 70).recording;
+  const auto parts = parts_of_estimate(walk, {});
+  ASSERT_TRUE(parts);
+  const auto found = estimate_by_parts(parts_of(walk, *parts), {}, Job());
+  ASSERT_TRUE(found);
+  EXPECT_FALSE(*found);
 }
 
 TEST(OverTimeJson, ReadsWhatItWrote) {
