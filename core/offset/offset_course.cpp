@@ -14,8 +14,10 @@ namespace {
 constexpr std::size_t kMinWindows = 3;  // between jumps, and before the first and after the last
 constexpr std::size_t kMinForLine = 4;  // windows
 constexpr std::size_t kMaxJumps = 20;
-constexpr double kLossWidth = 3;    // Cauchy, in sigmas
-constexpr double kJumpPenalty = 3;  // parameters that a jump counts as (Zhang and Siegmund 2007)
+constexpr double kLossWidth = 3;  // Cauchy, in sigmas
+// Parameters that a jump counts as, since its time is sought as well (Zhang and Siegmund 2007). A rate counts
+// as many, so that one in a thousand constant offsets is taken for a drifting one.
+constexpr double kPenalty = 3;
 
 // The windows that have an offset, in the order of time, sigmas widened by the scatter.
 struct Series {
@@ -119,7 +121,7 @@ Fitted fitted(const Series& series, const Model& model, std::vector<double> weig
       fit.cost += kLossWidth * kLossWidth * std::log1p(residual * residual);
     }
   }
-  const double parameters = 1 + (model.line ? 1 : 0) + kJumpPenalty * double(model.jumps.size());
+  const double parameters = 1 + kPenalty * (double(model.line ? 1 : 0) + double(model.jumps.size()));
   fit.score = fit.cost + parameters * std::log(double(n));
   return fit;
 }

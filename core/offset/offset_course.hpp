@@ -45,8 +45,8 @@ struct OffsetOverTime {
 };
 
 /// The course that the windows have evidence for. Constant, linear and with jumps are weighed against each
-/// other by the residuals of a robust fit and the number of parameters (BIC; a jump counts as three, since
-/// its time is sought as well). A jump needs three windows on each side. Absent where no window has an
+/// other by the residuals of a robust fit and the number of parameters (BIC; a rate and
+/// a jump count as three each). A jump needs three windows on each side. Absent where no window has an
 /// offset.
 std::optional<OffsetCourse> course_of(const std::vector<OffsetWindow>& windows, double middle_s);
 

@@ -261,7 +261,6 @@ Result<Answer> answer_over_time(const OffsetSearch& search, const Recording& who
     answer.sigma_s = std::hypot(course->sigma_s, common_sigma_s,
                                 unseen_sigma_s(*problem.recording, problem.motor, course->offset_s));
     if (course->rate_sigma > 0) answer.drift_ppm = course->rate * 1e6;
-    answer.criteria.push_back({"direct", course->offset_s, *answer.sigma_s});
   } else {
     answer.reasons.push_back("No window tells an offset. The first: " + over_time.windows.front().reason);
   }
