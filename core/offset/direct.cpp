@@ -156,6 +156,14 @@ std::vector<double> offsets_of_parts(const JointWalk& walk) {
   return offsets_s;
 }
 
+// What the parts' own sigmas leave of their mean. Where the offset may change, the parts' scatter says
+// nothing.
+double sigma_of_parts(const JointWalk& walk) {
+  double information = 0;
+  for (const JointWalkPart& part : walk.parts) information += 1 / (part.sigma_s * part.sigma_s);
+  return 1 / std::sqrt(information);
+}
+
 // Of a rig whose trajectory goes by `source`, as far as it is in `mapping`.
 Answer of_walk(const OffsetSearch& search, const MappingOptions& mapping,
                const std::optional<MotionSource>& source, Answer answer, const Job& job) {
@@ -190,16 +198,18 @@ Answer of_walk(const OffsetSearch& search, const MappingOptions& mapping,
   add(answer.warnings,
       long_sweeps_warning(*problem.recording, problem.motor, walk.unseen_sigma_s, walk.sigma_s));
   add(answer.warnings, smooth_motor_warning(walk.sway_sigma_s, walk.sigma_s));
+  const bool may_change = search.options.over_time_s.has_value();
+  const double sigma_of_walk_s = may_change ? sigma_of_parts(walk) : walk.sigma_s;
   const std::optional<double> sigma_s =
-      std::hypot(walk.sigma_s, unseen_sigma_s(*problem.recording, problem.motor, walk.offset_s));
+      std::hypot(sigma_of_walk_s, unseen_sigma_s(*problem.recording, problem.motor, walk.offset_s));
   // Parts that tell nothing scatter as if the clocks drifted apart.
   const auto drift = sigma_reason(sigma_s, scale) ? std::nullopt : drift_of(walk);
   if (drift) {
     answer.drift_ppm = drift->slope * 1e6;
-    if (!search.options.over_time_s)
-      add(answer.reasons, drift_reason(*drift, search.recorded_s(), walk.sigma_s));
+    if (!may_change) add(answer.reasons, drift_reason(*drift, search.recorded_s(), walk.sigma_s));
   }
-  const HalvesCheck halves = check_halves(sigma_s, offsets_of_parts(walk));
+  const HalvesCheck halves =
+      may_change ? HalvesCheck{sigma_s, {}} : check_halves(sigma_s, offsets_of_parts(walk));
   add(answer.warnings, halves.warning);
   add(answer.warnings, few_matches_warning(walk.matches, walk.features));
   return concluded(std::move(answer), walk.offset_s, halves.sigma_s, e_m, search);

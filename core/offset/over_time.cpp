@@ -207,7 +207,7 @@ std::vector<OffsetWindow> follow_offset(const Recording& recording, const std::v
 
 Result<FollowedWalk> follow_walk(const Recording& recording, double window_s,
                                  const EstimatePart& estimate_part, const Job& job) {
-  constexpr double kStretch_s = 60, kFar_s = 0.010;
+  constexpr double kStretch_s = 30, kFar_s = 0.010;
   const double begin_s = recording.scans.front().first_beam_s;
   FollowedWalk followed{{}, kUnseenOfWalks_s};
   std::optional<double> first_s, last_s;

@@ -48,7 +48,7 @@ struct FollowedWalk {
   double common_sigma_s = 0;
 };
 
-/// The offset of a moving rig in windows: the recording is cut into stretches of a minute and more, the
+/// The offset of a moving rig in windows: the recording is cut into stretches of half a minute and more, the
 /// trajectory of each is solved by itself, and its parts are the windows. An offset that drifts is followed
 /// from stretch to stretch. Errors are those of `estimate_part`.
 Result<FollowedWalk> follow_walk(const Recording& recording, double window_s,

@@ -15,7 +15,8 @@ struct ReadDetail {
   /// False: of scans only what their headers say. RawLaser::ranges_m stays empty, and RawScan::first_range is
   /// the scan's number among its topic's, in the order of the file.
   bool ranges = true;
-  /// By that number, 1 for scans that are kept; null: all are. Scans beyond its end are not kept.
+  /// By that number, 1 for scans that are kept, without their intensities; null: all are. Scans beyond its
+  /// end are not kept.
   const std::vector<char>* scans = nullptr;
 };
 

@@ -138,7 +138,8 @@ bool MessageCollector::add_scan(Entry& entry, std::int64_t receive_ns, std::span
   laser.scans.push_back(scan);
   if (!detail_.ranges) return true;
   decoded->ranges_m.append_to(laser.ranges_m);
-  laser.has_intensities = laser.has_intensities && decoded->intensities.size() == scan.beams;
+  const bool whole = detail_.scans == nullptr;  // parts are read for an estimate, which needs no intensities
+  laser.has_intensities = whole && laser.has_intensities && decoded->intensities.size() == scan.beams;
   if (laser.has_intensities)
     decoded->intensities.append_to(laser.intensities);
   else

@@ -236,7 +236,7 @@ TEST(OverTime, IsRefusedWithAnotherMethod) {
 TEST(OverTime, OfAWalkThatDriftsHasItsRate) {
   SimulationOptions options;
   options.scene = "metro-station";
-  options.duration_s = 100;
+  options.duration_s = 60;
   options.clock_drift_ppm = 100;
   const Recording walk = simulate(options, Job()).value().recording;
   const Estimate found = over_time(walk);
