@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cstdint>
+#include <filesystem>
 #include <memory>
 
 #include "app/commands.hpp"
@@ -8,6 +10,8 @@
 #include "app/progress.hpp"
 #include "app/say.hpp"
 #include "core/io/trajectory_file.hpp"
+#include "core/recording/formats/read_parts.hpp"
+#include "core/recording/formats/read_raw_recording.hpp"
 #include "core/recording/rig/detect_rig.hpp"
 #include "core/rig_solve/rig_solve.hpp"
 
@@ -109,6 +113,9 @@ Result<void> check_options(const Options& options) {
     return refuse("--shard computes candidates; merge takes --json and --csv");
   if (options.shard && search.ranges.empty() && !search.around)
     return refuse("--shard needs --range or --around: the default search chooses its candidates as it goes");
+  if (search.over_time_s && method_of(search, RigKind::kMoving, keeps(options)) != Method::kDirect)
+    return refuse(
+        "--over-time is used by the direct method only: leave out --method and the options of candidates");
   if (search.method == Method::kDirect && keeps(options))
     return refuse("the direct method has no candidates: leave out --shard and --resume");
   return {};
@@ -127,6 +134,34 @@ std::vector<std::filesystem::path> input_files(const Options& options) {
   return files;
 }
 
+bool is_large(const std::filesystem::path& recording) {
+  constexpr std::uintmax_t kLarge_bytes = std::uintmax_t{64} << 20;
+  std::uintmax_t bytes = 0;
+  std::error_code unknown;
+  for (const std::filesystem::path& file : recording_files(recording))
+    if (const auto size = std::filesystem::file_size(file, unknown); !unknown) bytes += size;
+  return bytes > kLarge_bytes;
+}
+
+/// Of a large file of a rig that stood still only those parts are read that decide. None where the rig moved,
+/// and where the file is to be read wholly anyway.
+Result<std::optional<Estimate>> estimate_from_parts(const Options& options, const EstimateOptions& search) {
+  const RecordingOptions& input = options.input.recording;
+  if (keeps(options) || input.window || !options.poses.empty() || !is_large(input.recording))
+    return std::nullopt;
+  const auto how = input.read_options();
+  if (!how) return tl::unexpected(how.error());
+  const Progress progress;
+  const Job& job = progress.job();
+  const auto outline = read_without_ranges(input.recording, *how, job);
+  if (!outline) return tl::unexpected(outline.error());
+  const auto parts = parts_of_estimate(*outline, search);
+  if (!parts) return std::nullopt;
+  return read_parts(input.recording, *how, *outline, *parts, job).and_then([&](const Recording& read) {
+    return estimate_by_parts(read, search, job);
+  });
+}
+
 ExitCode run(const Options& options, std::vector<std::string> deciding) {
   const auto threads = options.input.recording.limit_threads();
   const std::string path = options.resume.empty() && options.shard ? shard_file(options) : options.resume;
@@ -134,14 +169,17 @@ ExitCode run(const Options& options, std::vector<std::string> deciding) {
     return options.output.check(input_files(options), {path, options.rig_out});
   });
   if (!checked) return fail(checked.error());
+  EstimateOptions estimate_options = options.input.estimate;
+  estimate_options.assume = options.input.recording.assumed_kind();
+  auto from_parts = estimate_from_parts(options, estimate_options);
+  if (!from_parts) return fail(from_parts.error());
+  if (*from_parts) return conclude_search(options, **from_parts, nullptr, path);
   std::unique_ptr<CandidateFile> candidates;
   Result<Estimate> found;
   {
     const Progress progress;
     const auto recording = options.input.recording.read(progress.job());
     if (!recording) return fail(recording.error());
-    EstimateOptions estimate_options = options.input.estimate;
-    estimate_options.assume = options.input.recording.assumed_kind();
     auto poses = read_poses(options, *recording);
     if (!poses) return fail(poses.error());
     estimate_options.poses = std::move(*poses);

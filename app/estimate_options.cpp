@@ -78,6 +78,19 @@ void print_effects(const RigEffects& effects) {
   print("{}\n", line);
 }
 
+void print_over_time(const OffsetOverTime& over_time) {
+  if (!over_time.course) return;
+  const OffsetCourse& course = *over_time.course;
+  const char* kind = course.constant() ? "constant" : "at the recording's middle";
+  print("course   {}; {} of {} windows tell an offset\n", kind, course.windows, over_time.windows.size());
+  if (course.rate_sigma > 0)
+    print("rate     {:.3f} +- {:.3f} ppm (1 sigma), {:.3f} ms a minute\n", course.rate * 1e6,
+          course.rate_sigma * 1e6, course.rate * 60e3);
+  for (const OffsetJump& jump : course.jumps)
+    print("jump     {:.3f} +- {:.3f} ms between {:.1f} and {:.1f} s\n", jump.size_s * 1e3, jump.sigma_s * 1e3,
+          jump.begin_s, jump.end_s);
+}
+
 void print_answer(const Estimate& estimate) {
   if (estimate.identifiable) {
     const std::string sigma =
@@ -87,6 +100,10 @@ void print_answer(const Estimate& estimate) {
     print("offset   cannot be determined from this recording\n");
     for (const std::string& reason : estimate.reasons) print("  why: {}\n", reason);
   }
+  if (estimate.over_time) print_over_time(*estimate.over_time);
+  if (estimate.sample)
+    print("sample   {} of {} sweeps, in {} groups spread evenly\n", estimate.sample->sweeps,
+          estimate.sample->of_sweeps, estimate.sample->groups);
   print("method   {}, {} sweeps, {} scans, {} candidates\n", to_text(estimate.method), estimate.sweeps,
         estimate.scans, estimate.curve.size());
   if (estimate.kind) print("kind     {}: {}\n", to_text(*estimate.kind), estimate.kind_reason);
@@ -108,7 +125,8 @@ void declare_options(CLI::App& command, EstimateOptions& estimate) {
         command.add_option_function<std::vector<std::string>>("--" + option.name, set, option.help)
             ->type_name(option.type)
             ->type_size(1)
-            ->expected(option.repeats ? CLI::detail::expected_max_vector_size : 1)
+            ->expected(option.value_optional ? 0 : 1,
+                       option.repeats ? CLI::detail::expected_max_vector_size : 1)
             ->allow_extra_args(false);
     if (!option.choices.empty()) declared->check(CLI::IsMember(option.choices));
   }
@@ -124,7 +142,9 @@ void EstimateInput::declare(CLI::App& app) {
 
 void EstimateOutput::declare(CLI::App& app) {
   app.add_option("--json", json, "Write the result as JSON; - for stdout")->type_name("F");
-  app.add_option("--csv", csv, "Write the criteria over the offset as CSV; - for stdout")->type_name("F");
+  app.add_option("--csv", csv,
+                 "Write the criteria over the offset as CSV, or the windows of --over-time; - for stdout")
+      ->type_name("F");
   app.add_flag("--no-timing", no_timing,
                "Write cpu_s and wall_s as null, so that equal runs give equal bytes");
 }
@@ -139,7 +159,9 @@ Result<void> EstimateOutput::write(const Estimate& estimate) const {
   const Timing timing = no_timing ? Timing::kNull : Timing::kWritten;
   Result<void> first, second;
   if (!json.empty()) first = write_text(json, estimate_to_json(estimate, timing));
-  if (!csv.empty()) second = write_text(csv, curve_to_csv(estimate));
+  if (!csv.empty())
+    second =
+        write_text(csv, estimate.over_time ? over_time_to_csv(*estimate.over_time) : curve_to_csv(estimate));
   return first ? second : first;
 }
 

@@ -87,7 +87,7 @@ std::vector<std::filesystem::path> RecordingOptions::input_files() const {
   return files;
 }
 
-Result<Recording> RecordingOptions::read(const Job& job) const {
+Result<ReadOptions> RecordingOptions::read_options() const {
   ReadOptions options;
   options.stamps = stamps;
   options.keep_intensities = keep_intensities;
@@ -96,7 +96,13 @@ Result<Recording> RecordingOptions::read(const Job& job) const {
     if (!from_file) return tl::unexpected(std::move(from_file.error()));
     options.rig = std::move(*from_file);
   }
-  auto whole = read_recording(recording, options, job);
+  return options;
+}
+
+Result<Recording> RecordingOptions::read(const Job& job) const {
+  const auto options = read_options();
+  if (!options) return tl::unexpected(options.error());
+  auto whole = read_recording(recording, *options, job);
   if (!whole || !window) return whole;
   Recording part = sweepscope::window(*whole, window->from_s, window->to_s);
   if (part.scans.empty()) {

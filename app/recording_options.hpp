@@ -45,6 +45,8 @@ struct RecordingOptions {
   std::optional<RigKind> assumed_kind() const;
   /// Limits the program to `threads` while the returned object lives.
   std::unique_ptr<tbb::global_control> limit_threads() const;
+  /// How it is read, with the rig file's contents.
+  Result<ReadOptions> read_options() const;
   /// The recording of these options, cut to the window.
   Result<Recording> read(const Job& job) const;
 };

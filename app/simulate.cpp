@@ -28,7 +28,7 @@ struct Typed {
   std::filesystem::path output;
   SimulationOptions options;
   double offset_ms = 24, noise_mm = 10, encoder_jitter_ms = 0.5;
-  double grazing_bias_mm = 0, stamp_jitter_ms = 0, nudge_mm = 0;
+  double grazing_bias_mm = 0, stamp_jitter_ms = 0, nudge_mm = 0, jump_ms = 0;
   double noise_per_m_mm = 0, smoothing_ms = 50, imu_shift_ms = 0;
   std::string mount_error_deg{"0,0,0"}, mount_error_mm{"0,0,0"}, at_m;
 };
@@ -104,6 +104,7 @@ Result<SimulationOptions> options_of(const Typed& typed) {
   options.grazing_bias_m = typed.grazing_bias_mm / 1e3;
   options.stamp_jitter_s = typed.stamp_jitter_ms / 1e3;
   options.nudge_m = typed.nudge_mm / 1e3;
+  options.jump_s = typed.jump_ms / 1e3;
   options.noise_per_m = typed.noise_per_m_mm / 1e3;
   options.imu_shift_s = typed.imu_shift_ms / 1e3;
   options.own.placement.smoothing_s = typed.smoothing_ms / 1e3;
@@ -182,6 +183,8 @@ void declare_faults(CLI::App& app, Typed& typed) {
   fault("--stamp-jitter-ms", typed.stamp_jitter_ms, "Standard deviation added to every header stamp");
   fault("--backlash-deg", typed.options.backlash_deg, "Play between the encoder and the laser");
   fault("--clock-drift-ppm", typed.options.clock_drift_ppm, "How much faster the motor's clock runs");
+  fault("--jump-ms", typed.jump_ms, "By how much the motor's clock jumps forward at --jump-at-s");
+  fault("--jump-at-s", typed.options.jump_at_s, "When it does, in seconds since the first scan");
   fault("--nudge-mm", typed.nudge_mm, "Push the rig sideways, one second after the start");
   fault("--noise-per-m-mm", typed.noise_per_m_mm, "Added to the noise for every metre of range");
   fault("--grazing-dropout", typed.options.grazing_dropout,

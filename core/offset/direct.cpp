@@ -16,6 +16,8 @@
 namespace sweepscope {
 namespace {
 
+constexpr double kMinPart_s = 5;  // of a walk over time: shorter parts hold too few turns
+
 void add(std::vector<std::string>& to, const Remark& remark) {
   if (remark) to.push_back(*remark);
 }
@@ -84,7 +86,6 @@ RigEffects rig_effects(const MotorMotion& motor) {
 
 // What the rig could add, and whether surfaces would be flatter with another one.
 void judge_rig(Answer& answer, const OffsetSearch& search, double offset_s, const Job& job) {
-  if (search.options.solve.any()) return;
   const RigCheck check = check_rig(search.problem, offset_s, job);
   answer.rig_effects->mount_tilt_s_rad = check.offset_per_tilt_s_rad;
   add(answer.warnings, check.warning);
@@ -120,7 +121,8 @@ Answer of_stationary(const OffsetSearch& search, Answer answer, const Job& job) 
   answer.sigma_parts.push_back({"motion", of_motion_s});
   if (const auto trend = trend_of(found.block_s, found.block_offset_s)) {
     answer.drift_ppm = trend->slope * 1e6;
-    add(answer.reasons, drift_reason(*trend, search.recorded_s(), sigma_s.value_or(0)));
+    if (!search.options.over_time_s)
+      add(answer.reasons, drift_reason(*trend, search.recorded_s(), sigma_s.value_or(0)));
   }
   const HalvesCheck halves = check_halves(sigma_s, found.block_offset_s);
   add(answer.warnings, halves.warning);
@@ -175,13 +177,23 @@ std::vector<double> offsets_of_parts(const JointWalk& walk) {
   return offsets_s;
 }
 
+// What the parts' own sigmas leave of their mean. Where the offset may change, the parts' scatter says
+// nothing.
+double sigma_of_parts(const JointWalk& walk) {
+  double information = 0;
+  for (const JointWalkPart& part : walk.parts) information += 1 / (part.sigma_s * part.sigma_s);
+  return 1 / std::sqrt(information);
+}
+
 // Of a rig whose trajectory goes by `source`, as far as it is in `mapping`.
 Answer of_walk(const OffsetSearch& search, const MappingOptions& mapping,
                const std::optional<MotionSource>& source, Answer answer, const Job& job) {
   const OffsetProblem& problem = search.problem;
   const SearchScale& scale = search.scale;
-  const auto solved =
-      solve_moving(problem, search.coarse.offset_s(), {walk_options(mapping, scale), 3 * scale.unit_s}, job);
+  WalkOptions walk_by = walk_options(mapping, scale);
+  if (search.options.over_time_s && *search.options.over_time_s > 0)
+    walk_by.joint.part_s = std::max(kMinPart_s, *search.options.over_time_s);
+  const auto solved = solve_moving(problem, search.coarse.offset_s(), {walk_by, 3 * scale.unit_s}, job);
   if (!solved) return answer;
   answer.walk = solved->walk;
   answer.lost = lost_times(answer.walk->sweeps, *problem.recording);
@@ -207,11 +219,13 @@ Answer of_walk(const OffsetSearch& search, const MappingOptions& mapping,
   add(answer.warnings,
       long_sweeps_warning(*problem.recording, problem.motor, walk.unseen_sigma_s, walk.sigma_s));
   add(answer.warnings, smooth_motor_warning(walk.sway_sigma_s, walk.sigma_s));
-  const double encoder_s = unseen_sigma_s(*problem.recording, problem.motor, walk.offset_s);
-  const std::optional<double> sigma_s = std::hypot(walk.sigma_s, encoder_s);
-  const double of_walk_s = std::hypot(walk.unseen_sigma_s, walk.sway_sigma_s);
+  const bool may_change = search.options.over_time_s.has_value();
+  const double encoder_s = unseen_sigma_s(*problem.recording, problem.motor, walk.offset_s),
+               sigma_of_walk_s = may_change ? sigma_of_parts(walk) : walk.sigma_s,
+               of_walk_s = std::hypot(walk.unseen_sigma_s, walk.sway_sigma_s);
+  const std::optional<double> sigma_s = std::hypot(sigma_of_walk_s, encoder_s);
   answer.sigma_parts = {
-      {"statistical", std::sqrt(std::max(0.0, walk.sigma_s * walk.sigma_s - of_walk_s * of_walk_s))},
+      {"statistical", std::sqrt(std::max(0.0, sigma_of_walk_s * sigma_of_walk_s - of_walk_s * of_walk_s))},
       {"path", walk.unseen_sigma_s},
       {"sway", walk.sway_sigma_s},
       {"encoder", encoder_s}};
@@ -220,9 +234,10 @@ Answer of_walk(const OffsetSearch& search, const MappingOptions& mapping,
   const auto drift = sigma_reason(sigma_s, scale) ? std::nullopt : drift_of(walk);
   if (drift) {
     answer.drift_ppm = drift->slope * 1e6;
-    add(answer.reasons, drift_reason(*drift, search.recorded_s(), walk.sigma_s));
+    if (!may_change) add(answer.reasons, drift_reason(*drift, search.recorded_s(), walk.sigma_s));
   }
-  const HalvesCheck halves = check_halves(sigma_s, offsets_of_parts(walk));
+  const HalvesCheck halves =
+      may_change ? HalvesCheck{sigma_s, {}} : check_halves(sigma_s, offsets_of_parts(walk));
   add(answer.warnings, halves.warning);
   if (halves.warning) answer.sigma_parts.push_back({"halves", *halves.sigma_s});
   add(answer.warnings, few_matches_warning(walk.matches, walk.features));

@@ -271,9 +271,21 @@ void fill_levers(const std::vector<LineResiduals>& lines, StationaryDirect& resu
   result.reach_m = std::sqrt(reach_m2 / n);
 }
 
+double middle_of_matches_s(const StillGrid& grid, const std::vector<LineResiduals>& lines,
+                           double loss_width_m) {
+  double weights = 0, sum_s = 0;
+  for (std::size_t line = 0; line < lines.size(); ++line) {
+    Sums of_line;
+    of_line.add(lines[line], loss_width_m);
+    weights += of_line.jj;
+    sum_s += of_line.jj * grid.time_s[line * grid.bins + grid.bins / 2];
+  }
+  return weights > 0 ? sum_s / weights : 0;
+}
+
 // Sweeps are the parts where there are enough of them.
 void resample(const StillGrid& grid, const Linearisation& at, const std::vector<LineResiduals>& lines,
-              double loss_width_m, StationaryDirect& result) {
+              double loss_width_m, Resampling resampling, StationaryDirect& result) {
   // The sigma of a jackknife of n parts is itself uncertain by 1 / sqrt(2 (n - 1)): by 24 % of 10 parts, 32 %
   // of 6, 15 % of 24 views and 21 % of 12 combs. Each part costs one more iteration.
   constexpr std::size_t kMaxParts = 10, kMinBlocks = 6, kSectors = 8, kSections = 3, kCombs = 12;
@@ -282,9 +294,11 @@ void resample(const StillGrid& grid, const Linearisation& at, const std::vector<
                                                 : parts_of(blocks, at.points().bins);
   const double whole_jj = summed(lines, loss_width_m).jj;
   result.without_part = offsets_without(at, parts, loss_width_m, whole_jj);
+  result.middle_s = middle_of_matches_s(grid, lines, loss_width_m);
+  fill_levers(lines, result);
+  if (resampling == Resampling::kParts) return;
   result.without_comb = offsets_without(at, combs(at.points(), kCombs), loss_width_m, whole_jj);
   fill_blocks(at, grid, loss_width_m, result);
-  fill_levers(lines, result);
 }
 
 }  // namespace
@@ -329,7 +343,7 @@ StationaryDirect solve_stationary(const StillGrid& grid, double first_offset_s,
     const bool last = result.converged || result.iterations + 1 == options.max_iterations;
     result.offset_s += step_s;
     if (last) {
-      resample(grid, at, lines, loss_width_m, result);
+      resample(grid, at, lines, loss_width_m, options.resampling, result);
       break;
     }
     const double width_m = std::max(options.min_loss_width_m, options.loss_widths * result.residual_m);

@@ -12,6 +12,10 @@
 
 namespace sweepscope {
 
+/// What is solved again to see how certain the answer is: everything, or parts of the sweeps alone, at half
+/// the cost.
+enum class Resampling { kAll, kParts };
+
 /// The offset of a stationary rig as the only unknown of a least squares.
 ///
 /// A point p on a line of one direction lies at distance r = n . (p - c) from a patch (c, n) of the other's.
@@ -27,6 +31,7 @@ struct StationaryDirectOptions {
   double loss_widths = 2.5;         // near 2.385, where Cauchy's loss is 95 % efficient on normal noise
   double min_loss_width_m = 0.004;  // twice the least range noise, see estimate_range_noise_m
   std::size_t min_matches = 100;    // four for each of the 24 views that are resampled at most
+  Resampling resampling = Resampling::kAll;
 };
 
 /// A point against a patch of the other direction, at one offset.
@@ -49,6 +54,8 @@ struct StationaryDirect {
   double step_s = 0;  // the last one
   int iterations = 0;
   std::size_t features = 0, matches = 0;
+  double middle_s =
+      0;  // laser clock, mean time of the matches by their weight: where a drifting offset is right
   double residual_m = 0;  // robust deviation of the distances
   double lever_m =
       0;  // rms of n . (a x p): the distance by which a turn of 1 rad moves the points off the patches

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/loam/mapping.hpp"
+#include "core/offset/offset_course.hpp"
 
 namespace sweepscope {
 
@@ -73,6 +74,11 @@ struct RigEffects {
   std::optional<double> mount_tilt_s_rad;  // per angle, in the worst direction; of stationary rigs
 };
 
+/// Of a long recording of a stationary rig groups of sweeps, spread evenly, are used.
+struct SweepSample {
+  std::size_t groups = 0, sweeps = 0, of_sweeps = 0;  // `of_sweeps`: that the recording has
+};
+
 /// The answer to "what is the offset?", with its evidence. t_motor = t_laser + offset.
 struct Estimate {
   std::string recording;
@@ -85,6 +91,8 @@ struct Estimate {
   std::vector<SigmaPart> sigma_parts;     // what it is made of, see docs/algorithms.md, section 13
   std::optional<RigEffects> rig_effects;  // of the direct method
   std::optional<double> drift_ppm;  // by how much the motor's clock runs faster than the laser's, as measured
+  std::optional<OffsetOverTime> over_time;  // where it was asked for; offset_s then holds at the middle
+  std::optional<SweepSample> sample;        // none: all sweeps are used
   std::vector<Interval> lost;  // when a moving rig's trajectory is not known: left out; since the first scan
   std::vector<std::string> warnings;
   std::vector<std::string> reasons;  // why it is not identifiable, whole sentences

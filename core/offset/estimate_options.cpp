@@ -97,9 +97,23 @@ Result<void> set_prior(EstimateOptions& options, const std::string& text) {
   return {};
 }
 
+Result<void> set_over_time(EstimateOptions& options, const std::string& text) {
+  constexpr double kMin_s = 1, kMax_s = 86'400;
+  if (text.empty()) {
+    options.over_time_s = 0;
+    return {};
+  }
+  const auto seconds = numbers_of(text, 1);
+  if (!seconds || text.ends_with("ms") || !((*seconds)[0] >= kMin_s && (*seconds)[0] <= kMax_s))
+    return wrong("needs nothing, or the length of a window in seconds, from 1 to 86400");
+  options.over_time_s = (*seconds)[0];
+  return {};
+}
+
 EstimateOption choice(std::string name, std::string type, std::string help, std::vector<std::string> choices,
                       std::function<void(EstimateOptions&, std::size_t)> take) {
-  EstimateOption option{std::move(name), std::move(type), std::move(help), std::move(choices), false, {}};
+  EstimateOption option{
+      std::move(name), std::move(type), std::move(help), std::move(choices), false, false, {}};
   option.set = [choices = option.choices, take = std::move(take)](EstimateOptions& options,
                                                                   const std::string& text) -> Result<void> {
     const auto found = std::find(choices.begin(), choices.end(), text);
@@ -113,7 +127,7 @@ EstimateOption choice(std::string name, std::string type, std::string help, std:
 using Number = std::optional<double> EstimateOptions::*;
 
 EstimateOption number(std::string name, std::string help, Number value, bool zero_too) {
-  EstimateOption option{std::move(name), "FLOAT", std::move(help), {}, false, {}};
+  EstimateOption option{std::move(name), "FLOAT", std::move(help), {}, false, false, {}};
   option.set = [value, zero_too](EstimateOptions& options, const std::string& text) -> Result<void> {
     const auto numbers = numbers_of(text, 1);
     if (!numbers || !(zero_too ? (*numbers)[0] >= 0 : (*numbers)[0] > 0))
@@ -159,11 +173,13 @@ std::vector<EstimateOption> declared() {
            "Candidates in milliseconds, such as 19:29:1; repeatable (default: coarse to fine about 0)",
            {},
            true,
+           false,
            set_range},
           {"around",
            "INITIAL:ACCURACY:STEPS",
            "The paper's search in milliseconds: 24:0.1:40 tries 24 and 20 steps of 0.1 to either side",
            {},
+           false,
            false,
            set_around},
           {"solve",
@@ -172,6 +188,7 @@ std::vector<EstimateOption> declared() {
            "the gear, the encoder's eccentricity. The rig must be stationary",
            {},
            false,
+           false,
            set_solve},
           {"prior",
            "NAME=VALUE[,...]",
@@ -179,7 +196,17 @@ std::vector<EstimateOption> declared() {
            "mount_deg (default: 20), mount_mm (500), play_deg (0.5), encoder_deg (1)",
            {},
            false,
-           set_prior}};
+           false,
+           set_prior},
+
+          {"over-time",
+           "SECONDS",
+           "The offset in windows of at least this length (default: 10 s, and at least 12 sweeps), and its "
+           "course: constant, drifting or with jumps. offset_ms then holds at the middle",
+           {},
+           false,
+           true,
+           set_over_time}};
 }
 
 }  // namespace

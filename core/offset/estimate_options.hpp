@@ -36,7 +36,8 @@ struct EstimateOptions {
   FeatureOptions features;
   OdometryOptions odometry;
   MappingOptions mapping;
-  std::optional<GivenPoses> poses;  // of a moving rig, for the direct method
+  std::optional<double> over_time_s;  // the offset in windows of at least this length; 0: default_window_s
+  std::optional<GivenPoses> poses;    // of a moving rig, for the direct method
   /// The trajectory that an estimate of the same recording was judged by: criteria along it cost no tracking.
   std::shared_ptr<const SolvedWalk> walk;
 };
@@ -57,6 +58,7 @@ struct EstimateOption {
   std::string help;                  // a sentence
   std::vector<std::string> choices;  // all valid values; empty: see `type`
   bool repeats = false;
+  bool value_optional = false;  // then `set` takes an empty text as well
   /// Sets the option from text. An invalid value is ExitCode::kWrongUsage; the message says what is needed.
   std::function<Result<void>(EstimateOptions&, const std::string&)> set;
 };

@@ -9,9 +9,11 @@
 #include "core/offset/criteria_search.hpp"
 #include "core/offset/direct.hpp"
 #include "core/offset/identifiability.hpp"
+#include "core/offset/over_time.hpp"
+#include "core/offset/rig_estimate.hpp"
 #include "core/offset/rig_kind.hpp"
+#include "core/offset/sampled_sweeps.hpp"
 #include "core/offset/still_motion.hpp"
-#include "core/rig_solve/rig_solve.hpp"
 
 namespace sweepscope {
 namespace {
@@ -85,8 +87,9 @@ Result<void> check_options(const EstimateOptions& options, const KeptCandidates&
     return refuse("The direct method takes seconds and has no candidates to keep.");
   if (kept.shard && options.ranges.empty() && !options.around)
     return refuse("A shard needs --range or --around: the default search chooses its candidates as it goes.");
-  if (options.solve.any() && !direct) return refuse("--solve is used by the direct method only.");
   if (options.poses && !direct) return refuse("Poses are used by the direct method only.");
+  if (options.over_time_s && !direct)
+    return refuse("The offset over time is found by the direct method only.");
   return {};
 }
 
@@ -147,6 +150,7 @@ Estimate with(Estimate result, Answer answer) {
   result.rig_effects = answer.rig_effects;
   result.walk = std::move(answer.walk);
   result.drift_ppm = answer.drift_ppm;
+  result.over_time = std::move(answer.over_time);
   append(result.warnings, answer.warnings);
   append(result.reasons, answer.reasons);
   result.identifiable = result.reasons.empty() && answer.offset_s;
@@ -157,9 +161,66 @@ Estimate with(Estimate result, Answer answer) {
   return result;
 }
 
-// From a recording to its offset. Unfinished where the job is cancelled.
+struct Sampled;
 Result<Estimate> find_offset(const PreparedRecording& prepared, const EstimateOptions& options,
-                             const KeptCandidates& kept, const Job& job) {
+                             const KeptCandidates& kept, const Job& job, const Sampled* sampled = nullptr);
+
+EstimatePart estimator_of_parts(const EstimateOptions& options, const Job& job) {
+  return [&options, &job](const Recording& part) -> Result<Estimate> {
+    const auto prepared = prepare(part, options.features, job);
+    if (!prepared) return tl::unexpected(prepared.error());
+    return find_offset(*prepared, options, {}, job);
+  };
+}
+
+// The recording that a prepared one is a sample of.
+struct Sampled {
+  const Recording& whole;
+  const SampledSweeps* sweeps;  // null: the sample is the whole
+  bool parts_only = false;      // `whole` holds only what a stationary rig's answer goes by
+};
+
+// The offset over time, or one that the groups of a sample of sweeps agree about.
+Result<Answer> answer_sampled(const OffsetSearch& search, const Sampled& sampled,
+                              const OffsetOverTime& groups, const Job& job) {
+  if (search.options.over_time_s)
+    return answer_over_time(search, sampled.whole, estimator_of_parts(search.options, job), job);
+  const auto changes = change_reason(groups, search.recorded_s());
+  if (!changes) return answer_directly(search, job);
+  Answer answer;
+  answer.curve = search.coarse.curve;
+  answer.reasons.push_back(*changes);
+  return answer;
+}
+
+// The offset of the sample's groups; empty of a whole recording, and where there is nothing to start from.
+OffsetOverTime groups_of(const Sampled* sampled, const PreparedRecording& prepared,
+                         const CoarseSearch& coarse, const EstimateOptions& options, const Job& job) {
+  if (sampled == nullptr || sampled->sweeps == nullptr || !coarse.best) return {};
+  if (options.assume == RigKind::kMoving) return {};
+  return follow_groups(*prepared.recording, sampled->sweeps->groups, coarse.offset_s(), options.features,
+                       job);
+}
+
+// The motion test, with an offset that changes taken out: sweeps that lie far apart in time could not be
+// compared.
+MotionTest test_motion(const PreparedRecording& prepared, const StillGrid& grid, const OffsetOverTime& groups,
+                       double offset_s) {
+  const auto& course = groups.course;
+  if (!course || course->constant() || 2 * course->windows < groups.windows.size())
+    return test_motion(grid, offset_s);
+  Recording corrected = *prepared.recording;
+  corrected.motor = without_course(corrected, *course);
+  PreparedRecording as_if = prepared;
+  as_if.recording = &corrected;
+  as_if.motor = find_sweeps(corrected.motor);
+  return test_motion(as_if);
+}
+
+// From a recording to its offset. Unfinished where the job is cancelled, and where the rig moved and a sample
+// does not do.
+Result<Estimate> find_offset(const PreparedRecording& prepared, const EstimateOptions& options,
+                             const KeptCandidates& kept, const Job& job, const Sampled* sampled) {
   const SearchScale scale = search_scale(prepared.motor);
   Estimate result = begun(prepared, options, kept, scale);
   if (!result.reasons.empty()) return result;
@@ -172,67 +233,65 @@ Result<Estimate> find_offset(const PreparedRecording& prepared, const EstimateOp
   const StillGrid grid = still_grid(problem);
   const CoarseSearch coarse = search_coarsely(problem, window->from_s(), window->to_s(), scale, job);
   if (job.cancelled()) return result;
-  const MotionTest motion = test_motion(grid, coarse.offset_or(window->middle_s()));
+  const OffsetOverTime groups = groups_of(sampled, prepared, coarse, options, job);
+  if (job.cancelled()) return result;
+  const MotionTest motion = test_motion(prepared, grid, groups, coarse.offset_or(window->middle_s()));
   const KindDecision kind = decide_kind(motion, options);
   const Method method = method_of(options, kind.kind, kept.store != nullptr);
   const OffsetSearch search{problem, grid, options, scale, *window, coarse, motion, kind.kind, method};
+  const bool needs_whole = sampled != nullptr && (sampled->parts_only || !options.over_time_s);
+  if (needs_whole && search.as_moving()) {
+    result.kind = kind.kind;
+    return result;
+  }
   result = judged(std::move(result), search, kind);
   if (!result.reasons.empty()) return result;
   if (const auto poses = check_poses(search, kind.reason); !poses) return tl::unexpected(poses.error());
 
-  auto answer =
-      method == Method::kDirect ? answer_directly(search, job) : answer_by_criteria(search, kept, job);
+  auto answer = sampled != nullptr          ? answer_sampled(search, *sampled, groups, job)
+                : method == Method::kDirect ? answer_directly(search, job)
+                                            : answer_by_criteria(search, kept, job);
   if (!answer && answer.error().code == ExitCode::kInterrupted) return result;
   if (!answer) return tl::unexpected(answer.error());
   return with(std::move(result), std::move(*answer));
 }
 
-// The answer of the recording as the solved rig has it, which is as uncertain besides as the rig leaves it.
-Estimate with(Estimate found, std::shared_ptr<const SolvedRig> solved) {
-  if (found.sigma_s) {
-    found.sigma_s = std::hypot(*found.sigma_s, solved->offset_sigma_s);
-    found.sigma_parts.push_back({"rig", solved->offset_sigma_s});
-  }
-  for (const RigFinding& part : {solved->mount, solved->play, solved->encoder})
-    if (!part.reason.empty()) found.warnings.push_back(part.reason);
-  found.rig = std::move(solved);
-  return found;
+Result<Estimate> estimate_by(const Recording& sample, const Sampled& sampled, const EstimateOptions& options,
+                             const Job& job) {
+  const auto prepared = prepare(sample, options.features, job);
+  if (!prepared) return tl::unexpected(prepared.error());
+  auto result = find_offset(*prepared, options, {}, job, &sampled);
+  if (!result || sampled.sweeps == nullptr) return result;
+  if (!options.over_time_s) result->sample = sampled.sweeps->counts;
+  if (!result->over_time) return result;
+  result->sweeps = sampled.sweeps->counts.of_sweeps;
+  result->scans = 0;
+  for (const OffsetWindow& window : result->over_time->windows) result->scans += window.scans;
+  return result;
 }
 
-// Where an estimate of a stationary rig takes the offset to be, or, where the rig is too wrong for one, where
-// the candidates' cost is least.
-std::optional<double> offset_seen_s(const Estimate& found) {
-  if (!found.criteria.empty()) return found.criteria.front().offset_s;
-  const CurvePoint* best = nullptr;
-  for (const CurvePoint& point : found.curve)
-    if (point.capped_cost_m && (best == nullptr || *point.capped_cost_m < *best->capped_cost_m))
-      best = &point;
-  return best == nullptr ? std::nullopt : std::optional(best->offset_s);
+// Which sweeps of a recording decide; none where all of it is to be taken at once.
+std::optional<SampledSweeps> deciding_sweeps(const Recording& recording, const EstimateOptions& options) {
+  if (method_of(options, kUnknownKind) != Method::kDirect) return std::nullopt;
+  const bool may_stand = options.assume != RigKind::kMoving && !options.poses;
+  return may_stand || options.over_time_s ? sampled_sweeps(recording) : std::nullopt;
 }
 
-// The rig is solved for first; the recording as it then is gives the offset.
-Result<Estimate> find_with_rig(const PreparedRecording& prepared, const EstimateOptions& options,
-                               const KeptCandidates& kept, const Job& job) {
-  auto found = find_offset(prepared, options, kept, job);
-  if (!found || job.cancelled() || !found->kind) return found;
-  // A mount that is wrong sways the points with the motor as a body that sways does: a walk, which may sway,
-  // takes its place.
-  if (found->kind == RigKind::kMoving)
-    return refused(
-        without_answer(std::move(*found)),
-        {"The rig moved, and its parts are solved for from a stationary recording only: record 8 s "
-         "without motion, or choose such a part with --window."});
-  const auto offset_s = offset_seen_s(*found);
-  if (!offset_s) return found;
-  auto solved = std::make_shared<SolvedRig>(
-      solve_rig(problem_for(prepared, *offset_s, *offset_s), *offset_s, options.solve, job));
-  if (job.cancelled()) return found;
-  const Recording corrected = with_rig(*prepared.recording, *solved);
-  const auto again = prepare(corrected, options.features, job);
-  if (!again) return found;
-  return find_offset(*again, options, kept, job).map([&](Estimate&& answer) {
-    return with(std::move(answer), std::move(solved));
-  });
+// The answer over time, or of a long recording of a stationary rig from a sample of its sweeps. None where
+// all of the recording is to be taken at once.
+std::optional<Result<Estimate>> estimate_in_parts(const Recording& recording, const EstimateOptions& options,
+                                                  const KeptCandidates& kept, const Job& job,
+                                                  bool parts_only = false) {
+  if (kept.store != nullptr || kept.shard || recording.scans.empty()) return std::nullopt;
+  const auto sweeps = deciding_sweeps(recording, options);
+  const bool over_time = options.over_time_s && method_of(options, kUnknownKind) == Method::kDirect;
+  if (!sweeps && !over_time) return std::nullopt;
+  if (!sweeps) return estimate_by(recording, {recording, nullptr}, options, job);
+  auto result =
+      estimate_by(parts_of(recording, sweeps->groups), {recording, &*sweeps, parts_only}, options, job);
+  const bool moved = result && result->kind == RigKind::kMoving;
+  if (moved && (parts_only || !over_time) && !job.cancelled()) return std::nullopt;
+  return result;
 }
 
 // Since it was made.
@@ -249,35 +308,80 @@ class Stopwatch {
   std::chrono::steady_clock::time_point wall_begin_ = std::chrono::steady_clock::now();
 };
 
+Estimate interrupted_before(const Recording& recording, const EstimateOptions& options,
+                            const KeptCandidates& kept) {
+  Estimate none;
+  none.recording = recording.name;
+  none.method = method_of(options, kUnknownKind, kept.store != nullptr);
+  return interrupted(std::move(none));
+}
+
+// Whatever was cut short, wherever: no answer is given once the job is cancelled.
+Result<Estimate> concluded(Result<Estimate> result, const Stopwatch& stopwatch, const Job& job) {
+  if (!result) return result;
+  return stopwatch.stopped(job.cancelled() ? interrupted(std::move(*result)) : std::move(*result));
+}
+
+bool was_interrupted(const Result<Estimate>& result) {
+  return !result && result.error().code == ExitCode::kInterrupted;
+}
+
 }  // namespace
 
 Result<Estimate> estimate(const PreparedRecording& prepared, const EstimateOptions& options,
                           const KeptCandidates& kept, const Job& job) {
   const Stopwatch stopwatch;
-  auto result = options.solve.any() ? find_with_rig(prepared, options, kept, job)
-                                    : find_offset(prepared, options, kept, job);
-  if (!result) return result;
-  // Whatever was cut short, wherever: no answer is given once the job is cancelled.
-  return stopwatch.stopped(job.cancelled() ? interrupted(std::move(*result)) : std::move(*result));
+  if (options.solve.any()) return concluded(estimate_with_rig(prepared, options, kept, job), stopwatch, job);
+  auto in_parts = estimate_in_parts(*prepared.recording, options, kept, job);
+  if (!in_parts) return concluded(find_offset(prepared, options, kept, job), stopwatch, job);
+  if (was_interrupted(*in_parts))
+    return stopwatch.stopped(interrupted_before(*prepared.recording, options, kept));
+  return concluded(std::move(*in_parts), stopwatch, job);
 }
 
 Result<Estimate> estimate(const Recording& recording, const EstimateOptions& options,
                           const KeptCandidates& kept, const Job& job) {
   const Stopwatch stopwatch;
-  const auto prepared = prepare(recording, options.features, job);
-  if (!prepared) {
-    Estimate none;
-    none.recording = recording.name;
-    none.method = method_of(options, kUnknownKind, kept.store != nullptr);
-    return stopwatch.stopped(interrupted(std::move(none)));
+  if (options.solve.any()) {
+    const auto prepared = prepare(recording, options.features, job);
+    if (!prepared) return stopwatch.stopped(interrupted_before(recording, options, kept));
+    return estimate(*prepared, options, kept, job);
   }
-  return estimate(*prepared, options, kept, job).map([&](Estimate&& result) {
-    return stopwatch.stopped(std::move(result));
-  });
+  if (auto in_parts = estimate_in_parts(recording, options, kept, job)) {
+    if (was_interrupted(*in_parts)) return stopwatch.stopped(interrupted_before(recording, options, kept));
+    return concluded(std::move(*in_parts), stopwatch, job);
+  }
+  const auto prepared = prepare(recording, options.features, job);
+  if (!prepared) return stopwatch.stopped(interrupted_before(recording, options, kept));
+  return concluded(find_offset(*prepared, options, kept, job), stopwatch, job);
 }
 
 Result<Estimate> estimate(const Recording& recording, const EstimateOptions& options, const Job& job) {
   return estimate(recording, options, {}, job);
+}
+
+std::optional<std::vector<RecordingPart>> parts_of_estimate(const Recording& outline,
+                                                            const EstimateOptions& options) {
+  if (options.solve.any()) return std::nullopt;
+  const auto sweeps = deciding_sweeps(outline, options);
+  if (!sweeps) return std::nullopt;
+  std::vector<RecordingPart> parts = sweeps->groups;
+  if (!options.over_time_s) return parts;
+  const MotorMotion motor = find_sweeps(outline.motor);
+  for (const RecordingPart& part : used_parts(windows_over_time(outline, motor, options), motor))
+    parts.push_back(part);
+  return parts;
+}
+
+Result<std::optional<Estimate>> estimate_by_parts(const Recording& parts, const EstimateOptions& options,
+                                                  const Job& job) {
+  const Stopwatch stopwatch;
+  auto found = estimate_in_parts(parts, options, {}, job, true);
+  if (!found) return std::nullopt;
+  if (was_interrupted(*found)) return stopwatch.stopped(interrupted_before(parts, options, {}));
+  return concluded(std::move(*found), stopwatch, job).map([](Estimate&& result) {
+    return std::optional(std::move(result));
+  });
 }
 
 }  // namespace sweepscope

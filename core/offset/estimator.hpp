@@ -7,6 +7,7 @@
 #include "core/offset/kept_candidates.hpp"
 #include "core/offset/prepared.hpp"
 #include "core/recording/recording.hpp"
+#include "core/recording/recording_parts.hpp"
 
 namespace sweepscope {
 
@@ -32,5 +33,14 @@ Result<Estimate> estimate(const PreparedRecording& prepared, const EstimateOptio
 Result<Estimate> estimate(const Recording& recording, const EstimateOptions& options, const Job& job);
 Result<Estimate> estimate(const Recording& recording, const EstimateOptions& options,
                           const KeptCandidates& kept, const Job& job);
+
+/// The parts of a long recording that `estimate` goes by if the rig stood still, from an outline without
+/// ranges; absent where it takes all of the recording.
+std::optional<std::vector<RecordingPart>> parts_of_estimate(const Recording& outline,
+                                                            const EstimateOptions& options);
+/// `estimate` of a recording that holds these parts alone, with the same bytes; absent where the rig moved,
+/// and all of the recording is needed.
+Result<std::optional<Estimate>> estimate_by_parts(const Recording& parts, const EstimateOptions& options,
+                                                  const Job& job);
 
 }  // namespace sweepscope

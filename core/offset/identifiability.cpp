@@ -121,8 +121,10 @@ Remark drift_reason(const Trend& trend, double duration_s, double sigma_s) {
   const double apart_s = std::abs(trend.slope) * duration_s;
   const double chance_s = 3 * trend.sigma * duration_s;
   if (apart_s < std::max({1e-3, 3 * sigma_s, chance_s})) return std::nullopt;
-  return fmt::format("The clocks drift apart by {:.0f} ppm: by {:.1f} ms over these {:.1f} s.",
-                     trend.slope * 1e6, trend.slope * duration_s * 1e3, duration_s);
+  return fmt::format(
+      "The clocks drift apart by {:.0f} ppm: by {:.1f} ms over these {:.1f} s. estimate --over-time gives the "
+      "offset and its rate.",
+      trend.slope * 1e6, trend.slope * duration_s * 1e3, duration_s);
 }
 
 Remark lever_reason(double lever_m, double reach_m) {

@@ -57,6 +57,7 @@ struct Answer {
   std::vector<SigmaPart> sigma_parts;
   std::optional<RigEffects> rig_effects;
   std::shared_ptr<const SolvedWalk> walk;
+  std::optional<OffsetOverTime> over_time;
   std::vector<std::string> warnings, reasons;
 };
 

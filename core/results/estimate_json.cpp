@@ -154,6 +154,102 @@ Json rig_effects_to_json(const RigEffects& effects) {
            effects.mount_tilt_s_rad ? Json(to_ms(*effects.mount_tilt_s_rad * kRadPerDeg)) : Json(nullptr)}};
 }
 
+/// The windows of an offset over time; a gap has null, and why.
+Json windows_to_json(const std::vector<OffsetWindow>& windows) {
+  Json list = Json::array();
+  for (const OffsetWindow& window : windows) {
+    Json object{{"t_s", to_millisecond(window.time_s)},
+                {"offset_ms", milliseconds_or_null(window.offset_s)},
+                {"sigma_ms", milliseconds_or_null(window.sigma_s)},
+                {"from_s", to_millisecond(window.begin_s)},
+                {"to_s", to_millisecond(window.end_s)}};
+    if (!window.offset_s) object["reason"] = window.reason;
+    list.push_back(std::move(object));
+  }
+  return list;
+}
+
+double to_ppm(double rate) {
+  return std::round(rate * 1e12) / 1e6;
+}
+
+void write_over_time(const OffsetOverTime& over_time, Json& document) {
+  document["over_time"] = windows_to_json(over_time.windows);
+  const auto& course = over_time.course;
+  document["middle_s"] = course ? Json(to_millisecond(course->middle_s)) : Json(nullptr);
+  document["rate_ppm"] = course ? Json(to_ppm(course->rate)) : Json(nullptr);
+  document["rate_sigma_ppm"] = course ? Json(to_ppm(course->rate_sigma)) : Json(nullptr);
+  document["scatter"] = course ? Json(course->scatter) : Json(nullptr);
+  document["jumps"] = Json::array();
+  if (!course) return;
+  for (const OffsetJump& jump : course->jumps)
+    document["jumps"].push_back({{"from_s", to_millisecond(jump.begin_s)},
+                                 {"to_s", to_millisecond(jump.end_s)},
+                                 {"jump_ms", to_ms(jump.size_s)},
+                                 {"sigma_ms", to_ms(jump.sigma_s)}});
+}
+
+std::vector<OffsetWindow> windows_from_json(const Json& list) {
+  if (!list.is_array()) throw BadValue("over_time is not a list");
+  std::vector<OffsetWindow> windows;
+  for (const Json& object : list) {
+    const std::string where = fmt::format("over_time[{}].", windows.size());
+    if (!object.is_object()) throw BadValue(where + " is not an object");
+    OffsetWindow window;
+    window.time_s = required<double>(object, "t_s", where);
+    window.begin_s = optional_number(object, "from_s", where).value_or(window.time_s);
+    window.end_s = optional_number(object, "to_s", where).value_or(window.time_s);
+    const auto offset_ms = optional_number(object, "offset_ms", where);
+    const auto sigma_ms = optional_number(object, "sigma_ms", where);
+    if (offset_ms && sigma_ms) {
+      window.offset_s = seconds(*offset_ms, where + "offset_ms");
+      window.sigma_s = seconds(*sigma_ms, where + "sigma_ms");
+    }
+    window.reason = optional_text(object, "reason");
+    windows.push_back(std::move(window));
+  }
+  return windows;
+}
+
+std::optional<OffsetOverTime> over_time_from_json(const Json& document) {
+  const auto found = document.find("over_time");
+  if (found == document.end() || found->is_null()) return std::nullopt;
+  OffsetOverTime over_time{windows_from_json(*found), {}};
+  const auto offset_ms = optional_number(document, "offset_ms");
+  if (!offset_ms || !optional_number(document, "middle_s")) return over_time;
+  OffsetCourse course;
+  course.middle_s = required<double>(document, "middle_s");
+  course.offset_s = seconds(*offset_ms, "offset_ms");
+  course.sigma_s = seconds(optional_number(document, "sigma_ms").value_or(0), "sigma_ms");
+  course.rate = required<double>(document, "rate_ppm") / 1e6;
+  course.rate_sigma = required<double>(document, "rate_sigma_ppm") / 1e6;
+  course.scatter = optional_number(document, "scatter").value_or(1);
+  const Json& jumps = member(document, "jumps", "");
+  if (!jumps.is_array()) throw BadValue("jumps is not a list");
+  for (const Json& object : jumps) {
+    if (!object.is_object()) throw BadValue("a jump is not an object");
+    course.jumps.push_back({required<double>(object, "from_s", "jumps."),
+                            required<double>(object, "to_s", "jumps."),
+                            seconds(required<double>(object, "jump_ms", "jumps."), "jump_ms"),
+                            seconds(required<double>(object, "sigma_ms", "jumps."), "sigma_ms")});
+  }
+  for (const OffsetWindow& window : over_time.windows) course.windows += window.offset_s ? 1 : 0;
+  over_time.course = std::move(course);
+  return over_time;
+}
+
+Json sample_to_json(const SweepSample& sample) {
+  return {{"groups", sample.groups}, {"sweeps", sample.sweeps}, {"of_sweeps", sample.of_sweeps}};
+}
+
+std::optional<SweepSample> sample_from_json(const Json& document) {
+  const auto found = document.find("sample");
+  if (found == document.end() || found->is_null()) return std::nullopt;
+  if (!found->is_object()) throw BadValue("sample is not an object");
+  return SweepSample{required_count(*found, "groups"), required_count(*found, "sweeps"),
+                     required_count(*found, "of_sweeps")};
+}
+
 /// "poses": a file, or a topic of odometry or of an IMU.
 Json motion_to_json(const UsedMotion& motion) {
   Json object;
@@ -250,6 +346,8 @@ Estimate estimate_from_json(const Json& document) {
   if (const std::string kind = optional_text(document, "kind"); !kind.empty())
     estimate.kind = named<RigKind>(kind, kKindNames, "kind");
   estimate.kind_reason = optional_text(document, "kind_reason");
+  estimate.over_time = over_time_from_json(document);
+  estimate.sample = sample_from_json(document);
   estimate.lost = intervals_from_json(document, "lost_s");
   estimate.motion = motion_from_json(document);
   estimate.fit = fit_from_json(document);
@@ -287,6 +385,7 @@ std::string estimate_to_json(const Estimate& estimate, Timing timing) {
   if (found && !estimate.sigma_parts.empty()) document["sigma_parts"] = sigma_parts_to_json(estimate);
   if (estimate.rig_effects) document["rig_effects"] = rig_effects_to_json(*estimate.rig_effects);
   document["drift_ppm"] = number_or_null(estimate.drift_ppm);
+  if (estimate.over_time) write_over_time(*estimate.over_time, document);
   document["kind"] = estimate.kind ? Json(to_text(*estimate.kind)) : Json(nullptr);
   document["kind_reason"] = estimate.kind_reason.empty() ? Json(nullptr) : Json(estimate.kind_reason);
   document["lost_s"] = Json::array();
@@ -305,6 +404,7 @@ std::string estimate_to_json(const Estimate& estimate, Timing timing) {
   document["curve"] = curve_to_json(estimate.curve);
   document["sweeps"] = estimate.sweeps;
   document["scans"] = estimate.scans;
+  if (estimate.sample) document["sample"] = sample_to_json(*estimate.sample);
   document["cpu_s"] = timing == Timing::kWritten ? Json(estimate.cpu_s) : Json(nullptr);
   document["wall_s"] = timing == Timing::kWritten ? Json(estimate.wall_s) : Json(nullptr);
   document["version"] = SWEEPSCOPE_VERSION;
@@ -342,6 +442,21 @@ std::string curve_to_csv(const Estimate& estimate) {
       text += value ? fmt::format(",{}", *value) : ",";
     }
     text += '\n';
+  }
+  return text;
+}
+
+std::string over_time_to_csv(const OffsetOverTime& over_time) {
+  std::string text = "t_s,offset_ms,sigma_ms,from_s,to_s,fit_ms\n";
+  for (const OffsetWindow& window : over_time.windows) {
+    const auto ms = [](const std::optional<double>& seconds) {
+      return seconds ? fmt::format("{}", to_ms(*seconds)) : std::string();
+    };
+    const auto fit_s =
+        over_time.course ? std::optional(over_time.course->offset_at_s(window.time_s)) : std::nullopt;
+    text += fmt::format("{},{},{},{},{},{}\n", to_millisecond(window.time_s), ms(window.offset_s),
+                        ms(window.sigma_s), to_millisecond(window.begin_s), to_millisecond(window.end_s),
+                        ms(fit_s));
   }
   return text;
 }

@@ -18,8 +18,9 @@ const char* to_text(RigKind kind);
 
 /// The estimate as a JSON object (schema "sweepscope.estimate/1"), keys in a fixed order, offsets in
 /// milliseconds, null where a value is absent, with a line end; "poses" only if a motion from another source
-/// was used, "fit" only for the direct method. Offsets keep 1e-9 ms. An estimate that is not identifiable has
-/// offset_ms and sigma_ms null.
+/// was used, "fit" only for the direct method, "over_time" and the course only if that was asked for,
+/// "sample" only if a sample of the sweeps was used, "parameters" only if the rig was solved for. Offsets
+/// keep 1e-9 ms. An estimate that is not identifiable has offset_ms and sigma_ms null.
 std::string estimate_to_json(const Estimate& estimate, Timing timing = Timing::kWritten);
 
 /// Reads what estimate_to_json wrote; unknown keys are skipped. `name` is the name of the file in error
@@ -33,6 +34,9 @@ Result<Estimate> read_estimate_json(const std::filesystem::path& path);
 /// The curve as a table: a header line that names columns and units, then one line per offset; absent values
 /// are empty.
 std::string curve_to_csv(const Estimate& estimate);
+/// The windows of an offset over time and the course at their times as a table, one line per window; empty
+/// where a window tells no offset.
+std::string over_time_to_csv(const OffsetOverTime& over_time);
 Result<void> write_curve_csv(const std::filesystem::path& path, const Estimate& estimate);
 
 }  // namespace sweepscope

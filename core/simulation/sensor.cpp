@@ -169,7 +169,9 @@ MotorTrack Sensor::motor_track(double duration_s) const {
     const double true_s = static_cast<double>(i) * period_s + encoder_phase_s_ +
                           std::clamp(off_s, -0.45 * period_s, 0.45 * period_s);
     const double late_s = options_.stamp_jitter_s * Random(options_.seed, kMotorStamp, number).normal();
-    const double stamp_s = true_s * (1 + options_.clock_drift_ppm * 1e-6) + options_.offset_s + late_s;
+    const double jumped_s = true_s < options_.jump_at_s ? 0 : options_.jump_s;
+    const double stamp_s =
+        true_s * (1 + options_.clock_drift_ppm * 1e-6) + options_.offset_s + jumped_s + late_s;
     const double angle_rad = encoder_angle_rad(true_s);
     samples.emplace_back(whole_ns(stamp_s), std::floor(angle_rad / step_rad + 0.5) * step_rad);
   }

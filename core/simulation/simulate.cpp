@@ -26,7 +26,7 @@ using namespace simulation;
 
 constexpr std::int64_t kEpoch_ns = 1'489'900'000'000'000'000;
 constexpr double kRoomDuration_s = 4.5;
-constexpr double kLongestStand_s = 600;
+constexpr double kLongestStand_s = 7200;
 constexpr std::uint64_t kGyroPurpose = 12;
 constexpr double kTruthStep_s = 0.01, kOwnTruthStep_s = 0.005;
 
@@ -55,6 +55,8 @@ Result<void> check(const SimulationOptions& o) {
       {"the stamp jitter", o.stamp_jitter_s * 1e3, 0, 10, " ms"},
       {"the backlash", o.backlash_deg, 0, 10, " deg"},
       {"the clock drift", o.clock_drift_ppm, -1000, 1000, " ppm"},
+      {"the jump", o.jump_s * 1e3, -10e3, 10e3, " ms"},
+      {"the time of the jump", o.jump_at_s, 0, 1e6, " s"},
       {"the nudge", o.nudge_m * 1e3, -1000, 1000, " mm"},
       {"the IMU's shift", o.imu_shift_s * 1e3, -10e3, 10e3, " ms"},
       {"the noise per metre", o.noise_per_m * 1e3, 0, 100, " mm"},

@@ -124,6 +124,8 @@ Json options_json(const SimulationOptions& o) {
           {"stamp_jitter_ms", tidy(o.stamp_jitter_s * 1e3)},
           {"backlash_deg", tidy(o.backlash_deg)},
           {"clock_drift_ppm", tidy(o.clock_drift_ppm)},
+          {"jump_ms", tidy(o.jump_s * 1e3)},
+          {"jump_at_s", tidy(o.jump_at_s)},
           {"nudge_mm", tidy(o.nudge_m * 1e3)},
           {"noise_per_m_mm", tidy(o.noise_per_m * 1e3)},
           {"grazing_dropout", tidy(o.grazing_dropout)},

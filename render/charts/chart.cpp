@@ -117,13 +117,26 @@ void add_shapes(const Canvas& c, const ChartSeries& series, const std::vector<Pi
   }
 }
 
+void add_bars(const Canvas& c, const ChartSeries& series) {
+  const double half_cap = 3 * c.scale;
+  for (std::size_t i = 0; i < std::min(series.x.size(), series.half_bars.size()); ++i) {
+    if (!series.y[i]) continue;
+    const PixelPoint low = c.px(series.x[i], *series.y[i] - series.half_bars[i]),
+                     high = c.px(series.x[i], *series.y[i] + series.half_bars[i]);
+    c.drawing.line(low, high, 1.5 * c.scale, series.colour);
+    for (const PixelPoint end : {low, high})
+      c.drawing.line({end.x - half_cap, end.y}, {end.x + half_cap, end.y}, 1.5 * c.scale, series.colour);
+  }
+}
+
 void add_series(const Canvas& c, const ChartSeries& series, bool beside_others) {
   for (auto& stretch : stretches_of(c, series)) {
     if (series.marker != MarkerShape::kNone) add_shapes(c, series, stretch, beside_others);
     LineMark line = line_of(c, series);
     line.points = std::move(stretch);
-    if (line.points.size() > 1) c.drawing.add(std::move(line));
+    if (series.joined && line.points.size() > 1) c.drawing.add(std::move(line));
   }
+  add_bars(c, series);
   const double bottom = c.layout.plot.bottom();
   for (std::size_t i = 0; i < series.x.size(); ++i) {
     const double x = c.layout.x_px(series.x[i]);

@@ -18,8 +18,10 @@ struct ChartSeries {
   std::vector<std::optional<double>> y;  // absent values leave a gap, and a tick on the axis below
   Colour colour;
   MarkerShape marker = MarkerShape::kCircle;
-  bool dashed = false;  // thin dashes, for fits
-  bool filled = false;  // down to 0, which the axis then includes
+  bool dashed = false;                 // thin dashes, for fits
+  bool filled = false;                 // down to 0, which the axis then includes
+  bool joined = true;                  // by lines from point to point
+  std::vector<double> half_bars = {};  // like x: half the height of the bar at each point; empty: none
 };
 
 /// A vertical line across the chart with a label above it.

@@ -38,8 +38,11 @@ AxisRange range_of_y(const Chart& chart) {
   Extent extent;
   bool with_zero = chart.with_zero;
   for (const ChartSeries& series : chart.series) {
-    for (const auto& y : series.y) {
-      if (y) extent.include(*y);
+    for (std::size_t i = 0; i < series.y.size(); ++i) {
+      if (!series.y[i]) continue;
+      const double half = i < series.half_bars.size() ? series.half_bars[i] : 0;
+      extent.include(*series.y[i] - half);
+      extent.include(*series.y[i] + half);
     }
     with_zero |= series.filled;
   }

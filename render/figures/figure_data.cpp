@@ -36,6 +36,7 @@ std::string canonical(const EstimateOptions& o) {
                                  number_of(o.fit), number_of(o.scoring), o.weight_c.value_or(1));
   if (o.edge_gate_m) text += fmt::format(" edge {}", *o.edge_gate_m);
   if (o.plane_gate_m) text += fmt::format(" plane {}", *o.plane_gate_m);
+  if (o.over_time_s) text += fmt::format(" over-time {}", *o.over_time_s);
   if (o.around)
     text += fmt::format(" around {}:{}:{}", o.around->initial_s, o.around->accuracy_s, o.around->steps);
   for (const OffsetRange& range : o.ranges) {

@@ -13,6 +13,7 @@
 #include "core/map/cross_section.hpp"
 #include "core/recording/formats/read_raw_recording.hpp"
 #include "render/charts/curve_charts.hpp"
+#include "render/charts/over_time_chart.hpp"
 #include "render/figures/figure_data.hpp"
 #include "render/figures/figure_pictures.hpp"
 #include "render/figures/figure_table.hpp"
@@ -173,6 +174,14 @@ Result<Made> make(const ScanFigure& figure, const ComparisonOptions& look, Figur
   const auto points = scan_points(**recording, *features, scan);
   return Made{scan_picture(points, look), fmt::format("{}, {:.3f} s after the first scan", figure.recording,
                                                       scans[scan].first_beam_s - scans[0].first_beam_s)};
+}
+
+Result<Made> make(const OverTimeFigure& figure, const ComparisonOptions& look, FigureData& data) {
+  const auto estimate = data.estimate(figure.estimate);
+  if (!estimate) return tl::unexpected(estimate.error());
+  return over_time_chart(**estimate, style_of(look.background)).map([&](const Chart& chart) {
+    return Made{charts_picture(std::span(&chart, 1), look), figure.estimate};
+  });
 }
 
 std::string extension_of(PictureFormat format) {

@@ -323,13 +323,22 @@ class RecipeReader {
     };
   }
 
+  void add_over_time_members(Members& members, OverTimeFigure& figure) {
+    members["estimate"] = [this, &figure](const Node& v) {
+      figure.estimate = read_reference(v, recipe_.estimates, "estimate");
+    };
+  }
+
   static std::string kind_of(const Node& node, const std::string& name) {
     if (!node.IsMap()) refuse(node, name + " must be a map of keys to values");
     const Node kind = node["kind"];
-    if (!kind.IsDefined()) refuse(node, name + " needs a kind: maps, curves, profile or scan");
-    return read_choice<std::string>(
-        kind, name + ": kind",
-        {{"maps", "maps"}, {"curves", "curves"}, {"profile", "profile"}, {"scan", "scan"}});
+    if (!kind.IsDefined()) refuse(node, name + " needs a kind: maps, curves, profile, scan or over-time");
+    return read_choice<std::string>(kind, name + ": kind",
+                                    {{"maps", "maps"},
+                                     {"curves", "curves"},
+                                     {"profile", "profile"},
+                                     {"scan", "scan"},
+                                     {"over-time", "over-time"}});
   }
 
   FigureSpec read_figure(const std::string& figure_name, const Node& node) {
@@ -350,11 +359,14 @@ class RecipeReader {
     CurvesFigure curves;
     ProfileFigure profile;
     ScanFigure scan;
+    OverTimeFigure over_time;
     if (kind == "maps") add_maps_members(members, maps, name);
     if (kind == "curves") add_curves_members(members, curves, name);
     if (kind == "profile") add_profile_members(members, profile, name);
     if (kind == "scan") add_scan_members(members, scan, name);
+    if (kind == "over-time") add_over_time_members(members, over_time);
     read_members(node, name, members);
+    if (kind == "over-time") spec.what = over_time;
     if (kind == "maps") spec.what = maps;
     if (kind == "curves") spec.what = curves;
     if (kind == "profile") spec.what = profile;
@@ -372,7 +384,9 @@ class RecipeReader {
     if ((maps && maps->maps.empty()) || (profile && profile->maps.empty()))
       refuse(node, name + " needs maps");
     if (curves && curves->estimates.empty()) refuse(node, name + " needs estimates");
+    const auto* over_time = std::get_if<OverTimeFigure>(&spec.what);
     if (scan && scan->recording.empty()) refuse(node, name + " needs a recording");
+    if (over_time && over_time->estimate.empty()) refuse(node, name + " needs an estimate");
     if (profile && profile->at_m && !profile->heights) refuse(node, name + ": at_m needs heights_m");
   }
 

@@ -74,9 +74,14 @@ struct ScanFigure {
   double at_s = 0;  // since the first scan
 };
 
+/// The offset of windows over time, of an estimate with `over-time`.
+struct OverTimeFigure {
+  std::string estimate;
+};
+
 struct FigureSpec {
   std::string name;  // of the files
-  std::variant<MapsFigure, CurvesFigure, ProfileFigure, ScanFigure> what;
+  std::variant<MapsFigure, CurvesFigure, ProfileFigure, ScanFigure, OverTimeFigure> what;
   ComparisonOptions look;
   std::vector<PictureFormat> formats;
 };

@@ -57,6 +57,20 @@ Result<void> add_criteria(ReportContent& content, const PreparedRecording& prepa
   return {};
 }
 
+/// Of a recording that is long enough for the offset to have changed.
+Result<void> add_over_time(ReportContent& content, const PreparedRecording& prepared,
+                           std::optional<RigKind> assume, const Job& job) {
+  if (!content.estimate.sample) return {};
+  EstimateOptions wanted;
+  wanted.assume = assume;
+  wanted.over_time_s = 0;
+  auto found = estimate(prepared, wanted, {}, job);
+  if (!found) return tl::unexpected(found.error());
+  if (found->interrupted) return failure(ExitCode::kInterrupted, "interrupted while following the offset");
+  content.over_time = std::move(*found);
+  return {};
+}
+
 }  // namespace
 
 Result<ReportContent> gather_report(const PreparedRecording& prepared, std::optional<RigKind> assume,
@@ -71,6 +85,8 @@ Result<ReportContent> gather_report(const PreparedRecording& prepared, std::opti
   if (!found) return tl::unexpected(found.error());
   if (found->interrupted) return failure(ExitCode::kInterrupted, "interrupted while looking for the offset");
   content.estimate = std::move(*found);
+  if (auto followed = add_over_time(content, prepared, assume, job); !followed)
+    return tl::unexpected(followed.error());
   if (!content.estimate.identifiable) return content;
   return add_criteria(content, prepared, kept, job)
       .and_then([&] { return add_maps(content, prepared, job); })

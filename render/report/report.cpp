@@ -7,6 +7,7 @@
 
 #include "core/io/printable_text.hpp"
 #include "render/charts/curve_charts.hpp"
+#include "render/charts/over_time_chart.hpp"
 #include "render/comparison/comparison.hpp"
 #include "render/figures/figure_pictures.hpp"
 #include "render/report/html.hpp"
@@ -169,6 +170,21 @@ Result<std::string> curves(const ReportContent& content) {
          "best; the blue line is the answer.</p>\n";
 }
 
+Result<std::string> over_time_strip(const ReportContent& content) {
+  if (!content.over_time || !content.over_time->over_time) return std::string();
+  const auto chart = over_time_chart(*content.over_time, style_of(Background::kWhite));
+  if (!chart) return tl::unexpected(chart.error());
+  ComparisonOptions look;
+  look.background = Background::kWhite;
+  look.width_px = 1100;
+  look.height_px = 300;
+  return encode_svg(charts_picture(std::span(&*chart, 1), look)).map([](const std::string& svg) {
+    return html::element("h2", "The offset over time") + "<div>" + html::inline_svg(svg) +
+           "</div>\n<p class=\"caption\">Each point is one window by itself, with a bar of one sigma to either "
+           "side; the line is the course that they have evidence for.</p>\n";
+  });
+}
+
 Result<std::string> maps(const ReportContent& content) {
   if (content.maps.empty()) return std::string();
   ComparisonOptions look;
@@ -212,8 +228,9 @@ std::string report_command(const std::string& recording_name, const std::string&
 }
 
 Result<std::string> report_html(const ReportContent& content) {
+  const auto strip = over_time_strip(content);
   const auto curve_part = curves(content), map_part = maps(content), profile_part = profile(content);
-  for (const auto* part : {&curve_part, &map_part, &profile_part}) {
+  for (const auto* part : {&strip, &curve_part, &map_part, &profile_part}) {
     if (!*part) return tl::unexpected(part->error());
   }
   const std::string name = html::escape(content.recording.name);
@@ -222,12 +239,12 @@ Result<std::string> report_html(const ReportContent& content) {
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<title>{0}: offset between laser and motor</title>\n<style>{1}</style>\n</head>\n<body>\n"
       "<h1>{0}</h1>\n<p>Offset between the laser scanner's clock and its motor's.</p>\n{2}{3}"
-      "<h2>Warnings</h2>\n{4}{5}{6}{7}<h2>What was recorded</h2>\n{8}"
+      "<h2>Warnings</h2>\n{4}{13}{5}{6}{7}<h2>What was recorded</h2>\n{8}"
       "<h2>How this was made</h2>\n<p>{9} sweeps, {10} scans; sweepscope {11}.</p>\n<pre>{12}</pre>\n"
       "</body>\n</html>\n",
       name, kStyleSheet, answer(content.estimate), criteria_table(content), warnings_list(content),
       *curve_part, *map_part, *profile_part, recorded(content.recording), content.estimate.sweeps,
-      content.estimate.scans, SWEEPSCOPE_VERSION, html::escape(content.command));
+      content.estimate.scans, SWEEPSCOPE_VERSION, html::escape(content.command), *strip);
 }
 
 }  // namespace sweepscope

@@ -19,6 +19,7 @@ struct ReportContent {
   Estimate estimate;
   std::optional<Estimate>
       criteria;  // the paper's criteria over the offset, as evidence; none without an answer
+  std::optional<Estimate> over_time;  // the offset in windows; only of long recordings of a stationary rig
   std::vector<ComparedMap> maps;
   std::optional<CrossSection> section;  // the face that shows the offset best, if there is one
 };

@@ -136,6 +136,28 @@ TEST_F(EstimateCommand, RefusesAnExtremumOnTheEdgeOfTheRange) {
   EXPECT_NE(outcome.out.find("edge"), std::string::npos) << outcome.out;
 }
 
+TEST_F(EstimateCommand, FollowsAnOffsetOverTime) {
+  simulate("room-2 -o room.bag --sweep-s 0.51 --duration-s 44 --clock-drift-ppm 200");
+  const Outcome refused = run("estimate room.bag");
+  EXPECT_EQ(refused.exit_code, 4);
+  EXPECT_NE(refused.out.find("--over-time"), std::string::npos) << refused.out;
+  const Outcome found = run("estimate room.bag --over-time --json over.json --csv over.csv");
+  ASSERT_EQ(found.exit_code, 0) << found.out << found.err;
+  EXPECT_NE(found.out.find("\nrate "), std::string::npos) << found.out;
+  const Json json = Json::parse(test::contents_of(folder_ / "over.json"));
+  EXPECT_NEAR(json["offset_ms"].get<double>(), 24 + 0.2 * json["middle_s"].get<double>(), 0.1);
+  EXPECT_NEAR(json["rate_ppm"].get<double>(), 200, 12);
+  EXPECT_EQ(json["over_time"].size(), 4U);
+  EXPECT_TRUE(json["jumps"].empty());
+  const std::string table = test::contents_of(folder_ / "over.csv");
+  EXPECT_EQ(table.rfind("t_s,offset_ms,sigma_ms,from_s,to_s,fit_ms\n", 0), 0U);
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 5);
+  EXPECT_EQ(run("estimate room.bag --over-time 20 --json -").exit_code, 0);
+  EXPECT_EQ(run("estimate --over-time room.bag --json -").exit_code, 0);
+  for (const char* wrong : {"--over-time 0", "--over-time x", "--over-time --method stationary"})
+    EXPECT_EQ(run(std::string("estimate room.bag ") + wrong).exit_code, 2) << wrong;
+}
+
 TEST_F(EstimateCommand, RefusesWrongUsage) {
   simulate("room-1 -o room.bag --duration-s 2");
   EXPECT_EQ(run("estimate room.bag --range 29:19:1").exit_code, 2);

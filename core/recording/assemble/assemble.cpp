@@ -55,6 +55,8 @@ class ScanAssembler {
   bool check_cloud_times(const std::vector<LaserScan>& lines);
   void order_lines(std::vector<LaserScan>& lines);
   void take_ranges();
+  /// Only the scans' headers were read.
+  bool without_ranges() const { return raw_.ranges_m.empty(); }
   void clean(const RawScan& raw, std::span<float> ranges_m);
   void warn_of_drops();
   void warn_of_overlap();
@@ -86,7 +88,7 @@ void ScanAssembler::turn_round(RawScan& scan) {
     const auto first = of_beams.begin() + static_cast<std::ptrdiff_t>(scan.first_range);
     std::reverse(first, first + scan.beams);
   };
-  reverse(raw_.ranges_m);
+  if (!without_ranges()) reverse(raw_.ranges_m);
   if (raw_.has_intensities) reverse(raw_.intensities);
   scan.angle_min_rad = last_beam_angle_rad(scan);
   scan.angle_increment_rad = -scan.angle_increment_rad;
@@ -138,7 +140,7 @@ bool ScanAssembler::assemble() {
       ++report_.scans_dropped;
       continue;
     }
-    clean(raw, std::span(raw_.ranges_m).subspan(raw.first_range, raw.beams));
+    if (!without_ranges()) clean(raw, std::span(raw_.ranges_m).subspan(raw.first_range, raw.beams));
     placed.push_back(scan);
     times_s.push_back(scan.first_beam_s);
     if (raw_.of_clouds) cloud_spans_s_.push_back(raw.cloud_end_after_stamp_s - raw.first_beam_after_stamp_s);
@@ -153,7 +155,7 @@ bool ScanAssembler::assemble() {
     report_.scans_doubled = order.doubled;
     for (const std::size_t i : order.kept) recording_.scans.push_back(placed[i]);
   }
-  take_ranges();
+  if (!without_ranges()) take_ranges();
   warn_of_drops();
   warn_of_overlap();
   return true;

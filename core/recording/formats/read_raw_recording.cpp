@@ -38,7 +38,8 @@ std::string not_readable(std::string_view start) {
   return "its first bytes are of no known recording format";
 }
 
-Result<RawRecording> read_folder(const fs::path& folder, const Rig& rig, const Job& job, CloudDetail clouds) {
+Result<RawRecording> read_folder(const fs::path& folder, const Rig& rig, const Job& job,
+                                 const ReadDetail& detail) {
   std::error_code error;
   const bool scans = fs::exists(folder / kScansCsv, error), motor = fs::exists(folder / kMotorCsv, error);
   if (scans && motor) return read_csv_recording(folder, rig, job);
@@ -46,21 +47,21 @@ Result<RawRecording> read_folder(const fs::path& folder, const Rig& rig, const J
     return unreadable(fmt::format("{}: is a folder with {} and without {}", folder.string(),
                                   scans ? kScansCsv : kMotorCsv, scans ? kMotorCsv : kScansCsv));
   }
-  if (is_ros2_folder(folder)) return read_ros2_folder(folder, rig, job, clouds);
+  if (is_ros2_folder(folder)) return read_ros2_folder(folder, rig, job, detail);
   return unreadable(fmt::format("{}: is a folder that holds no recording; {}", folder.string(), kReadable));
 }
 
 }  // namespace
 
 Result<RawRecording> read_raw_recording(const fs::path& path, const Rig& rig, const Job& job,
-                                        CloudDetail clouds) {
+                                        const ReadDetail& detail) {
   std::error_code ignored;
-  if (fs::is_directory(path, ignored)) return read_folder(path, rig, job, clouds);
+  if (fs::is_directory(path, ignored)) return read_folder(path, rig, job, detail);
   const auto start = beginning(path);
   if (!start) return tl::unexpected(start.error());
-  if (start->starts_with("#ROSBAG V2.0\n")) return read_ros1_recording(path, rig, job, clouds);
+  if (start->starts_with("#ROSBAG V2.0\n")) return read_ros1_recording(path, rig, job, detail);
   if (bag_storage(*start) || begins_zstd(std::as_bytes(std::span(*start))))
-    return read_ros2_file(path, rig, job, clouds);
+    return read_ros2_file(path, rig, job, detail);
   return unreadable(fmt::format("{}: {}; {}", path.string(), not_readable(*start), kReadable));
 }
 

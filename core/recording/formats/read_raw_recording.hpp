@@ -5,7 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/job.hpp"
-#include "core/recording/raw_recording.hpp"
+#include "core/recording/read_detail.hpp"
 
 namespace sweepscope {
 
@@ -13,7 +13,7 @@ namespace sweepscope {
 /// ROS 2 bag, as one file (.db3 or MCAP) or as the folder that holds them; an MCAP file of ROS 1 messages; a
 /// folder of CSV tables (csv_recording.hpp). Streams that the rig excludes by name are counted and not kept.
 Result<RawRecording> read_raw_recording(const std::filesystem::path& path, const Rig& rig, const Job& job,
-                                        CloudDetail clouds = CloudDetail::kLines);
+                                        const ReadDetail& detail = {});
 
 /// The files that a recording consists of, so that they are not overwritten: the file itself and, beside a
 /// database, its journals; of a folder its CSV tables and, where it is a ROS 2 bag, metadata.yaml and every

@@ -117,10 +117,11 @@ std::optional<Error> MessageCollector::add(std::size_t topic, std::int64_t recei
   return too_much(raw_.file, beams_, joint_samples_);
 }
 
-bool MessageCollector::add_scan(const Entry& entry, std::int64_t receive_ns,
-                                std::span<const std::byte> message) {
+bool MessageCollector::add_scan(Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message) {
   const auto decoded = decode_laser_scan(entry.topic.encoding, message);
   if (!decoded) return false;
+  const std::size_t number = entry.scans++;
+  if (detail_.scans != nullptr && (number >= detail_.scans->size() || !(*detail_.scans)[number])) return true;
   RawLaser& laser = raw_.lasers[entry.laser];
   RawScan scan;
   scan.stamps = {decoded->header_ns, receive_ns};
@@ -131,16 +132,18 @@ bool MessageCollector::add_scan(const Entry& entry, std::int64_t receive_ns,
   scan.scan_time_s = decoded->scan_time_s;
   scan.range_min_m = decoded->range_min_m;
   scan.range_max_m = decoded->range_max_m;
-  scan.first_range = laser.ranges_m.size();
+  scan.first_range = detail_.ranges ? laser.ranges_m.size() : number;
   scan.beams = static_cast<std::uint32_t>(decoded->ranges_m.size());
+  if (laser.scans.empty()) laser.frame = decoded->frame;
+  laser.scans.push_back(scan);
+  if (!detail_.ranges) return true;
   decoded->ranges_m.append_to(laser.ranges_m);
-  laser.has_intensities = laser.has_intensities && decoded->intensities.size() == scan.beams;
+  const bool whole = detail_.scans == nullptr;  // parts are read for an estimate, which needs no intensities
+  laser.has_intensities = whole && laser.has_intensities && decoded->intensities.size() == scan.beams;
   if (laser.has_intensities)
     decoded->intensities.append_to(laser.intensities);
   else
     std::vector<float>().swap(laser.intensities);
-  if (laser.scans.empty()) laser.frame = decoded->frame;
-  laser.scans.push_back(scan);
   beams_ += scan.beams;
   return true;
 }
@@ -153,7 +156,7 @@ bool MessageCollector::add_cloud(Entry& entry, std::int64_t receive_ns, std::spa
                                                              : decode_cloud(entry.topic.encoding, message);
   const bool used = entry.clouds.add(cloud, receive_ns, laser);
   beams_ += kBeamsOfScans_a_beam * (laser.ranges_m.size() - before);
-  if (used && clouds_ == CloudDetail::kWhole) keep_cloud(*cloud, receive_ns, laser);
+  if (used && detail_.clouds == CloudDetail::kWhole) keep_cloud(*cloud, receive_ns, laser);
   if (!used && entry.cloud_problem.empty()) entry.cloud_problem = entry.clouds.problem();
   return used;
 }

@@ -13,7 +13,7 @@
 #include "core/recording/messages/messages.hpp"
 #include "core/recording/messages/point_cloud.hpp"
 #include "core/recording/packed/unpacking_limit.hpp"
-#include "core/recording/raw_recording.hpp"
+#include "core/recording/read_detail.hpp"
 
 namespace sweepscope {
 
@@ -40,9 +40,9 @@ class MessageCollector {
     std::string md5sum = "*";  // of the ROS 1 definition; "*" if unknown
   };
 
-  /// Both must outlive it.
-  MessageCollector(const Rig& rig, RawRecording& raw, CloudDetail clouds = CloudDetail::kLines)
-      : rig_(rig), raw_(raw), clouds_(clouds) {}
+  /// Both must outlive it, and so must what `detail` points to.
+  MessageCollector(const Rig& rig, RawRecording& raw, const ReadDetail& detail = {})
+      : rig_(rig), raw_(raw), detail_(detail) {}
 
   /// The limit for unpacking the messages that follow; it must outlive them.
   void begin_file(UnpackingLimit& limit) { limit_ = &limit; }
@@ -60,6 +60,7 @@ class MessageCollector {
     Topic topic;
     const MessageType* type = nullptr;  // null: only counted
     std::size_t laser = 0;              // in RawRecording::lasers
+    std::size_t scans = 0;              // that were decoded, kept or not
     bool may_be_motor = true;           // false: another topic is the rig's motor.topic
     std::map<std::string, std::size_t, std::less<>> joints;
     std::string first_malformed;  // the place
@@ -69,7 +70,7 @@ class MessageCollector {
 
   const MessageType* type_of(const Topic& topic);
   Result<std::span<const std::byte>> unpacked(std::span<const std::byte> message);
-  bool add_scan(const Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message);
+  bool add_scan(Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message);
   bool add_cloud(Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message);
   void keep_cloud(const DecodedCloud& decoded, std::int64_t receive_ns, RawLaser& laser);
   bool add_joints(Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message);
@@ -79,7 +80,7 @@ class MessageCollector {
 
   const Rig& rig_;
   RawRecording& raw_;
-  CloudDetail clouds_;
+  ReadDetail detail_;
   UnpackingLimit* limit_ = nullptr;
   std::vector<Entry> entries_;  // like RawRecording::topics
   std::map<std::tuple<std::string, std::string, Encoding>, std::size_t> numbers_;

@@ -6,11 +6,11 @@
 namespace sweepscope {
 
 Result<RawRecording> read_ros1_recording(const std::filesystem::path& path, const Rig& rig, const Job& job,
-                                         CloudDetail clouds) {
+                                         const ReadDetail& detail) {
   RawRecording raw;
   raw.file = path.string();
   raw.name = path.filename().string();
-  MessageCollector collector(rig, raw, clouds);
+  MessageCollector collector(rig, raw, detail);
   const auto visit = [&](const BagMessage& message) {
     const BagConnection& from = message.connection;
     const std::size_t topic =

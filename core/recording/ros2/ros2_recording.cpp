@@ -177,9 +177,9 @@ Result<std::vector<fs::path>> bag_files_of(const fs::path& folder) {
 }
 
 Result<RawRecording> read_ros2_file(const fs::path& path, const Rig& rig, const Job& job,
-                                    CloudDetail clouds) {
+                                    const ReadDetail& detail) {
   RawRecording raw = named_recording(path);
-  MessageCollector collector(rig, raw, clouds);
+  MessageCollector collector(rig, raw, detail);
   const auto damage = collect(path, collector, job);
   if (!damage) return tl::unexpected(damage.error());
   collector.finish();
@@ -200,13 +200,13 @@ std::vector<fs::path> ros2_files(const fs::path& folder) {
 }
 
 Result<RawRecording> read_ros2_folder(const fs::path& folder, const Rig& rig, const Job& job,
-                                      CloudDetail clouds) {
+                                      const ReadDetail& detail) {
   std::error_code ignored;
   const bool described = fs::exists(folder / kMetadata, ignored);
   const auto files = bag_files_of(folder);
   if (!files) return tl::unexpected(files.error());
   RawRecording raw = named_recording(folder);
-  MessageCollector collector(rig, raw, clouds);
+  MessageCollector collector(rig, raw, detail);
   std::vector<std::string> damages;
   for (const fs::path& file : *files) {
     const auto damage = collect(file, collector, job);

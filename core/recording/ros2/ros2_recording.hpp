@@ -6,7 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/job.hpp"
-#include "core/recording/raw_recording.hpp"
+#include "core/recording/read_detail.hpp"
 
 namespace sweepscope {
 
@@ -32,7 +32,7 @@ Result<std::vector<std::filesystem::path>> bag_files_of(const std::filesystem::p
 /// profile (cdr) or of ROS 1's (ros1); either also packed by zstd as a whole (rosbag2's compression mode
 /// FILE) or message by message (MESSAGE). Those that the rig excludes by name are counted and not kept.
 Result<RawRecording> read_ros2_file(const std::filesystem::path& path, const Rig& rig, const Job& job,
-                                    CloudDetail clouds = CloudDetail::kLines);
+                                    const ReadDetail& detail = {});
 
 /// True where the folder is a ROS 2 bag's: it has a metadata.yaml, or files that are stored as one.
 bool is_ros2_folder(const std::filesystem::path& folder);
@@ -44,6 +44,6 @@ std::vector<std::filesystem::path> ros2_files(const std::filesystem::path& folde
 /// A bag's folder: the files that its metadata.yaml names, in that order; without one, all that are bags, by
 /// name. Fails for files compressed by another format than zstd.
 Result<RawRecording> read_ros2_folder(const std::filesystem::path& folder, const Rig& rig, const Job& job,
-                                      CloudDetail clouds = CloudDetail::kLines);
+                                      const ReadDetail& detail = {});
 
 }  // namespace sweepscope

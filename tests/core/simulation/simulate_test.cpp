@@ -224,6 +224,14 @@ TEST(Simulate, FaultsDoWhatTheySay) {
   drifting.clock_drift_ppm = 1000;
   EXPECT_NEAR(simulated(drifting).recording.motor.time_s.back() - exact.motor.time_s.back(), 0.0013, 1e-4);
 
+  SimulationOptions jumping = clean();
+  jumping.jump_s = 0.005;
+  jumping.jump_at_s = *jumping.duration_s / 2;
+  const MotorTrack jumped = simulated(jumping).recording.motor;
+  EXPECT_EQ(jumped.time_s.front(), exact.motor.time_s.front());
+  EXPECT_NEAR(jumped.time_s.back() - exact.motor.time_s.back(), 0.005, 1e-8);
+  EXPECT_EQ(jumped.angle_rad, exact.motor.angle_rad);
+
   SimulationOptions jittering = clean();
   jittering.stamp_jitter_s = 0.002;
   const Recording jittered = simulated(jittering).recording;

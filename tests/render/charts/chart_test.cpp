@@ -8,6 +8,7 @@
 #include "core/offset/candidates.hpp"
 #include "render/charts/chart_layout.hpp"
 #include "render/charts/curve_charts.hpp"
+#include "render/charts/over_time_chart.hpp"
 #include "render/pictures/picture.hpp"
 #include "tests/render/synthetic_maps.hpp"
 
@@ -296,6 +297,32 @@ TEST(Dashes, AreAsLongAsTheirGapsAndTurnCorners) {
   EXPECT_EQ(dashes[1].points.back().y, 2);  // 2 px before the corner, 2 px after it
   EXPECT_EQ(dashes[2].points.front().y, 6);
   EXPECT_EQ(dashes_of({{{0, 0}, {10, 0}}, 1, {}}).size(), 1U);
+}
+
+TEST(OverTimeChart, ShowsWindowsWithTheirSigmasAndTheCourseThatBreaksAtItsJumps) {
+  Estimate estimate;
+  estimate.over_time =
+      OffsetOverTime{{{0, 10, 5, 20 * kMs, 0.5 * kMs, {}},
+                      {10, 20, 15, {}, {}, "There are no scans."},
+                      {20, 30, 25, 25 * kMs, 0.5 * kMs, {}}},
+                     OffsetCourse{15, 20 * kMs, 0.1 * kMs, 0, 0, {{15, 20, 5 * kMs, 0.1 * kMs}}}};
+  const auto chart = over_time_chart(estimate, style_of(Background::kWhite));
+  ASSERT_TRUE(chart) << chart.error().message;
+  ASSERT_EQ(chart->series.size(), 2U);
+  const ChartSeries &windows = chart->series[0], &course = chart->series[1];
+  EXPECT_FALSE(windows.joined);
+  EXPECT_EQ(windows.x, (std::vector<double>{5, 15, 25}));
+  EXPECT_FALSE(windows.y[1]) << "a gap";
+  EXPECT_NEAR(windows.half_bars[2], 0.5, 1e-9);
+  ASSERT_EQ(course.y.size(), 4U);
+  EXPECT_NEAR(*course.y[1], 20, 1e-9);
+  EXPECT_NEAR(*course.y[2], 25, 1e-9);
+  EXPECT_NEAR(course.x[2], 17.5, 0.01);
+  ASSERT_EQ(chart->verticals.size(), 1U);
+  EXPECT_EQ(chart->verticals[0].label, "+5.00 ms");
+  const ChartLayout layout = lay_out_chart(*chart, {0, 0, 640, 400}, 1);
+  EXPECT_GT(layout.y_px(25.5), layout.plot.top) << "bars are inside";
+  EXPECT_EQ(over_time_chart(Estimate{}, style_of(Background::kWhite)).error().code, ExitCode::kWrongUsage);
 }
 
 }  // namespace

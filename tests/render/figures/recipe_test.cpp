@@ -51,6 +51,17 @@ TEST_F(RecipeTest, ReadsRecordingsEstimatesFiguresAndTables) {
   EXPECT_EQ(recipe->tables.at(0).columns.at(0).decimals, 1);
 }
 
+TEST_F(RecipeTest, ReadsAFigureOfTheOffsetOverTime) {
+  const auto recipe = read(
+      "recordings: {room: {simulate: room-1, offset_ms: 7}}\n"
+      "estimates: {room: {recording: room, over-time: 20}}\n"
+      "figures: {a: {kind: over-time, estimate: room}}\n");
+  ASSERT_TRUE(recipe) << recipe.error().message;
+  EXPECT_EQ(recipe->estimates.at("room").options.over_time_s, 20);
+  EXPECT_EQ(std::get<OverTimeFigure>(recipe->figures.at(0).what).estimate, "room");
+  EXPECT_EQ(refusal(kData + "figures: {a: {kind: over-time}}\n"), "3:14: figure a needs an estimate");
+}
+
 TEST_F(RecipeTest, FilesAreRelativeToTheRecipe) {
   const auto recipe = read(
       "recordings: {walk: {file: bags/walk.bag, rig: rig.yaml, stamps: receive, window_s: [1, 2]}}\n"
@@ -67,7 +78,7 @@ TEST_F(RecipeTest, RefusalsSayLineColumnAndWhatIsWrong) {
       refusal(kData + "figure: {}\n"),
       "3:1: unknown key \"figure\" in the recipe; known are: estimates, figures, look, recordings, tables");
   EXPECT_EQ(refusal(kData + "figures: {a: {kind: pie}}\n"),
-            "3:21: figure a: kind must be one of: curves, maps, profile, scan");
+            "3:21: figure a: kind must be one of: curves, maps, over-time, profile, scan");
   EXPECT_EQ(refusal(kData + "figures: {a: {kind: curves, estimates: hall}}\n"),
             "3:40: there is no estimate \"hall\"; there are: room");
   EXPECT_EQ(refusal("recordings: {r: {simulate: moon}}\n").substr(0, 36),
