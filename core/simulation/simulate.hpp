@@ -47,8 +47,8 @@ struct SimulationOptions {
   double stamp_jitter_s = 0;   // standard deviation added to every header stamp, 0 to 0.01
   double backlash_deg = 0;     // play between the encoder and the laser, 0 to 10
   double clock_drift_ppm = 0;  // by how much the motor's clock runs faster than the laser's, within +-1000
-  double jump_s = 0;     // the motor's clock jumps forward by this at jump_at_s: the offset grows; within +-10
-  double jump_at_s = 0;  // true time, 0 to 1e6
+  double jump_s = 0;  // the motor's clock jumps forward by this at jump_at_s: the offset grows; within +-10
+  double jump_at_s = 0;    // true time, 0 to 1e6
   double nudge_m = 0;      // a stationary rig is pushed aside by this a second after the start, within +-1
   double noise_per_m = 0;  // added to the noise for every metre of range, 0 to 0.1
   double grazing_dropout =
