@@ -19,7 +19,7 @@ struct RigLeastSquaresOptions {
   int max_iterations = 60;
   double first_loss_width_m = 0.2;
   double min_loss_width_m = 0.004;
-  double loss_widths = 3;                    // of the loss, in deviations of the residuals
+  double loss_widths = 3;            // of the loss, in deviations of the residuals
   std::size_t max_points = 120'000;  // of more, every so many-th
   int max_levels = 4;
   double flatness = 0.5, reach = 1;  // of the loss's width
