@@ -76,6 +76,9 @@ Mount changed(const Mount& mount, const RigUnknowns& unknowns) {
       Eigen::AngleAxisd(gauge_rad(axis, turned, mount.laser_in_motor_rpy_deg[along]), axis)
           .toRotationMatrix();
   result.laser_in_motor_rpy_deg = rpy_deg_of(gauge * turned);
+  double& kept_deg = result.laser_in_motor_rpy_deg[along];
+  if (std::abs(kept_deg - mount.laser_in_motor_rpy_deg[along]) < 1e-9)
+    kept_deg = mount.laser_in_motor_rpy_deg[along];  // without the last digits of the way there and back
   result.laser_in_motor_xyz_m = gauge * result.laser_in_motor_xyz_m;
   return result;
 }
