@@ -41,7 +41,7 @@ TEST_F(Headless, AnExpectationThatFailsNamesFileLineAndWhatThereIsInstead) {
   const auto done = run("theme light\nexpect theme is dark\n");
   ASSERT_FALSE(done);
   EXPECT_EQ(done.error().code, ExitCode::kImageDiffers);
-  EXPECT_EQ(done.error().message, "test:2: expected theme is \"dark\", and it is \"light\"");
+  EXPECT_EQ(done.error().message, "test:2: expected theme is \"dark\", but it is \"light\"");
 }
 
 TEST_F(Headless, ALineThatMeansNothingIsWrongUsageWithItsPlace) {

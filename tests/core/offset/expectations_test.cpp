@@ -44,7 +44,8 @@ TEST(Expectations, SaysWhatFewSamplesOfTheMotorCost) {
                 "sampled only 5.0 times per sweep, which reduces the accuracy: sample it every 0.031 s."),
             std::string::npos)
       << sampled_every(0.1);
-  EXPECT_NE(sampled_every(0.2).find("Expect a refusal: the motor is sampled 2.5 times"), std::string::npos);
+  EXPECT_NE(sampled_every(0.2).find("Expect a refusal: the motor is sampled only 2.5 times"),
+            std::string::npos);
   EXPECT_EQ(sampled_every(0.2).find("Expect an accuracy"), std::string::npos);
 }
 

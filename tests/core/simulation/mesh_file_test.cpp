@@ -147,7 +147,7 @@ TEST(MeshFile, ABadPlyIsRefusedWithItsPlace) {
   EXPECT_EQ(refused(replaced(room, "ascii", "text")),
             "m.ply: PLY format text is not read, only ascii, binary_little_endian and binary_big_endian");
   EXPECT_EQ(refused(replaced(room, "element vertex 8", "element vertex -8")),
-            "m.ply: line 4: the number of the element vertex cannot be");
+            "m.ply: line 4: the number of the element vertex is not valid");
   EXPECT_EQ(refused("solid\n"), "m.ply: is not a PLY file");
   EXPECT_EQ(refused(""), "m.ply: is not a PLY file");
 }

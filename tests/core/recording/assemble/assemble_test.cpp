@@ -117,8 +117,7 @@ TEST(Assemble, StampsAreTheOptionsElseTheRigsElseHeaders) {
 TEST(Assemble, MixingHeaderAndReceiveStampsWarns) {
   Rig rig;
   rig.motor.stamp = StampSource::kReceive;
-  EXPECT_TRUE(
-      warns(assembled(sample(), rig), "the laser goes by header stamps and the motor by receive times"));
+  EXPECT_TRUE(warns(assembled(sample(), rig), "the laser uses header stamps and the motor receive times"));
 }
 
 TEST(Assemble, MessagesWithoutHeaderStampsGoByReceiveTimesWithAWarning) {
@@ -128,7 +127,7 @@ TEST(Assemble, MessagesWithoutHeaderStampsGoByReceiveTimesWithAWarning) {
   EXPECT_EQ(recording.report.motor_stamps.used, StampSource::kReceive);
   EXPECT_NEAR(recording.motor.time_s[0], 0.005, 1e-9);
   EXPECT_TRUE(warns(recording, "no message on /joints has a header stamp"));
-  EXPECT_TRUE(warns(recording, "the laser goes by header stamps"));
+  EXPECT_TRUE(warns(recording, "the laser uses header stamps"));
 }
 
 TEST(Assemble, AScanWithoutAStampAmongOthersIsDropped) {

@@ -66,7 +66,7 @@ TEST(ChooseLaser, NamesTheDamageThatMayBeWhyATopicIsMissing) {
   raw.warnings.push_back("it is cut short");
   Rig rig;
   rig.laser.topic = "/c";
-  EXPECT_TRUE(refusal(choose_laser(raw, rig)).ends_with("\n  besides: it is cut short"));
+  EXPECT_TRUE(refusal(choose_laser(raw, rig)).ends_with("\n  also: it is cut short"));
 }
 
 TEST(ChooseLaser, SaysWhatIsThereWhereThereAreNoScans) {
