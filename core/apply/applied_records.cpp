@@ -5,8 +5,8 @@
 
 #include <memory>
 
-#include "core/apply/mcap_extras.hpp"
 #include "core/apply/provenance.hpp"
+#include "core/recording/ros2/mcap_extras.hpp"
 
 namespace sweepscope {
 namespace {
@@ -34,7 +34,7 @@ Result<std::vector<std::string>> of_mcap(const std::filesystem::path& path) {
   return records;
 }
 
-/// Opened as it lies: a database that sweepscope wrote has no journal. Nothing in it is run.
+/// Opened immutable: a database that sweepscope wrote has no journal.
 std::vector<std::string> of_database(const std::filesystem::path& path) {
   sqlite3* opened = nullptr;
   const int code =

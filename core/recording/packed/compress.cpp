@@ -2,10 +2,9 @@
 
 #include <bzlib.h>
 #include <lz4frame.h>
+#include <zlib.h>
 #include <zstd.h>
 
-#include <array>
-#include <cstring>
 #include <new>
 
 namespace sweepscope {
@@ -46,24 +45,6 @@ std::string zstd(std::string_view bytes) {
   return out;
 }
 
-constexpr std::size_t kSlices = 8;
-using CrcTables = std::array<std::array<std::uint32_t, 256>, kSlices>;
-
-/// For eight bytes a step: table k is that of a byte with k zero bytes after it.
-constexpr CrcTables crc_tables() {
-  constexpr std::uint32_t kPolynomial = 0xEDB88320;
-  CrcTables tables{};
-  for (std::uint32_t byte = 0; byte < 256; ++byte) {
-    std::uint32_t crc = byte;
-    for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ ((crc & 1) != 0 ? kPolynomial : 0);
-    tables[0][byte] = crc;
-  }
-  for (std::size_t k = 1; k < kSlices; ++k)
-    for (std::size_t byte = 0; byte < 256; ++byte)
-      tables[k][byte] = (tables[k - 1][byte] >> 8) ^ tables[0][tables[k - 1][byte] & 0xFF];
-  return tables;
-}
-
 }  // namespace
 
 std::string compressed(Compression compression, std::string_view bytes) {
@@ -81,19 +62,8 @@ std::string compressed(Compression compression, std::string_view bytes) {
 }
 
 std::uint32_t crc32_of(std::span<const std::byte> bytes) {
-  static constexpr CrcTables kTables = crc_tables();
-  std::uint32_t crc = 0xFFFFFFFF;
-  while (bytes.size() >= kSlices) {
-    std::uint64_t word = 0;
-    std::memcpy(&word, bytes.data(), sizeof word);
-    word ^= crc;
-    crc = 0;
-    for (std::size_t k = 0; k < kSlices; ++k) crc ^= kTables[kSlices - 1 - k][(word >> (8 * k)) & 0xFF];
-    bytes = bytes.subspan(kSlices);
-  }
-  for (const std::byte byte : bytes)
-    crc = (crc >> 8) ^ kTables[0][(crc ^ static_cast<std::uint32_t>(byte)) & 0xFF];
-  return ~crc;
+  const auto* first = reinterpret_cast<const Bytef*>(bytes.data());
+  return static_cast<std::uint32_t>(crc32_z(0, first, bytes.size()));
 }
 
 }  // namespace sweepscope

@@ -33,13 +33,6 @@ struct Schema {
   std::string name, encoding, definition;
 };
 
-std::optional<Compression> mcap_compression(std::string_view name) {
-  if (name.empty()) return Compression::kNone;
-  if (name == "lz4") return Compression::kLz4;
-  if (name == "zstd") return Compression::kZstd;
-  return std::nullopt;
-}
-
 /// Those that the specification has, and private ones, which it leaves to others.
 bool is_known(McapOp op) {
   constexpr auto kLast = McapOp::kDataEnd;

@@ -7,6 +7,8 @@
 #include <span>
 #include <string_view>
 
+#include "core/recording/packed/decompress.hpp"
+
 namespace sweepscope {
 
 /// The records of MCAP files (https://mcap.dev/spec): an opcode, a length of 8 bytes, and as much content.
@@ -31,6 +33,11 @@ enum class McapOp : std::uint8_t {
 inline constexpr std::string_view kMcapMagic = "\x89MCAP0\r\n";
 inline constexpr std::size_t kMcapRecordHeader_bytes = 9;
 inline constexpr std::size_t kMcapFooter_bytes = 20;
+
+/// As a chunk names its compression; empty if it names one that MCAP does not have.
+std::optional<Compression> mcap_compression(std::string_view name);
+/// The reverse. Of a compression that MCAP does not have: "", the name for none.
+std::string_view mcap_name(Compression compression);
 
 /// Reads a record's content. After the first error everything is empty and `whole` is false.
 class McapFields {

@@ -27,9 +27,6 @@ struct McapExtras {
 /// damage.
 Result<McapExtras> find_mcap_extras(const std::filesystem::path& path);
 
-/// Whether one of them is metadata of that name.
-Result<bool> has_mcap_metadata(const std::filesystem::path& path, std::string_view name);
-
 /// The content of one, in blocks, to `write`; at most `max_bytes` of it.
 Result<void> read_mcap_extra(const std::filesystem::path& path, const McapExtra& extra,
                              std::uint64_t max_bytes,

@@ -1,4 +1,4 @@
-#include "core/apply/mcap_extras.hpp"
+#include "core/recording/ros2/mcap_extras.hpp"
 
 #include <fmt/format.h>
 
@@ -42,22 +42,6 @@ Result<McapExtras> find_mcap_extras(const std::filesystem::path& path) {
     file->seek(at + bytes);
   }
   return extras;
-}
-
-Result<bool> has_mcap_metadata(const std::filesystem::path& path, std::string_view name) {
-  const auto extras = find_mcap_extras(path);
-  if (!extras) return tl::unexpected(extras.error());
-  for (const McapExtra& extra : extras->records) {
-    if (extra.op != McapOp::kMetadata) continue;
-    std::string content;
-    const auto read = read_mcap_extra(path, extra, kMaxHeader_bytes, [&](std::string_view block) {
-      content += block;
-      return Result<void>();
-    });
-    if (!read) return tl::unexpected(read.error());
-    if (McapFields(std::as_bytes(std::span(content))).text() == name) return true;
-  }
-  return false;
 }
 
 Result<void> read_mcap_extra(const std::filesystem::path& path, const McapExtra& extra,
