@@ -8,6 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include "core/io/temporary_file.hpp"
+
 namespace sweepscope::test {
 
 inline void write_file(const std::filesystem::path& path, std::string_view bytes) {
@@ -33,7 +35,7 @@ inline std::map<std::string, std::string> files_in(const std::filesystem::path& 
 class ScratchFolder {
  public:
   explicit ScratchFolder(const std::filesystem::path& parent = std::filesystem::temp_directory_path()) {
-    std::string pattern = (parent / "sweepscope-XXXXXX").string();
+    std::string pattern = unique_pattern(parent / "sweepscope-");
     if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no folder to write to");
     path_ = pattern;
   }

@@ -8,8 +8,8 @@
 
 namespace sweepscope {
 
-/// The records (provenance.hpp) that an MCAP file or a database holds beside its messages, in their order;
-/// none of a ROS 1 bag, where they are messages.
+/// The provenance records (provenance.hpp) of an MCAP file or a database, in order. None for a ROS 1 bag,
+/// where they are messages.
 Result<std::vector<std::string>> applied_records(const StreamFile& file);
 
 }  // namespace sweepscope

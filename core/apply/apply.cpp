@@ -14,6 +14,7 @@
 #include "core/apply/stamp_shift.hpp"
 #include "core/apply/survey.hpp"
 #include "core/io/atomic_file.hpp"
+#include "core/recording/messages/point_cloud.hpp"
 #include "core/recording/packed/compress.hpp"
 
 namespace sweepscope {
@@ -27,7 +28,7 @@ std::int64_t ns_after(std::int64_t first_ns, double time_s) {
   return first_ns + std::llround(time_s * kNs_per_s);
 }
 
-/// The offset on the clock of the recording's stamps.
+/// The offset in terms of the recording's stamps.
 ClockShift clock_shift(const AppliedOffset& offset, const MovedStream& laser) {
   if (!offset.changes()) return ClockShift(offset.offset_s);
   const std::int64_t middle_ns = offset.middle_s ? ns_after(laser.first_ns, *offset.middle_s)
@@ -38,7 +39,7 @@ ClockShift clock_shift(const AppliedOffset& offset, const MovedStream& laser) {
   return {offset.offset_s, middle_ns, offset.rate, std::move(steps)};
 }
 
-/// What is moved, and how.
+/// The stream to move, and the shift.
 struct Move {
   MovedStream stream;
   ShiftedStream shifted = ShiftedStream::kMotor;
@@ -133,8 +134,8 @@ Error Copier::out_of_range(const StreamMessage& message) const {
                       name_, move_.stream.topic, static_cast<double>(message.log_ns) / kNs_per_s)};
 }
 
-/// Whether a message on the motor's topic holds the motor's joint: several publishers may share a topic.
-/// Empty where it is malformed.
+/// Whether a message on the motor's topic holds the motor's joint: several publishers may share a topic. No
+/// value if it is malformed.
 std::optional<bool> Copier::is_of_motor(const Entry& entry, std::span<const std::byte> plain) {
   if (!decode_joints(entry.type->kind, entry.encoding, plain, Eigen::Vector3d::UnitX(), joints_))
     return std::nullopt;
@@ -149,11 +150,12 @@ std::optional<bool> Copier::is_of_motor(const Entry& entry, std::span<const std:
 
 std::optional<Error> Copier::refuse_absolute_times(const Entry& entry,
                                                    std::span<const std::byte> plain) const {
-  if (entry.type->kind != MessageKind::kCloud || !has_absolute_times(entry.encoding, plain))
-    return std::nullopt;
+  if (!is_cloud(entry.type->kind)) return std::nullopt;
+  const auto cloud = decode_points(entry.type->kind, entry.encoding, plain);
+  if (!cloud || !CloudReader::counts_since_1970(*cloud)) return std::nullopt;
   return Error{
       ExitCode::kWrongUsage,
-      fmt::format("{}: the points on {} have times of their own since 1970, which --shift laser does "
+      fmt::format("{}: the points on {} have times of their own, since 1970, which --shift laser does "
                   "not move; use --shift motor",
                   name_, move_.stream.topic)};
 }
@@ -200,7 +202,7 @@ Result<void> Copier::finish(const std::vector<std::string>& records) {
   return sink_.finish(records);
 }
 
-/// One run, from what is read to what is written.
+/// One run, from the survey of the input to the written output.
 class Application {
  public:
   Application(const StreamRecording& recording, const fs::path& output, const ApplyOptions& options,
@@ -285,7 +287,7 @@ Result<std::unique_ptr<MessageSink>> Application::create_sink(const OutputFile& 
   return create_mcap_sink(path, compression, ros1 ? "ros1" : "ros2", kept_from);
 }
 
-/// The records that the output's format does not take over by itself, and the new one.
+/// The new record, and earlier ones that are not copied with the MCAP file's metadata.
 std::vector<std::string> Application::records_for(const OutputFile& file) const {
   std::vector<std::string> records;
   for (const StreamFile& input : file.inputs) {

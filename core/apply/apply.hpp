@@ -15,11 +15,11 @@ namespace sweepscope {
 
 struct ApplyOptions {
   AppliedOffset offset;
-  std::string estimate;  // the name of the file that it comes from, for the record; or empty
+  std::string estimate;  // name of the estimate's file, for the record; or empty
   ShiftedStream shifted = ShiftedStream::kMotor;
   Rig rig;
-  std::optional<StampSource> stamps;  // for both streams, whatever the rig says
-  bool again = false;                 // also to a recording that it was applied to
+  std::optional<StampSource> stamps;  // of both streams, overrides the rig
+  bool again = false;                 // also if an offset was applied before
 };
 
 struct Applied {
@@ -28,17 +28,17 @@ struct Applied {
   std::vector<std::string> warnings;
 };
 
-/// Writes a recording with one stream's stamps moved onto the other's clock: by header those in the messages'
-/// headers, by receive the times at which they were received. All other bytes of all messages, their order,
-/// and the descriptions of their topics stay as they are; the index is made anew. A second time is refused
-/// (ExitCode::kWrongUsage), since the offset is gone.
+/// Writes a copy of a recording with the stamps of one stream moved onto the clock of the other: the stamps
+/// in the messages' headers, or the receive times. All other bytes of the messages, their order and the
+/// descriptions of their topics are unchanged; the index is rebuilt. Applying an offset twice is refused
+/// (ExitCode::kWrongUsage).
 ///
-/// The output's name says its format: .bag, .mcap, .db3; without an extension a folder of a ROS 2 bag with
-/// metadata.yaml and a file for each of the input's. Formats of ROS 1 and ROS 2 are not made of each other,
-/// but for ROS 1 messages in an MCAP file. Compression stays where the output's format has it.
+/// The output's format follows from its name: .bag, .mcap, .db3; without an extension a ROS 2 bag folder with
+/// metadata.yaml and one file per input file. Messages are not converted between ROS 1 and ROS 2; an MCAP
+/// file holds either. The compression is kept if the output's format has it.
 ///
-/// The output appears whole or not at all. Takes memory for a chunk and the index, whatever the recording's
-/// size.
+/// The output appears complete or not at all. Takes memory for one chunk and the index, independent of the
+/// size of the recording.
 Result<Applied> apply_offset(const std::filesystem::path& recording, const std::filesystem::path& output,
                              const ApplyOptions& options, const Job& job);
 

@@ -10,6 +10,7 @@
 
 #include "core/io/atomic_file.hpp"
 #include "core/io/input_file.hpp"
+#include "core/io/printable_text.hpp"
 #include "core/recording/ros2/cdr_writer.hpp"
 
 namespace sweepscope {
@@ -17,28 +18,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of the types that sweepscope itself writes, for bags that do not hold the definition.
+/// Definitions of the types that sweepscope writes itself, for bags without them.
 std::string known_definition(std::string_view type) {
   if (type == "sensor_msgs/msg/LaserScan") return laser_scan_definition();
   if (type == "sensor_msgs/msg/PointCloud2") return point_cloud_definition();
   if (type == "sensor_msgs/msg/JointState") return joint_state_definition();
   return "";
-}
-
-/// In YAML's double quotes.
-std::string yaml_text(std::string_view text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\')
-      out += {'\\', c};
-    else if (c == '\n')
-      out += "\\n";
-    else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
-      out += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
-    else
-      out += c;
-  }
-  return out + "\"";
 }
 
 std::string topics_yaml(const std::vector<WrittenFile>& files) {
@@ -60,8 +45,8 @@ std::string topics_yaml(const std::vector<WrittenFile>& files) {
     yaml += fmt::format(
         "    - topic_metadata:\n        name: {}\n        type: {}\n        serialization_format: {}\n"
         "        offered_qos_profiles: {}\n      message_count: {}\n",
-        yaml_text(topics[i].name), yaml_text(topics[i].type), yaml_text(topics[i].encoding),
-        yaml_text(topics[i].metadata_of("offered_qos_profiles")), counts[i]);
+        json_string(topics[i].name), json_string(topics[i].type), json_string(topics[i].encoding),
+        json_string(topics[i].metadata_of("offered_qos_profiles")), counts[i]);
   return yaml;
 }
 
@@ -159,13 +144,13 @@ std::string metadata_yaml(const std::vector<WrittenFile>& files, StreamFormat fo
   yaml += topics_yaml(files);
   yaml += fmt::format("  compression_format: {}\n  compression_mode: {}\n  relative_file_paths:\n",
                       packed ? "zstd" : "\"\"", packed ? "FILE" : "\"\"");
-  for (const WrittenFile& file : files) yaml += fmt::format("    - {}\n", yaml_text(file.name));
+  for (const WrittenFile& file : files) yaml += fmt::format("    - {}\n", json_string(file.name));
   yaml += "  files:\n";
   for (const WrittenFile& file : files)
     yaml += fmt::format(
         "    - path: {}\n      starting_time:\n        nanoseconds_since_epoch: {}\n      duration:\n"
         "        nanoseconds: {}\n      message_count: {}\n",
-        yaml_text(file.name), file.first_ns, file.last_ns - file.first_ns, file.messages);
+        json_string(file.name), file.first_ns, file.last_ns - file.first_ns, file.messages);
   return yaml;
 }
 

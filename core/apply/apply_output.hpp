@@ -13,24 +13,24 @@
 
 namespace sweepscope {
 
-/// What an output's name stands for.
+/// The kind of output, from its name.
 struct OutputKind {
   StreamFormat format = StreamFormat::kRos1;
   bool is_folder = false;  // of a ROS 2 bag, with metadata.yaml
 };
 
-/// .bag, .mcap, .db3; a folder where there is no extension, with files as the input's (MCAP or databases).
-/// Another extension, and a folder of a ROS 1 bag, is ExitCode::kWrongUsage.
+/// .bag, .mcap or .db3; without an extension a folder with files like those of the input (MCAP or databases).
+/// Another extension, or a folder for a ROS 1 bag, is ExitCode::kWrongUsage.
 Result<OutputKind> output_kind(const StreamRecording& recording, const std::filesystem::path& output);
 
-/// How chunks of that format are compressed for a recording of that compression.
+/// The compression of chunks in the output format for that of the recording.
 Compression compression_in(StreamFormat format, Compression recorded);
 
-/// The topic as that format describes it.
+/// The topic as described in that format.
 StreamTopic topic_in(StreamFormat format, const StreamTopic& topic);
 
-/// The files of the output, and of which files of the input each holds the messages. A folder has one for
-/// each of the input's, with its name; else all messages go into one.
+/// The files of the output, each with the input files whose messages it holds. A folder has one file per
+/// input file, with the same name; otherwise there is one file with all messages.
 struct OutputFile {
   std::string name;  // within the folder
   bool packed = false;
@@ -39,11 +39,11 @@ struct OutputFile {
 std::vector<OutputFile> output_files(const StreamRecording& recording, const OutputKind& kind,
                                      const std::filesystem::path& output);
 
-/// Packs a file by Zstandard as a whole. It appears whole or not at all.
+/// Compresses a whole file by Zstandard. The result appears complete or not at all.
 Result<void> pack_file(const std::filesystem::path& plain, const std::filesystem::path& packed,
                        const Job& job);
 
-/// What a file of the output holds, for metadata.yaml.
+/// The content of an output file, for metadata.yaml.
 struct WrittenFile {
   std::string name;
   std::vector<StreamTopic> topics;

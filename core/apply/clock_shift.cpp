@@ -23,8 +23,8 @@ std::int64_t ClockShift::motor_ns(std::int64_t laser_ns) const {
 }
 
 std::int64_t ClockShift::laser_ns(std::int64_t motor_ns) const {
-  // Clocks differ by parts in a hundred at the most, so each step leaves a hundredth of the error; beside a
-  // step of the offset they may go to and fro, and the last one counts.
+  // Fixed-point iteration: rates are at most 1 %, so that each iteration divides the error by 100. Beside a
+  // step of the offset it may alternate, and the last value is used.
   constexpr int kSteps = 8;
   std::int64_t laser_ns = motor_ns - std::llround(offset_s(motor_ns) * kNs_per_s);
   for (int i = 0; i < kSteps; ++i) {

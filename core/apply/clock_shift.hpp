@@ -6,7 +6,7 @@
 
 namespace sweepscope {
 
-/// A sudden change of the offset, from an instant of the laser's clock on.
+/// A step of the offset at an instant of the laser's clock.
 struct OffsetStep {
   std::int64_t laser_ns = 0;
   double size_s = 0;
@@ -24,10 +24,10 @@ class ClockShift {
 
   /// The offset at an instant of the laser's clock.
   double offset_s(std::int64_t laser_ns) const;
-  /// What a stamp of the laser reads on the motor's clock.
+  /// A stamp of the laser on the motor's clock.
   std::int64_t motor_ns(std::int64_t laser_ns) const;
-  /// What a stamp of the motor reads on the laser's clock. Where the offset steps, the motor's clock shows
-  /// some times twice or never; those belong to one of the step's sides.
+  /// A stamp of the motor on the laser's clock. At a step the motor's clock shows some times twice or never;
+  /// these get the offset of one side of the step.
   std::int64_t laser_ns(std::int64_t motor_ns) const;
 
  private:

@@ -11,8 +11,8 @@
 
 namespace sweepscope {
 
-/// A recording that is being written, message by message in the order of its file. It appears whole, with its
-/// index, once it is finished, or not at all. Takes memory for one chunk and the index.
+/// Writes a recording, message by message in the order of its file. The file appears complete and with its
+/// index at `finish`, or not at all. Takes memory for one chunk and the index.
 class MessageSink {
  public:
   MessageSink() = default;
@@ -20,11 +20,11 @@ class MessageSink {
   MessageSink(const MessageSink&) = delete;
   MessageSink& operator=(const MessageSink&) = delete;
 
-  /// Call with topics 0, 1, 2 ... before their messages. A topic that the format cannot hold is
+  /// Call for topics 0, 1, 2 ... before their messages. A topic that the format cannot hold is
   /// ExitCode::kWrongUsage.
   virtual Result<void> add_topic(const StreamTopic& topic) = 0;
   virtual Result<void> write(const StreamMessage& message) = 0;
-  /// Call once, last. `records` say what was done to the recording (provenance.hpp).
+  /// Call once, last. `records` are provenance records (provenance.hpp).
   virtual Result<void> finish(const std::vector<std::string>& records) = 0;
 };
 
@@ -32,14 +32,14 @@ class MessageSink {
 Result<std::unique_ptr<MessageSink>> create_ros1_sink(const std::filesystem::path& path,
                                                       Compression compression);
 
-/// An MCAP file; chunks are compressed as `compression` says (none, LZ4 or Zstandard). The attachments,
-/// metadata and private records of the MCAP files `kept_from` are taken over, and the profile of the first;
-/// `profile` is used where there is none.
+/// An MCAP file; chunks are compressed as `compression` says (none, LZ4 or Zstandard). Attachments,
+/// metadata and private records of the MCAP files `kept_from` are copied, and the profile of the first;
+/// `profile` is used if there is none.
 Result<std::unique_ptr<MessageSink>> create_mcap_sink(const std::filesystem::path& path,
                                                       Compression compression, const std::string& profile,
                                                       const std::vector<std::filesystem::path>& kept_from);
 
-/// A database as rosbag2 writes it (storage "sqlite3"). Messages keep their numbers where these ascend.
+/// A database as rosbag2 writes it (storage "sqlite3"). Messages keep their ids as long as these ascend.
 Result<std::unique_ptr<MessageSink>> create_sqlite_sink(const std::filesystem::path& path);
 
 }  // namespace sweepscope

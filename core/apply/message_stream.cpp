@@ -18,14 +18,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kRos1Magic = "#ROSBAG V2.0\n";
-
 Result<StreamFile> open_file(const fs::path& path, const Job& job) {
   auto file = InputFile::open(path);
   if (!file) return tl::unexpected(file.error());
-  std::string beginning(kRos1Magic.size(), '\0');
+  std::string beginning(kBagMagic.size(), '\0');
   file->read(std::as_writable_bytes(std::span(beginning)));
-  if (beginning == kRos1Magic) return StreamFile{path, StreamFormat::kRos1};
+  if (beginning == kBagMagic) return StreamFile{path, StreamFormat::kRos1};
   const auto stored = stored_as(path);
   if (!stored)
     return unreadable(
@@ -63,7 +61,7 @@ StreamTopic topic_of(const SqliteTopic& topic) {
   return same;
 }
 
-/// The numbers of the topics that a reader has described, by where it keeps them.
+/// The numbers of the topics, by the address of their description in the reader.
 template <typename Described>
 class Numbers {
  public:
@@ -128,9 +126,9 @@ Result<StreamRecording> open_stream(const fs::path& path, const Job& job) {
       return failure(
           csv ? ExitCode::kWrongUsage : ExitCode::kUnreadableInput,
           fmt::format("{}: {}", path.string(),
-                      csv ? "is a folder of CSV tables, which hold no messages; subtract the offset "
+                      csv ? "is a folder of CSV tables, which have no messages; subtract the offset "
                             "from the stamps of motor.csv"
-                          : "is a folder that holds no ROS 2 bag"));
+                          : "is a folder without a ROS 2 bag"));
     }
     auto found = bag_files_of(path);
     if (!found) return tl::unexpected(found.error());

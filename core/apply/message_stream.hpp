@@ -18,17 +18,17 @@
 
 namespace sweepscope {
 
-/// A recording as a stream of messages that are not decoded: what is needed to write each of them again as it
-/// was, in the same format or in another one.
+/// A recording as a stream of serialised messages, with all that is needed to write each of them unchanged,
+/// in the same format or in another one.
 
 enum class StreamFormat { kRos1, kMcap, kSqlite };
 
 struct StreamFile {
   std::filesystem::path path;
   StreamFormat format = StreamFormat::kRos1;
-  std::shared_ptr<const UnpackedFile> plain = nullptr;  // where it is packed as a whole, by Zstandard
+  std::shared_ptr<const UnpackedFile> plain = nullptr;  // if the file is compressed as a whole (Zstandard)
 
-  /// The file that is read.
+  /// The file to read.
   const std::filesystem::path& readable() const { return plain ? plain->path() : path; }
 };
 
@@ -38,28 +38,28 @@ struct StreamRecording {
   std::vector<StreamFile> files;  // at least one; a ROS 1 bag is alone
 };
 
-/// What lies at a path, by its content. A recording that is no stream of messages, such as a folder of CSV
-/// tables, is ExitCode::kWrongUsage. Packed files are unpacked into the folder for temporary files.
+/// Opens a recording; the format is detected from the content. A folder of CSV tables, which has no messages,
+/// is ExitCode::kWrongUsage. Compressed files are decompressed into the folder for temporary files.
 Result<StreamRecording> open_stream(const std::filesystem::path& path, const Job& job);
 
 /// A connection of a ROS 1 bag, a channel of an MCAP file or a topic of a database.
 struct StreamTopic {
   std::string name;
-  std::string type;               // as the format spells it: sensor_msgs/LaserScan, sensor_msgs/msg/LaserScan
-  std::string encoding;           // of the messages: "ros1", "cdr" or another one
-  std::string schema_encoding;    // of the definition: "ros1msg", "ros2msg" or another one
-  std::string definition;         // of the type; empty where the recording has none
+  std::string type;             // in the format's spelling: sensor_msgs/LaserScan, sensor_msgs/msg/LaserScan
+  std::string encoding;         // of the messages: "ros1", "cdr" or another one
+  std::string schema_encoding;  // of the definition: "ros1msg", "ros2msg" or another one
+  std::string definition;       // of the type; may be empty
   std::string connection_header;  // of a ROS 1 bag, as recorded; else empty
-  /// As an MCAP channel has it: md5sum, callerid, latching; offered_qos_profiles, topic_type_hash.
+  /// In the form of an MCAP channel's: md5sum, callerid, latching; offered_qos_profiles, topic_type_hash.
   std::vector<std::pair<std::string, std::string>> metadata;
 
   bool operator==(const StreamTopic&) const = default;
-  /// Empty where there is none.
+  /// Empty if there is none.
   std::string metadata_of(std::string_view key) const;
 };
 
 struct StreamMessage {
-  std::size_t topic = 0;  // as StreamVisitor::topic numbered it
+  std::size_t topic = 0;  // the number returned by StreamVisitor::topic
   std::int64_t log_ns = 0, publish_ns = 0;
   std::uint32_t sequence = 0;
   std::int64_t id = 0;  // in a database; else 0
@@ -73,8 +73,8 @@ struct StreamVisitor {
   std::function<std::optional<Error>(const StreamMessage&)> message;
 };
 
-/// Reads one file from its first message to its last, with one chunk in memory at a time. Gives the warnings:
-/// what was damaged or missing. What is whole in a damaged file is visited.
+/// Reads one file from its first message to its last, with one chunk in memory at a time. Returns warnings
+/// about damaged or missing parts. The intact part of a damaged file is visited.
 Result<std::vector<std::string>> read_stream(const StreamFile& file, const StreamVisitor& visitor,
                                              const Job& job);
 

@@ -12,13 +12,13 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kEstimateSchema = "sweepscope.estimate/1";
 constexpr double kMs = 1e-3, kPpm = 1e-6;
-constexpr double kMaxRate = 0.01;  // a clock that is off by more is none
+constexpr double kMaxRate = 0.01;  // larger than any clock error
 
 struct BadEstimate {
   std::string why;
 };
 
-/// Absent where there is no such key, or null.
+/// Absent if there is no such key, or it is null.
 std::optional<double> number_of(const Json& object, const char* key) {
   const auto found = object.find(key);
   if (found == object.end() || found->is_null()) return std::nullopt;
@@ -47,18 +47,18 @@ AppliedOffset offset_of(const Json& document) {
   if (const auto sigma_ms = number_of(document, "sigma_ms")) offset.sigma_s = *sigma_ms * kMs;
   offset.middle_s = number_of(document, "middle_s");
   offset.rate = number_of(document, "rate_ppm").value_or(0) * kPpm;
-  if (std::abs(offset.rate) > kMaxRate) throw BadEstimate{"rate_ppm is beyond that of any clock"};
+  if (std::abs(offset.rate) > kMaxRate) throw BadEstimate{"rate_ppm is larger than any clock error"};
   for (const Json& jump : list_of(document, "jumps"))
     offset.jumps.push_back({(needed(jump, "from_s", "jumps") + needed(jump, "to_s", "jumps")) / 2,
                             needed(jump, "jump_ms", "jumps") * kMs});
   return offset;
 }
 
-/// Why there is no offset, as the estimate says.
+/// Why the estimate has no offset, in its words.
 std::string reasons_of(const Json& document) {
   const auto reasons = document.find("reasons");
   if (reasons == document.end() || !reasons->is_array() || reasons->empty() || !reasons->front().is_string())
-    return "it says no reason";
+    return "no reason is given";
   return reasons->front().get<std::string>();
 }
 

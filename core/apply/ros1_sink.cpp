@@ -19,9 +19,8 @@
 namespace sweepscope {
 namespace {
 
-constexpr std::string_view kMagic = "#ROSBAG V2.0\n";
 constexpr std::size_t kChunk_bytes = std::size_t{768} << 10;  // as rosbag
-constexpr std::size_t kBagHeader_bytes = 4096;                // the record, with what fills it up
+constexpr std::size_t kBagHeader_bytes = 4096;                // the record with its padding
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
 template <typename T>
@@ -56,7 +55,7 @@ std::string_view name_in_bags(Compression compression) {
   return compression == Compression::kLz4 ? "lz4" : "none";
 }
 
-/// The connection's own description, as it was recorded or as a recorder would have written it.
+/// The connection header as recorded, or as rosbag would write it.
 std::string connection_header(const StreamTopic& topic) {
   if (!topic.connection_header.empty()) return topic.connection_header;
   std::string md5sum = topic.metadata_of("md5sum");
@@ -73,7 +72,7 @@ class Ros1Sink : public MessageSink {
  public:
   Ros1Sink(AtomicFile file, Compression compression) : file_(std::move(file)), compression_(compression) {}
 
-  Result<void> begin() { return write_bytes(std::string(kMagic) + bag_header(0)); }
+  Result<void> begin() { return write_bytes(std::string(kBagMagic) + bag_header(0)); }
   Result<void> add_topic(const StreamTopic& topic) override;
   Result<void> write(const StreamMessage& message) override;
   Result<void> finish(const std::vector<std::string>& records) override;
@@ -206,13 +205,13 @@ Result<void> Ros1Sink::write_records(const std::vector<std::string>& records) {
   return {};
 }
 
-/// The header's place of the index is known at the end.
+/// The place of the index is known only at the end.
 Result<void> Ros1Sink::write_bag_header(std::uint64_t index_at) {
   if (auto flushed = file_.flush(); !flushed) return flushed;
   const std::string header = bag_header(index_at);
   const int file = open(file_.part_path().c_str(), O_WRONLY | O_CLOEXEC);
   if (file < 0) return tl::unexpected(file_.error(std::strerror(errno)));
-  const ssize_t done = pwrite(file, header.data(), header.size(), static_cast<off_t>(kMagic.size()));
+  const ssize_t done = pwrite(file, header.data(), header.size(), static_cast<off_t>(kBagMagic.size()));
   const int why = errno;
   close(file);
   if (done != static_cast<ssize_t>(header.size())) return tl::unexpected(file_.error(std::strerror(why)));
@@ -241,10 +240,8 @@ Result<void> Ros1Sink::finish(const std::vector<std::string>& records) {
 
 Result<std::unique_ptr<MessageSink>> create_ros1_sink(const std::filesystem::path& path,
                                                       Compression compression) {
-  auto file = AtomicFile::create(path);
+  auto file = AtomicFile::create_regular(path);
   if (!file) return tl::unexpected(file.error());
-  if (file->part_path().empty())
-    return tl::unexpected(file->error("a recording is written to a regular file only"));
   auto sink = std::make_unique<Ros1Sink>(std::move(*file), compression);
   if (const auto begun = sink->begin(); !begun) return tl::unexpected(begun.error());
   return sink;

@@ -14,8 +14,8 @@ namespace {
 using Database = std::unique_ptr<sqlite3, int (*)(sqlite3*)>;
 using Statement = std::unique_ptr<sqlite3_stmt, int (*)(sqlite3_stmt*)>;
 
-/// rosbag2's tables since ROS 2 Iron (version 4), which earlier ones read too. The file is not there before
-/// it is whole, so nothing has to be taken back.
+/// rosbag2's tables since ROS 2 Iron (version 4), which earlier ones read too. Without a
+/// journal: the file appears only when it is complete.
 constexpr const char* kTables = R"(
 PRAGMA journal_mode = OFF;
 PRAGMA synchronous = OFF;
@@ -54,7 +54,7 @@ class SqliteSink : public MessageSink {
   AtomicFile file_;
   Database database_{nullptr, sqlite3_close};
   Statement insert_message_{nullptr, sqlite3_finalize};
-  std::vector<std::string> defined_;  // types whose definition is written
+  std::vector<std::string> defined_;  // types whose definition was written
   std::int64_t topics_ = 0, last_id_ = 0;
 };
 
@@ -77,7 +77,7 @@ Result<void> SqliteSink::begin() {
   return statement == nullptr ? Result<void>(failed()) : Result<void>();
 }
 
-/// The parameters from the second on are the texts; the first, the number, is SQLite's to choose.
+/// The texts are the parameters from the second on; the first is the id, which SQLite chooses.
 Result<void> SqliteSink::insert(const char* statement, std::initializer_list<std::string_view> texts) {
   sqlite3_stmt* prepared = nullptr;
   sqlite3_prepare_v2(database_.get(), statement, -1, &prepared, nullptr);
@@ -113,7 +113,7 @@ Result<void> SqliteSink::write(const StreamMessage& message) {
   sqlite3_bind_int64(row, 1, last_id_);
   sqlite3_bind_int64(row, 2, static_cast<std::int64_t>(message.topic) + 1);
   sqlite3_bind_int64(row, 3, message.log_ns);
-  // An empty message is no NULL.
+  // Otherwise an empty message would be NULL.
   const void* const bytes = message.bytes.empty() ? static_cast<const void*>("") : message.bytes.data();
   sqlite3_bind_blob64(row, 4, bytes, message.bytes.size(), SQLITE_STATIC);
   const int code = sqlite3_step(row);
@@ -139,10 +139,8 @@ Result<void> SqliteSink::finish(const std::vector<std::string>& records) {
 }  // namespace
 
 Result<std::unique_ptr<MessageSink>> create_sqlite_sink(const std::filesystem::path& path) {
-  auto file = AtomicFile::create(path);
+  auto file = AtomicFile::create_regular(path);
   if (!file) return tl::unexpected(file.error());
-  if (file->part_path().empty())
-    return tl::unexpected(file->error("a recording is written to a regular file only"));
   auto sink = std::make_unique<SqliteSink>(std::move(*file));
   if (const auto begun = sink->begin(); !begun) return tl::unexpected(begun.error());
   return sink;

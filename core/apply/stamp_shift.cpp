@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
 #include <cstring>
 #include <limits>
 #include <optional>
-#include <string_view>
 #include <vector>
 
 namespace sweepscope {
@@ -33,7 +31,7 @@ StampShift shift_stamp(std::byte* at, Encoding encoding, bool swapped, const Sta
   const std::int64_t before_ns = load(at, swapped) * kSecond_ns + load(at + 4, swapped);
   if (before_ns == 0) return StampShift::kNone;
   const std::int64_t after_ns = moved(before_ns);
-  // ROS 2 counts seconds with a sign.
+  // Seconds are signed in ROS 2.
   const std::int64_t max_s = encoding == Encoding::kCdr
                                  ? std::int64_t{std::numeric_limits<std::int32_t>::max()}
                                  : std::int64_t{std::numeric_limits<std::uint32_t>::max()};
@@ -43,7 +41,7 @@ StampShift shift_stamp(std::byte* at, Encoding encoding, bool swapped, const Sta
   return StampShift::kShifted;
 }
 
-/// Where the stamps lie. Empty without a value where the message is malformed.
+/// The byte positions of the stamps. No value if the message is malformed.
 std::optional<std::vector<std::size_t>> stamp_places(MessageKind kind, Encoding encoding,
                                                      const std::string& joint,
                                                      std::span<const std::byte> message) {
@@ -54,7 +52,7 @@ std::optional<std::vector<std::size_t>> stamp_places(MessageKind kind, Encoding 
     if (!decode_transforms(encoding, message, transforms)) return std::nullopt;
     for (const DecodedTransform& transform : transforms) {
       if (transform.child != joint) continue;
-      // The stamp, the length of the parent's name and the name follow each other.
+      // Layout: stamp, length of the parent's name, the name.
       const auto* const name = reinterpret_cast<const std::byte*>(transform.parent.data());
       places.push_back(static_cast<std::size_t>(name - message.data()) - kFrameLength_bytes - kStamp_bytes);
     }
@@ -63,7 +61,7 @@ std::optional<std::vector<std::size_t>> stamp_places(MessageKind kind, Encoding 
   const bool headerless =
       kind == MessageKind::kFloat64 || kind == MessageKind::kFloat32 || kind == MessageKind::kInt32;
   if (headerless) return places;
-  // After ROS 1's number of the message; after the identifier of CDR's representation.
+  // ROS 1: the sequence number. CDR: the representation identifier.
   constexpr std::size_t kBefore_bytes = 4;
   if (message.size() < kBefore_bytes + kStamp_bytes) return std::nullopt;
   const bool plain_cdr = message[0] == std::byte{0} && message[1] <= std::byte{1};
@@ -86,27 +84,6 @@ StampShift shift_header_stamps(MessageKind kind, Encoding encoding, const std::s
     if (one == StampShift::kShifted) all = one;
   }
   return all;
-}
-
-bool has_absolute_times(Encoding encoding, std::span<const std::byte> cloud) {
-  constexpr double kMin = 1e8, kMinWhole = 1e17;  // s; ns
-  const auto decoded = decode_cloud(encoding, cloud);
-  if (!decoded) return false;
-  for (const std::string_view name : {"t", "time", "timestamp", "offset_time"}) {
-    const auto field = std::ranges::find(decoded->fields, name, &CloudField::name);
-    if (field == decoded->fields.end() || field->size() == 0) continue;
-    double least = HUGE_VAL, most = -HUGE_VAL;
-    for (std::size_t i = 0; i < decoded->points(); ++i) {
-      const double value = decoded->value(i, *field);
-      if (!std::isfinite(value)) continue;
-      least = std::min(least, value);
-      most = std::max(most, value);
-    }
-    const double since_1970 = std::abs(least);
-    return most >= least && since_1970 > (field->whole_number() ? kMinWhole : kMin) &&
-           since_1970 > 10 * (most - least);
-  }
-  return false;
 }
 
 }  // namespace sweepscope

@@ -14,25 +14,17 @@ namespace sweepscope {
 namespace {
 
 bool is_motor(MessageKind kind) {
-  return kind != MessageKind::kLaserScan && kind != MessageKind::kCloud && kind != MessageKind::kImu &&
-         kind != MessageKind::kOdometry;
+  return !is_laser(kind) && !is_motion(kind);
 }
 
-JointSource source_of(MessageKind kind) {
-  if (kind == MessageKind::kTransforms) return JointSource::kTransform;
-  const bool number =
-      kind == MessageKind::kFloat64 || kind == MessageKind::kFloat32 || kind == MessageKind::kInt32;
-  return number ? JointSource::kNumber : JointSource::kJointState;
-}
-
-/// Of stamps that are not 0 the lesser ones.
+/// The earlier of each kind of stamp; 0 stands for none.
 MessageStamps lesser(MessageStamps a, const MessageStamps& b) {
   if (b.header_ns != 0 && (a.header_ns == 0 || b.header_ns < a.header_ns)) a.header_ns = b.header_ns;
   if (b.receive_ns != 0 && (a.receive_ns == 0 || b.receive_ns < a.receive_ns)) a.receive_ns = b.receive_ns;
   return a;
 }
 
-/// Goes through a recording once.
+/// Collects the survey in one pass.
 class Surveyor {
  public:
   Surveyor(const StreamRecording& recording, const Rig& rig) : rig_(rig) {
@@ -70,7 +62,7 @@ const MessageType* Surveyor::type_of(const StreamTopic& topic) {
   if (type == nullptr || !encoding) return nullptr;
   const std::string md5sum = topic.metadata_of("md5sum");
   if (*encoding == Encoding::kRos1 && !md5sum.empty() && md5sum != "*" && md5sum != type->md5) return nullptr;
-  const bool laser = type->kind == MessageKind::kLaserScan || type->kind == MessageKind::kCloud;
+  const bool laser = is_laser(type->kind);
   if (!laser && !is_motor(type->kind)) return nullptr;
   const auto& wanted = laser ? rig_.laser.topic : rig_.motor.topic;
   return wanted && *wanted != topic.name ? nullptr : type;
@@ -108,7 +100,7 @@ bool Surveyor::add_scan(const Entry& entry, const StreamMessage& message, std::s
     if (!scan) return false;
     stamps.header_ns = scan->header_ns;
   } else {
-    const auto cloud = decode_cloud(entry.encoding, bytes);
+    const auto cloud = decode_points(entry.type->kind, entry.encoding, bytes);
     if (!cloud || cloud->points() == 0) return false;
     stamps.header_ns = cloud->header_ns;
   }
@@ -118,7 +110,7 @@ bool Surveyor::add_scan(const Entry& entry, const StreamMessage& message, std::s
   if (known == lasers.end()) {
     RawLaser& laser = lasers.emplace_back();
     laser.topic = topic;
-    laser.of_clouds = entry.type->kind == MessageKind::kCloud;
+    laser.of_clouds = is_cloud(entry.type->kind);
     laser.scans.emplace_back().stamps = stamps;
     result_.first_scans.push_back(stamps);
     result_.last_scans.push_back(stamps);
@@ -148,7 +140,7 @@ bool Surveyor::add_joints(Entry& entry, const StreamMessage& message, std::span<
         RawJoint& added = joints.emplace_back();
         added.topic = topic;
         added.joint = decoded.name;
-        added.source = source_of(entry.type->kind);
+        added.source = joint_source(entry.type->kind);
       }
     }
     add_position(joints[found->second], {decoded.header_ns, message.log_ns}, decoded.position);
@@ -178,7 +170,7 @@ void Surveyor::add_position(RawJoint& joint, const MessageStamps& stamps, double
   most = std::max(most, position);
 }
 
-/// The stamp that a stream goes by, as an estimate chooses it.
+/// The stamps that an estimate would use for a stream.
 StampSource stamp_of(const MessageStamps& any, StampSource wanted, const std::string& topic,
                      StreamSurvey& survey) {
   return choose_stamps({&any, 1}, wanted, topic, survey.warnings).used;

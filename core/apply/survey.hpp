@@ -14,16 +14,15 @@
 
 namespace sweepscope {
 
-/// What a recording holds, as far as its stamps are to be moved. Takes memory for its topics and joints, and
-/// none for its messages.
+/// The topics, lasers and joints of a recording, without its messages.
 struct StreamSurvey {
-  std::vector<StreamTopic> topics;         // each once, those without messages too
+  std::vector<StreamTopic> topics;         // each once, also those without messages
   std::vector<std::uint64_t> messages;     // of each topic
   std::optional<Compression> compression;  // of the first chunk; empty where there is no message
-  /// Topics, lasers and joints for a choice: of a joint's positions the least and the greatest, of all stamps
-  /// one that says which of the two there are.
+  /// Enough to choose streams: the minimum and maximum of a joint's positions, and of all stamps one that
+  /// shows whether there are header and receive times.
   RawRecording raw;
-  /// The least and the greatest stamps of each laser in `raw`, 0 where it has none.
+  /// The earliest and latest stamps of each laser in `raw`; 0 if it has none.
   std::vector<MessageStamps> first_scans, last_scans;
   std::vector<std::string> warnings;
 };
@@ -43,11 +42,11 @@ struct MovedStream {
 Result<MovedStream> find_motor(StreamSurvey& survey, const Rig& rig, std::optional<StampSource> stamps);
 Result<MovedStream> find_laser(StreamSurvey& survey, const Rig& rig, std::optional<StampSource> stamps);
 
-/// Of a message's encoding by its name; empty where it is another one.
+/// The encoding of a topic's messages; absent if it is not known.
 std::optional<Encoding> stream_encoding(const StreamTopic& topic);
 
-/// What a message of CDR holds that rosbag2 packed by Zstandard (compression mode MESSAGE), in `buffer`;
-/// other messages as they are; empty where it is damaged.
+/// Decompresses a CDR message that rosbag2 compressed (compression mode MESSAGE) into `buffer`. Other
+/// messages are returned as they are; empty if it is damaged.
 std::span<const std::byte> plain_message(const StreamTopic& topic, std::span<const std::byte> message,
                                          std::vector<std::byte>& buffer);
 

@@ -113,6 +113,13 @@ Result<AtomicFile> AtomicFile::create(const fs::path& path) {
   return AtomicFile(path, target->path, part.path, fdopen(part.descriptor, "wb"));
 }
 
+Result<AtomicFile> AtomicFile::create_regular(const fs::path& path) {
+  auto file = create(path);
+  if (file && file->part_path().empty())
+    return tl::unexpected(file->error("a recording is written to a regular file only"));
+  return file;
+}
+
 Result<void> AtomicFile::write(std::string_view bytes) {
   if (std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size())
     return failed_to("written", path_);

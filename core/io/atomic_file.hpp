@@ -21,6 +21,8 @@ namespace sweepscope {
 class AtomicFile {
  public:
   static Result<AtomicFile> create(const std::filesystem::path& path);
+  /// The same for a recording whose writer goes back to what it wrote: a pipe or a device is an error.
+  static Result<AtomicFile> create_regular(const std::filesystem::path& path);
 
   AtomicFile(AtomicFile&& other) noexcept = default;
   AtomicFile& operator=(AtomicFile&&) = delete;

@@ -41,7 +41,7 @@ Result<void> AtomicFolder::check(const fs::path& path) {
 
 Result<AtomicFolder> AtomicFolder::create(const fs::path& path) {
   if (const auto checked = check(path); !checked) return tl::unexpected(checked.error());
-  std::string pattern = without_slash(path).string() + ".part-XXXXXX";
+  std::string pattern = unique_pattern(without_slash(path).string() + ".part-");
   if (mkdtemp(pattern.data()) == nullptr) return cannot_be_created(path, std::strerror(errno));
   remember_unfinished(pattern);
   std::error_code ignored;

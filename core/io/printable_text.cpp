@@ -138,4 +138,10 @@ std::string json_text(Json document) {
   });
 }
 
+std::string json_string(std::string_view text) {
+  std::string quoted = json_text(std::string(text));
+  quoted.pop_back();  // the line end
+  return quoted;
+}
+
 }  // namespace sweepscope

@@ -33,4 +33,7 @@ std::string markup_escaped(std::string_view printable);
 /// valid_utf8, and the control characters that JSON allows are written as \uNNNN.
 std::string json_text(nlohmann::ordered_json document);
 
+/// A text as a JSON string, in double quotes, which is one of YAML as well.
+std::string json_string(std::string_view text);
+
 }  // namespace sweepscope

@@ -30,9 +30,7 @@ Unfinished& unfinished() {
 
 namespace fs = std::filesystem;
 
-// What a person would hardly name a file; mkstemp puts letters for the last six.
-constexpr std::string_view kPattern = ".sweepscope-temporary-XXXXXX";
-constexpr std::string_view kPrefix = kPattern.substr(0, kPattern.size() - 6);
+constexpr std::string_view kPrefix = ".sweepscope-temporary-";  // what a person would hardly name a file
 
 /// Waits for a program that looks whether the file is abandoned. False where that one removed it.
 bool lock_own(int file) {
@@ -94,7 +92,7 @@ Result<TemporaryFile> TemporaryFile::create() {
   const fs::path folder = fs::temp_directory_path(error);
   if (error) return refused("TMPDIR", error.message());
   while (true) {
-    std::string path = (folder / kPattern).string();
+    std::string path = unique_pattern(folder / kPrefix);
     const int file = mkostemp(path.data(), O_CLOEXEC);
     if (file < 0) return refused(folder.string(), std::strerror(errno));
     if (lock_own(file)) {
@@ -118,7 +116,8 @@ void remove_abandoned_temporary_files() {
   if (error) return;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
     const std::string name = entry->path().filename().string();
-    if (name.size() == kPattern.size() && name.starts_with(kPrefix)) remove_if_abandoned(entry->path());
+    if (name.size() == kPrefix.size() + kUnique_chars && name.starts_with(kPrefix))
+      remove_if_abandoned(entry->path());
   }
 }
 

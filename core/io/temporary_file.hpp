@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <string>
 #include <utility>
 
 #include "core/error.hpp"
@@ -10,6 +12,12 @@ namespace sweepscope {
 /// Creates a new file (O_EXCL) with the permissions of the umask, opens it for writing and registers it for
 /// removal until it is forgotten. Returns its descriptor, or -1 with errno.
 int create_unfinished(const std::filesystem::path& path);
+
+/// A template for mkstemp and mkdtemp, which put characters of their own for its last six.
+inline constexpr std::size_t kUnique_chars = 6;
+inline std::string unique_pattern(const std::filesystem::path& prefix) {
+  return prefix.string() + std::string(kUnique_chars, 'X');
+}
 
 /// Registers a file or a folder that the caller created, until it is forgotten.
 void remember_unfinished(const std::filesystem::path& path);

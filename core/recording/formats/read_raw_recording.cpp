@@ -9,6 +9,7 @@
 #include "core/io/input_file.hpp"
 #include "core/recording/csv/csv_recording.hpp"
 #include "core/recording/packed/unpacked_file.hpp"
+#include "core/recording/ros1/ros1_record.hpp"
 #include "core/recording/ros1/ros1_recording.hpp"
 #include "core/recording/ros2/ros2_recording.hpp"
 
@@ -59,7 +60,7 @@ Result<RawRecording> read_raw_recording(const fs::path& path, const Rig& rig, co
   if (fs::is_directory(path, ignored)) return read_folder(path, rig, job, detail);
   const auto start = beginning(path);
   if (!start) return tl::unexpected(start.error());
-  if (start->starts_with("#ROSBAG V2.0\n")) return read_ros1_recording(path, rig, job, detail);
+  if (start->starts_with(kBagMagic)) return read_ros1_recording(path, rig, job, detail);
   if (bag_storage(*start) || begins_zstd(std::as_bytes(std::span(*start))))
     return read_ros2_file(path, rig, job, detail);
   return unreadable(fmt::format("{}: {}; {}", path.string(), not_readable(*start), kReadable));

@@ -8,17 +8,7 @@
 #include "core/recording/packed/unpacked_file.hpp"
 
 namespace sweepscope {
-namespace {
-
-bool is_laser(MessageKind kind) {
-  return kind == MessageKind::kLaserScan || is_cloud(kind);
-}
-
-bool is_motion(MessageKind kind) {
-  return kind == MessageKind::kImu || kind == MessageKind::kOdometry;
-}
-
-JointSource source_of(MessageKind kind) {
+JointSource joint_source(MessageKind kind) {
   switch (kind) {
     case MessageKind::kFloat64:
     case MessageKind::kFloat32:
@@ -30,8 +20,6 @@ JointSource source_of(MessageKind kind) {
       return JointSource::kJointState;
   }
 }
-
-}  // namespace
 
 std::optional<Error> too_much(const std::string& file, std::size_t beams, std::size_t joint_samples) {
   if (beams <= kMaxBeams && joint_samples <= kMaxJointSamples) return std::nullopt;
@@ -152,8 +140,7 @@ bool MessageCollector::add_cloud(Entry& entry, std::int64_t receive_ns, std::spa
   constexpr std::size_t kBeamsOfScans_a_beam = 4;  // a beam of a cloud has a direction besides
   RawLaser& laser = raw_.lasers[entry.laser];
   const std::size_t before = laser.ranges_m.size();
-  const auto cloud = entry.type->kind == MessageKind::kLivox ? decode_livox(entry.topic.encoding, message)
-                                                             : decode_cloud(entry.topic.encoding, message);
+  const auto cloud = decode_points(entry.type->kind, entry.topic.encoding, message);
   const bool used = entry.clouds.add(cloud, receive_ns, laser);
   beams_ += kBeamsOfScans_a_beam * (laser.ranges_m.size() - before);
   if (used && detail_.clouds == CloudDetail::kWhole) keep_cloud(*cloud, receive_ns, laser);
@@ -243,7 +230,7 @@ RawJoint& MessageCollector::joint_of(Entry& entry, std::string_view joint) {
     RawJoint& added = raw_.joints.emplace_back();
     added.topic = entry.topic.name;
     added.joint = joint;
-    added.source = source_of(entry.type->kind);
+    added.source = joint_source(entry.type->kind);
   }
   return raw_.joints[found->second];
 }

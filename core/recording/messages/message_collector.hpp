@@ -29,6 +29,9 @@ inline constexpr std::size_t kMaxCloudBytes = std::size_t{1} << 33;
 /// The error for a file that holds more beams or joint samples than that; otherwise empty.
 std::optional<Error> too_much(const std::string& file, std::size_t beams, std::size_t joint_samples);
 
+/// How a motor's messages of that kind hold its position.
+JointSource joint_source(MessageKind kind);
+
 /// Sorts the messages of a file, of any format, into lasers and joints. Those that the rig excludes by name
 /// are counted and not kept.
 class MessageCollector {

@@ -301,7 +301,8 @@ std::optional<DecodedCloud> decode_livox(Encoding encoding, std::span<const std:
   cloud.fields = {{"offset_time", 0, kUint32},  {"x", 4, kFloat32},  {"y", 8, kFloat32},  {"z", 12, kFloat32},
                   {"reflectivity", 16, kUint8}, {"tag", 17, kUint8}, {"line", 18, kUint8}};
   cloud.time_unit_s = 1e-9;
-  if (base_ns > kSince1970_ns && base_ns < kLatest_ns) cloud.header_ns = static_cast<std::int64_t>(base_ns);
+  cloud.has_time_base = base_ns > kSince1970_ns && base_ns < kLatest_ns;
+  if (cloud.has_time_base) cloud.header_ns = static_cast<std::int64_t>(base_ns);
   return cloud;
 }
 

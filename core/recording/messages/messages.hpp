@@ -35,6 +35,13 @@ enum class MessageKind {
 inline bool is_cloud(MessageKind kind) {
   return kind == MessageKind::kCloud || kind == MessageKind::kLivox;
 }
+inline bool is_laser(MessageKind kind) {
+  return kind == MessageKind::kLaserScan || is_cloud(kind);
+}
+/// Of the rig itself.
+inline bool is_motion(MessageKind kind) {
+  return kind == MessageKind::kImu || kind == MessageKind::kOdometry;
+}
 
 struct MessageType {
   std::string_view name;  // as in ROS 1: package/Type
@@ -83,9 +90,10 @@ struct DecodedCloud {
   std::uint32_t height = 0, width = 0, point_bytes = 0, row_bytes = 0;
   std::vector<CloudField> fields;
   std::span<const std::byte> data;
-  bool swapped = false;    // big-endian
-  bool dense = false;      // as stated in the message: no point is invalid
-  double time_unit_s = 0;  // of the points' times, if the format states it; otherwise 0
+  bool swapped = false;        // big-endian
+  bool dense = false;          // as stated in the message: no point is invalid
+  double time_unit_s = 0;      // of the points' times, if the format states it; otherwise 0
+  bool has_time_base = false;  // header_ns is the points' own, since 1970, and not the header's
 
   std::size_t points() const { return std::size_t{height} * width; }
   double value(std::size_t point, const CloudField& field) const;
@@ -130,6 +138,11 @@ std::optional<DecodedCloud> decode_cloud(Encoding encoding, std::span<const std:
 /// cloud's base time where this counts since 1970: the header's own may then be the publisher's. A base time
 /// since the scanner was switched on is on no other clock, and the header's own stamp stands for it.
 std::optional<DecodedCloud> decode_livox(Encoding encoding, std::span<const std::byte> message);
+/// Either of the two, as `kind` says.
+inline std::optional<DecodedCloud> decode_points(MessageKind kind, Encoding encoding,
+                                                 std::span<const std::byte> message) {
+  return kind == MessageKind::kLivox ? decode_livox(encoding, message) : decode_cloud(encoding, message);
+}
 
 /// Fills `joints`, whose memory is reused from call to call; false if the message is malformed. Of a
 /// transform the joint is the child frame, and its position the angle about `axis` (unit length, in the

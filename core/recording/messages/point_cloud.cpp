@@ -219,6 +219,11 @@ void CloudReader::number_slices(double first_time) {
   }
 }
 
+bool CloudReader::counts_since_1970(const DecodedCloud& cloud) {
+  CloudReader reader;
+  return cloud.has_time_base || (reader.read_points(cloud) && reader.absolute_);
+}
+
 bool CloudReader::add(const std::optional<DecodedCloud>& cloud, std::int64_t receive_ns, RawLaser& laser) {
   problem_.clear();
   if (!cloud) return problem_ = "it is malformed", false;

@@ -37,6 +37,9 @@ class CloudReader {
   /// The last problem, for a person; empty if there was none.
   const std::string& problem() const { return problem_; }
 
+  /// Whether a cloud's points tell the time since 1970, so that its header's stamp does not matter.
+  static bool counts_since_1970(const DecodedCloud& cloud);
+
  private:
   struct Point {
     double time = 0;  // as recorded

@@ -21,9 +21,7 @@ std::string yaml_name(const std::string& name) {
   };
   const bool begins = !name.empty() && std::isdigit(static_cast<unsigned char>(name[0])) == 0;
   if (begins && std::ranges::all_of(name, harmless) && !is_null()) return name;
-  std::string quoted = json_text(name);  // whose strings are YAML's
-  quoted.pop_back();                     // the line end
-  return quoted;
+  return json_string(name);
 }
 
 std::string line(const std::string& setting, const std::string& comment) {

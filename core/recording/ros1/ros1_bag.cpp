@@ -14,7 +14,6 @@
 namespace sweepscope {
 namespace {
 
-constexpr std::string_view kMagic = "#ROSBAG V2.0\n";
 constexpr std::size_t kMaxWarnings = 20;
 
 /// Whether a record has the fields that its op code asks for; a damaged op code has others.
@@ -349,7 +348,7 @@ Result<std::vector<std::string>> BagReader::finish() {
 }
 
 Result<std::vector<std::string>> BagReader::read(const Job& job) {
-  file_.seek(kMagic.size());
+  file_.seek(kBagMagic.size());
   Header header;
   while (read_header(header)) {
     if (auto error = read_record(header)) return tl::unexpected(std::move(*error));
@@ -372,9 +371,9 @@ Result<std::vector<std::string>> read_ros1_bag(const std::filesystem::path& path
                                                const Job& job, const BagConnectionVisitor& visit_connection) {
   auto file = InputFile::open(path);
   if (!file) return tl::unexpected(file.error());
-  std::array<std::byte, kMagic.size()> magic{};
+  std::array<std::byte, kBagMagic.size()> magic{};
   file->read(magic);
-  if (as_text(magic) != kMagic) {
+  if (as_text(magic) != kBagMagic) {
     return unreadable(fmt::format("{}: byte 0 does not begin a ROS 1 bag of format 2.0", path.string()));
   }
   return BagReader(*file, path.string(), visit, visit_connection).read(job);

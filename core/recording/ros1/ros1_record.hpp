@@ -9,6 +9,9 @@
 
 namespace sweepscope {
 
+/// What a bag of format 2.0 begins with.
+inline constexpr std::string_view kBagMagic = "#ROSBAG V2.0\n";
+
 /// The kind of a record of a ROS 1 bag, its field "op".
 enum class BagOp : std::uint8_t {
   kMessage = 2,

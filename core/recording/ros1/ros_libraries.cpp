@@ -4,6 +4,8 @@
 #include <cstdlib>
 #include <system_error>
 
+#include "core/io/temporary_file.hpp"
+
 namespace sweepscope {
 namespace {
 
@@ -14,7 +16,7 @@ constexpr const char* kName = "ROS_HOME";
 RosHome::RosHome() {
   std::error_code error;
   const std::filesystem::path place = std::filesystem::temp_directory_path(error);
-  std::string pattern = (place / "sweepscope-XXXXXX").string();
+  std::string pattern = unique_pattern(place / "sweepscope-");
   if (error || mkdtemp(pattern.data()) == nullptr) return;
   folder_ = pattern;
   if (const char* before = std::getenv(kName)) before_ = before;

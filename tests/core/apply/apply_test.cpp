@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "core/recording/formats/read_recording.hpp"
+#include "tests/core/recording/cloud_bytes.hpp"
 #include "tests/core/recording/message_bytes.hpp"
 #include "tests/core/recording/test_bag.hpp"
 #include "tests/core/recording/test_database.hpp"
@@ -281,6 +282,59 @@ TEST_F(Apply, TheLasersStampsMoveTheOtherWay) {
       EXPECT_EQ(before[i], after[i]);
     }
   }
+}
+
+/// Clouds of a Livox scanner whose points' times begin at `base_ns`, and a motor that turns.
+void write_livox(const fs::path& path, std::uint64_t base_ns) {
+  test::TestDatabase database(path);
+  database.topic(1, "/joint_states", "sensor_msgs/msg/JointState");
+  database.topic(2, "/livox/lidar", "livox_ros_driver2/msg/CustomMsg");
+  test::LivoxBytes cloud;
+  for (int beam = 0; beam < 60; ++beam) {
+    const auto x_m = static_cast<float>(5 + 0.01 * beam);
+    cloud.point({x_m, static_cast<float>(0.05 * beam), 0.5F, static_cast<std::uint32_t>(beam) * 100'000});
+  }
+  for (int i = 0; i < 50; ++i) {
+    const auto ns = static_cast<std::uint32_t>(10'000'000 * i);
+    MessageBytes joint(MessageBytes::kCdr);
+    joint.header(1000, ns, "").number(std::uint32_t{1}).text("roll");
+    joint.array<double>({0.1 * i}).array<double>({}).array<double>({});
+    database.message(1, 1000 * kSecond_ns + ns, joint.bytes());
+    const std::uint64_t points_ns = base_ns == 0 ? 0 : base_ns + ns;
+    database.message(2, 1000 * kSecond_ns + ns, cloud.message(MessageBytes::kCdr, 1000, ns, points_ns));
+  }
+}
+
+TEST_F(Apply, OfALivoxScannerTheMotorsOrTheHeadersStampsMove) {
+  for (const bool of_motor : {true, false}) {
+    const fs::path in = folder_ / "in.db3", out = folder_ / "out.db3";
+    write_livox(in, 0);
+    ApplyOptions options = at_24_ms();
+    options.shifted = of_motor ? ShiftedStream::kMotor : ShiftedStream::kLaser;
+    const auto applied = apply(in, "out.db3", options);
+    ASSERT_TRUE(applied) << applied.error().message;
+    EXPECT_EQ(applied->moved, 50U);
+    const auto before = of_database(in), after = of_database(out);
+    ASSERT_EQ(before.size(), after.size());
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      const bool moved = (before[i].topic == "/joint_states") == of_motor;
+      const std::int64_t by_ns = moved ? (of_motor ? -24'000'000 : 24'000'000) : 0;
+      EXPECT_EQ(stamp_ns(after[i].bytes) - stamp_ns(before[i].bytes), by_ns) << i;
+    }
+    fs::remove(in);
+    fs::remove(out);
+  }
+}
+
+TEST_F(Apply, WhereALivoxScannersPointsCountSince1970ItsStampsCannotMove) {
+  write_livox(folder_ / "in.db3", 1'700'000'000'000'000'000);
+  ApplyOptions options = at_24_ms();
+  options.shifted = ShiftedStream::kLaser;
+  const auto refused = apply(folder_ / "in.db3", "out.db3", options);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ExitCode::kWrongUsage);
+  EXPECT_NE(refused.error().message.find("use --shift motor"), std::string::npos);
+  EXPECT_FALSE(fs::exists(folder_ / "out.db3"));
 }
 
 TEST_F(Apply, ByReceiveTheTimesOfTheMotorsMessagesMoveAndNoByteOfThem) {
