@@ -31,20 +31,6 @@ int number_of(const std::optional<T>& choice) {
   return choice ? static_cast<int>(*choice) : -1;
 }
 
-std::string canonical(const EstimateOptions& o) {
-  std::string text = fmt::format("estimate {} {} {} {} {}", number_of(o.method), number_of(o.assume),
-                                 number_of(o.fit), number_of(o.scoring), o.weight_c.value_or(1));
-  if (o.edge_gate_m) text += fmt::format(" edge {}", *o.edge_gate_m);
-  if (o.plane_gate_m) text += fmt::format(" plane {}", *o.plane_gate_m);
-  if (o.over_time_s) text += fmt::format(" over-time {}", *o.over_time_s);
-  if (o.around)
-    text += fmt::format(" around {}:{}:{}", o.around->initial_s, o.around->accuracy_s, o.around->steps);
-  for (const OffsetRange& range : o.ranges) {
-    text += fmt::format(" {}:{}:{}", range.from_s, range.to_s, range.step_s);
-  }
-  return text;
-}
-
 Result<Recording> read(const RecordedFile& file, const Job& job) {
   ReadOptions options;
   options.stamps = file.stamps;
@@ -57,6 +43,22 @@ Result<Recording> read(const RecordedFile& file, const Job& job) {
 }
 
 }  // namespace
+
+std::string in_one_line(const EstimateOptions& o) {
+  std::string text = fmt::format("estimate {} {} {} {}", number_of(o.method), number_of(o.assume),
+                                 number_of(o.fit), number_of(o.scoring));
+  if (o.weight_c) text += fmt::format(" weight {}", *o.weight_c);
+  if (o.edge_gate_m) text += fmt::format(" edge {}", *o.edge_gate_m);
+  if (o.plane_gate_m) text += fmt::format(" plane {}", *o.plane_gate_m);
+  if (o.over_time_s) text += fmt::format(" over-time {}", *o.over_time_s);
+  if (o.around)
+    text += fmt::format(" around {}:{}:{}", o.around->initial_s, o.around->accuracy_s, o.around->steps);
+  for (const OffsetRange& range : o.ranges)
+    text += fmt::format(" {}:{}:{}", range.from_s, range.to_s, range.step_s);
+  const RigSolve& s = o.solve;
+  text += fmt::format(" solve {} {} {}", s.mount, s.play, s.encoder);
+  return text + fmt::format(" prior {} {} {} {}", s.mount_deg, s.mount_mm, s.play_deg, s.encoder_deg);
+}
 
 FigureData::FigureData(const Recipe& recipe, std::filesystem::path cache_folder, const Job& job,
                        std::function<void(const std::string&)> said)
@@ -118,7 +120,7 @@ Result<std::string> FigureData::estimate_key(const EstimateSpec& spec) const {
   const Result<std::string> program = program_content_hash();
   if (!program) return program;
   return fingerprint(spec.recording).map([&](const std::string& recording) {
-    return content_hash(recording + "\n" + canonical(spec.options) + "\n" + *program);
+    return content_hash(recording + "\n" + in_one_line(spec.options) + "\n" + *program);
   });
 }
 

@@ -16,6 +16,9 @@
 
 namespace sweepscope {
 
+/// Everything that a recipe can set of an estimate: different where the estimate may be.
+std::string in_one_line(const EstimateOptions& options);
+
 /// The recordings, estimates and maps that a recipe's figures are drawn from, each made on first use.
 /// Estimates are kept in a folder under a hash of everything that they depend on (the recording's content,
 /// the options, the program), so that a second run does not compute them again.

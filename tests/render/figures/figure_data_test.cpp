@@ -2,12 +2,39 @@
 
 #include <fmt/format.h>
 
+#include <map>
+#include <set>
+
 #include "core/results/estimate_json.hpp"
 #include "tests/core/every_look.hpp"
 #include "tests/folder_test.hpp"
 
 namespace sweepscope {
 namespace {
+
+TEST(FigureData, EveryOptionOfAnEstimateMakesAnotherOneOfIt) {
+  const std::map<std::string, std::vector<std::string>> values{
+      {"weight-c", {"1", "2"}},
+      {"edge-gate-m", {"0.2", "0.3"}},
+      {"plane-gate-m", {"0.2", "0.3"}},
+      {"range", {"19:29:1", "19:29:2"}},
+      {"around", {"24:0.1:40", "24:0.1:20"}},
+      {"solve", {"offset,mount", "offset,play", "offset,encoder", "offset,mount,play"}},
+      {"prior", {"mount_deg=2", "mount_mm=5", "play_deg=0.2", "encoder_deg=0.3"}},
+      {"over-time", {"10", "20"}}};
+  std::set<std::string> lines{in_one_line({})};
+  std::size_t options = 1;
+  for (const EstimateOption& option : estimate_options()) {
+    const auto& all = option.choices.empty() ? values.at(option.name) : option.choices;
+    for (const std::string& value : all) {
+      EstimateOptions set;
+      ASSERT_TRUE(option.set(set, value)) << option.name << " " << value;
+      ++options;
+      EXPECT_TRUE(lines.insert(in_one_line(set)).second) << option.name << " " << value;
+    }
+  }
+  EXPECT_EQ(lines.size(), options);
+}
 
 class InterruptedFigures : public test::FolderTest {
  protected:
