@@ -7,7 +7,7 @@ namespace sweepscope {
 
 MotorTrack laser_angles(const MotorTrack& shown, const Gear& gear) {
   MotorTrack laser = shown;
-  // A negative play, as a least squares may find of a gear that has none, carries the laser ahead.
+  // Least squares may give a gear without play a negative one: then the laser runs ahead.
   const double half_rad = std::abs(gear.play_rad) / 2, sign = gear.play_rad < 0 ? -1 : 1;
   double carried_rad = 0;
   for (std::size_t i = 0; i < shown.angle_rad.size(); ++i) {

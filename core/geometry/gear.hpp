@@ -8,18 +8,18 @@
 
 namespace sweepscope {
 
-/// What lies between the angle that the encoder shows and the angle of the laser.
+/// The gear between the encoder and the laser.
 struct Gear {
-  /// Between the flanks of the gear: the laser stays where it is while the motor turns back by this much.
+  /// Play between the flanks: after a reversal the laser rests until the motor has turned by this much.
   double play_rad = 0;
-  /// The encoder's first harmonic, of a disc off its centre: at an angle phi that is shown the shaft is at
+  /// The encoder's first harmonic, from an eccentric disc: where it shows phi, the shaft is at
   /// phi - encoder_rad[0] sin(phi) - encoder_rad[1] cos(phi).
   Eigen::Vector2d encoder_rad = Eigen::Vector2d::Zero();
 
   bool perfect() const { return play_rad == 0 && encoder_rad.isZero(0); }
 };
 
-/// The laser's angles, from those that the encoder shows.
+/// The angles of the laser from those of the encoder.
 MotorTrack laser_angles(const MotorTrack& shown, const Gear& gear);
 
 }  // namespace sweepscope

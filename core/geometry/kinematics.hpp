@@ -88,4 +88,20 @@ class MotorReader {
   std::size_t next_ = 1;
 };
 
+/// Reads the motor's mean speed over 10 ms to either side, a sample of an encoder at 100 Hz, at mostly
+/// ascending times.
+class MotorSpeedReader {
+ public:
+  explicit MotorSpeedReader(const MotorTrack& track) : before_(track), after_(track) {}
+
+  double speed_rad_s(double motor_time_s) {
+    constexpr double kSpan_s = 0.010;
+    return (after_.angle_at(motor_time_s + kSpan_s) - before_.angle_at(motor_time_s - kSpan_s)) /
+           (2 * kSpan_s);
+  }
+
+ private:
+  MotorReader before_, after_;
+};
+
 }  // namespace sweepscope

@@ -14,7 +14,7 @@ enum class SweepFilter : std::uint8_t { kBackward = 1, kForward = 2, kAny = 3 };
 
 /// The points nearest to a query, nearest first.
 struct Neighbours {
-  static constexpr int kMax = 10;
+  static constexpr int kMax = 10;  // the largest number that PatchOptions asks for
   int count = 0;
   int lines = 0;  // distinct scan lines among them
   std::array<Eigen::Vector3f, kMax> p_m;
@@ -28,7 +28,7 @@ struct Neighbours {
 /// of a cell is kept.
 class FeatureMap {
  public:
-  static constexpr int kLevels = 4;
+  static constexpr int kLevels = 4;  // cells of 0.6 to 4.8 m: beyond, 30 m of range have as few points
   explicit FeatureMap(double cell_m = 0.6, bool thinned = true);
 
   /// Adds a point of scan line `line` (below 2^31) of a sweep turning in `direction` (+1 or -1).
@@ -47,7 +47,7 @@ class FeatureMap {
   void clear();
 
  private:
-  static constexpr std::uint32_t kBlock = 12;
+  static constexpr std::uint32_t kBlock = 12;                     // points; fills three cache lines
   static constexpr int kBrickBits = 2, kBrick = 1 << kBrickBits;  // cells along a brick's edge
   static constexpr std::uint32_t kNone = 0xffffffffu;
   // Points of one cell and direction, usually all of them: three cache lines.

@@ -28,7 +28,7 @@ struct FeatureOptions {
   int map_spacing = 6;                  // beams: one plane point to build the map from per so many
   int edges_per_region = 2;             // sharpest edge points to match in each of the scan line's regions
   int map_edges_per_region = 5;         // edge points to build the map from, per region
-  int regions = 4;
+  int regions = 4;                      // of equal size along a scan line, as in LOAM (section V-A)
   double axis_sine = 0.05;  // beams within this sine of the motor's axis (3 deg) do not constrain the offset
                             // and are left out
 };

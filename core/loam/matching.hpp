@@ -12,12 +12,13 @@ namespace sweepscope {
 /// When neighbours count as a plane or a line. The defaults are those of a map of several sweeps, see
 /// MappingOptions.
 struct PatchOptions {
+  // Three times the points that determine a plane or a line.
   int plane_neighbours = 10;
   int edge_neighbours = 6;
-  int per_line = 2;   // neighbours from one scan line: more would fit the line instead of the surface
-  int min_lines = 4;  // distinct scan lines among a plane's neighbours, at least 3
-  int min_edge_lines = 3;
-  double thickness_m = 0.06;      // RMS distance of the neighbours from the plane or line, at most ...
+  int per_line = 2;           // neighbours from one scan line: more would fit the line instead of the surface
+  int min_lines = 4;          // distinct scan lines among a plane's neighbours, at least 3
+  int min_edge_lines = 3;     // two lines may cross the edge of one object by chance
+  double thickness_m = 0.06;  // RMS distance of the neighbours from the plane or line, at most ...
   double thickness_slope = 0.03;  // ... plus this times the search radius
 };
 

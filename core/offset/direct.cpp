@@ -157,7 +157,7 @@ Remark sway_warning(double sway_rad) {
 // Why nothing can be said of a walk.
 std::string missing_reason(const OffsetProblem& problem, const SolvedWalk& walk,
                            const std::optional<MotionSource>& source) {
-  if (!walk.lost) return "Sweeps of opposite directions hardly see the same surfaces.";
+  if (!walk.lost) return "Too few surfaces are seen by sweeps of both directions.";
   if (source && source->motion.is_truth())
     return fmt::format("{} covers too few sweeps of the recording.", source->name);
   return lost_reason(walk, *problem.recording);
@@ -268,7 +268,7 @@ Result<Answer> answer_directly(const OffsetSearch& search, const Job& job) {
   if (!coarse.best) {
     add(answer.reasons, unrepeated_lines_reason(recording));
     answer.reasons.push_back(
-        "Sweeps of opposite directions hardly see the same surfaces at any candidate offset.");
+        "Too few surfaces are seen by sweeps of both directions at any candidate offset.");
     return answer;
   }
   add(answer.reasons, beam_times_reason(recording, search.scale));

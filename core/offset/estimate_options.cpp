@@ -42,7 +42,7 @@ Result<void> set_range(EstimateOptions& options, const std::string& text) {
 }
 
 Result<void> set_around(EstimateOptions& options, const std::string& text) {
-  constexpr double kMaxSteps = 100'000;
+  constexpr double kMaxSteps = 100'000;  // against typing errors: a day of computing
   const auto ms = numbers_of(text, 3);
   if (!ms || !((*ms)[1] > 0) || !((*ms)[2] >= 0) || (*ms)[2] > kMaxSteps || (*ms)[2] != std::floor((*ms)[2]))
     return wrong(
@@ -98,7 +98,7 @@ Result<void> set_prior(EstimateOptions& options, const std::string& text) {
 }
 
 Result<void> set_over_time(EstimateOptions& options, const std::string& text) {
-  constexpr double kMin_s = 1, kMax_s = 86'400;
+  constexpr double kMin_s = 1, kMax_s = 86'400;  // about a sweep; a day
   if (text.empty()) {
     options.over_time_s = 0;
     return {};

@@ -7,7 +7,6 @@
 #include "core/offset/kept_candidates.hpp"
 #include "core/offset/prepared.hpp"
 #include "core/recording/recording.hpp"
-#include "core/recording/recording_parts.hpp"
 
 namespace sweepscope {
 

@@ -13,13 +13,13 @@ namespace {
 
 constexpr std::size_t kMinWindows = 3;  // between jumps, and before the first and after the last
 constexpr std::size_t kMinForLine = 4;  // windows
-constexpr std::size_t kMaxJumps = 20;
-constexpr double kLossWidth = 3;  // Cauchy, in sigmas
-// Parameters that a jump counts as, since its time is sought as well (Zhang and Siegmund 2007). A rate counts
-// as many, so that one in a thousand constant offsets is taken for a drifting one.
+constexpr std::size_t kMaxJumps = 20;   // a bound on the time; a clock that jumps more often has no course
+constexpr double kLossWidth = 3;        // Cauchy, in sigmas
+// Parameters that a jump counts as, since its time is fitted too (Zhang and Siegmund 2007). A rate counts as
+// many, so that one in a thousand constant offsets is mistaken for a drifting one.
 constexpr double kPenalty = 3;
 
-// The windows that have an offset, in the order of time, sigmas widened by the scatter.
+// The windows with an offset, ordered by time, their sigmas multiplied by the scatter.
 struct Series {
   std::vector<double> time_s, offset_s, sigma_s;
   double middle_s = 0, span_s = 1;
@@ -27,7 +27,7 @@ struct Series {
   std::size_t size() const { return time_s.size(); }
 };
 
-// Jumps lie before the windows of these numbers, ascending.
+// Each jump lies before the window of this number; ascending.
 struct Model {
   bool line = false;
   std::vector<std::size_t> jumps;
@@ -41,10 +41,10 @@ struct Fitted {
   double score = std::numeric_limits<double>::infinity();
 };
 
-// By how much the windows scatter more than their sigmas say: from how far each lies off its neighbours'
-// middle, where neither a drift nor a few jumps count.
+// The scatter of the windows in units of their sigmas, from the distance of each from the mean of its
+// neighbours: insensitive to a drift and to a few jumps.
 double scatter_of(const Series& series) {
-  constexpr std::size_t kMin = 6;
+  constexpr std::size_t kMin = 6;  // of fewer windows the median is mostly noise
   if (series.size() < kMin) return 1;
   std::vector<double> sizes;
   for (std::size_t i = 1; i + 1 < series.size(); ++i) {
@@ -75,7 +75,7 @@ double jump_time_s(const Series& series, std::size_t jump) {
   return (series.time_s[jump - 1] + series.time_s[jump]) / 2;
 }
 
-// Row i: what offset i is made of.
+// The design matrix: row i gives the offset of window i.
 Eigen::MatrixXd design(const Series& series, const Model& model) {
   const auto rows = Eigen::Index(series.size());
   Eigen::MatrixXd a =
@@ -95,7 +95,7 @@ Eigen::MatrixXd design(const Series& series, const Model& model) {
   return a;
 }
 
-// Least squares with Cauchy weights, from given weights.
+// Iteratively reweighted least squares (Cauchy), beginning with the given weights.
 Fitted fitted(const Series& series, const Model& model, std::vector<double> weights, int iterations) {
   const Eigen::MatrixXd a = design(series, model);
   Fitted fit;
@@ -127,7 +127,7 @@ Fitted fitted(const Series& series, const Model& model, std::vector<double> weig
 }
 
 Fitted fitted(const Series& series, const Model& model) {
-  constexpr int kIterations = 12;
+  constexpr int kIterations = 12;  // of the weights
   return fitted(series, model, std::vector<double>(series.size(), 1.0), kIterations);
 }
 
@@ -147,9 +147,9 @@ Model without_jump(Model model, std::size_t place) {
   return model;
 }
 
-// With one more jump, where it lowers the cost most; infinite score where there is no room for one.
+// With one more jump, at the place that lowers the cost most; the score is infinite if there is no place.
 Fitted with_best_jump(const Series& series, const Model& model) {
-  constexpr int kRoughIterations = 2;
+  constexpr int kRoughIterations = 2;  // enough to rank the places; the best one is fitted again
   const std::vector<double> even(series.size(), 1.0);
   Fitted best;
   for (std::size_t jump = kMinWindows; jump + kMinWindows <= series.size(); ++jump) {
@@ -160,9 +160,9 @@ Fitted with_best_jump(const Series& series, const Model& model) {
   return best.model.jumps.empty() ? best : fitted(series, best.model);
 }
 
-// Each jump moved to where it fits best beside the others, until none moves.
+// Moves each jump to its best place given the others, until none moves.
 Fitted settled(const Series& series, Fitted fit) {
-  constexpr int kMaxRounds = 5;
+  constexpr int kMaxRounds = 5;  // against jumps that swap places for ever
   bool moved = true;
   for (int round = 0; moved && round < kMaxRounds; ++round) {
     moved = false;
@@ -190,10 +190,9 @@ Fitted without_needless_jumps(const Series& series, Fitted fit) {
   return fit;
 }
 
-// One jump after the other, as long as one of the next few is worth it: of a step up and one down the first
-// alone gains little.
+// Adds jumps one by one, looking a few ahead: of a step up and one down, the first alone gains little.
 Fitted best_with_jumps(const Series& series, bool line) {
-  constexpr int kPatience = 2;
+  constexpr int kPatience = 2;  // jumps that may bring no gain, before one that does
   Fitted best = fitted(series, Model{line, {}}), last = best;
   for (int idle = 0; idle <= kPatience && last.model.jumps.size() < kMaxJumps;) {
     last = settled(series, with_best_jump(series, last.model));

@@ -9,13 +9,13 @@
 
 namespace sweepscope {
 
-/// A part of a recording and the offset that it has by itself. Times are seconds since the first scan.
+/// A part of a recording and its offset. Times are seconds since the first scan.
 struct OffsetWindow {
   double begin_s = 0, end_s = 0;
-  double time_s = 0;                        // where the offset holds: the mean time of what it rests on
-  std::optional<double> offset_s, sigma_s;  // both or none; none: the window tells no offset
-  std::string reason;                       // then: why not, a sentence
-  std::size_t scans = 0;                    // that the offset rests on
+  double time_s = 0;                        // the mean time of the scans used
+  std::optional<double> offset_s, sigma_s;  // both or none; none: not determined
+  std::string reason;                       // if not determined: why, a sentence
+  std::size_t scans = 0;                    // used
 };
 
 /// A sudden change of the offset, somewhere between the times of two windows.
@@ -24,17 +24,17 @@ struct OffsetJump {
   double size_s = 0, sigma_s = 0;
 };
 
-/// How the offset runs over time: a line, constant or not, with jumps or none.
+/// The offset as a function of time: a line, constant or not, with or without jumps.
 struct OffsetCourse {
   double middle_s = 0;               // where offset_s holds, seconds since the first scan
-  double offset_s = 0, sigma_s = 0;  // what is common to all windows is not in the sigma
+  double offset_s = 0, sigma_s = 0;  // without the error common to all windows
   double rate = 0, rate_sigma = 0;   // seconds per second; both 0 where the offset does not drift
   std::vector<OffsetJump> jumps;     // in the order of time
-  double scatter = 1;                // by how much the windows scatter more than their sigmas say; >= 1
+  double scatter = 1;                // of the windows, in their sigmas; >= 1
   std::size_t windows = 0;           // that have an offset
 
   bool constant() const { return rate_sigma == 0 && jumps.empty(); }
-  /// The offset at a time since the first scan. A jump is taken to lie in the middle of its interval.
+  /// The offset at a time since the first scan. A jump counts at the middle of its interval.
   double offset_at_s(double time_s) const;
 };
 
@@ -44,10 +44,9 @@ struct OffsetOverTime {
   std::optional<OffsetCourse> course;
 };
 
-/// The course that the windows have evidence for. Constant, linear and with jumps are weighed against each
-/// other by the residuals of a robust fit and the number of parameters (BIC; a rate and
-/// a jump count as three each). A jump needs three windows on each side. Absent where no window has an
-/// offset.
+/// The course with the lowest BIC among constant, linear, and either with jumps, from the residuals of a
+/// robust fit; a rate and a jump count as three parameters each. A jump requires three windows on each side.
+/// Absent if no window has an offset.
 std::optional<OffsetCourse> course_of(const std::vector<OffsetWindow>& windows, double middle_s);
 
 }  // namespace sweepscope

@@ -14,10 +14,10 @@
 namespace sweepscope {
 namespace {
 
-constexpr std::size_t kSweepsOfWindow = 12;
-constexpr std::size_t kMinScans = 3;
-constexpr double kUnseenOfWalks_s = 0.1e-3;     // errs alike in all parts of a walk: see mean_of
-constexpr double kUnseenOfWalkPart_s = 0.2e-3;  // by which parts scatter, whatever they say: see drift_of
+constexpr std::size_t kSweepsOfWindow = 12;     // twice those of a group of sampled_sweeps
+constexpr std::size_t kMinScans = 3;            // fewer have no sweep
+constexpr double kUnseenOfWalks_s = 0.1e-3;     // common error of all parts of a walk: see mean_of
+constexpr double kUnseenOfWalkPart_s = 0.2e-3;  // scatter of the parts beyond their sigmas: see drift_of
 constexpr const char* kNoScans = "There are no scans.";
 
 OffsetWindow gap(const RecordingPart& window, std::string reason) {
@@ -28,7 +28,7 @@ double recorded_s(const Recording& recording) {
   return recording.scans.back().first_beam_s - recording.scans.front().first_beam_s;
 }
 
-// What speaks against any answer from a window, before it is sought.
+// The reason why a window cannot be answered, as far as it shows before the search.
 Remark unusable_reason(const PreparedRecording& prepared, const OffsetProblem& problem,
                        const SearchScale& scale, double near_s) {
   const Recording& part = *prepared.recording;
@@ -48,7 +48,7 @@ struct CoarseAnswer {
   Remark reason;
 };
 
-// Near the offset before, else over the default window.
+// Searches near `near_s` first, then over the default window.
 CoarseAnswer coarse_offset(const OffsetProblem& problem, const SearchScale& scale, double near_s,
                            const Job& job) {
   constexpr double kNear = 10;  // units
@@ -57,7 +57,7 @@ CoarseAnswer coarse_offset(const OffsetProblem& problem, const SearchScale& scal
     const CoarseSearch coarse = search_coarsely(problem, near_s - half_s, near_s + half_s, scale, job);
     if (job.cancelled()) return answer;
     if (!coarse.best) {
-      answer.reason = "Sweeps of opposite directions hardly see the same surfaces.";
+      answer.reason = "Too few surfaces are seen by sweeps of both directions.";
       continue;
     }
     answer.reason = edge_reason(coarse.curve, *coarse.best);
@@ -70,7 +70,7 @@ CoarseAnswer coarse_offset(const OffsetProblem& problem, const SearchScale& scal
   return answer;
 }
 
-// What the least squares of a window says, or why it says nothing.
+// The least squares of a window, or the reason why it gives no offset.
 OffsetWindow solved(const RecordingPart& window, const PreparedRecording& prepared,
                     const OffsetProblem& problem, const SearchScale& scale, double coarse_s,
                     double recording_begin_s, const Job& job) {
@@ -78,7 +78,7 @@ OffsetWindow solved(const RecordingPart& window, const PreparedRecording& prepar
   options.resampling = Resampling::kParts;
   const StationaryDirect found = solve_stationary(still_grid(problem), coarse_s, options, job);
   if (found.matches < options.min_matches)
-    return gap(window, fmt::format("Only {} of {} points lie on surfaces that the other direction saw.",
+    return gap(window, fmt::format("Only {} of {} points lie on surfaces that the other sweep direction saw.",
                                    found.matches, found.features));
   if (auto lever = lever_reason(found.lever_m, found.reach_m)) return gap(window, *lever);
   const auto sigma_s = sigma_of(found, *prepared.recording);
@@ -99,7 +99,7 @@ RecordingPart used_part(const RecordingPart& window, double sweep_s) {
 OffsetWindow offset_of(const Recording& recording, const RecordingPart& window, double sweep_s, double near_s,
                        const FeatureOptions& features, const Job& job) {
   const RecordingPart used = used_part(window, sweep_s);
-  const Recording part = part_of(recording, used, 1 + std::abs(near_s));
+  const Recording part = sweepscope::window(recording, used.begin_s, used.end_s, 1 + std::abs(near_s));
   if (part.scans.size() < kMinScans) return gap(window, kNoScans);
   const auto prepared = prepare(part, features, job);
   if (!prepared) return gap(window, "Interrupted.");
@@ -115,7 +115,7 @@ OffsetWindow offset_of(const Recording& recording, const RecordingPart& window, 
                 job);
 }
 
-// A walk's parts as windows, times since the recording's first scan.
+// The parts of a walk as windows. Times are seconds since the recording's first scan.
 void append_parts(const SolvedWalk& walk, const RecordingPart& stretch, double begin_s,
                   const SearchScale& scale, std::vector<OffsetWindow>& windows) {
   const std::vector<JointWalkPart>& parts = walk.joint->parts;
@@ -138,7 +138,7 @@ void append_parts(const SolvedWalk& walk, const RecordingPart& stretch, double b
   }
 }
 
-// A stretch is a walk, or the rig stood still in it, or it tells nothing.
+// The rig moved in a stretch, or it was stationary, or there is no answer.
 void append_stretch(const Estimate& found, const Recording& part, const RecordingPart& stretch,
                     double begin_s, FollowedWalk& followed) {
   if (!found.identifiable) {
@@ -161,7 +161,7 @@ void append_stretch(const Estimate& found, const Recording& part, const Recordin
 }  // namespace
 
 double default_window_s(const MotorMotion& motor, double recorded_s) {
-  constexpr double kMin_s = 10, kMaxWindows = 360;
+  constexpr double kMin_s = 10, kMaxWindows = 360;  // of an hour
   return std::max(
       {kMin_s, std::ceil(double(kSweepsOfWindow) * motor.median_sweep_s), recorded_s / kMaxWindows});
 }
@@ -189,7 +189,7 @@ std::vector<RecordingPart> used_parts(const std::vector<RecordingPart>& windows,
 std::vector<OffsetWindow> follow_offset(const Recording& recording, const std::vector<RecordingPart>& windows,
                                         double first_offset_s, const FeatureOptions& features,
                                         const Job& job) {
-  constexpr std::size_t kTogether = 8;  // windows that are sought near the same offset, in parallel
+  constexpr std::size_t kTogether = 8;  // windows searched in parallel, from the same offset
   const double sweep_s = find_sweeps(recording.motor).median_sweep_s;
   std::vector<OffsetWindow> found(windows.size());
   double near_s = first_offset_s;
@@ -207,14 +207,16 @@ std::vector<OffsetWindow> follow_offset(const Recording& recording, const std::v
 
 Result<FollowedWalk> follow_walk(const Recording& recording, double window_s,
                                  const EstimatePart& estimate_part, const Job& job) {
+  // Half a minute has three parts of JointWalkOptions, the fewest whose scatter is known. Offsets that have
+  // drifted by more than 10 ms are followed, so that they stay well within the default search.
   constexpr double kStretch_s = 30, kFar_s = 0.010;
   const double begin_s = recording.scans.front().first_beam_s;
   FollowedWalk followed{{}, kUnseenOfWalks_s};
   std::optional<double> first_s, last_s;
   for (const RecordingPart& stretch : windows_of(recorded_s(recording), std::max(kStretch_s, window_s))) {
-    // Where the offset has gone far the motor's stamps are brought back to where the search looks.
+    // Where the offset has drifted far, the motor's stamps are shifted back into the search window.
     const double gone_s = first_s && std::abs(*last_s - *first_s) > kFar_s ? *last_s - *first_s : 0;
-    Recording part = part_of(recording, stretch, 1 + std::abs(gone_s));
+    Recording part = window(recording, stretch.begin_s, stretch.end_s, 1 + std::abs(gone_s));
     for (double& time_s : part.motor.time_s) time_s -= gone_s;
     if (part.scans.size() < kMinScans) {
       followed.windows.push_back(gap(stretch, kNoScans));
@@ -262,7 +264,8 @@ Result<Answer> answer_over_time(const OffsetSearch& search, const Recording& who
                                 unseen_sigma_s(*problem.recording, problem.motor, course->offset_s));
     if (course->rate_sigma > 0) answer.drift_ppm = course->rate * 1e6;
   } else {
-    answer.reasons.push_back("No window tells an offset. The first: " + over_time.windows.front().reason);
+    answer.reasons.push_back("No window determines the offset. The first: " +
+                             over_time.windows.front().reason);
   }
   answer.over_time = std::move(over_time);
   return answer;
@@ -302,10 +305,11 @@ MotorTrack without_course(const Recording& recording, const OffsetCourse& course
 }
 
 Remark change_reason(const OffsetOverTime& groups, double duration_s) {
-  constexpr double kChange_s = 1e-3, kSigmas = 5;
+  constexpr double kChange_s = 1e-3;  // blurs a map visibly
+  constexpr double kSigmas = 5;       // of one window among ten
   const auto& course = groups.course;
   if (!course) return std::nullopt;
-  const char* advice = "estimate --over-time follows it.";
+  const char* advice = "Use estimate --over-time to follow it.";
   for (const OffsetJump& jump : course->jumps)
     if (std::abs(jump.size_s) > kChange_s)
       return fmt::format("The offset jumps by {:.1f} ms between {:.1f} and {:.1f} s. {}", jump.size_s * 1e3,
@@ -316,7 +320,7 @@ Remark change_reason(const OffsetOverTime& groups, double duration_s) {
     if (!window.offset_s) continue;
     const double off_s = *window.offset_s - course->offset_at_s(window.time_s);
     if (std::abs(off_s) > std::max(kChange_s, kSigmas * course->scatter * *window.sigma_s))
-      return fmt::format("The offset changes: it is {:.1f} ms about {:.1f} s and {:.1f} ms elsewhere. {}",
+      return fmt::format("The offset changes: it is {:.1f} ms near {:.1f} s and {:.1f} ms elsewhere. {}",
                          *window.offset_s * 1e3, window.time_s, course->offset_at_s(window.time_s) * 1e3,
                          advice);
   }

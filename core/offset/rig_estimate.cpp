@@ -8,7 +8,7 @@
 namespace sweepscope {
 namespace {
 
-// The answer of the recording as the solved rig has it, which is as uncertain besides as the rig leaves it.
+// The answer with the solved rig; its sigma contains that of the rig.
 Estimate with(Estimate found, std::shared_ptr<const SolvedRig> solved) {
   if (found.sigma_s) {
     found.sigma_s = std::hypot(*found.sigma_s, solved->offset_sigma_s);
@@ -20,8 +20,8 @@ Estimate with(Estimate found, std::shared_ptr<const SolvedRig> solved) {
   return found;
 }
 
-// Where an estimate of a stationary rig takes the offset to be, or, where the rig is too wrong for one, where
-// the candidates' cost is least.
+// The offset of an estimate of a stationary rig, or, if the rig file is too wrong for one, the candidate with
+// the lowest cost.
 std::optional<double> offset_seen_s(const Estimate& found) {
   if (!found.criteria.empty()) return found.criteria.front().offset_s;
   const CurvePoint* best = nullptr;
@@ -31,8 +31,7 @@ std::optional<double> offset_seen_s(const Estimate& found) {
   return best == nullptr ? std::nullopt : std::optional(best->offset_s);
 }
 
-// A mount that is wrong sways the points with the motor as a body that sways does: a walk, which may sway,
-// takes its place.
+// On a walk, a wrong mount looks like a body that sways with the motor, and the trajectory absorbs it.
 Estimate refused_as_moving(Estimate found) {
   Estimate result;
   result.recording = found.recording;
@@ -63,10 +62,10 @@ Result<Estimate> estimate_with_rig(const PreparedRecording& prepared, const Esti
   if (!offset_s) return found;
   auto solved = std::make_shared<SolvedRig>(
       solve_rig(problem_for(prepared, *offset_s, *offset_s), *offset_s, options.solve, job));
-  if (job.cancelled()) return estimate(prepared, offset_only, kept, job);
+  if (job.cancelled()) return found;
   const Recording corrected = with_rig(*prepared.recording, *solved);
   const auto again = prepare(corrected, options.features, job);
-  if (!again) return estimate(prepared, offset_only, kept, job);
+  if (!again) return found;
   return estimate(*again, offset_only, kept, job).map([&](Estimate&& answer) {
     return with(std::move(answer), std::move(solved));
   });

@@ -6,8 +6,8 @@
 
 namespace sweepscope {
 
-/// The offset beside the parts of the rig that the options solve for: the rig is solved for first, and the
-/// recording with that rig gives the offset. A rig that moved is refused. For the errors see estimate.
+/// The offset and the parts of the rig that the options solve for: the rig is solved for first, then the
+/// offset is estimated with that rig. A moving rig is refused. For the errors see `estimate`.
 Result<Estimate> estimate_with_rig(const PreparedRecording& prepared, const EstimateOptions& options,
                                    const KeptCandidates& kept, const Job& job);
 

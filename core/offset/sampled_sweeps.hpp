@@ -6,19 +6,19 @@
 #include <vector>
 
 #include "core/offset/estimate.hpp"
-#include "core/recording/recording_parts.hpp"
+#include "core/recording/recording.hpp"
 
 namespace sweepscope {
 
-/// Which parts of a long recording an estimate of a stationary rig goes by: ten groups of six sweeps, spread
-/// evenly from the first sweep to the last, hold as much as it needs to know, and show whether the offset
-/// changes. Seconds since the first scan, with a margin to either side of each group.
+/// The parts of a long recording that an estimate of a stationary rig uses: ten groups of six sweeps, spread
+/// evenly from the first sweep to the last. They suffice for a constant offset and show whether it changes.
+/// Seconds since the first scan, with a margin on either side of each group.
 struct SampledSweeps {
   std::vector<RecordingPart> groups;
   SweepSample counts;
 };
 
-/// Absent for recordings of less than a minute, and where the groups would be more than half of the sweeps.
+/// Absent for recordings shorter than a minute, and if the groups would hold more than half of the sweeps.
 std::optional<SampledSweeps> sampled_sweeps(const Recording& recording);
 
 }  // namespace sweepscope

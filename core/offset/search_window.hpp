@@ -29,7 +29,7 @@ Result<std::vector<double>> checked_offsets(const std::vector<OffsetRange>& rang
 /// Why this motor's track does not determine an offset; empty if it does.
 std::vector<std::string> motor_reasons(const MotorTrack& track, const MotorMotion& motor);
 
-/// Why a motor that turns one way does not tell the offset of a rig that moved, or by the paper's criteria;
+/// Why a motor that turns one way does not determine the offset of a moving rig, or by the paper's criteria;
 /// empty where it turns to and fro.
 std::vector<std::string> one_way_reasons(const MotorMotion& motor, RigKind kind, Method method);
 

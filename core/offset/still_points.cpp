@@ -10,9 +10,6 @@
 namespace sweepscope {
 namespace {
 
-// The motor's speed is taken over this much to either side: a sample of an encoder at 100 Hz.
-constexpr double kSpeedSpan_s = 0.010;
-
 // Bins as wide as the spacing of the features, so that a bin holds at most one of a scan.
 std::size_t beams_per_bin(const FeatureOptions& options) {
   return std::size_t(std::max(1, options.map_spacing));
@@ -73,8 +70,8 @@ StillGrid still_grid(const OffsetProblem& problem) {
 StillPoints place_still(const StillGrid& grid, double offset_s, StillDetail detail) {
   const OffsetProblem& problem = *grid.problem;
   const Kinematics kinematics(problem.recording->rig.mount);
-  MotorReader motor(problem.recording->motor), before(problem.recording->motor),
-      after(problem.recording->motor);
+  MotorReader motor(problem.recording->motor);
+  MotorSpeedReader speed(problem.recording->motor);
   const std::vector<std::size_t> sweep_of =
       assign_sweeps(problem.recording->scans, problem.motor.sweeps, offset_s);
   StillPoints points;
@@ -105,9 +102,7 @@ StillPoints place_still(const StillGrid& grid, double offset_s, StillDetail deta
       points.p_m[cell] = kinematics.base_from_motor(
           problem.features->planes.features[grid.feature[cell]].p_in_motor_m.cast<double>(),
           points.angle_rad[cell]);
-      points.speed_rad_s[cell] =
-          float((after.angle_at(motor_s + kSpeedSpan_s) - before.angle_at(motor_s - kSpeedSpan_s)) /
-                (2 * kSpeedSpan_s));
+      points.speed_rad_s[cell] = float(speed.speed_rad_s(motor_s));
     }
     points.pool[sweep.side > 0 ? 1 : 0].push_back(std::uint32_t(line));
   }

@@ -103,8 +103,8 @@ class StillNeighbours {
   const StillPoints& points_;
   std::span<const std::uint32_t> pool_;  // of the line's own ring
   const StillPatchOptions& options_;
-  std::size_t next_ = 0;  // the first of the pool's lines at or above the angle
-  static constexpr int kBinsPerLine = 3;
+  std::size_t next_ = 0;                  // the first of the pool's lines at or above the angle
+  static constexpr int kBinsPerLine = 3;  // the bin of the point and those beside it
   std::array<std::size_t, 2 * kMaxLinesPerSide * kBinsPerLine> near_;
   int count_ = 0;
 };

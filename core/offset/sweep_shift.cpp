@@ -61,7 +61,7 @@ struct Registering {
 };
 
 Pose registered(const std::vector<PointOnPlane>& matches, Pose pose, const Registering& options) {
-  constexpr int kMaxIterations = 20;
+  constexpr int kMaxIterations = 20;  // more than the loss takes to narrow down
   double width_m = options.first_width_m;
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
     RigidEquations equations;
@@ -81,7 +81,7 @@ Pose registered(const std::vector<PointOnPlane>& matches, Pose pose, const Regis
 
 // The same with a rotation about the motor's axis as the one unknown.
 Pose at_rest(const std::vector<PointOnPlane>& matches, const Eigen::Vector3d& axis, double width_m) {
-  constexpr int kMaxIterations = 20;
+  constexpr int kMaxIterations = 20;  // more than the loss takes to narrow down
   Pose pose;
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
     double a = 0, g = 0;

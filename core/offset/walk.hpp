@@ -17,12 +17,12 @@ namespace sweepscope {
 struct WalkOptions {
   MappingOptions mapping;
   JointWalkOptions joint;
-  int max_passes = 5;
+  int max_passes = 5;                // a bound: the tolerances below end it
   double step_tolerance_s = 0.5e-3;  // the trajectory was tracked near enough to the offset that fits it
   double shift_tolerance_s = 2e-3;   // and to the time shift of a given motion
-  double max_step_s = 0.006;
-  double max_sigma_s = 1e-3;    // beyond, further passes would say no more
-  std::size_t min_sweeps = 20;  // that are tracked
+  double max_step_s = 0.006;         // of a pass: an offset of more blurs the map that it is matched to
+  double max_sigma_s = 1e-3;         // beyond, further passes would say no more
+  std::size_t min_sweeps = 20;       // that are tracked
 };
 
 /// For a motor of this scale.

@@ -51,7 +51,7 @@ class KnotRow {
   const Vector6d& row(std::size_t i) const { return rows_[i]; }
 
  private:
-  static constexpr std::size_t kMax = 5 + 4 * Neighbours::kMax;
+  static constexpr std::size_t kMax = 5 + 4 * Neighbours::kMax;  // the offset, and four knots per point
   std::size_t count_ = 0;
   std::array<std::size_t, kMax> knots_;
   std::array<Vector6d, kMax> rows_;

@@ -1,42 +1,75 @@
 #include "core/recording/recording.hpp"
 
-namespace sweepscope {
+#include <algorithm>
 
-Recording window(const Recording& recording, double from_s, double to_s) {
-  Recording part;
-  part.name = recording.name;
-  part.epoch_ns = recording.epoch_ns;
-  part.rig = recording.rig;
-  part.report = recording.report;
-  part.turn_rates = recording.turn_rates;
-  part.odometry = recording.odometry;
-  if (recording.scans.empty()) return part;
-  const double start_s = recording.scans.front().first_beam_s;
-  for (LaserScan scan : recording.scans) {
-    const double since_s = scan.first_beam_s - start_s;
-    if (since_s < from_s || since_s > to_s) continue;
-    const std::size_t source = scan.first_range;
-    scan.first_range = part.ranges_m.size();
-    const auto copy = [&](const auto& from, auto& to) {
-      to.insert(to.end(), from.begin() + std::ptrdiff_t(source),
-                from.begin() + std::ptrdiff_t(source + scan.beams));
-    };
-    copy(recording.ranges_m, part.ranges_m);
-    if (!recording.intensities.empty()) copy(recording.intensities, part.intensities);
-    if (!recording.directions.empty()) copy(recording.directions, part.directions);
-    part.scans.push_back(scan);
-  }
-  if (part.scans.empty()) return part;
-  constexpr double kMargin_s = 1.0;
-  for (std::size_t i = 0; i < recording.motor.time_s.size(); ++i) {
-    const double t_s = recording.motor.time_s[i];
-    if (t_s < part.scans.front().first_beam_s - kMargin_s ||
-        t_s > part.scans.back().last_beam_s() + kMargin_s)
-      continue;
-    part.motor.time_s.push_back(t_s);
-    part.motor.angle_rad.push_back(recording.motor.angle_rad[i]);
-  }
+namespace sweepscope {
+namespace {
+
+/// All but the scans and the motor's samples.
+Recording without_streams(const Recording& recording) {
+  Recording result;
+  result.name = recording.name;
+  result.epoch_ns = recording.epoch_ns;
+  result.rig = recording.rig;
+  result.report = recording.report;
+  result.turn_rates = recording.turn_rates;
+  result.odometry = recording.odometry;
+  return result;
+}
+
+void append(const Recording& from, LaserScan scan, Recording& to) {
+  const auto copy = [&](const auto& values, auto& copied) {
+    if (values.empty()) return;
+    const auto first = values.begin() + std::ptrdiff_t(scan.first_range);
+    copied.insert(copied.end(), first, first + std::ptrdiff_t(scan.beams));
+  };
+  const std::size_t first_range = to.ranges_m.size();
+  copy(from.ranges_m, to.ranges_m);
+  copy(from.intensities, to.intensities);
+  copy(from.directions, to.directions);
+  scan.first_range = first_range;
+  to.scans.push_back(scan);
+}
+
+double since_begin_s(const Recording& recording, const LaserScan& scan) {
+  return scan.first_beam_s - recording.scans.front().first_beam_s;
+}
+
+bool holds(const RecordingPart& part, double since_s) {
+  return since_s >= part.begin_s && since_s <= part.end_s;
+}
+
+MotorTrack between(const MotorTrack& motor, double from_s, double to_s) {
+  const auto begin = std::ranges::lower_bound(motor.time_s, from_s) - motor.time_s.begin();
+  const auto end = std::ranges::upper_bound(motor.time_s, to_s) - motor.time_s.begin();
+  MotorTrack part;
+  part.time_s.assign(motor.time_s.begin() + begin, motor.time_s.begin() + end);
+  part.angle_rad.assign(motor.angle_rad.begin() + begin, motor.angle_rad.begin() + end);
   return part;
+}
+
+}  // namespace
+
+Recording window(const Recording& recording, double from_s, double to_s, double motor_margin_s) {
+  Recording part = without_streams(recording);
+  for (const LaserScan& scan : recording.scans)
+    if (holds({from_s, to_s}, since_begin_s(recording, scan))) append(recording, scan, part);
+  if (part.scans.empty()) return part;
+  part.motor = between(recording.motor, part.scans.front().first_beam_s - motor_margin_s,
+                       part.scans.back().last_beam_s() + motor_margin_s);
+  return part;
+}
+
+Recording parts_of(const Recording& recording, const std::vector<RecordingPart>& parts) {
+  Recording result = without_streams(recording);
+  result.motor = recording.motor;
+  for (std::size_t i = 0; i < recording.scans.size(); ++i) {
+    const double since_s = since_begin_s(recording, recording.scans[i]);
+    const bool kept = i == 0 || i + 1 == recording.scans.size() ||
+                      std::ranges::any_of(parts, [&](const auto& part) { return holds(part, since_s); });
+    if (kept) append(recording, recording.scans[i], result);
+  }
+  return result;
 }
 
 }  // namespace sweepscope

@@ -105,8 +105,17 @@ struct Recording {
   }
 };
 
-/// The scans with first beams in [from_s, to_s] after the first scan's, and the motor samples from 1 s before
-/// to 1 s after them.
-Recording window(const Recording& recording, double from_s, double to_s);
+/// The scans with first beams in [from_s, to_s] after the first scan's, and the motor's samples from
+/// `motor_margin_s` before to as much after them.
+Recording window(const Recording& recording, double from_s, double to_s, double motor_margin_s = 1);
+
+/// A part of a recording, in seconds since its first scan.
+struct RecordingPart {
+  double begin_s = 0, end_s = 0;
+};
+
+/// The scans of several parts, and the recording's first and last scan, so that it lasts as long. The motor's
+/// samples are all kept.
+Recording parts_of(const Recording& recording, const std::vector<RecordingPart>& parts);
 
 }  // namespace sweepscope

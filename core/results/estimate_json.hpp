@@ -35,7 +35,7 @@ Result<Estimate> read_estimate_json(const std::filesystem::path& path);
 /// are empty.
 std::string curve_to_csv(const Estimate& estimate);
 /// The windows of an offset over time and the course at their times as a table, one line per window; empty
-/// where a window tells no offset.
+/// if a window does not determine the offset.
 std::string over_time_to_csv(const OffsetOverTime& over_time);
 Result<void> write_curve_csv(const std::filesystem::path& path, const Estimate& estimate);
 

@@ -10,7 +10,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// To six digits behind the point, and no -0.
+// Rounded to six decimals, without -0.
 double tidy(double value) {
   return std::round(value * 1e6) / 1e6 + 0.0;
 }
@@ -89,18 +89,16 @@ Json correlation_json(const SolvedRig& solved) {
 }  // namespace
 
 MountSigma mount_sigma(const SolvedRig& solved) {
-  // By differences: roll, pitch and yaw have no simple derivative.
+  // Finite differences, since roll, pitch and yaw have no simple derivative.
   constexpr double kStep = 1e-6;
   Eigen::Matrix<double, 3, 2> rpy_deg, xyz_m;
-  RigUnknowns none;
-  const Mount at = changed(solved.rig.mount, none);
+  const Mount& mount = solved.rig.mount;
   for (int i = 0; i < 2; ++i) {
     RigUnknowns step;
     step.turn_rad[i] = kStep;
-    rpy_deg.col(i) =
-        (changed(solved.rig.mount, step).laser_in_motor_rpy_deg - at.laser_in_motor_rpy_deg) / kStep;
+    rpy_deg.col(i) = (changed(mount, step).laser_in_motor_rpy_deg - mount.laser_in_motor_rpy_deg) / kStep;
   }
-  xyz_m = across_axis(solved.rig.mount.axis);
+  xyz_m = across_axis(mount.axis);
   const Eigen::Matrix2d turn = solved.covariance.block<2, 2>(kTurnU, kTurnU),
                         shift = solved.covariance.block<2, 2>(kShiftU, kShiftU);
   return {(xyz_m * shift * xyz_m.transpose()).diagonal().cwiseMax(0).cwiseSqrt(),

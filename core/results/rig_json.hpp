@@ -6,12 +6,12 @@
 
 namespace sweepscope {
 
-/// "parameters" of an estimate: the parts of the rig that were solved for, with what they were thought to be
-/// before, what correlates with what, and how flat walls are before and after.
+/// "parameters" of an estimate: the parts of the rig that were solved for with their priors, the correlation
+/// matrix, and the flatness of walls before and after.
 nlohmann::ordered_json rig_parameters_json(const SolvedRig& solved);
 
-/// How uncertain a mount is, per axis of its pose in the motor's frame. What turns about the motor's axis, or
-/// shifts along it, is not observable and not counted.
+/// Standard deviations of a mount's rpy and xyz. The turn about the motor's axis and the shift along it are
+/// unobservable and not included.
 struct MountSigma {
   Eigen::Vector3d xyz_m, rpy_deg;
 };

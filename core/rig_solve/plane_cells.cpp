@@ -21,7 +21,7 @@ struct Plane {
   double flat_m = 0;                    // and across it
 };
 
-// With the points' weights by their distances from `before`, where there is one.
+// If there is a plane `before`, points are weighted by their distance from it.
 Plane fitted(std::span<const Eigen::Vector3d> points_m, Keys keys, const Plane* before, double width_m) {
   const Eigen::Vector3d origin = points_m[keys.front().index];
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
@@ -48,7 +48,7 @@ Plane fitted(std::span<const Eigen::Vector3d> points_m, Keys keys, const Plane* 
 std::optional<PlaneCell> as_plane(std::span<const Eigen::Vector3d> points_m, Keys keys, double edge_m,
                                   const PlaneCellOptions& options) {
   constexpr double kMinWidth = 0.12;  // of the edge: narrower ones are lines
-  constexpr int kReweightings = 2;
+  constexpr int kReweightings = 2;    // the first from all points, the second from those near the plane
   if (keys.size() < options.min_points) return std::nullopt;
   const double width_m = 2 * options.flatness_m;
   Plane plane = fitted(points_m, keys, nullptr, width_m);

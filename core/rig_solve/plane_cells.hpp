@@ -12,8 +12,8 @@ namespace sweepscope {
 struct PlaneCellOptions {
   double min_edge_m = 0.25;     // of the smallest cubes
   int levels = 4;               // the largest cubes are 2^levels as wide
-  double flatness_m = 0.03;     // a surface's points lie this near to its plane (rms) ...
-  double min_near = 0.9;        // ... and this fraction of them within three times that
+  double flatness_m = 0.03;     // max rms distance of a surface's points from its plane
+  double min_near = 0.9;        // fraction of them within three times that
   std::size_t min_points = 30;  // on a surface
 };
 
@@ -26,9 +26,9 @@ struct PlaneCell {
   double flatness_m = 0;  // and across it, robust
 };
 
-/// Cuts space into cubes until the points within each lie on one plane; those that never do, and those of too
-/// few points or of a line only, are left out. The order of the cells, and of a cell's points, depends on the
-/// points alone.
+/// Splits space into cubes until the points of each lie on one plane. Cubes that never do, or hold too few
+/// points or only a line, are left out. The order of the cells and of their points depends on the points
+/// alone.
 std::vector<PlaneCell> plane_cells(std::span<const Eigen::Vector3d> points_m,
                                    const PlaneCellOptions& options);
 

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include "core/numbers.hpp"
+#include "core/rig_solve/rig_solve.hpp"
 
 namespace sweepscope {
 namespace {
 
+// Four planes are the fewest that determine four unknowns of a mount and two of an encoder.
 constexpr std::size_t kMinPoints = 1000, kMinSurfaces = 4;
 
 double evidence(const RigFit& fit, RigUnknown first, int count) {
@@ -18,18 +20,14 @@ double evidence(const RigFit& fit, RigUnknown first, int count) {
 }  // namespace
 
 RigCheck check_rig(const OffsetProblem& problem, double offset_s, const Job& job) {
-  // Squared distances that no perfect rig of 100 reached (56 and 8 at most), far above those of a normal
-  // distribution, since the covariance comes from a dozen parts of the scene. A mount wrong by 1 deg reaches
-  // 4,700 at least, an eccentricity of 0.2 deg 17 at the median.
+  // Squared Mahalanobis distances above those of perfect rigs, far above the quantiles of a normal
+  // distribution since the covariance comes from a dozen parts of the scene. Chosen with
+  // tests/benchmark/rig_table (its families without a part to solve for).
   constexpr double kMaxMount = 150, kMaxEncoder = 30;
   RigCheck check;
   RigUnknowns first;
   first.offset_s = offset_s;
-  RigPriors priors = RigPriors::Zero();
-  priors[kOffset] = 0.1;
-  priors[kTurnU] = priors[kTurnV] = 20 * kRadPerDeg;
-  priors[kShiftU] = priors[kShiftV] = 0.5;
-  priors[kEncoderSine] = priors[kEncoderCosine] = 1 * kRadPerDeg;
+  const RigPriors priors = priors_of({.mount = true, .encoder = true});
   RigLeastSquaresOptions options;
   options.max_points = 12'000;
   options.max_iterations = 20;

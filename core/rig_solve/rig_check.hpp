@@ -9,19 +9,18 @@
 
 namespace sweepscope {
 
-/// What an offset found with the rig file's mount and encoder leaves open.
+/// How errors of the rig file's mount and encoder would show in the offset, and whether there are any.
 struct RigCheck {
-  /// By how much the offset errs where the mount is tilted, s per rad in the worst direction. Absent where
-  /// too few flat surfaces are seen.
+  /// Error of the offset per tilt of the mount, s per rad in the worst direction. Absent if too few flat
+  /// surfaces are seen.
   std::optional<double> offset_per_tilt_s_rad;
-  /// Where another mount or an eccentric encoder fits clearly better, what to do: a sentence.
+  /// If another mount or an eccentric encoder fits clearly better: a sentence with the advice.
   std::optional<std::string> warning;
-  /// Squared distance of the best mount and encoder from the rig file's, in standard deviations.
+  /// Squared Mahalanobis distance of the best mount and encoder from the rig file's.
   double mount_evidence = 0, encoder_evidence = 0;
 };
 
-/// Of a stationary rig, at its offset. A perfect rig is warned about in fewer than one of a hundred
-/// recordings: see kMaxMount in rig_check.cpp.
+/// Checks the rig file of a stationary recording at its offset.
 RigCheck check_rig(const OffsetProblem& problem, double offset_s, const Job& job);
 
 }  // namespace sweepscope

@@ -12,15 +12,13 @@
 namespace sweepscope {
 namespace {
 
-constexpr double kSpeedSpan_s = 0.010;  // the motor's speed is taken over this much to either side
-
 struct Cloud {
   std::vector<RigGeometry::Placed> placed;
   std::vector<Eigen::Vector3d> p_m;
 };
 
-// The encoder's angle at instants that mostly ascend, through four samples: a motor that swings like a
-// pendulum leaves the line between two by a twentieth of a degree.
+// The encoder's angle by cubic interpolation, at mostly ascending times. Linear interpolation errs by up to
+// 0.05 deg for a motor that follows a sine.
 class SmoothAngle {
  public:
   explicit SmoothAngle(const MotorTrack& track) : track_(track) {}
@@ -46,12 +44,12 @@ class SmoothAngle {
   std::size_t next_ = 1;
 };
 
-// Whether an instant counts. For play, which shows best where the motor is slow, all do but those where the
-// play is not used up yet.
+// Whether an instant is used. Play shows best where the motor is slow, so that all instants are used for it
+// except those in which the gear is between its flanks.
 bool counts(const Sweep& sweep, double motor_s, double turned_rad, const RigUnknowns& rig,
             bool near_reversals) {
   if (!near_reversals) return motor_s >= sweep.steady_begin_s && motor_s <= sweep.steady_end_s;
-  constexpr double kBeyondPlay_rad = 0.2 * kRadPerDeg;
+  constexpr double kBeyondPlay_rad = 0.2 * kRadPerDeg;  // two steps of the usual encoder
   return motor_s >= sweep.begin_s && motor_s <= sweep.end_s &&
          turned_rad > 1.2 * std::abs(rig.play_rad) + kBeyondPlay_rad;
 }
@@ -63,7 +61,7 @@ Cloud place(const OffsetProblem& problem, const RigUnknowns& rig, bool near_reve
   const std::vector<std::size_t> sweep_of =
       assign_sweeps(recording.scans, problem.motor.sweeps, rig.offset_s);
   const FeatureList& planes = problem.features->planes;
-  MotorReader before(recording.motor), after(recording.motor);
+  MotorSpeedReader speed(recording.motor);
   SmoothAngle motor(recording.motor);
   const std::size_t stride = planes.features.size() / std::max<std::size_t>(1, max_points) + 1;
   Cloud cloud;
@@ -76,21 +74,18 @@ Cloud place(const OffsetProblem& problem, const RigUnknowns& rig, bool near_reve
       const double motor_s = feature.time_s + rig.offset_s;
       const double angle_rad = motor.at(motor_s);
       if (!counts(sweep, motor_s, std::abs(angle_rad - begin_rad), rig, near_reversals)) continue;
-      const double speed_rad_s =
-          (after.angle_at(motor_s + kSpeedSpan_s) - before.angle_at(motor_s - kSpeedSpan_s)) /
-          (2 * kSpeedSpan_s);
-      cloud.placed.push_back(
-          geometry.place(feature.p_in_motor_m.cast<double>(), {angle_rad, speed_rad_s, sweep.direction}));
+      cloud.placed.push_back(geometry.place(feature.p_in_motor_m.cast<double>(),
+                                            {angle_rad, speed.speed_rad_s(motor_s), sweep.direction}));
       cloud.p_m.push_back(cloud.placed.back().p_in_base_m);
     }
   }
   return cloud;
 }
 
-using PlaneRow = Eigen::Vector3d;  // how a distance changes as its plane tilts (two ways) and moves
+using PlaneRow = Eigen::Vector3d;  // derivative of a distance by the two tilts and the shift of its plane
 
-// Weighted sums over points of products of rows: of the unknowns (x), of the surface's plane (p) and of the
-// distances (r).
+// Weighted sums over points: products of the Jacobian rows of the unknowns (x), of the plane (p), and of the
+// residuals (r).
 struct Sums {
   RigMatrix xx = RigMatrix::Zero();
   Eigen::Matrix<double, kRigUnknowns, 3> xp = Eigen::Matrix<double, kRigUnknowns, 3>::Zero();
@@ -108,7 +103,7 @@ struct Sums {
   }
 };
 
-// h x = -g for the step x.
+// Normal equations h x = -g of the step x.
 struct Equations {
   RigMatrix h = RigMatrix::Zero();
   RigVector g = RigVector::Zero();
@@ -134,13 +129,13 @@ Sums of_cell(const Cloud& cloud, const PlaneCell& cell, const Surface& surface, 
   return sums;
 }
 
-// A cell's distance from its surface, and its tilt times its extent, deviate by this: no wall is quite flat,
-// and not all that is put together belongs together.
+// Prior deviation of a cell's distance from its surface, and of its tilt times its extent: walls are not
+// flat, and some cells of a surface do not belong to it.
 struct Unevenness {
   double deviation_m = 0, noise_m = 0;
 };
 
-// The cell's own plane deviates from the surface's, as it may: what is left for the unknowns and the surface.
+// Marginalises the cell's own plane, which may deviate from that of the surface.
 Sums with_own_plane(const Sums& sums, const PlaneCell& cell, const Surface& surface,
                     const Unevenness& unevenness) {
   const Eigen::Vector2d away_m = across_axis(surface.normal).transpose() * (cell.centre_m - surface.centre_m);
@@ -167,7 +162,7 @@ Sums with_own_plane(const Sums& sums, const PlaneCell& cell, const Surface& surf
   return rest;
 }
 
-// Where the flat surfaces are, by a placing of the points.
+// The flat surfaces of a placed cloud.
 struct Scene {
   std::vector<PlaneCell> cells;
   std::vector<Surface> surfaces;
@@ -183,14 +178,14 @@ double robust_deviation_m(const Cloud& cloud, const Scene& scene) {
   return kSigmaPerMedianDeviation * double(median(std::move(sizes_m)));
 }
 
-// Each point is a line's value fitted to its neighbours on either side, which neighbouring points share.
+// Each point comes from a line fitted to its neighbours, so that neighbouring points are correlated.
 double points_per_independent(const FeatureOptions& options) {
   return std::max(1.0, (2.0 * options.half_window + 1) / options.map_spacing);
 }
 
-// By how much cells deviate from their surfaces beyond what the points' noise makes of them.
+// Deviation of the cells from their surfaces beyond the noise of their points.
 double cells_deviation_m(const Scene& scene, double noise_m, double points_per_independent) {
-  constexpr double kFlattest_m = 0.0001;
+  constexpr double kFlattest_m = 0.0001;  // no wall is flatter over metres
   std::vector<double> squares_m2, of_noise_m2;
   for (const Surface& surface : scene.surfaces) {
     if (surface.cells.size() <= 2) continue;
@@ -224,8 +219,7 @@ Scene scene_of(const Cloud& cloud, const PlaneCellOptions& options, double reach
   return scene;
 }
 
-// Each surface's plane is free to follow the unknowns: only what no plane can follow counts. Without the
-// cells in [first, last).
+// The normal equations with the plane of each surface marginalised, without the cells in [first, last).
 Equations equations_of(const Scene& scene, std::size_t first = 0, std::size_t last = 0) {
   Equations equations;
   for (const Surface& surface : scene.surfaces) {
@@ -241,7 +235,7 @@ Equations equations_of(const Scene& scene, std::size_t first = 0, std::size_t la
   return equations;
 }
 
-// Minimises x' h x / 2 + g' x over the unknowns that are solved for, with `noise_m` the residuals' deviation.
+// Minimises x' h x / 2 + g' x over the unknowns solved for; `noise_m` is the deviation of the residuals.
 class Solver {
  public:
   Solver(const RigPriors& priors, double noise_m) : priors_(priors), noise2_m2_(noise_m * noise_m) {
@@ -275,7 +269,7 @@ class Solver {
   Eigen::VectorXd prior_pull(const RigVector& at) const {
     Eigen::VectorXd pull(Eigen::Index(free_.size()));
     for (std::size_t i = 0; i < free_.size(); ++i) {
-      // The offset is known from nothing but the scans.
+      // There is no prior on the offset.
       const bool held = free_[i] != kOffset;
       pull[Eigen::Index(i)] = held ? at[free_[i]] / (priors_[free_[i]] * priors_[free_[i]]) : 0;
     }
@@ -287,10 +281,10 @@ class Solver {
   std::vector<int> free_;
 };
 
-// Neighbouring surfaces err together, where they are no planes or bear a bias: what the fit becomes without
-// each of a number of parts of the scene.
+// Jackknife over parts of the scene, since errors of neighbouring surfaces (uneven walls, range bias) are
+// correlated.
 RigMatrix scatter(const Scene& scene, const Solver& solver, const RigVector& at) {
-  constexpr std::size_t kParts = 12;
+  constexpr std::size_t kParts = 12;  // a room has that many large surfaces
   RigMatrix sum = RigMatrix::Zero();
   const RigVector from = solver.step(equations_of(scene), at);
   for (std::size_t part = 0; part < kParts; ++part) {
@@ -304,6 +298,7 @@ RigMatrix scatter(const Scene& scene, const Solver& solver, const RigVector& at)
 }
 
 bool small(const RigVector& step) {
+  // Well below every sigma of rig_table, and 0.01 mm at 5 m.
   constexpr double kOffset_s = 1e-6, kAngle_rad = 2e-6, kShift_m = 1e-5;
   RigVector unit;
   unit << kOffset_s, kAngle_rad, kAngle_rad, kShift_m, kShift_m, kAngle_rad, kAngle_rad, kAngle_rad;
@@ -318,7 +313,7 @@ RigFit solve_rig_planes(const OffsetProblem& problem, const RigUnknowns& first, 
   fit.rig = first;
   double loss_width_m = options.first_loss_width_m;
   bool narrowed = false;
-  // Play and encoder, which few surfaces tell, follow when the rest is nearly right.
+  // Few surfaces determine play and encoder, so these join once the rest has nearly converged.
   RigPriors begun_with = priors;
   begun_with.tail<3>().setZero();
   for (; fit.iterations < options.max_iterations && !job.cancelled(); ++fit.iterations) {

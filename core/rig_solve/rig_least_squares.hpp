@@ -12,20 +12,20 @@
 
 namespace sweepscope {
 
-/// Standard deviations about the rig file's values that each unknown is held with; 0: it is not solved for.
+/// Prior standard deviations of the unknowns about the rig file's values; 0: not solved for.
 using RigPriors = RigVector;
 
 struct RigLeastSquaresOptions {
-  int max_iterations = 60;
-  double first_loss_width_m = 0.2;
-  double min_loss_width_m = 0.004;
-  double loss_widths = 3;            // of the loss, in deviations of the residuals
-  std::size_t max_points = 120'000;  // of more, every so many-th
-  int max_levels = 4;
-  double flatness = 0.5, reach = 1;  // of the loss's width
+  int max_iterations = 60;           // 15 to 40 in the families of tests/benchmark/rig_table
+  double first_loss_width_m = 0.2;   // what a mount 0.2 m wrong displaces a wall by
+  double min_loss_width_m = 0.004;   // twice the least range noise, see estimate_range_noise_m
+  double loss_widths = 3;            // width of the loss in deviations of the residuals
+  std::size_t max_points = 120'000;  // of more points every n-th is used
+  int max_levels = 4;                // of PlaneCellOptions: cells of at most 4 m
+  double flatness = 0.5, reach = 1;  // in widths of the loss
 };
 
-/// The rig in which flat surfaces are flattest.
+/// The rig that makes flat surfaces flattest.
 struct RigFit {
   RigUnknowns rig;
   bool converged = false;
@@ -33,10 +33,9 @@ struct RigFit {
   RigVector last_step = RigVector::Zero();
   std::size_t points = 0, on_planes = 0, planes = 0;
   double residual_m = 0;                      // robust deviation of the distances from the planes
-  double unevenness_m = 0;                    // by which parts of a wall deviate from its plane
-  double first_residual_m = 0;                // the same with the rig file's values, on the same points
-  RigMatrix covariance = RigMatrix::Zero();   // of the unknowns: what the points' noise, the priors and the
-                                              // disagreement of parts of the scene leave
+  double unevenness_m = 0;                    // deviation of the parts of a wall from its plane
+  RigMatrix covariance = RigMatrix::Zero();   // of the unknowns, from noise, priors and the scatter of the
+                                              // parts of the scene
   RigMatrix information = RigMatrix::Zero();  // without priors
 };
 

@@ -12,25 +12,14 @@ namespace {
 
 constexpr double kOffsetPrior_s = 0.1;  // none, in effect
 
-// The least standard deviation of the motor's speed, as a part of its mean, that tells play from an offset:
-// at one speed both turn the two directions against each other alike. Encoder steps and jitter make 1 %.
+// The minimum standard deviation of the motor speed, relative to its mean, at which play differs from an
+// offset: at one speed both turn the two directions against each other. Encoder steps and jitter make 1 %.
 constexpr double kMinSpeedSpread = 0.05;
 
-RigPriors priors_of(const RigSolve& what) {
-  RigPriors priors = RigPriors::Zero();
-  priors[kOffset] = kOffsetPrior_s;
-  if (what.mount) {
-    priors[kTurnU] = priors[kTurnV] = what.mount_deg * kRadPerDeg;
-    priors[kShiftU] = priors[kShiftV] = what.mount_mm * 1e-3;
-  }
-  if (what.play) priors[kPlay] = what.play_deg * kRadPerDeg;
-  if (what.encoder) priors[kEncoderSine] = priors[kEncoderCosine] = what.encoder_deg * kRadPerDeg;
-  return priors;
-}
-
-// Over the sweeps' steady parts, in pieces long enough that the encoder's steps do not count.
+// Relative standard deviation of the speed over the steady parts of the sweeps, in pieces long enough that
+// the steps of the encoder average out.
 double speed_spread(const OffsetProblem& problem) {
-  constexpr int kPieces = 8;
+  constexpr int kPieces = 8;  // 22 deg each of the usual sweep: 250 steps of the encoder
   const MotorTrack& track = problem.recording->motor;
   double sum = 0, squares = 0, count = 0;
   for (const Sweep& sweep : problem.motor.sweeps) {
@@ -50,17 +39,18 @@ double speed_spread(const OffsetProblem& problem) {
   return std::sqrt(std::max(0.0, squares / count - mean * mean)) / mean;
 }
 
-// Cells come and go, so that the last steps may go to and fro: by less than sigma they leave an answer.
-bool settled(const RigFit& fit) {
+// The set of cells changes between iterations, so that the last steps may oscillate; below sigma that is
+// accepted.
+bool nearly_converged(const RigFit& fit) {
   return fit.converged ||
          (fit.last_step.cwiseAbs().array() <= fit.covariance.diagonal().cwiseMax(0).cwiseSqrt().array())
              .all();
 }
 
-// A value that the recording determines is known much better than before.
-bool told(const RigFit& fit, const RigPriors& priors, std::initializer_list<RigUnknown> unknowns) {
-  constexpr double kBetter = 0.5;
-  if (!settled(fit)) return false;
+// A part is determined if its sigma is well below its prior.
+bool determined(const RigFit& fit, const RigPriors& priors, std::initializer_list<RigUnknown> unknowns) {
+  constexpr double kBetter = 0.5;  // then three quarters of the information come from the recording
+  if (!nearly_converged(fit)) return false;
   return std::all_of(unknowns.begin(), unknowns.end(),
                      [&](RigUnknown i) { return std::sqrt(fit.covariance(i, i)) < kBetter * priors[i]; });
 }
@@ -69,7 +59,7 @@ RigFinding finding(bool solved, bool identifiable, const char* reason) {
   return {solved, solved && identifiable, solved && !identifiable ? reason : ""};
 }
 
-// By how much more the offset is uncertain because the others are unknown.
+// The sigma of the offset that comes from the other unknowns.
 double added_sigma_s(const RigMatrix& covariance, const RigPriors& priors) {
   std::vector<int> others;
   for (int i = kOffset + 1; i < kRigUnknowns; ++i)
@@ -90,19 +80,19 @@ void set_gear(Rig::Gear& gear, const Gear& found) {
   gear.encoder_phase_deg = total_deg.norm() > 0 ? std::atan2(total_deg[1], total_deg[0]) * kDegPerRad : 0.0;
 }
 
-// An eccentric encoder bends walls as a mount does, so it is free as far as is usual where the mount is
-// solved for: else the mount's error would not show in its sigma.
+// A mount and an eccentric encoder bend walls alike, so a usual eccentricity is always solved for beside the
+// mount: otherwise the sigma of the mount would be too small.
 RigPriors with_usual_encoder(RigPriors priors) {
-  constexpr double kUsual_deg = 0.3;
+  constexpr double kUsual_deg = 0.3;  // a disc of 40 mm that sits 0.1 mm off its centre
   if (priors[kTurnU] > 0 && priors[kEncoderSine] == 0)
     priors[kEncoderSine] = priors[kEncoderCosine] = kUsual_deg * kRadPerDeg;
   return priors;
 }
 
-// A fit that does not converge may have missed the rig: of those begun at other shifts the one that
-// converges, and of several the one with the fewest surfaces. A rig that is wrong doubles walls.
+// If the fit did not converge, it is repeated from other shifts. The best is one that converged, and among
+// those the one with the fewest surfaces: a wrong rig splits walls in two.
 RigFit solved_from_around(const OffsetProblem& problem, RigFit fit, const RigPriors& priors, const Job& job) {
-  constexpr double kApart_m = 0.15;
+  constexpr double kApart_m = 0.15;  // within the 0.2 m that a start may be wrong by
   const RigUnknowns begun = fit.rig;
   for (const auto& shift_m : {Eigen::Vector2d(kApart_m, 0.0), Eigen::Vector2d(-kApart_m, 0.0),
                               Eigen::Vector2d(0.0, kApart_m), Eigen::Vector2d(0.0, -kApart_m)}) {
@@ -114,8 +104,8 @@ RigFit solved_from_around(const OffsetProblem& problem, RigFit fit, const RigPri
   return fit;
 }
 
-// Walls that are bent look like a rig that is wrong, and more so the larger the cells: what smaller ones
-// change is not known.
+// Bent walls look like a wrong rig, the more the larger the cells. The difference to a fit with smaller cells
+// enters the covariance.
 RigFit fit_at_two_scales(const OffsetProblem& problem, const RigUnknowns& first, const RigPriors& priors,
                          const Job& job) {
   RigFit fit = solve_rig_planes(problem, first, priors, {}, job);
@@ -129,16 +119,16 @@ RigFit fit_at_two_scales(const OffsetProblem& problem, const RigUnknowns& first,
   return fit;
 }
 
-// What the fit found, and whether it is known better than before.
+// The result of the fit, and which parts are determined.
 SolvedRig solved_with(const OffsetProblem& problem, const RigFit& fit, const RigPriors& priors,
                       const RigSolve& what) {
   SolvedRig solved;
-  solved.mount = finding(what.mount, told(fit, priors, {kTurnU, kTurnV, kShiftU, kShiftV}),
+  solved.mount = finding(what.mount, determined(fit, priors, {kTurnU, kTurnV, kShiftU, kShiftV}),
                          "The surfaces in view do not determine the mount: record where several walls, the "
                          "floor and the ceiling are in view.");
-  solved.play = finding(what.play, priors[kPlay] > 0 && told(fit, priors, {kPlay}),
+  solved.play = finding(what.play, priors[kPlay] > 0 && determined(fit, priors, {kPlay}),
                         "The recording does not determine the gear play.");
-  solved.encoder = finding(what.encoder, told(fit, priors, {kEncoderSine, kEncoderCosine}),
+  solved.encoder = finding(what.encoder, determined(fit, priors, {kEncoderSine, kEncoderCosine}),
                            "The surfaces in view do not determine the encoder's first harmonic.");
   solved.found = fit.rig;
   if (!what.encoder) solved.found.encoder_rad.setZero();
@@ -156,7 +146,7 @@ SolvedRig solved_with(const OffsetProblem& problem, const RigFit& fit, const Rig
   return solved;
 }
 
-// Play that is not solved for may be as large as its prior, and acts as an offset.
+// Play that is not solved for acts as an offset; it may be as large as its prior.
 void leave_play_open(SolvedRig& solved, double play_deg, double speed_rad_s, const char* reason) {
   const double play_rad = play_deg * kRadPerDeg;
   solved.play.reason = reason;
@@ -166,15 +156,27 @@ void leave_play_open(SolvedRig& solved, double play_deg, double speed_rad_s, con
 
 }  // namespace
 
+RigPriors priors_of(const RigSolve& what) {
+  RigPriors priors = RigPriors::Zero();
+  priors[kOffset] = kOffsetPrior_s;
+  if (what.mount) {
+    priors[kTurnU] = priors[kTurnV] = what.mount_deg * kRadPerDeg;
+    priors[kShiftU] = priors[kShiftV] = what.mount_mm * 1e-3;
+  }
+  if (what.play) priors[kPlay] = what.play_deg * kRadPerDeg;
+  if (what.encoder) priors[kEncoderSine] = priors[kEncoderCosine] = what.encoder_deg * kRadPerDeg;
+  return priors;
+}
+
 SolvedRig solve_rig(const OffsetProblem& problem, double first_offset_s, const RigSolve& what,
                     const Job& job) {
   RigUnknowns first;
   first.offset_s = first_offset_s;
   const RigFit before = solve_rig_planes(problem, first, priors_of({}), {}, job);
   const bool one_speed = what.play && speed_spread(problem) < kMinSpeedSpread;
-  RigSolve told_apart = what;
-  told_apart.play = what.play && !one_speed;
-  const RigPriors priors = with_usual_encoder(priors_of(told_apart));
+  RigSolve separable = what;
+  separable.play = what.play && !one_speed;
+  const RigPriors priors = with_usual_encoder(priors_of(separable));
   const RigFit fit = fit_at_two_scales(problem, first, priors, job);
   SolvedRig solved = solved_with(problem, fit, priors, what);
   solved.residual_before_m = before.residual_m;

@@ -12,8 +12,8 @@
 
 namespace sweepscope {
 
-/// What of a rig is solved for beside the offset, and how far it is thought to be from the rig file: standard
-/// deviations. What no prior is given for has a wide one.
+/// The parts of the rig to solve for beside the offset, and the prior standard deviations of their distance
+/// from the rig file.
 struct RigSolve {
   bool mount = false, play = false, encoder = false;
   double mount_deg = 20, mount_mm = 500, play_deg = 0.5, encoder_deg = 1;
@@ -21,36 +21,39 @@ struct RigSolve {
   bool any() const { return mount || play || encoder; }
 };
 
-/// Whether the recording determines a part of the rig, and why not: a sentence.
+/// The same as priors of the unknowns.
+RigPriors priors_of(const RigSolve& what);
+
+/// Whether the recording determines a part of the rig, and if not, the reason: a sentence.
 struct RigFinding {
-  bool solved = false;  // was to be solved for
+  bool solved = false;  // requested
   bool identifiable = false;
   std::string reason;
 };
 
-/// A rig as a recording shows it.
+/// The rig found from a recording.
 struct SolvedRig {
   Rig rig;  // the recording's, with what was found
   RigFinding mount, play, encoder;
   RigUnknowns found;     // about the recording's rig
   RigPriors priors;      // standard deviations; 0: not solved for
   RigMatrix covariance;  // of `found`
-  /// What the parts of the rig that are solved for, and those that should be but are not identifiable, add to
-  /// the offset's standard deviation.
+  /// Contribution of the requested parts of the rig to the standard deviation of the offset, identifiable or
+  /// not.
   double offset_sigma_s = 0;
-  double residual_before_m = 0, residual_after_m = 0;  // robust deviations from flat surfaces
-  double unevenness_m = 0;                             // of walls, between parts of them
+  double residual_before_m = 0, residual_after_m = 0;  // robust deviation from flat surfaces
+  double unevenness_m = 0;                             // deviation of the parts of a wall from its plane
   std::size_t points = 0, surfaces = 0;
   bool converged = false;
   int iterations = 0;
 };
 
-/// Solves for the parts of a stationary rig, and the offset beside them, beginning at an offset near the
-/// truth. What cannot be determined keeps the recording's value.
+/// Solves for the offset and the requested parts of a stationary rig, beginning near the true offset. Parts
+/// that are not determined keep the value of the rig file.
 SolvedRig solve_rig(const OffsetProblem& problem, double first_offset_s, const RigSolve& what,
                     const Job& job);
 
-/// The recording as the solved rig has it: mount and motor angles.
+/// The recording with the mount and the motor angles of the solved rig.
 Recording with_rig(Recording recording, const SolvedRig& solved);
 
 }  // namespace sweepscope

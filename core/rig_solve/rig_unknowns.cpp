@@ -23,17 +23,16 @@ Eigen::Matrix3d left_jacobian(const Eigen::Vector3d& v) {
          (angle - std::sin(angle)) / (angle * angle * angle) * k * k;
 }
 
-// What rotation_from_rpy was given.
+// The inverse of rotation_from_rpy.
 Eigen::Vector3d rpy_deg_of(const Eigen::Matrix3d& r) {
   const double pitch_rad = std::atan2(-r(2, 0), std::hypot(r(0, 0), r(1, 0)));
   return Eigen::Vector3d(std::atan2(r(2, 1), r(2, 2)), pitch_rad, std::atan2(r(1, 0), r(0, 0))) * kDegPerRad;
 }
 
-// The turn about the motor's axis that takes the angle of that axis back to what it was; 0 where there is
-// none.
+// The turn about the motor's axis that restores the mount's angle about it; 0 if there is none.
 double gauge_rad(const Eigen::Vector3d& axis, const Eigen::Matrix3d& rotation, double kept_deg) {
-  constexpr int kSteps = 20;
-  constexpr double kDone_deg = 1e-10;
+  constexpr int kSteps = 20;           // a bound
+  constexpr double kDone_deg = 1e-10;  // rounding errors
   int i = 0;
   if (axis.cwiseAbs().maxCoeff(&i) < 1 - 1e-9) return 0;
   double turn_rad = 0;
@@ -52,7 +51,7 @@ Eigen::Matrix<double, 3, 2> across_axis(const Eigen::Vector3d& axis) {
   const Eigen::Vector3d a = axis.normalized();
   int smallest = 0;
   a.cwiseAbs().minCoeff(&smallest);
-  // Of two equal ones the later: y and z for the x axis.
+  // Of two equal components the later: y and z for the x axis.
   for (int i = smallest + 1; i < 3; ++i)
     if (std::abs(a[i]) <= std::abs(a[smallest])) smallest = i;
   Eigen::Matrix<double, 3, 2> across;
@@ -78,7 +77,7 @@ Mount changed(const Mount& mount, const RigUnknowns& unknowns) {
   result.laser_in_motor_rpy_deg = rpy_deg_of(gauge * turned);
   double& kept_deg = result.laser_in_motor_rpy_deg[along];
   if (std::abs(kept_deg - mount.laser_in_motor_rpy_deg[along]) < 1e-9)
-    kept_deg = mount.laser_in_motor_rpy_deg[along];  // without the last digits of the way there and back
+    kept_deg = mount.laser_in_motor_rpy_deg[along];  // free of rounding errors
   result.laser_in_motor_xyz_m = gauge * result.laser_in_motor_xyz_m;
   return result;
 }

@@ -10,25 +10,22 @@
 
 namespace sweepscope {
 
-/// What a rig is solved for, each beside the offset.
-enum class RigPart { kMount, kPlay, kEncoder };
-
 /// The places of the unknowns in a step, a Jacobian's row and a covariance.
 enum RigUnknown : int { kOffset, kTurnU, kTurnV, kShiftU, kShiftV, kPlay, kEncoderSine, kEncoderCosine };
 inline constexpr int kRigUnknowns = 8;
 using RigVector = Eigen::Matrix<double, kRigUnknowns, 1>;
 using RigMatrix = Eigen::Matrix<double, kRigUnknowns, kRigUnknowns>;
 
-/// The offset and what a rig differs in from what its rig file says.
+/// The offset and the deviations of a rig from its rig file.
 ///
-/// The laser sits at R' = exp(turn) R, t' = t + shift in the frame that turns with the motor, R and t the
-/// rig file's; turn and shift are perpendicular to the motor's axis, since along it they cannot be observed.
-/// The laser's angle is phi - a sin(phi) - b cos(phi) - s play / 2, phi the encoder's angle, s = +1 where it
-/// grows and -1 where it falls.
+/// The pose of the laser in the frame that turns with the motor is R' = exp(turn) R, t' = t + shift, with R
+/// and t from the rig file. Turn and shift are perpendicular to the motor's axis; along it they are
+/// unobservable. The laser's angle is phi - a sin(phi) - b cos(phi) - s play / 2, phi the encoder's angle, s
+/// = +1 where it grows and -1 where it falls.
 struct RigUnknowns {
   double offset_s = 0;
   Eigen::Vector2d turn_rad = Eigen::Vector2d::Zero();  // rotation vector, along the axes of `AxisFrame`
-  Eigen::Vector2d shift_m = Eigen::Vector2d::Zero();   // likewise
+  Eigen::Vector2d shift_m = Eigen::Vector2d::Zero();   // along the same axes
   double play_rad = 0;
   Eigen::Vector2d encoder_rad = Eigen::Vector2d::Zero();  // a and b; see Gear
 
@@ -51,21 +48,21 @@ Eigen::Matrix<double, 3, 2> across_axis(const Eigen::Vector3d& axis);
 /// stays what it was.
 Mount changed(const Mount& mount, const RigUnknowns& unknowns);
 
-/// What a rig's geometry makes of a beam's point.
+/// Places the points of beams in the base frame.
 class RigGeometry {
  public:
   RigGeometry(const Mount& mount, const RigUnknowns& unknowns);
 
-  /// An instant of the motor, as the encoder has it.
+  /// The motor at an instant, by its encoder.
   struct Instant {
     double angle_rad = 0, speed_rad_s = 0;
     int direction = 0;
   };
   struct Placed {
     Eigen::Vector3d p_in_base_m;
-    Eigen::Matrix<double, 3, kRigUnknowns> jacobian;  // of it, by the unknowns
+    Eigen::Matrix<double, 3, kRigUnknowns> jacobian;  // of the point by the unknowns
   };
-  /// `p_in_motor_m` by the rig file's mount.
+  /// `p_in_motor_m` is computed with the rig file's mount.
   Placed place(const Eigen::Vector3d& p_in_motor_m, const Instant& at) const;
 
  private:

@@ -9,7 +9,7 @@
 namespace sweepscope {
 namespace {
 
-// A cell's points have a mean and deviations along its plane: four places stand for all of them.
+// Four points represent a cell: its mean plus and minus the deviations along its plane.
 std::array<Eigen::Vector3d, 4> places_of(const PlaneCell& cell) {
   return {cell.centre_m + cell.along_m.col(0), cell.centre_m - cell.along_m.col(0),
           cell.centre_m + cell.along_m.col(1), cell.centre_m - cell.along_m.col(1)};
@@ -44,7 +44,8 @@ double farthest_m(const Surface& surface, const PlaneCell& cell) {
 }  // namespace
 
 std::vector<Surface> surfaces_of(std::span<const PlaneCell> cells, double reach_m) {
-  constexpr int kRounds = 3;  // each with the plane of those found before: a small seed's own tilts
+  constexpr int kRounds =
+      3;  // each begins with the plane of the cells found so far: that of a small seed is tilted
   std::vector<std::uint32_t> by_size(cells.size());
   std::iota(by_size.begin(), by_size.end(), 0u);
   std::ranges::stable_sort(by_size,

@@ -147,6 +147,18 @@ TEST(CloudOffset, AWalkInAHall) {
   EXPECT_NEAR(*found.offset_s * 1e3, bench.offset_s * 1e3, 1.0);
 }
 
+TEST(CloudOffset, AWalkWithAPatternThatDoesNotRepeatItself) {
+  CloudBench bench;
+  bench.world_from_base = test::walk_in_hall;
+  bench.sweep_s = 1.57;
+  bench.duration_s = 42;
+  bench.rosette = true;
+  bench.rings = 2;
+  bench.beams = 1000;
+  bench.driver = CloudBench::Driver::kLivox2;
+  expect_answer(estimated(bench.record(), direct()), RigKind::kMoving, bench.offset_s, 5.0);
+}
+
 TEST(CloudOffset, AWalkInAHallWithASlowerMotor) {
   CloudBench bench;
   bench.world_from_base = test::walk_in_hall;
