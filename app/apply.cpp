@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <memory>
 
@@ -7,6 +8,7 @@
 #include "app/recording_options.hpp"
 #include "app/say.hpp"
 #include "core/apply/apply.hpp"
+#include "core/apply/sweep_folder.hpp"
 #include "core/io/atomic_file.hpp"
 #include "core/recording/formats/read_raw_recording.hpp"
 
@@ -22,6 +24,10 @@ struct Options {
   std::optional<std::string> stamps;
   std::string shift = "motor";
   bool again = false;
+  std::string clouds_topic, base_frame = "base_link", clouds_format = "pcd";
+  std::optional<fs::path> clouds_only, poses;
+  std::optional<std::string> assume;
+  bool transforms = false;
 };
 
 Result<AppliedOffset> offset_of(const Options& options) {
@@ -40,30 +46,72 @@ Result<void> check_files(const Options& options) {
   std::vector<fs::path> inputs = recording_files(options.recording);
   for (const auto& file : {options.estimate, options.rig})
     if (file) inputs.push_back(*file);
+  if (options.poses) inputs.push_back(*options.poses);
+  if (options.clouds_only)
+    if (auto checked =
+            check_outputs({(*options.clouds_only / "poses.tum").string()}, inputs, *options.clouds_only);
+        !checked || options.output.empty())
+      return checked;
   const bool folder = !options.output.has_filename() || options.output.extension().empty();
   if (folder) return check_outputs({(options.output / "metadata.yaml").string()}, inputs, options.output);
   return check_outputs({options.output.string()}, std::move(inputs));
 }
 
-Result<Applied> apply(const Options& options) {
-  if (options.estimate.has_value() == options.offset_ms.has_value())
-    return failure(ExitCode::kWrongUsage, "apply needs the offset: one of --estimate and --offset-ms");
-  if (const auto checked = check_files(options); !checked) return tl::unexpected(checked.error());
-  ApplyOptions apply_options;
+Result<ApplyOptions> apply_options(const Options& options) {
+  ApplyOptions result;
   const auto offset = offset_of(options);
   if (!offset) return tl::unexpected(offset.error());
-  apply_options.offset = *offset;
-  if (options.estimate) apply_options.estimate = options.estimate->filename().string();
-  apply_options.shifted = options.shift == "laser" ? ShiftedStream::kLaser : ShiftedStream::kMotor;
-  apply_options.again = options.again;
+  result.offset = *offset;
+  if (options.estimate) result.estimate = options.estimate->filename().string();
+  result.shifted = options.shift == "laser" ? ShiftedStream::kLaser : ShiftedStream::kMotor;
+  result.again = options.again;
   if (options.stamps)
-    apply_options.stamps = *options.stamps == "header" ? StampSource::kHeader : StampSource::kReceive;
+    result.stamps = *options.stamps == "header" ? StampSource::kHeader : StampSource::kReceive;
   if (options.rig) {
     auto rig = read_rig(*options.rig);
     if (!rig) return tl::unexpected(rig.error());
-    apply_options.rig = std::move(*rig);
+    result.rig = std::move(*rig);
   }
-  const Progress progress;
+  result.add.clouds_topic = options.clouds_topic;
+  result.add.transforms = options.transforms;
+  result.add.base_frame = options.base_frame;
+  result.add.poses = options.poses;
+  if (options.assume)
+    result.add.map.assume = *options.assume == "moving" ? RigKind::kMoving : RigKind::kStationary;
+  return result;
+}
+
+/// What contradicts itself, whatever the files hold.
+Result<void> check_options(const Options& options) {
+  const auto refuse = [](const char* why) { return failure(ExitCode::kWrongUsage, why); };
+  if (options.estimate.has_value() == options.offset_ms.has_value())
+    return refuse("apply needs the offset: one of --estimate and --offset-ms");
+  if (options.output.empty() && !options.clouds_only)
+    return refuse("apply needs an output: -o OUT, or --clouds-only DIR");
+  const bool adds = !options.clouds_topic.empty() || options.transforms;
+  if (adds && options.output.empty())
+    return refuse("--clouds and --tf add topics to a recording: name it with -o OUT");
+  if (options.poses && options.clouds_topic.empty() && !options.clouds_only)
+    return refuse("--poses is used by --clouds and --clouds-only");
+  return {};
+}
+
+Result<void> write_clouds(const Options& options, const ApplyOptions& apply_options,
+                          const Progress& progress) {
+  const ReadOptions read_options{apply_options.rig, apply_options.stamps};
+  auto recording = read_recording(options.recording, read_options, progress.job());
+  if (!recording) return tl::unexpected(recording.error());
+  const auto written = write_sweeps(std::move(*recording), apply_options.offset, apply_options.add,
+                                    *options.clouds_only, "." + options.clouds_format, progress.job());
+  if (!written) return tl::unexpected(written.error());
+  for (const std::string& warning : written->warnings) progress.say("warning: " + warning);
+  print("{}: {} sweeps of a {} rig, and poses.tum\n", options.clouds_only->string(), written->sweeps,
+        written->moving ? "moving" : "stationary");
+  return {};
+}
+
+Result<Applied> write_recording(const Options& options, const ApplyOptions& apply_options,
+                                const Progress& progress) {
   auto applied = apply_offset(options.recording, options.output, apply_options, progress.job());
   if (!applied) return applied;
   for (const std::string& warning : applied->warnings)
@@ -71,16 +119,33 @@ Result<Applied> apply(const Options& options) {
   return applied;
 }
 
-ExitCode run(const Options& options) {
-  const auto applied = apply(options);
-  if (!applied) return fail(applied.error());
-  const Provenance& done = applied->provenance;
-  print("{}: {} {} of {} moved by {:+.6f} ms{}, onto the {}'s clock\n", options.output.string(),
-        applied->moved, done.stamp == StampSource::kHeader ? "header stamps" : "receive times", done.topic,
+void print_applied(const Applied& applied, const fs::path& output) {
+  const Provenance& done = applied.provenance;
+  print("{}: {} {} of {} moved by {:+.6f} ms{}, onto the {}'s clock{}{}\n", output.string(), applied.moved,
+        done.stamp == StampSource::kHeader ? "header stamps" : "receive times", done.topic,
         (done.shifted == ShiftedStream::kMotor ? -1e3 : 1e3) * done.offset.offset_s,
         done.offset.changes() ? " (changing over time)" : "",
-        done.shifted == ShiftedStream::kMotor ? "laser" : "motor");
-  return ExitCode::kDone;
+        done.shifted == ShiftedStream::kMotor ? "laser" : "motor",
+        done.added.empty() ? "" : "; added: ", fmt::format("{}", fmt::join(done.added, ", ")));
+}
+
+Result<void> run_checked(const Options& options) {
+  if (const auto checked = check_options(options); !checked) return checked;
+  if (const auto checked = check_files(options); !checked) return checked;
+  const auto apply_options = app::apply_options(options);
+  if (!apply_options) return tl::unexpected(apply_options.error());
+  const Progress progress;
+  if (options.clouds_only)
+    if (auto written = write_clouds(options, *apply_options, progress); !written) return written;
+  if (options.output.empty()) return {};
+  return write_recording(options, *apply_options, progress).map([&](const Applied& applied) {
+    print_applied(applied, options.output);
+  });
+}
+
+ExitCode run(const Options& options) {
+  const auto done = run_checked(options);
+  return done ? ExitCode::kDone : fail(done.error());
 }
 
 }  // namespace
@@ -94,7 +159,6 @@ void add_apply(CLI::App& app, ExitCode& exit_code) {
   command
       ->add_option("-o,--output", options->output,
                    "OUT.bag, OUT.mcap, OUT.db3, or OUT for the folder of a ROS 2 bag")
-      ->required()
       ->type_name("OUT");
   command->add_option("--estimate", options->estimate, "Estimate (JSON) whose offset is applied")
       ->type_name("E.json");
@@ -114,6 +178,34 @@ void add_apply(CLI::App& app, ExitCode& exit_code) {
                    "Stamps that are used: header or receive (default: the rig file's, else header)")
       ->type_name("S")
       ->check(CLI::IsMember({"header", "receive"}));
+  command
+      ->add_option(
+          "--clouds", options->clouds_topic,
+          "Add each sweep as a sensor_msgs/PointCloud2 on this topic, in the base frame of its first "
+          "beam, with the motion of the motor and of the rig removed")
+      ->type_name("TOPIC");
+  command->add_flag("--tf", options->transforms,
+                    "Add the laser's pose in the base frame to /tf, at each of the motor's samples");
+  command
+      ->add_option("--clouds-only", options->clouds_only,
+                   "Write each sweep as a file in this new folder, and their poses (poses.tum); works for "
+                   "CSV tables too, and without -o")
+      ->type_name("DIR");
+  command->add_option("--clouds-format", options->clouds_format, "Files of --clouds-only: pcd or ply")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"pcd", "ply"}));
+  command
+      ->add_option("--poses", options->poses,
+                   "Trajectory of the rig (TUM), used instead of solving for it to remove its motion")
+      ->type_name("F");
+  command
+      ->add_option("--assume", options->assume,
+                   "stationary or moving, instead of the motion test; stationary leaves the rig's motion in "
+                   "the clouds")
+      ->check(CLI::IsMember({"stationary", "moving"}));
+  command->add_option("--base-frame", options->base_frame, "The frame of the clouds and the parent in /tf")
+      ->capture_default_str()
+      ->type_name("NAME");
   command->add_flag("--again", options->again, "Also where an offset was applied before");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }

@@ -10,196 +10,33 @@
 #include "core/apply/applied_records.hpp"
 #include "core/apply/apply_output.hpp"
 #include "core/apply/clock_shift.hpp"
+#include "core/apply/copier.hpp"
 #include "core/apply/message_sink.hpp"
-#include "core/apply/stamp_shift.hpp"
 #include "core/apply/survey.hpp"
 #include "core/io/atomic_file.hpp"
-#include "core/recording/messages/point_cloud.hpp"
-#include "core/recording/packed/compress.hpp"
+#include "core/io/atomic_folder.hpp"
+#include "core/recording/formats/read_parts.hpp"
+#include "core/recording/formats/read_recording.hpp"
 
 namespace sweepscope {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kNs_per_s = 1e9;
-
-std::int64_t ns_after(std::int64_t first_ns, double time_s) {
-  return first_ns + std::llround(time_s * kNs_per_s);
-}
-
-/// The offset in terms of the recording's stamps.
-ClockShift clock_shift(const AppliedOffset& offset, const MovedStream& laser) {
-  if (!offset.changes()) return ClockShift(offset.offset_s);
-  const std::int64_t middle_ns = offset.middle_s ? ns_after(laser.first_ns, *offset.middle_s)
-                                                 : laser.first_ns + (laser.last_ns - laser.first_ns) / 2;
-  std::vector<OffsetStep> steps;
-  for (const AppliedOffset::Jump& jump : offset.jumps)
-    steps.push_back({ns_after(laser.first_ns, jump.time_s), jump.size_s});
-  return {offset.offset_s, middle_ns, offset.rate, std::move(steps)};
-}
-
-/// The stream to move, and the shift.
-struct Move {
-  MovedStream stream;
-  ShiftedStream shifted = ShiftedStream::kMotor;
-  ClockShift clocks{0};
-
-  std::int64_t moved_ns(std::int64_t ns) const {
-    return shifted == ShiftedStream::kMotor ? clocks.laser_ns(ns) : clocks.motor_ns(ns);
-  }
-};
-
 Result<Move> find_move(StreamSurvey& surveyed, const ApplyOptions& options) {
   const bool of_motor = options.shifted == ShiftedStream::kMotor;
   MovedStream laser;
-  if (!of_motor || options.offset.changes()) {
+  if (!of_motor || options.offset.changes() || options.add.any()) {
     auto found = find_laser(surveyed, options.rig, options.stamps);
     if (!found) return tl::unexpected(found.error());
     laser = std::move(*found);
   }
-  Move move{laser, options.shifted, clock_shift(options.offset, laser)};
+  Move move{laser, laser, options.shifted, clock_shift(options.offset, laser.first_ns, laser.last_ns)};
   if (!of_motor) return move;
   auto motor = find_motor(surveyed, options.rig, options.stamps);
   if (!motor) return tl::unexpected(motor.error());
   move.stream = std::move(*motor);
   return move;
-}
-
-/// Copies the messages of one output file.
-class Copier {
- public:
-  Copier(MessageSink& sink, StreamFormat format, const Move& move, std::string name)
-      : sink_(sink), format_(format), move_(move), name_(std::move(name)) {}
-
-  std::size_t add_topic(const StreamTopic& topic);
-  std::optional<Error> add(const StreamMessage& message);
-  Result<void> finish(const std::vector<std::string>& records);
-
-  std::uint64_t moved() const { return moved_; }
-  std::uint64_t malformed() const { return malformed_; }
-  const std::set<std::string>& other_joints() const { return other_joints_; }
-  WrittenFile written() const { return written_; }
-
- private:
-  struct Entry {
-    const MessageType* type = nullptr;  // null: its messages stay as they are
-    Encoding encoding = Encoding::kRos1;
-  };
-  std::optional<Error> write(const StreamMessage& message);
-  std::optional<Error> write_moved(const Entry& entry, StreamMessage message);
-  std::optional<bool> is_of_motor(const Entry& entry, std::span<const std::byte> plain);
-  std::optional<Error> refuse_absolute_times(const Entry& entry, std::span<const std::byte> plain) const;
-  Error out_of_range(const StreamMessage& message) const;
-
-  MessageSink& sink_;
-  StreamFormat format_;
-  const Move& move_;
-  std::string name_;  // of the recording, for messages
-  std::vector<Entry> entries_;
-  std::optional<Error> problem_;
-  WrittenFile written_;
-  std::vector<std::byte> plain_, copy_;
-  std::vector<DecodedJoint> joints_;
-  std::set<std::string> other_joints_;  // in messages that were moved
-  std::uint64_t moved_ = 0, malformed_ = 0;
-};
-
-std::size_t Copier::add_topic(const StreamTopic& recorded) {
-  const StreamTopic topic = topic_in(format_, recorded);
-  const auto known = std::ranges::find(written_.topics, topic);
-  if (known != written_.topics.end()) return static_cast<std::size_t>(known - written_.topics.begin());
-  Entry& entry = entries_.emplace_back();
-  const auto encoding = stream_encoding(topic);
-  if (encoding && topic.name == move_.stream.topic) entry = {find_message_type(topic.type), *encoding};
-  written_.topics.push_back(topic);
-  written_.counts.push_back(0);
-  if (const auto added = sink_.add_topic(topic); !added && !problem_) problem_ = added.error();
-  return written_.topics.size() - 1;
-}
-
-std::optional<Error> Copier::write(const StreamMessage& message) {
-  if (auto written = sink_.write(message); !written) return written.error();
-  const bool first = written_.messages++ == 0;
-  written_.first_ns = first ? message.log_ns : std::min(written_.first_ns, message.log_ns);
-  written_.last_ns = first ? message.log_ns : std::max(written_.last_ns, message.log_ns);
-  ++written_.counts[message.topic];
-  return std::nullopt;
-}
-
-Error Copier::out_of_range(const StreamMessage& message) const {
-  return {ExitCode::kUnreadableInput,
-          fmt::format("{}: a message on {}, received at {:.9f} s, cannot be moved: its new stamp would lie "
-                      "before 1970, or beyond what a stamp holds",
-                      name_, move_.stream.topic, static_cast<double>(message.log_ns) / kNs_per_s)};
-}
-
-/// Whether a message on the motor's topic holds the motor's joint: several publishers may share a topic. No
-/// value if it is malformed.
-std::optional<bool> Copier::is_of_motor(const Entry& entry, std::span<const std::byte> plain) {
-  if (!decode_joints(entry.type->kind, entry.encoding, plain, Eigen::Vector3d::UnitX(), joints_))
-    return std::nullopt;
-  const bool found = std::ranges::find(joints_, move_.stream.joint, &DecodedJoint::name) != joints_.end();
-  const bool frames_apart =
-      entry.type->kind == MessageKind::kTransforms && move_.stream.stamp == StampSource::kHeader;
-  if (found && !frames_apart)
-    for (const DecodedJoint& joint : joints_)
-      if (joint.name != move_.stream.joint) other_joints_.emplace(joint.name);
-  return found;
-}
-
-std::optional<Error> Copier::refuse_absolute_times(const Entry& entry,
-                                                   std::span<const std::byte> plain) const {
-  if (!is_cloud(entry.type->kind)) return std::nullopt;
-  const auto cloud = decode_points(entry.type->kind, entry.encoding, plain);
-  if (!cloud || !CloudReader::counts_since_1970(*cloud)) return std::nullopt;
-  return Error{
-      ExitCode::kWrongUsage,
-      fmt::format("{}: the points on {} have times of their own, since 1970, which --shift laser does "
-                  "not move; use --shift motor",
-                  name_, move_.stream.topic)};
-}
-
-std::optional<Error> Copier::write_moved(const Entry& entry, StreamMessage message) {
-  const auto plain = plain_message(written_.topics[message.topic], message.bytes, plain_);
-  if (move_.shifted == ShiftedStream::kMotor) {
-    const auto of_motor = is_of_motor(entry, plain);
-    if (!of_motor) ++malformed_;
-    if (!of_motor.value_or(false)) return write(message);
-  } else if (auto refused = refuse_absolute_times(entry, plain)) {
-    return refused;
-  }
-  const auto moved_ns = [&](std::int64_t ns) { return move_.moved_ns(ns); };
-  if (move_.stream.stamp == StampSource::kReceive) {
-    message.log_ns = moved_ns(message.log_ns);
-    if (message.log_ns <= 0) return out_of_range(message);
-    ++moved_;
-    return write(message);
-  }
-  const bool packed = plain.data() != message.bytes.data();
-  copy_.assign(plain.begin(), plain.end());
-  const StampShift shift =
-      shift_header_stamps(entry.type->kind, entry.encoding, move_.stream.joint, moved_ns, copy_);
-  if (shift == StampShift::kOutOfRange) return out_of_range(message);
-  if (shift == StampShift::kMalformed) ++malformed_;
-  if (shift != StampShift::kShifted) return write(message);
-  ++moved_;
-  const std::string again =
-      packed ? compressed(Compression::kZstd, {reinterpret_cast<const char*>(copy_.data()), copy_.size()})
-             : std::string();
-  message.bytes = packed ? std::as_bytes(std::span(again)) : std::span<const std::byte>(copy_);
-  return write(message);
-}
-
-std::optional<Error> Copier::add(const StreamMessage& message) {
-  if (problem_) return problem_;
-  const Entry& entry = entries_[message.topic];
-  return entry.type == nullptr ? write(message) : write_moved(entry, message);
-}
-
-Result<void> Copier::finish(const std::vector<std::string>& records) {
-  if (problem_) return tl::unexpected(*problem_);
-  return sink_.finish(records);
 }
 
 /// One run, from the survey of the input to the written output.
@@ -213,9 +50,11 @@ class Application {
 
  private:
   Result<void> prepare();
+  Result<void> prepare_added();
+  Result<Recording> recording_to_add() const;
   Result<void> check_not_applied();
   Result<std::unique_ptr<MessageSink>> create_sink(const OutputFile& file, const fs::path& path) const;
-  Result<void> write_file(const OutputFile& file, const fs::path& folder);
+  Result<void> write_file(const OutputFile& file, const fs::path& folder, bool last);
   Result<void> write_folder();
   std::vector<std::string> records_for(const OutputFile& file) const;
 
@@ -226,6 +65,7 @@ class Application {
   OutputKind kind_;
   StreamSurvey survey_;
   Move move_;
+  AddedStreams added_;
   Applied result_;
   std::uint64_t malformed_ = 0;
   std::set<std::string> other_joints_;
@@ -262,15 +102,53 @@ Result<void> Application::prepare() {
   if (!move) return tl::unexpected(move.error());
   move_ = std::move(*move);
   result_.warnings = survey_.warnings;
-  result_.provenance = {recording_.path.filename().string(),
-                        options_.estimate,
-                        options_.shifted,
-                        move_.stream.topic,
-                        move_.stream.joint,
-                        move_.stream.stamp,
-                        options_.offset,
-                        0};
-  result_.provenance.messages = move_.stream.messages;
+  Provenance& done = result_.provenance;
+  done.recording = recording_.path.filename().string();
+  done.estimate = options_.estimate;
+  done.shifted = options_.shifted;
+  done.topic = move_.stream.topic;
+  done.joint = move_.stream.joint;
+  done.stamp = move_.stream.stamp;
+  done.offset = options_.offset;
+  done.messages = move_.stream.messages;
+  return options_.add.any() ? prepare_added() : Result<void>();
+}
+
+/// With ranges only where clouds are made of them.
+Result<Recording> Application::recording_to_add() const {
+  ReadOptions options;
+  options.rig = options_.rig;
+  options.stamps = options_.stamps;
+  auto read = options_.add.clouds_topic.empty() ? read_without_ranges(recording_.path, options, job_)
+                                                : read_recording(recording_.path, options, job_);
+  if (!read) return read;
+  return without_offset(std::move(*read), move_.clocks);
+}
+
+Result<void> Application::prepare_added() {
+  const auto refuse = [&](const std::string& why) {
+    return failure(ExitCode::kWrongUsage, fmt::format("{}: {}", recording_.path.string(), why));
+  };
+  const auto of_name = [&](const std::string& name) {
+    return std::ranges::find(survey_.topics, name, &StreamTopic::name);
+  };
+  const auto laser = of_name(move_.laser.topic);
+  const auto encoding = stream_encoding(*laser);
+  if (of_name(options_.add.clouds_topic) != survey_.topics.end())
+    return refuse(fmt::format("has a topic {} already", options_.add.clouds_topic));
+  auto recording = recording_to_add();
+  if (!recording) return tl::unexpected(recording.error());
+  const std::string frame = move_.laser.frame.empty() ? "laser" : move_.laser.frame;
+  const bool of_motor = options_.shifted == ShiftedStream::kMotor;
+  const StampMap stamped = [this, of_motor](std::int64_t ns) {
+    return of_motor ? ns : move_.clocks.motor_ns(ns);
+  };
+  auto added = add_topics(std::move(*recording), options_.add, encoding.value_or(Encoding::kRos1), frame,
+                          stamped, job_);
+  if (!added) return tl::unexpected(added.error());
+  for (const AddedTopic& topic : added->topics) result_.provenance.added.push_back(topic.topic.name);
+  result_.warnings.insert(result_.warnings.end(), added->warnings.begin(), added->warnings.end());
+  added_ = AddedStreams(std::move(added->topics));
   return {};
 }
 
@@ -299,16 +177,18 @@ std::vector<std::string> Application::records_for(const OutputFile& file) const 
   return records;
 }
 
-Result<void> Application::write_file(const OutputFile& file, const fs::path& folder) {
+Result<void> Application::write_file(const OutputFile& file, const fs::path& folder, bool last) {
   const fs::path path = folder / file.name;
   const fs::path plain = file.packed ? fs::path(path.string() + ".plain") : path;
   auto sink = create_sink(file, plain);
   if (!sink) return tl::unexpected(sink.error());
-  Copier copier(**sink, kind_.format, move_, recording_.path.string());
+  Copier copier(**sink, kind_.format, move_, added_, recording_.path.string());
   const StreamVisitor visitor{[&](const StreamTopic& topic) { return copier.add_topic(topic); },
                               [&](const StreamMessage& message) { return copier.add(message); }};
   for (const StreamFile& input : file.inputs)
     if (const auto read = read_stream(input, visitor, job_); !read) return tl::unexpected(read.error());
+  if (last)
+    if (auto error = copier.end()) return tl::unexpected(*error);
   if (const auto finished = copier.finish(records_for(file)); !finished) return finished;
   result_.moved += copier.moved();
   malformed_ += copier.malformed();
@@ -323,9 +203,11 @@ Result<void> Application::write_file(const OutputFile& file, const fs::path& fol
 Result<void> Application::write_folder() {
   auto folder = AtomicFolder::create(output_);
   if (!folder) return tl::unexpected(folder.error());
-  for (const OutputFile& file : output_files(recording_, kind_, output_))
-    if (auto written = write_file(file, folder->part_path()); !written) return written;
-  const bool as_before = move_.stream.stamp == StampSource::kHeader;
+  const std::vector<OutputFile> files = output_files(recording_, kind_, output_);
+  for (const OutputFile& file : files)
+    if (auto written = write_file(file, folder->part_path(), &file == &files.back()); !written)
+      return written;
+  const bool as_before = move_.stream.stamp == StampSource::kHeader && !options_.add.any();
   std::error_code ignored;
   const fs::path described = recording_.path / "metadata.yaml";
   auto metadata = recording_.is_folder && as_before && fs::exists(described, ignored)
@@ -339,9 +221,9 @@ Result<void> Application::write_folder() {
 
 Result<Applied> Application::run() {
   if (const auto prepared = prepare(); !prepared) return tl::unexpected(prepared.error());
-  const auto written =
-      kind_.is_folder ? write_folder()
-                      : write_file(output_files(recording_, kind_, output_).front(), output_.parent_path());
+  const auto written = kind_.is_folder ? write_folder()
+                                       : write_file(output_files(recording_, kind_, output_).front(),
+                                                    output_.parent_path(), true);
   if (!written) return tl::unexpected(written.error());
   if (malformed_ > 0)
     result_.warnings.push_back(fmt::format("{} messages on {} are malformed, and were copied as they are",

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/apply/added_topics.hpp"
 #include "core/apply/provenance.hpp"
 #include "core/error.hpp"
 #include "core/job.hpp"
@@ -20,6 +21,7 @@ struct ApplyOptions {
   Rig rig;
   std::optional<StampSource> stamps;  // of both streams, overrides the rig
   bool again = false;                 // also if an offset was applied before
+  AddOptions add;                     // topics to add
 };
 
 struct Applied {
@@ -37,8 +39,11 @@ struct Applied {
 /// metadata.yaml and one file per input file. Messages are not converted between ROS 1 and ROS 2; an MCAP
 /// file holds either. The compression is kept if the output's format has it.
 ///
-/// The output appears complete or not at all. Takes memory for one chunk and the index, independent of the
-/// size of the recording.
+/// Topics that are added (AddOptions) are written between the messages of the laser, once all that a message
+/// holds was measured; the recording is then read into memory.
+///
+/// The output appears complete or not at all. Otherwise takes memory for one chunk and the index, independent
+/// of the size of the recording.
 Result<Applied> apply_offset(const std::filesystem::path& recording, const std::filesystem::path& output,
                              const ApplyOptions& options, const Job& job);
 

@@ -7,6 +7,10 @@ namespace {
 
 constexpr double kNs_per_s = 1e9;
 
+std::int64_t ns_after(std::int64_t first_ns, double time_s) {
+  return first_ns + std::llround(time_s * kNs_per_s);
+}
+
 }  // namespace
 
 double ClockShift::offset_s(std::int64_t laser_ns) const {
@@ -33,6 +37,16 @@ std::int64_t ClockShift::laser_ns(std::int64_t motor_ns) const {
     laser_ns = next;
   }
   return laser_ns;
+}
+
+ClockShift clock_shift(const AppliedOffset& offset, std::int64_t first_ns, std::int64_t last_ns) {
+  if (!offset.changes()) return ClockShift(offset.offset_s);
+  const std::int64_t middle_ns =
+      offset.middle_s ? ns_after(first_ns, *offset.middle_s) : first_ns + (last_ns - first_ns) / 2;
+  std::vector<OffsetStep> steps;
+  for (const AppliedOffset::Jump& jump : offset.jumps)
+    steps.push_back({ns_after(first_ns, jump.time_s), jump.size_s});
+  return {offset.offset_s, middle_ns, offset.rate, std::move(steps)};
 }
 
 }  // namespace sweepscope

@@ -4,6 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/apply/provenance.hpp"
+
 namespace sweepscope {
 
 /// A step of the offset at an instant of the laser's clock.
@@ -36,5 +38,8 @@ class ClockShift {
   double rate_ = 0;
   std::vector<OffsetStep> steps_;
 };
+
+/// The shift of an offset to apply, of a recording whose scans have stamps from `first_ns` to `last_ns`.
+ClockShift clock_shift(const AppliedOffset& offset, std::int64_t first_ns, std::int64_t last_ns);
 
 }  // namespace sweepscope

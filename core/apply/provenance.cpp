@@ -105,6 +105,7 @@ std::string to_json(const Provenance& provenance) {
     for (const AppliedOffset::Jump& jump : offset.jumps)
       document["jumps"].push_back({{"t_s", jump.time_s}, {"jump_ms", ms(jump.size_s)}});
   }
+  if (!provenance.added.empty()) document["added"] = provenance.added;
   document["estimate"] = provenance.estimate.empty() ? Json() : Json(provenance.estimate);
   document["version"] = SWEEPSCOPE_VERSION;
   return document.dump(-1, ' ', false, Json::error_handler_t::replace);

@@ -43,7 +43,8 @@ struct Provenance {
   std::string topic, joint;
   StampSource stamp = StampSource::kHeader;
   AppliedOffset offset;
-  std::uint64_t messages = 0;  // of the topic
+  std::uint64_t messages = 0;      // of the topic
+  std::vector<std::string> added;  // topics
 };
 
 /// The record as a JSON object in one line, schema "sweepscope.apply/1".

@@ -27,8 +27,12 @@ void store(std::byte* at, std::uint32_t value, bool swapped) {
   std::memcpy(at, bytes.data(), bytes.size());
 }
 
+std::int64_t stamp_at(const std::byte* at, bool swapped) {
+  return load(at, swapped) * kSecond_ns + load(at + 4, swapped);
+}
+
 StampShift shift_stamp(std::byte* at, Encoding encoding, bool swapped, const StampMap& moved) {
-  const std::int64_t before_ns = load(at, swapped) * kSecond_ns + load(at + 4, swapped);
+  const std::int64_t before_ns = stamp_at(at, swapped);
   if (before_ns == 0) return StampShift::kNone;
   const std::int64_t after_ns = moved(before_ns);
   // Seconds are signed in ROS 2.
@@ -84,6 +88,15 @@ StampShift shift_header_stamps(MessageKind kind, Encoding encoding, const std::s
     if (one == StampShift::kShifted) all = one;
   }
   return all;
+}
+
+std::optional<std::int64_t> header_stamp_ns(MessageKind kind, Encoding encoding,
+                                            std::span<const std::byte> message) {
+  const auto places = stamp_places(kind, encoding, "", message);
+  if (!places || places->size() != 1) return std::nullopt;
+  const bool swapped = encoding == Encoding::kCdr && message[1] == std::byte{0};
+  const std::int64_t stamp_ns = stamp_at(message.data() + places->front(), swapped);
+  return stamp_ns == 0 ? std::nullopt : std::optional(stamp_ns);
 }
 
 }  // namespace sweepscope

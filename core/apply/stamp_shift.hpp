@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -25,5 +26,9 @@ using StampMap = std::function<std::int64_t(std::int64_t ns)>;
 /// only those of the frame `joint` are moved.
 StampShift shift_header_stamps(MessageKind kind, Encoding encoding, const std::string& joint,
                                const StampMap& moved, std::span<std::byte> message);
+
+/// The header's stamp of a message of a laser; absent if it is malformed or has none (0).
+std::optional<std::int64_t> header_stamp_ns(MessageKind kind, Encoding encoding,
+                                            std::span<const std::byte> message);
 
 }  // namespace sweepscope

@@ -95,14 +95,17 @@ void Surveyor::add(const StreamMessage& message) {
 
 bool Surveyor::add_scan(const Entry& entry, const StreamMessage& message, std::span<const std::byte> bytes) {
   MessageStamps stamps{0, message.log_ns};
+  std::string frame;
   if (entry.type->kind == MessageKind::kLaserScan) {
     const auto scan = decode_laser_scan(entry.encoding, bytes);
     if (!scan) return false;
     stamps.header_ns = scan->header_ns;
+    frame = scan->frame;
   } else {
     const auto cloud = decode_points(entry.type->kind, entry.encoding, bytes);
     if (!cloud || cloud->points() == 0) return false;
     stamps.header_ns = cloud->header_ns;
+    frame = cloud->frame;
   }
   const std::string& topic = result_.topics[message.topic].name;
   auto& lasers = result_.raw.lasers;
@@ -110,6 +113,7 @@ bool Surveyor::add_scan(const Entry& entry, const StreamMessage& message, std::s
   if (known == lasers.end()) {
     RawLaser& laser = lasers.emplace_back();
     laser.topic = topic;
+    laser.frame = std::move(frame);
     laser.of_clouds = is_cloud(entry.type->kind);
     laser.scans.emplace_back().stamps = stamps;
     result_.first_scans.push_back(stamps);
@@ -216,7 +220,9 @@ Result<MovedStream> find_motor(StreamSurvey& survey, const Rig& rig, std::option
   const auto chosen = choose_joint(survey.raw, rig);
   if (!chosen) return tl::unexpected(chosen.error());
   const RawJoint& joint = survey.raw.joints[*chosen];
-  MovedStream moved{joint.topic, joint.joint};
+  MovedStream moved;
+  moved.topic = joint.topic;
+  moved.joint = joint.joint;
   moved.stamp =
       stamp_of(joint.stamps.front(), stamps.value_or(rig.motor.stamp.value_or(StampSource::kHeader)),
                joint.topic, survey);
@@ -228,7 +234,9 @@ Result<MovedStream> find_laser(StreamSurvey& survey, const Rig& rig, std::option
   const auto chosen = choose_laser(survey.raw, rig);
   if (!chosen) return tl::unexpected(chosen.error());
   const RawLaser& laser = survey.raw.lasers[*chosen];
-  MovedStream moved{laser.topic, ""};
+  MovedStream moved;
+  moved.topic = laser.topic;
+  moved.frame = laser.frame;
   moved.stamp =
       stamp_of(laser.scans.front().stamps, stamps.value_or(rig.laser.stamp.value_or(StampSource::kHeader)),
                laser.topic, survey);

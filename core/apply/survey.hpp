@@ -33,6 +33,7 @@ Result<StreamSurvey> survey(const StreamRecording& recording, const Rig& rig, co
 struct MovedStream {
   std::string topic;
   std::string joint;  // of the motor; empty of the laser
+  std::string frame;  // of the laser's messages; empty of the motor
   StampSource stamp = StampSource::kHeader;
   std::uint64_t messages = 0;              // of the joint, or of the laser
   std::int64_t first_ns = 0, last_ns = 0;  // of the laser, by that stamp

@@ -1,70 +1,15 @@
 #include "core/map/offset_map.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
-#include "core/loam/sweep_motion.hpp"
+#include "core/map/beam_placer.hpp"
+#include "core/map/map_path.hpp"
 #include "core/map/pose_reader.hpp"
-#include "core/offset/search_window.hpp"
-#include "core/offset/still_motion.hpp"
-#include "core/offset/walk.hpp"
 #include "core/parallel.hpp"
 
 namespace sweepscope {
 namespace {
-
-std::vector<SweepPose> standing_poses(const OffsetProblem& problem, double offset_s) {
-  std::vector<SweepPose> poses;
-  SweepPlacer placer(problem, offset_s);
-  for (PlacedSweep sweep; placer.next(sweep);) {
-    SweepPose& pose = poses.emplace_back();
-    pose.sweep = sweep.sweep;
-    pose.direction = sweep.direction;
-    pose.begin_s = sweep.begin_s;
-    pose.end_s = sweep.end_s;
-  }
-  return poses;
-}
-
-// Places every usable beam of one scan.
-class BeamPlacer {
- public:
-  BeamPlacer(const Recording& recording, double offset_s)
-      : recording_(recording),
-        kinematics_(recording.rig.mount),
-        motor_(recording.motor),
-        offset_s_(offset_s) {}
-
-  void place(const LaserScan& scan, const SweepPose& pose, MapCloud& cloud) {
-    const SweepMotion motion = pose.motion();
-    const auto ranges_m = recording_.ranges(scan);
-    for (std::uint32_t beam = 0; beam < scan.beams; ++beam) {
-      if (!std::isfinite(ranges_m[beam])) continue;
-      const double time_s = scan.beam_s(beam);
-      const double u = (time_s - pose.begin_s) / (pose.end_s - pose.begin_s);
-      const Eigen::Vector3d p_in_motor_m =
-          kinematics_.point_in_motor(ranges_m[beam], recording_.direction(scan, beam));
-      const Eigen::Vector3d p_m =
-          motion(kinematics_.base_from_motor(p_in_motor_m, motor_.angle_at(time_s + offset_s_)), u);
-      MapPoint point{};
-      point.getVector3fMap() = p_m.cast<float>();
-      point.data[3] = 1.0f;
-      point.intensity =
-          recording_.intensities.empty() ? 0.0f : recording_.intensities[scan.first_range + beam];
-      point.sweep = static_cast<std::uint32_t>(pose.sweep);
-      point.time_s = time_s;
-      cloud.points.push_back(point);
-    }
-  }
-
- private:
-  const Recording& recording_;
-  Kinematics kinematics_;
-  MotorReader motor_;
-  double offset_s_;
-};
 
 /// Of the scans that a map is made of: its points, grown by doubling, would be there twice meanwhile.
 std::size_t usable_beams(const Recording& recording, const std::vector<std::size_t>& sweep_of,
@@ -160,60 +105,24 @@ std::uint64_t map_memory_bytes(const Recording& recording, std::size_t maps) {
   return beams * (kOfFeatures_a_beam + maps * (kOfMap_a_beam + sizeof(MapPoint)));
 }
 
-namespace {
-
-// Whether the rig is taken to have moved.
-bool taken_for_moving(const OffsetProblem& problem, double offset_s, const MapOptions& options) {
-  if (options.assume) return *options.assume == RigKind::kMoving;
-  if (!options.poses.empty() || options.walk) return true;
-  return test_motion(still_grid(problem), offset_s).moving();
-}
-
-// Why no map can be built at all.
-Result<void> check_scans(const OffsetProblem& problem, double offset_s) {
-  const Recording& recording = *problem.recording;
-  const std::vector<std::string> reasons = motor_reasons(recording.motor, problem.motor);
-  if (!reasons.empty())
-    return failure(ExitCode::kNotIdentifiable, fmt::format("{}: {}", recording.name, reasons.front()));
-  PlacedSweep any;
-  if (SweepPlacer(problem, offset_s).next(any)) return {};
-  return failure(
-      ExitCode::kNotIdentifiable,
-      fmt::format("{}: no scan is covered by the motor's samples at these offsets.", recording.name));
-}
-
-}  // namespace
-
 Result<std::vector<OffsetMap>> build_maps(const PreparedRecording& prepared,
                                           std::span<const double> offsets_s, const MapOptions& options,
                                           const Job& job) {
   const auto [least, greatest] = std::minmax_element(offsets_s.begin(), offsets_s.end());
   const OffsetProblem problem = problem_for(prepared, *least, *greatest);
-  if (const auto checked = check_scans(problem, *least); !checked) return tl::unexpected(checked.error());
-  const bool moving = taken_for_moving(problem, *least, options);
-  std::string warning;
-  if (!options.poses.empty()) {
-    auto covered = check_pose_coverage(*prepared.recording, options.poses, problem.scan_used);
-    if (!covered) return tl::unexpected(covered.error());
-    warning = std::move(*covered);
-  }
-  std::shared_ptr<const SolvedWalk> walk = options.walk;
-  if (moving && options.poses.empty() && !walk) {
-    auto solved = find_walk(problem, (*least + *greatest) / 2, options.mapping, job);
-    if (!solved) return failure(ExitCode::kInterrupted, "interrupted while building the map");
-    walk = std::make_shared<const SolvedWalk>(std::move(*solved));
-  }
+  const auto path = find_map_path(problem, *least, *greatest, options, job);
+  if (!path) return tl::unexpected(path.error());
   std::vector<OffsetMap> maps(offsets_s.size());
   for_each_index(offsets_s.size(), [&](std::size_t i) {
     if (!options.poses.empty())
       maps[i] = build_along(problem, offsets_s[i], options);
     else
-      maps[i] =
-          build_one(problem, offsets_s[i], moving ? walk->sweeps : standing_poses(problem, offsets_s[i]));
-    if (moving) maps[i].walk = walk;
-    maps[i].moving = moving;
-    maps[i].lost = moving && walk && walk->lost;
-    maps[i].warning = warning;
+      maps[i] = build_one(problem, offsets_s[i],
+                          path->moving ? path->walk->sweeps : stationary_poses(problem, offsets_s[i]));
+    maps[i].walk = path->walk;
+    maps[i].moving = path->moving;
+    maps[i].lost = path->walk && path->walk->lost;
+    maps[i].warning = path->warning;
   });
   if (job.cancelled()) return failure(ExitCode::kInterrupted, "interrupted while building the map");
   return maps;

@@ -34,6 +34,25 @@ TEST_F(ApplyCommand, TheRecordingHasNoOffsetAfterwardsInAnyFormat) {
   EXPECT_LT(std::abs(estimate("folder")["offset_ms"].get<double>()), 0.01);
 }
 
+TEST_F(ApplyCommand, SweepsAsFilesWithTheirPoses) {
+  const Outcome outcome = run("apply room.bag --estimate room.json --clouds-only sweeps");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.out, "sweeps: 10 sweeps of a stationary rig, and poses.tum\n");
+  EXPECT_TRUE(exists("sweeps/000000.pcd"));
+  EXPECT_TRUE(exists("sweeps/000009.pcd"));
+  EXPECT_TRUE(exists("sweeps/poses.tum"));
+  EXPECT_FALSE(exists("sweeps/000010.pcd"));
+  ASSERT_EQ(run("convert room.bag -o tables").exit_code, 0);
+  EXPECT_EQ(run("apply tables --offset-ms 24 --clouds-only of-tables --clouds-format ply").exit_code, 0);
+  EXPECT_TRUE(exists("of-tables/000009.ply"));
+  EXPECT_EQ(run("apply room.bag --offset-ms 24 --clouds-only sweeps").exit_code, 2);
+}
+
+TEST_F(ApplyCommand, TheRecordingWithCloudsHasTheSameOffset) {
+  ASSERT_EQ(run("apply room.bag --estimate room.json -o out.bag --clouds /sweeps --tf").exit_code, 0);
+  EXPECT_LT(std::abs(estimate("out.bag")["offset_ms"].get<double>()), 0.01);
+}
+
 TEST_F(ApplyCommand, WrongUsageSaysWhatIsWrongAndWritesNothing) {
   const auto refused = [&](const std::string& arguments, int exit_code = 2) {
     const Outcome outcome = run("apply " + arguments);
@@ -42,6 +61,11 @@ TEST_F(ApplyCommand, WrongUsageSaysWhatIsWrongAndWritesNothing) {
   };
   EXPECT_NE(refused("room.bag -o out.bag").find("one of --estimate and --offset-ms"), std::string::npos);
   EXPECT_NE(refused("room.bag -o out.bag --offset-ms 24 --estimate room.json").find("one of --estimate"),
+            std::string::npos);
+  EXPECT_NE(refused("room.bag --offset-ms 24").find("-o OUT, or --clouds-only DIR"), std::string::npos);
+  EXPECT_NE(refused("room.bag --offset-ms 24 --clouds-only dir --tf").find("name it with -o OUT"),
+            std::string::npos);
+  EXPECT_NE(refused("room.bag -o out.bag --offset-ms 24 --poses p.tum").find("--poses is used by"),
             std::string::npos);
   EXPECT_NE(refused("room.bag -o room.bag --offset-ms 24").find("is an input of this command"),
             std::string::npos);

@@ -1,50 +1,13 @@
 #include "core/recording/ros2/cdr_writer.hpp"
 
-#include <cstring>
 #include <span>
-#include <string_view>
+
+#include "core/recording/messages/message_writer.hpp"
 
 namespace sweepscope {
-namespace {
-
-class CdrWriter {
- public:
-  template <typename T>
-  void number(T value) {
-    bytes_.resize(bytes_.size() + (sizeof(T) - (bytes_.size() - kStart) % sizeof(T)) % sizeof(T));
-    bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
-  }
-  void text(std::string_view text) {
-    number(static_cast<std::uint32_t>(text.size() + 1));
-    bytes_.append(text).append(1, '\0');
-  }
-  void array(std::span<const std::byte> bytes) {
-    number(static_cast<std::uint32_t>(bytes.size()));
-    bytes_.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  }
-  template <typename T>
-  void array(std::span<const T> numbers) {
-    number(static_cast<std::uint32_t>(numbers.size()));
-    for (const T value : numbers) number(value);
-  }
-  void header(std::int64_t ns, std::string_view frame) {
-    number(static_cast<std::int32_t>(ns / kNanosecondsPerSecond));
-    number(static_cast<std::uint32_t>(ns % kNanosecondsPerSecond));
-    text(frame);
-  }
-  std::string take() { return std::move(bytes_); }
-
- private:
-  static constexpr std::size_t kStart = 4;  // what aligns counts from after the encapsulation
-  static constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
-  std::string bytes_{"\0\1\0\0", kStart};
-};
-
-}  // namespace
-
 std::string cdr_laser_scan(const RawLaser& laser, std::size_t scan) {
   const RawScan& raw = laser.scans[scan];
-  CdrWriter writer;
+  MessageWriter writer(Encoding::kCdr);
   writer.header(raw.stamps.header_ns, "laser");
   for (const float value : {raw.angle_min_rad, raw.angle_max_rad, raw.angle_increment_rad,
                             raw.time_increment_s, raw.scan_time_s, raw.range_min_m, raw.range_max_m}) {
@@ -57,7 +20,7 @@ std::string cdr_laser_scan(const RawLaser& laser, std::size_t scan) {
 }
 
 std::string cdr_cloud(const RawCloud& cloud) {
-  CdrWriter writer;
+  MessageWriter writer(Encoding::kCdr);
   writer.header(cloud.stamps.header_ns, cloud.frame);
   writer.number(cloud.height);
   writer.number(cloud.width);
@@ -77,7 +40,7 @@ std::string cdr_cloud(const RawCloud& cloud) {
 }
 
 std::string cdr_joint_state(const RawJoint& joint, std::size_t sample) {
-  CdrWriter writer;
+  MessageWriter writer(Encoding::kCdr);
   writer.header(joint.stamps[sample].header_ns, "");
   writer.number(std::uint32_t{1});
   writer.text(joint.joint);
@@ -87,12 +50,8 @@ std::string cdr_joint_state(const RawJoint& joint, std::size_t sample) {
   return writer.take();
 }
 
-namespace {
-
-/// A message's own members, and below them what its header is made of.
-std::string with_header(const char* members) {
-  return std::string("std_msgs/Header header\n") + members +
-         "================================================================================\n"
+std::string header_definition() {
+  return "================================================================================\n"
          "MSG: std_msgs/Header\n"
          "builtin_interfaces/Time stamp\n"
          "string frame_id\n"
@@ -100,6 +59,12 @@ std::string with_header(const char* members) {
          "MSG: builtin_interfaces/Time\n"
          "int32 sec\n"
          "uint32 nanosec\n";
+}
+
+namespace {
+
+std::string with_header(const char* members) {
+  return std::string("std_msgs/Header header\n") + members + header_definition();
 }
 
 }  // namespace

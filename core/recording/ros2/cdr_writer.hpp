@@ -18,5 +18,7 @@ std::string cdr_joint_state(const RawJoint& joint, std::size_t sample);
 std::string laser_scan_definition();
 std::string point_cloud_definition();
 std::string joint_state_definition();
+/// The end of a definition: std_msgs/Header and what it uses.
+std::string header_definition();
 
 }  // namespace sweepscope

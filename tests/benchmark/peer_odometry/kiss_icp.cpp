@@ -4,7 +4,7 @@
 
 namespace sweepscope {
 
-std::vector<StampedPose> kiss_icp_poses(const std::vector<SweepCloud>& clouds, double voxel_m, bool deskew) {
+std::vector<StampedPose> kiss_icp_poses(const std::vector<PeerCloud>& clouds, double voxel_m, bool deskew) {
   kiss_icp::pipeline::KISSConfig config;
   config.voxel_size = voxel_m;
   config.max_range = 30;
@@ -13,11 +13,11 @@ std::vector<StampedPose> kiss_icp_poses(const std::vector<SweepCloud>& clouds, d
   config.max_num_threads = 1;  // the processor time that waiting threads take is not the method's
   kiss_icp::pipeline::KissICP odometry(config);
   std::vector<StampedPose> poses;
-  for (const SweepCloud& cloud : clouds) {
+  for (const PeerCloud& cloud : clouds) {
     std::vector<Eigen::Vector3d> points_m;
     std::vector<double> times;
     for (const auto& line : cloud.lines) {
-      for (const SweepPoint& point : line) {
+      for (const PeerPoint& point : line) {
         points_m.push_back(point.p_in_base_m);
         times.push_back(point.u);
       }

@@ -16,11 +16,11 @@ using Line = pcl::PointCloud<pcl::PointXYZI>;
 const Eigen::Matrix3d kTheirsFromBase{{0, 1, 0}, {0, 0, 1}, {1, 0, 0}};
 
 /// The scans as its rings. A point's intensity is its ring plus its time.
-std::vector<Line> rings_of(const SweepCloud& cloud) {
+std::vector<Line> rings_of(const PeerCloud& cloud) {
   std::vector<Line> rings;
   for (const auto& line : cloud.lines) {
     const float ring = float(rings.size());
-    for (Line& points = rings.emplace_back(); const SweepPoint& from : line) {
+    for (Line& points = rings.emplace_back(); const PeerPoint& from : line) {
       pcl::PointXYZI point;
       point.getVector3fMap() = (kTheirsFromBase * from.p_in_base_m).cast<float>();
       point.intensity = ring + kPeriod_s * float(from.u);
@@ -43,7 +43,7 @@ StampedPose base_pose(const loam::Twist& pose, double time_s) {
 
 // Where a sweep has more sharp corners than the last one had corners, its odometry reads beyond the end of a
 // vector; so on 6 of the 28 walks. It is measured as it is: repeated runs gave equal numbers.
-std::vector<StampedPose> loam_velodyne_poses(const std::vector<SweepCloud>& clouds, double scale) {
+std::vector<StampedPose> loam_velodyne_poses(const std::vector<PeerCloud>& clouds, double scale) {
   loam::RegistrationParams parameters(kPeriod_s);
   parameters.lessFlatFilterSize *= float(scale);
   loam::BasicScanRegistration registration;
@@ -58,7 +58,7 @@ std::vector<StampedPose> loam_velodyne_poses(const std::vector<SweepCloud>& clou
   scale_voxels(mapping.downSizeFilterSurf());
 
   std::vector<StampedPose> poses;
-  for (const SweepCloud& cloud : clouds) {
+  for (const PeerCloud& cloud : clouds) {
     const loam::Time end{
         std::chrono::duration_cast<loam::Time::duration>(std::chrono::duration<double>(cloud.end_s))};
     registration.processScanlines(end, rings_of(cloud));

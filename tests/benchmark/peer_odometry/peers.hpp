@@ -3,15 +3,15 @@
 #include <vector>
 
 #include "core/geometry/pose.hpp"
-#include "sweep_clouds.hpp"
+#include "peer_clouds.hpp"
 
 namespace sweepscope {
 
 /// KISS-ICP, a pose for each cloud: at its last beam or, without deskewing, at its middle.
-std::vector<StampedPose> kiss_icp_poses(const std::vector<SweepCloud>& clouds, double voxel_m, bool deskew);
+std::vector<StampedPose> kiss_icp_poses(const std::vector<PeerCloud>& clouds, double voxel_m, bool deskew);
 
 /// loam_velodyne's odometry and mapping, both on every cloud; a pose for each at its end. `scale` is the part
 /// that its voxels are of the ones it is shipped with.
-std::vector<StampedPose> loam_velodyne_poses(const std::vector<SweepCloud>& clouds, double scale);
+std::vector<StampedPose> loam_velodyne_poses(const std::vector<PeerCloud>& clouds, double scale);
 
 }  // namespace sweepscope

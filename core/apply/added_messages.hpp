@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "core/apply/message_stream.hpp"
+#include "core/geometry/map_cloud.hpp"
+#include "core/geometry/pose.hpp"
+#include "core/recording/messages/messages.hpp"
+
+namespace sweepscope {
+
+/// A topic of sensor_msgs/PointCloud2, with the definition in ROS 1's or ROS 2's form.
+StreamTopic cloud_topic(const std::string& name, Encoding encoding);
+/// The topic /tf, of tf2_msgs/TFMessage.
+StreamTopic transform_topic(Encoding encoding);
+
+/// A cloud as sensor_msgs/PointCloud2 with the fields x, y, z (m), intensity and time (s since the stamp),
+/// all float32. `begin_s` is the time of the stamp on the clock of the points' times.
+std::string cloud_message(Encoding encoding, std::int64_t stamp_ns, std::string_view frame,
+                          const MapCloud& cloud, double begin_s);
+
+/// One transform as tf2_msgs/TFMessage: p_in_parent = parent_from_child * p_in_child.
+std::string transform_message(Encoding encoding, std::int64_t stamp_ns, std::string_view parent,
+                              std::string_view child, const Pose& parent_from_child);
+
+}  // namespace sweepscope

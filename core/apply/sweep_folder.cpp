@@ -1,0 +1,55 @@
+#include "core/apply/sweep_folder.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/apply/added_topics.hpp"
+#include "core/io/atomic_folder.hpp"
+#include "core/io/cloud_file.hpp"
+#include "core/io/trajectory_file.hpp"
+
+namespace sweepscope {
+namespace {
+
+ClockShift shift_of(const Recording& recording, const AppliedOffset& offset) {
+  const auto ns = [&](double time_s) { return recording.epoch_ns + std::llround(time_s * 1e9); };
+  if (recording.scans.empty()) return ClockShift(offset.offset_s);
+  return clock_shift(offset, ns(recording.scans.front().first_beam_s),
+                     ns(recording.scans.back().first_beam_s));
+}
+
+}  // namespace
+
+Result<WrittenSweeps> write_sweeps(Recording recording, const AppliedOffset& offset,
+                                   const AddOptions& options, const std::filesystem::path& folder,
+                                   const std::string& extension, const Job& job) {
+  const ClockShift clocks = shift_of(recording, offset);
+  const Recording corrected = without_offset(std::move(recording), clocks);
+  const auto map = map_options(options, corrected);
+  if (!map) return tl::unexpected(map.error());
+  const auto prepared = prepare(corrected, map->features, job);
+  if (!prepared) return tl::unexpected(prepared.error());
+  const auto clouds = SweepClouds::create(*prepared, 0, *map, job);
+  if (!clouds) return tl::unexpected(clouds.error());
+  auto output = AtomicFolder::create(folder);
+  if (!output) return tl::unexpected(output.error());
+  WrittenSweeps written{clouds->size(), clouds->moving(), {}};
+  if (!clouds->warning().empty()) written.warnings.push_back(clouds->warning());
+  if (clouds->lost()) written.warnings.push_back("tracking was lost: do not trust the clouds");
+  std::vector<StampedPose> poses;
+  for (std::size_t i = 0; i < clouds->size(); ++i) {
+    if (job.cancelled()) return failure(ExitCode::kInterrupted, "interrupted");
+    const SweepCloud cloud = clouds->at(i);
+    const auto path = output->part_path() / fmt::format("{:06}{}", i, extension);
+    if (auto done = write_cloud(path, cloud.points); !done) return tl::unexpected(done.error());
+    poses.push_back({cloud.begin_s, cloud.map_from_base.translation_m, cloud.map_from_base.rotation});
+    job.report("writing", double(i + 1) / double(clouds->size()));
+  }
+  if (auto done = write_tum(output->part_path() / "poses.tum", poses, corrected.epoch_ns); !done)
+    return tl::unexpected(done.error());
+  if (auto done = output->commit(); !done) return tl::unexpected(done.error());
+  return written;
+}
+
+}  // namespace sweepscope

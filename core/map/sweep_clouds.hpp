@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/geometry/map_cloud.hpp"
+#include "core/job.hpp"
+#include "core/map/map_path.hpp"
+#include "core/offset/prepared.hpp"
+
+namespace sweepscope {
+
+/// One sweep of the motor as a cloud in the base frame of its first beam: the motion of the motor is removed,
+/// and that of the rig too.
+struct SweepCloud {
+  double begin_s = 0, end_s = 0;  // first and last beam, laser clock, seconds since Recording::epoch_ns
+  Pose map_from_base;             // at begin_s
+  MapCloud points;
+};
+
+/// The sweeps of a recording as clouds, each made when it is asked for, so that they take no memory. Beams
+/// are placed as in a map: see build_maps.
+class SweepClouds {
+ public:
+  /// The recording that was prepared must outlive it. For the errors see build_maps.
+  static Result<SweepClouds> create(const PreparedRecording& prepared, double offset_s,
+                                    const MapOptions& options, const Job& job);
+
+  SweepClouds(SweepClouds&&) = default;
+  SweepClouds& operator=(SweepClouds&&) = delete;
+
+  std::size_t size() const { return sweeps_.size(); }
+  /// Seconds since Recording::epoch_ns.
+  double begin_s(std::size_t sweep) const;
+  double end_s(std::size_t sweep) const;
+  SweepCloud at(std::size_t sweep) const;
+
+  bool moving() const { return path_.moving; }
+  bool lost() const { return path_.walk && path_.walk->lost; }
+  /// Of poses that do not cover every scan; empty where they do.
+  const std::string& warning() const { return path_.warning; }
+
+ private:
+  struct ScannedSweep {
+    std::size_t sweep = 0;             // index into MotorMotion::sweeps
+    std::vector<std::uint32_t> scans;  // those that are placed
+    const SweepPose* pose = nullptr;   // null: by poses from elsewhere
+  };
+  SweepClouds(OffsetProblem problem, double offset_s, std::vector<StampedPose> poses, MapPath path)
+      : problem_(std::move(problem)), offset_s_(offset_s), poses_(std::move(poses)), path_(std::move(path)) {}
+  void find_sweeps();
+
+  OffsetProblem problem_;
+  double offset_s_;
+  std::vector<StampedPose> poses_;
+  MapPath path_;
+  std::vector<SweepPose> stationary_;
+  std::vector<ScannedSweep> sweeps_;
+};
+
+}  // namespace sweepscope

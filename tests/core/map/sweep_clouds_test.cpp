@@ -1,0 +1,70 @@
+#include "core/map/sweep_clouds.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/core/engine_fixtures.hpp"
+
+namespace sweepscope {
+namespace {
+
+constexpr double kTruth_s = 0.024;
+
+// Every sweep's cloud, moved by its pose, holds the points of the map, in their order.
+void expect_the_map(const Recording& recording, const MapOptions& options, std::size_t min_sweeps) {
+  const auto prepared = prepare(recording, {}, Job()).value();
+  const auto clouds = SweepClouds::create(prepared, kTruth_s, options, Job());
+  ASSERT_TRUE(clouds) << clouds.error().message;
+  const OffsetMap map = build_maps(prepared, {&kTruth_s, 1}, options, Job()).value().front();
+  EXPECT_EQ(clouds->moving(), map.moving);
+  EXPECT_GE(clouds->size(), min_sweeps);
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < clouds->size(); ++i) {
+    const SweepCloud cloud = clouds->at(i);
+    EXPECT_EQ(cloud.begin_s, clouds->begin_s(i));
+    EXPECT_EQ(cloud.end_s, clouds->end_s(i));
+    for (const MapPoint& point : cloud.points.points) {
+      ASSERT_LT(next, map.cloud->size());
+      const MapPoint& same = map.cloud->points[next++];
+      ASSERT_EQ(point.time_s, same.time_s);
+      ASSERT_EQ(point.sweep, same.sweep);
+      ASSERT_GE(point.time_s, cloud.begin_s);
+      ASSERT_LE(point.time_s, cloud.end_s);
+      const Eigen::Vector3d in_map_m = cloud.map_from_base * point.getVector3fMap().cast<double>();
+      ASSERT_LT((in_map_m - same.getVector3fMap().cast<double>()).norm(), 2e-5);
+    }
+  }
+  EXPECT_EQ(next, map.cloud->size());
+}
+
+TEST(SweepClouds, OfAStationaryRigAreTheMapInPieces) {
+  test::Bench bench;
+  bench.mesh = test::hall();
+  bench.offset_s = kTruth_s;
+  expect_the_map(bench.record(), {}, 8);
+}
+
+TEST(SweepClouds, OfAMovingRigLieInTheBaseFrameOfTheirFirstBeam) {
+  expect_the_map(test::simulated("metro-station", kTruth_s, 12).recording, {}, 22);
+}
+
+TEST(SweepClouds, FollowPosesFromElsewhere) {
+  const Simulation& simulation = test::simulated("metro-station", kTruth_s, 12);
+  MapOptions options;
+  for (const TruthPose& pose : simulation.truth)
+    options.poses.push_back({pose.time_s, pose.position_m, pose.orientation});
+  expect_the_map(simulation.recording, options, 22);
+}
+
+TEST(SweepClouds, HoldTheMotionOfARigThatIsTakenToBeStationary) {
+  const Simulation& simulation = test::simulated("metro-station", kTruth_s, 12);
+  const auto prepared = prepare(simulation.recording, {}, Job()).value();
+  MapOptions options;
+  options.assume = RigKind::kStationary;
+  const auto clouds = SweepClouds::create(prepared, kTruth_s, options, Job()).value();
+  EXPECT_FALSE(clouds.moving());
+  for (std::size_t i = 0; i < clouds.size(); ++i)
+    EXPECT_EQ(clouds.at(i).map_from_base.translation_m, Eigen::Vector3d::Zero());
+}
+
+}  // namespace
+}  // namespace sweepscope
