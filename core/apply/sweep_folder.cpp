@@ -38,9 +38,11 @@ Result<WrittenSweeps> write_sweeps(Recording recording, const AppliedOffset& off
   if (!clouds->warning().empty()) written.warnings.push_back(clouds->warning());
   if (clouds->lost()) written.warnings.push_back("tracking was lost: do not trust the clouds");
   std::vector<StampedPose> poses;
+  const double epoch_s = double(corrected.epoch_ns) * 1e-9;
   for (std::size_t i = 0; i < clouds->size(); ++i) {
     if (job.cancelled()) return failure(ExitCode::kInterrupted, "interrupted");
-    const SweepCloud cloud = clouds->at(i);
+    SweepCloud cloud = clouds->at(i);
+    for (MapPoint& point : cloud.points.points) point.time_s += epoch_s;  // the clock of poses.tum
     const auto path = output->part_path() / fmt::format("{:06}{}", i, extension);
     if (auto done = write_cloud(path, cloud.points); !done) return tl::unexpected(done.error());
     poses.push_back({cloud.begin_s, cloud.map_from_base.translation_m, cloud.map_from_base.rotation});

@@ -20,8 +20,8 @@ struct WrittenSweeps {
 };
 
 /// Writes each sweep as a cloud (see SweepCloud) into a new folder: 000000.pcd, 000001.pcd ... (or .ply, by
-/// `extension`), with the times of the points on the laser's clock, and poses.tum, the pose of each cloud's
-/// base frame in the map frame at its first beam. The folder appears complete or not at all.
+/// `extension`), with the times of the points as the laser's stamps count, and poses.tum, the pose of each
+/// cloud's base frame in the map frame at its first beam. The folder appears complete or not at all.
 Result<WrittenSweeps> write_sweeps(Recording recording, const AppliedOffset& offset,
                                    const AddOptions& options, const std::filesystem::path& folder,
                                    const std::string& extension, const Job& job);

@@ -63,7 +63,7 @@ class FeatureMap {
   // Neighbouring cells, hashed as one: the 27 cells of a query lie in at most 8 bricks.
   struct Brick {
     Brick() { cells.fill(kNone); }
-    std::array<std::uint32_t, kBrick * kBrick * kBrick> cells;
+    std::array<std::uint32_t, std::size_t{kBrick} * kBrick * kBrick> cells;
   };
   struct Slot {
     std::uint64_t key = kNoKey;

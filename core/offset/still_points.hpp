@@ -105,7 +105,7 @@ class StillNeighbours {
   const StillPatchOptions& options_;
   std::size_t next_ = 0;                  // the first of the pool's lines at or above the angle
   static constexpr int kBinsPerLine = 3;  // the bin of the point and those beside it
-  std::array<std::size_t, 2 * kMaxLinesPerSide * kBinsPerLine> near_;
+  std::array<std::size_t, std::size_t{2} * kMaxLinesPerSide * kBinsPerLine> near_;
   int count_ = 0;
 };
 

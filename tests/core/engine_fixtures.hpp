@@ -28,7 +28,7 @@ inline constexpr double kMs = 1e-3;
 inline MotorTrack track_of(const std::function<double(double t_s)>& angle_rad, double from_s, double to_s,
                            double rate_hz = 100) {
   MotorTrack track;
-  const auto samples = static_cast<int>((to_s - from_s) * rate_hz + 0.5);
+  const auto samples = static_cast<int>(std::lround((to_s - from_s) * rate_hz));
   for (int i = 0; i <= samples; ++i) {
     track.time_s.push_back(from_s + i / rate_hz);
     track.angle_rad.push_back(angle_rad(track.time_s.back()));

@@ -51,8 +51,10 @@ void show_texture(const PaneContext& context, Side side, const PixelRect& pictur
   const unsigned texture = context.views[static_cast<std::size_t>(side)]->texture();
   if (texture == 0) return;
   const auto x = [&](double share) { return static_cast<float>(picture.left + share * picture.width); };
-  ImGui::GetWindowDrawList()->AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture)),
-                                       {x(from), static_cast<float>(picture.top)},
+  // ImGui keeps OpenGL's numbers as pointers.
+  const auto id =
+      reinterpret_cast<ImTextureID>(std::uintptr_t{texture});  // NOLINT(performance-no-int-to-ptr)
+  ImGui::GetWindowDrawList()->AddImage(id, {x(from), static_cast<float>(picture.top)},
                                        {x(to), static_cast<float>(picture.bottom())},
                                        {static_cast<float>(from), 1}, {static_cast<float>(to), 0});
 }

@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
-#include "core/io/trajectory_file.hpp"
-#include "core/recording/formats/read_recording.hpp"
+#include "sweepscope/core/io/trajectory_file.hpp"
+#include "sweepscope/core/recording/formats/read_recording.hpp"
 #include "peers.hpp"
 
 namespace sweepscope {

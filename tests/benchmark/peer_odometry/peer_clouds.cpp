@@ -4,10 +4,10 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "core/geometry/kinematics.hpp"
-#include "core/io/cloud_file.hpp"
-#include "core/offset/prepared.hpp"
-#include "core/recording/sweeps.hpp"
+#include "sweepscope/core/geometry/kinematics.hpp"
+#include "sweepscope/core/io/cloud_file.hpp"
+#include "sweepscope/core/offset/prepared.hpp"
+#include "sweepscope/core/recording/sweeps.hpp"
 
 namespace sweepscope {
 namespace {

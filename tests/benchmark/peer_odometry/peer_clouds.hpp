@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "core/recording/recording.hpp"
+#include "sweepscope/core/recording/recording.hpp"
 
 namespace sweepscope {
 

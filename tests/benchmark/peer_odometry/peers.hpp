@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/geometry/pose.hpp"
+#include "sweepscope/core/geometry/pose.hpp"
 #include "peer_clouds.hpp"
 
 namespace sweepscope {

@@ -16,7 +16,7 @@ Estimate directly(const Recording& recording, EstimateOptions options = {}) {
   return estimate(recording, options, Job()).value();
 }
 
-Recording made(SimulationOptions options) {
+Recording made(const SimulationOptions& options) {
   return simulate(options, Job()).value().recording;
 }
 
