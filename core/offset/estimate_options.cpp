@@ -138,7 +138,8 @@ EstimateOption number(std::string name, std::string help, Number value, bool zer
   return option;
 }
 
-std::vector<EstimateOption> declared() {
+// Which method, and what the paper's methods take.
+std::vector<EstimateOption> method_options() {
   const std::string gates = fmt::format(" (default: {})", MappingOptions().edge_gate_m);
   return {choice("method", "M",
                  "direct: the offset as an unknown of a least squares, for stationary and moving rigs; "
@@ -167,8 +168,12 @@ std::vector<EstimateOption> declared() {
           number("edge-gate-m", "delta_E: an edge match is nearer than this" + gates,
                  &EstimateOptions::edge_gate_m, false),
           number("plane-gate-m", "delta_H: a plane match is nearer than this" + gates,
-                 &EstimateOptions::plane_gate_m, false),
-          {"range",
+                 &EstimateOptions::plane_gate_m, false)};
+}
+
+// Where the offset is searched for.
+std::vector<EstimateOption> range_options() {
+  return {{"range",
            "FROM:TO:STEP",
            "Candidates in milliseconds, such as 19:29:1; repeatable (default: coarse to fine about 0)",
            {},
@@ -181,8 +186,12 @@ std::vector<EstimateOption> declared() {
            {},
            false,
            false,
-           set_around},
-          {"solve",
+           set_around}};
+}
+
+// What is found beside one constant offset.
+std::vector<EstimateOption> rig_options() {
+  return {{"solve",
            "offset[,mount][,play][,encoder]",
            "Solve for parts of the rig beside the offset: how the laser is mounted on the motor, the play of "
            "the gear, the encoder's eccentricity. The rig must be stationary",
@@ -207,6 +216,12 @@ std::vector<EstimateOption> declared() {
            false,
            true,
            set_over_time}};
+}
+
+std::vector<EstimateOption> declared() {
+  std::vector<EstimateOption> all = method_options();
+  for (const auto& more : {range_options(), rig_options()}) all.insert(all.end(), more.begin(), more.end());
+  return all;
 }
 
 }  // namespace

@@ -114,6 +114,29 @@ TEST(EstimateJson, ReadsBackWhatItWrote) {
   EXPECT_EQ(*read->curve[1].n, 12345);
 }
 
+TEST(EstimateJson, TheTrajectoryUsedAndTheFitReadBack) {
+  Estimate written = stationary_estimate();
+  written.fit = FitEvidence{true, 5, 4000, 3900, 0.0071, 2.5, 4.25};
+  for (const auto kind : {UsedMotion::Kind::kPoses, UsedMotion::Kind::kOdometry, UsedMotion::Kind::kImu}) {
+    UsedMotion motion;
+    motion.kind = kind;
+    motion.name = kind == UsedMotion::Kind::kPoses ? "camera.tum" : "/topic";
+    motion.trusted = kind == UsedMotion::Kind::kPoses;
+    motion.time_shift_s = 0.137;
+    written.motion = motion;
+    const auto read = parse_estimate_json(estimate_to_json(written), "a.json");
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(estimate_to_json(*read), estimate_to_json(written));
+    ASSERT_TRUE(read->motion && read->fit);
+    EXPECT_EQ(read->motion->kind, kind);
+    EXPECT_EQ(read->motion->trusted, motion.trusted);
+    EXPECT_EQ(read->motion->time_shift_s, 0.137);
+    EXPECT_FALSE(read->motion->time_shift_sigma_s);
+    EXPECT_EQ(read->fit->iterations, 5);
+    EXPECT_EQ(read->fit->lever_m, 2.5);
+  }
+}
+
 TEST(EstimateJson, CountsAreWrittenWithoutADecimalPoint) {
   Estimate estimate = stationary_estimate();
   estimate.curve[0].n = 2'345'678;

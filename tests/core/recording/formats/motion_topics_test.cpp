@@ -3,11 +3,13 @@
 #include <sensor_msgs/Imu.h>
 
 #include <cmath>
+#include <functional>
 
 #include "core/recording/formats/read_recording.hpp"
 #include "core/recording/messages/messages.hpp"
 #include "core/recording/rig.hpp"
 #include "core/recording/rig/detect_rig.hpp"
+#include "core/recording/ros2/mcap_writer.hpp"
 #include "tests/core/recording/message_bytes.hpp"
 #include "tests/core/recording/test_bag.hpp"
 #include "tests/core/recording/test_database.hpp"
@@ -125,37 +127,66 @@ TEST(MotionTopics, ThatTheRigDoesNotNameAreOnlyCountedAndListed) {
       << text;
 }
 
-TEST(MotionTopics, OfARos2BagAreRead) {
-  const test::ScratchFolder folder;
+using WriteMessage = std::function<void(std::size_t topic, std::int64_t receive_ns, const std::string&)>;
+
+/// The topics of a ROS 2 bag with an IMU and odometry, from 1.
+const std::vector<std::pair<std::string, std::string>> kTopics{
+    {"/scan", "sensor_msgs/msg/LaserScan"},
+    {"/joint_states", "sensor_msgs/msg/JointState"},
+    {"/imu", "sensor_msgs/msg/Imu"},
+    {"/odom", "nav_msgs/msg/Odometry"}};
+
+void write_messages(const WriteMessage& write) {
   const auto kCdr = MessageBytes::kCdr;
-  {
-    test::TestDatabase database(folder / "a.db3");
-    database.topic(1, "/scan", "sensor_msgs/msg/LaserScan");
-    database.topic(2, "/joint_states", "sensor_msgs/msg/JointState");
-    database.topic(3, "/imu", "sensor_msgs/msg/Imu");
-    database.topic(4, "/odom", "nav_msgs/msg/Odometry");
-    for (std::uint32_t i = 0; i < 40; ++i) {
-      const std::uint32_t ns = 25'000'000 * i;
-      const std::int64_t receive_ns = 1000'000'000'000 + ns;
-      database.message(1, receive_ns, test::scan_bytes(kCdr, 1000, ns, {1, 2, 3, 4, 5}));
-      database.message(2, receive_ns, test::joint_bytes(kCdr, 1000, ns, {"roll"}, {0.1 * i}));
-      database.message(3, receive_ns, imu_bytes(kCdr, 1000, ns, {0.01 * i, 0, 0}));
-      database.message(4, receive_ns,
-                       odometry_bytes(kCdr, 1000, ns, {0.1 * i, 0, 0}, Eigen::Quaterniond(1, 0, 0, 0)));
-    }
-    // An orientation that is none.
-    database.message(4, 1001'000'000'000,
-                     odometry_bytes(kCdr, 1001, 0, Vector3d::Zero(), Eigen::Quaterniond(0, 0, 0, 0)));
+  for (std::uint32_t i = 0; i < 40; ++i) {
+    const std::uint32_t ns = 25'000'000 * i;
+    const std::int64_t receive_ns = 1000'000'000'000 + ns;
+    write(1, receive_ns, test::scan_bytes(kCdr, 1000, ns, {1, 2, 3, 4, 5}));
+    write(2, receive_ns, test::joint_bytes(kCdr, 1000, ns, {"roll"}, {0.1 * i}));
+    write(3, receive_ns, imu_bytes(kCdr, 1000, ns, {0.01 * i, 0, 0}));
+    write(4, receive_ns, odometry_bytes(kCdr, 1000, ns, {0.1 * i, 0, 0}, Eigen::Quaterniond(1, 0, 0, 0)));
   }
+  // An orientation that is none.
+  write(4, 1001'000'000'000, odometry_bytes(kCdr, 1001, 0, Vector3d::Zero(), Eigen::Quaterniond(0, 0, 0, 0)));
+}
+
+void expect_both(const std::filesystem::path& path) {
   Rig rig = rig_with_imu();
   rig.odometry.topic = "/odom";
-  const auto recording = read(folder / "a.db3", rig);
+  const auto recording = read(path, rig);
   ASSERT_TRUE(recording) << recording.error().message;
   ASSERT_EQ(recording->turn_rates.time_s.size(), 40U);
   ASSERT_EQ(recording->odometry.size(), 40U);
   EXPECT_EQ(recording->odometry[20].position_m, Vector3d(2, 0, 0));
   EXPECT_DOUBLE_EQ(recording->odometry[20].time_s, 0.5);
   EXPECT_EQ(recording->report.warnings.size(), 1U);  // of the one that was dropped
+}
+
+TEST(MotionTopics, OfARos2DatabaseAreRead) {
+  const test::ScratchFolder folder;
+  {
+    test::TestDatabase database(folder / "a.db3");
+    for (std::size_t i = 0; i < kTopics.size(); ++i)
+      database.topic(static_cast<int>(i + 1), kTopics[i].first, kTopics[i].second);
+    write_messages([&](std::size_t topic, std::int64_t receive_ns, const std::string& bytes) {
+      database.message(static_cast<int>(topic), receive_ns, bytes);
+    });
+  }
+  expect_both(folder / "a.db3");
+}
+
+TEST(MotionTopics, OfAnMcapFileAreRead) {
+  const test::ScratchFolder folder;
+  auto writer = McapWriter::create(folder / "a.mcap", Compression::kZstd, "ros2").value();
+  for (const auto& [name, type] : kTopics)
+    ASSERT_TRUE(writer.add_channel({name, "cdr", type, "*", "ros2msg", "", {}}));
+  write_messages([&](std::size_t topic, std::int64_t receive_ns, const std::string& bytes) {
+    const auto ns = static_cast<std::uint64_t>(receive_ns);
+    ASSERT_TRUE(
+        writer.write({static_cast<std::uint16_t>(topic - 1), 0, ns, ns}, std::as_bytes(std::span(bytes))));
+  });
+  ASSERT_TRUE(writer.finish());
+  expect_both(folder / "a.mcap");
 }
 
 TEST(MotionTopics, ThatAreNotInTheFileAreWarnedOf) {
