@@ -2,7 +2,8 @@
 // recordings of differing scene, noise, encoder, sweep, offset, length and faults. One line per recording and
 // a table per family.
 //
-//   sweepscope_calibration [--methods direct,paper] [--only FAMILY] [--stride N] [--lines]
+//   sweepscope_calibration [--methods direct,paper] [--fit none|parabola] [--only FAMILY] [--stride N]
+//   [--lines]
 //
 // Families marked `held out` were not looked at while sigma was tuned. A constant play between encoder and
 // laser turns both directions as an offset of play / (2 omega) would: no recording at constant speed can tell
@@ -155,9 +156,10 @@ struct Outcome {
   std::string reason;
 };
 
-Outcome outcome_of(const Simulation& made, std::optional<Method> method) {
+Outcome outcome_of(const Simulation& made, std::optional<Method> method, std::optional<Fit> fit) {
   EstimateOptions options;
   options.method = method;
+  if (method != Method::kDirect) options.fit = fit;
   const Estimate found = estimate(made.recording, options, Job()).value();
   Outcome outcome;
   outcome.answered = found.identifiable;
@@ -198,6 +200,7 @@ void print_row(const std::string& name, const std::vector<Outcome>& outcomes) {
 
 struct Arguments {
   bool paper = false, lines = false;
+  std::optional<Fit> fit;  // of the paper's methods; none: the default
   int stride = 1;
   std::string only;
 };
@@ -212,7 +215,7 @@ void run(const Family& family, const Arguments& arguments, Table& table) {
     std::vector<std::pair<std::string, std::optional<Method>>> methods{{"direct", Method::kDirect}};
     if (arguments.paper) methods.emplace_back("paper", made.moving ? Method::kMoving : Method::kStationary);
     for (const auto& [name, method] : methods) {
-      const Outcome outcome = outcome_of(made, method);
+      const Outcome outcome = outcome_of(made, method, arguments.fit);
       rows[name].push_back(outcome);
       if (arguments.lines)
         fmt::print(stderr,
@@ -243,6 +246,9 @@ int main(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     const std::string name = argv[i];
     if (name == "--lines") arguments.lines = true;
+    if (name == "--fit" && i + 1 < argc)
+      arguments.fit =
+          std::string(argv[++i]) == "parabola" ? sweepscope::Fit::kParabola : sweepscope::Fit::kNone;
     if (name == "--methods" && i + 1 < argc)
       arguments.paper = std::string(argv[++i]).find("paper") != std::string::npos;
     if (name == "--only" && i + 1 < argc) arguments.only = argv[++i];

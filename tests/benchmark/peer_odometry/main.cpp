@@ -14,9 +14,9 @@
 #include <string>
 #include <vector>
 
+#include "peers.hpp"
 #include "sweepscope/core/io/trajectory_file.hpp"
 #include "sweepscope/core/recording/formats/read_recording.hpp"
-#include "peers.hpp"
 
 namespace sweepscope {
 namespace {

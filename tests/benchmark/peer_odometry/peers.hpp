@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "sweepscope/core/geometry/pose.hpp"
 #include "peer_clouds.hpp"
+#include "sweepscope/core/geometry/pose.hpp"
 
 namespace sweepscope {
 
