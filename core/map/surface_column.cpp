@@ -116,7 +116,12 @@ SurfaceColumn::SurfaceColumn(const MapCloud& cloud, const VoxelGrid& grid, const
 
 SurfacePatch SurfaceColumn::patch_at(std::uint32_t seed) {
   SurfacePatch patch;
-  if (!gather(seed) || !seen_both_ways()) return patch;
+  if (!gather(seed)) {
+    // Of a smaller neighbourhood all points may be taken.
+    if (sampled_) patch.kind = SurfaceKind::kEdge;
+    return patch;
+  }
+  if (!seen_both_ways()) return patch;
   const double within_m = deviation_within_sweeps_m();
   if (std::isnan(within_m)) return patch;
   if (!is_filled() || !is_flat(within_m) || !has_straight_lines()) {
@@ -155,6 +160,7 @@ void SurfaceColumn::forget_points() {
   x_m_.clear(), y_m_.clear(), z_m_.clear();
   time_s_.clear(), group_.clear(), sweeps_.clear();
   slots_.fill(kNoGroup);
+  sampled_ = false;
 }
 
 // Points of sweeps beyond kMaxSweeps are left out.
@@ -178,11 +184,12 @@ std::uint8_t SurfaceColumn::group_of(std::uint32_t sweep) {
 }
 
 template <typename Keep>
-void SurfaceColumn::take(const VoxelLevel::Place& place, std::uint32_t max_points, const Keep& keep) const {
+void SurfaceColumn::take(const VoxelLevel::Place& place, std::uint32_t max_points, const Keep& keep) {
   const std::uint32_t cell = level_.find(place);
   if (cell == VoxelLevel::kNone) return;
   const std::uint32_t begin = level_.begin(cell), count = level_.begin(cell + 1) - begin;
   const std::uint32_t taken = std::min(count, max_points);
+  sampled_ = sampled_ || taken < count;
   for (std::uint32_t k = 0; k < taken; ++k) {
     const std::uint32_t i = begin + (count == taken ? k : k * count / taken);
     keep(Eigen::Vector3f(grid_.x_m[i], grid_.y_m[i], grid_.z_m[i]) - middle_m_, i);

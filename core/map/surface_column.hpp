@@ -71,7 +71,7 @@ class SurfaceColumn {
   bool gather_ball();               // false: too few points
   void gather_column();
   template <typename Keep>
-  void take(const VoxelLevel::Place& place, std::uint32_t max_points, const Keep& keep) const;
+  void take(const VoxelLevel::Place& place, std::uint32_t max_points, const Keep& keep);
   void forget_points();
   void keep_point(const Eigen::Vector3f& p_m, std::uint32_t i);
   void keep_heights(const ColumnLayers& layers);
@@ -98,6 +98,7 @@ class SurfaceColumn {
   std::vector<double> time_s_;
   std::vector<std::uint8_t> group_;
   std::vector<std::uint32_t> sweeps_;
+  bool sampled_ = false;                   // cubes hold more points than were looked at
   std::array<std::uint8_t, 256> slots_{};  // a hash table from sweeps to indices into sweeps_
 };
 
