@@ -52,9 +52,11 @@ struct SurfaceThickness {
   std::optional<MapThickness> map;     // absent if no surface is flat
 };
 
-/// The thickness of the surfaces of a map, as the profile tool (profile_across) measures one wall: the width
-/// of the middle 76 % of the points across the surface, which for a single layer with normal noise is the
-/// width at half height, 2.355 standard deviations. Two sharp layers count from the one to the other.
+/// The thickness of the surfaces of a map: the width at half height of the points across each surface, as the
+/// profile tool (profile_across) measures one wall. A single layer with normal noise has 2.355 standard
+/// deviations, two sharp layers the distance between them. It is found from the quantiles that hold the
+/// middle 76 % of the points, which know all layers: the profile tool loses those less than half as dense as
+/// another.
 ///
 /// Around a point the neighbourhood is a disc of 0.4 m radius, and half and a quarter of it where the larger
 /// one holds an edge. Its normal comes from the spread of points within single sweeps: a sweep's points lie

@@ -204,7 +204,7 @@ Result<std::string> maps(const ReportContent& content) {
   look.title = content.recording.name;
   look.width_px = 1800;
   look.height_px = 1100;
-  return comparison_picture(content.maps, nullptr, look).and_then(draw).map([](const Image& image) {
+  return comparison_picture(content.maps, nullptr, look).and_then(draw).map([&](const Image& image) {
     return html::element("h2", "The map 5 ms off, and at the answer") + thickness_table(content) +
            figure(html::png_image(encode_png(image), "Two maps from above, side by side"),
                   "All else is equal. Where the right picture is the sharper one, the answer is the better "
