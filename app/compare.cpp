@@ -12,6 +12,7 @@
 #include "app/look_texts.hpp"
 #include "app/progress.hpp"
 #include "app/recording_options.hpp"
+#include "app/say.hpp"
 #include "core/io/cloud_file.hpp"
 #include "core/io/trajectory_file.hpp"
 #include "core/map/feature_points.hpp"
@@ -163,6 +164,22 @@ Result<void> check_files(const CompareOptions& options) {
   return check_outputs({options.output, kept_candidates(options)}, std::move(inputs));
 }
 
+Result<void> measure(std::vector<ComparedMap>& maps) {
+  const Progress progress;
+  for (ComparedMap& map : maps) {
+    measure_thickness(map, progress.job());
+    if (progress.job().cancelled()) return failure(ExitCode::kInterrupted, "interrupted");
+  }
+  return {};
+}
+
+void say_thickness(const ComparedMap& map) {
+  const std::string name =
+      map.label.empty() ? fmt::format("offset {} ms", offset_label_ms(*map.offset_s)) : map.label;
+  const bool measured = map.thickness && map.thickness->map;
+  print("{}: {}\n", name, measured ? in_words(*map.thickness->map) : "no surface has a thickness");
+}
+
 Result<void> compare(const CompareOptions& options) {
   // Wrong words cost nothing; they are found before files of hundreds of megabytes are read.
   const auto picture = options.look.parse();
@@ -183,6 +200,7 @@ Result<void> compare(const CompareOptions& options) {
   auto compared = compared_maps(options, picture->colour_by == ColourBy::kFeatures);
   if (!compared) return tl::unexpected(compared.error());
   if (given) compared->estimate = std::move(given);
+  if (const auto measured = measure(compared->maps); !measured) return tl::unexpected(measured.error());
   const Estimate* curve = compared->estimate ? &*compared->estimate : nullptr;
   return comparison_picture(compared->maps, curve, *picture)
       .and_then([&](const Picture& drawn) {
@@ -190,6 +208,7 @@ Result<void> compare(const CompareOptions& options) {
       })
       .map([&] {
         if (compared->kept) compared->kept->remove();
+        for (const ComparedMap& map : compared->maps) say_thickness(map);
       });
 }
 

@@ -57,20 +57,14 @@ MapCloud every_nth(const MapCloud& cloud) {
 struct Surfaces {
   MapCloud cloud;
   std::vector<LocalSurface> surfaces;
-  float median_thickness_m = 0;
+  double median_thickness_m = 0;
 };
 
 Surfaces surfaces_of(const MapCloud& cloud) {
-  ThicknessOptions options;
-  options.cell_m = 0.2;
-  options.doublings = 0;
-  Surfaces found{every_nth(cloud), {}, 0};
-  found.surfaces = local_surfaces(found.cloud, options);
-  std::vector<float> thickness_m;
-  for (const LocalSurface& surface : found.surfaces)
-    thickness_m.push_back(std::isnan(surface.thickness_m) ? std::numeric_limits<float>::infinity()
-                                                          : surface.thickness_m);
-  found.median_thickness_m = median(std::move(thickness_m));
+  Surfaces found{every_nth(cloud), {}, std::numeric_limits<double>::infinity()};
+  SurfaceThickness thickness = surface_thickness(found.cloud);
+  found.surfaces = std::move(thickness.surfaces);
+  if (thickness.map) found.median_thickness_m = thickness.map->median_m;
   return found;
 }
 

@@ -1,212 +1,234 @@
 #include "core/map/surface_thickness.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
-#include <bit>
+#include <atomic>
 #include <cmath>
 #include <limits>
+#include <span>
 
+#include "core/map/surface_column.hpp"
 #include "core/map/voxel_grid.hpp"
+#include "core/numbers.hpp"
 #include "core/parallel.hpp"
 
 namespace sweepscope {
 namespace {
 
-constexpr std::uint32_t kMaxPerCell = 16;  // dense cells are sampled evenly: the cost of a cube is bounded
-constexpr int kTerms = 6;                  // of a surface of second degree
-constexpr std::size_t kMaxPoints = 27 * kMaxPerCell;
+constexpr int kLevels = 3;  // of neighbourhoods, from the largest to the smallest
+constexpr std::uint32_t kNoSeed = VoxelLevel::kNone;
+constexpr std::size_t kBlock = 256;  // cubes
 
-// The points around a cell, relative to its middle.
-struct Neighbourhood {
-  std::array<float, kMaxPoints> x_m, y_m, z_m;
+// A map while its surfaces are found.
+struct Work {
+  const MapCloud& cloud;
+  const VoxelGrid& grid;
+  ColumnOptions options;
+  std::vector<LocalSurface> surfaces;  // in the order of the grid
+  std::vector<char> open;              // points that a smaller neighbourhood may give a surface
+
+  Eigen::Vector3f point_m(std::uint32_t i) const { return {grid.x_m[i], grid.y_m[i], grid.z_m[i]}; }
+  bool is_open(std::uint32_t i) const { return open[i] != 0; }
+};
+
+// What the points tell of their sweeps.
+ColumnOptions column_options(const MapCloud& cloud, const ThicknessOptions& options) {
+  ColumnOptions columns;
+  bool odd = false, even = false;
+  columns.sweeps_known = false;
+  for (const MapPoint& p : cloud) {
+    (p.sweep % 2 == 0 ? even : odd) = true;
+    columns.sweeps_known = columns.sweeps_known || p.sweep != cloud.front().sweep;
+  }
+  columns.reach_m = options.reach_m;
+  columns.both_directions = options.both_directions || (odd && even);
+  return columns;
+}
+
+// Of a cube's points that have no surface yet the one nearest to their middle.
+std::uint32_t seed_of(const Work& work, const VoxelLevel& level, std::uint32_t cell) {
+  Eigen::Vector3f sum_m = Eigen::Vector3f::Zero();  // from the cube's first point
+  float count = 0;
+  const Eigen::Vector3f first_m = work.point_m(level.begin(cell));
+  for (std::uint32_t i = level.begin(cell); i < level.begin(cell + 1); ++i)
+    if (work.is_open(i)) sum_m += work.point_m(i) - first_m, count += 1;
+  if (count == 0) return kNoSeed;
+  const Eigen::Vector3f middle_m = first_m + sum_m / count;
+  std::uint32_t nearest = kNoSeed;
+  float nearest_m2 = std::numeric_limits<float>::infinity();
+  for (std::uint32_t i = level.begin(cell); i < level.begin(cell + 1); ++i) {
+    if (!work.is_open(i)) continue;
+    const float m2 = (work.point_m(i) - middle_m).squaredNorm();
+    if (m2 < nearest_m2) nearest_m2 = m2, nearest = i;
+  }
+  return nearest;
+}
+
+// A patch for each cube that holds a point without a surface; `done` is called after each block of cubes.
+template <typename Done>
+std::vector<SurfacePatch> patches_of(const Work& work, const VoxelLevel& level, const Job& job,
+                                     const Done& done) {
+  std::vector<SurfacePatch> patches(level.cells());
+  for_each_block(level.cells(), kBlock, [&](const auto& block) {
+    if (job.cancelled()) return;
+    SurfaceColumn column(work.cloud, work.grid, level, work.options);
+    for (std::uint32_t cell = block.begin(); cell < block.end(); ++cell)
+      if (const std::uint32_t seed = seed_of(work, level, cell); seed != kNoSeed)
+        patches[cell] = column.patch_at(seed);
+    done(block.size());
+  });
+  return patches;
+}
+
+// The flat patches that may hold a cube's points.
+struct Around {
+  std::array<const SurfacePatch*, 27> patches;
   std::size_t count = 0;
-  std::uint32_t points = 0;  // before sampling
-  bool forward = false, backward = false;
 };
 
-// What a cell's cube gave.
-struct CellSurface {
-  LocalSurface surface;
-  std::uint32_t points = 0;
-};
-
-class SurfaceFitter {
- public:
-  SurfaceFitter(const MapCloud& cloud, const VoxelGrid& grid, const VoxelLevel& level,
-                const ThicknessOptions& options)
-      : cloud_(cloud), grid_(grid), level_(level), options_(options) {}
-
-  CellSurface fit(std::uint32_t cell) {
-    gather(cell);
-    CellSurface fitted;
-    fitted.points = near_.points;
-    const bool enough = near_.count >= static_cast<std::size_t>(std::max(options_.min_points, kTerms + 1));
-    if (enough && !(options_.both_directions && !(near_.forward && near_.backward)))
-      fitted.surface = surface();
-    return fitted;
-  }
-
- private:
-  void gather(std::uint32_t cell) {
-    near_.count = near_.points = 0;
-    near_.forward = near_.backward = false;
-    const VoxelLevel::Place middle = level_.place(cell);
-    for (int dz = -1; dz <= 1; ++dz)
-      for (int dy = -1; dy <= 1; ++dy)
-        for (int dx = -1; dx <= 1; ++dx) {
-          const std::uint32_t other = level_.find({middle[0] + dx, middle[1] + dy, middle[2] + dz});
-          if (other != VoxelLevel::kNone) take(other, middle);
-        }
-  }
-
-  void take(std::uint32_t cell, const VoxelLevel::Place& middle) {
-    const std::uint32_t begin = level_.begin(cell), count = level_.begin(cell + 1) - begin;
-    const std::uint32_t taken = std::min(count, kMaxPerCell);
-    near_.points += count;
-    const auto offset_m = [&](int axis) {
-      return static_cast<float>((middle[axis] + 0.5) * level_.cell_m());
-    };
-    const float x_m = offset_m(0), y_m = offset_m(1), z_m = offset_m(2);
-    for (std::uint32_t k = 0; k < taken; ++k) {
-      const std::uint32_t i = begin + (count == taken ? k : k * count / taken);
-      near_.x_m[near_.count] = grid_.x_m[i] - x_m;
-      near_.y_m[near_.count] = grid_.y_m[i] - y_m;
-      near_.z_m[near_.count] = grid_.z_m[i] - z_m;
-      ++near_.count;
-      if (options_.both_directions)
-        (cloud_.points[grid_.index[i]].sweep % 2 == 0 ? near_.forward : near_.backward) = true;
-    }
-  }
-
-  LocalSurface surface() {
-    const auto count = static_cast<Eigen::Index>(near_.count);
-    const auto as_array = [&](const auto& values) {
-      return Eigen::Map<const Eigen::ArrayXf>(values.data(), count);
-    };
-    const auto x = as_array(near_.x_m), y = as_array(near_.y_m), z = as_array(near_.z_m);
-    const Eigen::Vector3f mean(x.mean(), y.mean(), z.mean());
-    x_ = x - mean.x(), y_ = y - mean.y(), z_ = z - mean.z();
-    Eigen::Matrix3d spread_m2;
-    const double n = static_cast<double>(count);
-    spread_m2 << x_.square().sum() / n, 0, 0,           //
-        (x_ * y_).sum() / n, y_.square().sum() / n, 0,  //
-        (x_ * z_).sum() / n, (y_ * z_).sum() / n, z_.square().sum() / n;
-    // Reads the lower triangle; eigenvalues ascend.
-    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes;
-    axes.computeDirect(spread_m2);
-    const double along_m = std::sqrt(std::max(0.0, axes.eigenvalues()[1]));
-    const double filled_m = 3 * level_.cell_m() / std::sqrt(12.0);
-    if (along_m < options_.min_extent * filled_m) return {};
-    const Eigen::Matrix3f to_surface = axes.eigenvectors().transpose().cast<float>();
-    const double thickness_m =
-        distance_from_bent_m(to_surface, static_cast<float>(along_m),
-                             static_cast<float>(std::sqrt(axes.eigenvalues()[2]) / along_m));
-    if (!(thickness_m <= options_.max_flatness * along_m)) return {};
-    return {to_surface.row(0).transpose(), static_cast<float>(thickness_m)};
-  }
-
-  // The standard deviation of the points' distances from the surface of second degree through them.
-  double distance_from_bent_m(const Eigen::Matrix3f& to_surface, float unit_m, float v_spread) {
-    h_ = to_surface(0, 0) * x_ + to_surface(0, 1) * y_ + to_surface(0, 2) * z_;
-    u_ = (to_surface(1, 0) * x_ + to_surface(1, 1) * y_ + to_surface(1, 2) * z_) / unit_m;
-    v_ = (to_surface(2, 0) * x_ + to_surface(2, 1) * y_ + to_surface(2, 2) * z_) / unit_m;
-    if (!spread_over(v_spread)) return std::numeric_limits<double>::infinity();
-    terms_.resize(Eigen::NoChange, h_.size());
-    terms_.row(0).setOnes();
-    terms_.row(1) = u_;
-    terms_.row(2) = v_;
-    terms_.row(3) = u_.square();
-    terms_.row(4) = u_ * v_;
-    terms_.row(5) = v_.square();
-    Eigen::Matrix<float, 6, 6> normal_matrix;
-    normal_matrix.noalias() = terms_ * terms_.transpose();
-    const Eigen::Matrix<float, 6, 1> right = terms_ * h_.matrix().transpose();
-    Eigen::Matrix<double, 6, 6> damped = normal_matrix.cast<double>();
-    damped.diagonal() *= 1 + 1e-6;  // where points lie in two rows, say, a term is not determined
-    const Eigen::Matrix<double, 6, 1> shape = damped.ldlt().solve(right.cast<double>());
-    h_ -= (shape.cast<float>().transpose() * terms_).array();
-    return std::sqrt(double(h_.square().sum()) / double(h_.size() - kTerms));
-  }
-
-  // True where the points fill the surface, in units of their spread. A standing rig's lie in scan lines some
-  // 9 deg apart: a bent surface goes through any three of them, however far a wrong offset moved each.
-  bool spread_over(float v_spread) const {
-    constexpr int kSide = 6, kMin = 22;
-    const auto bin = [](float value, float spread) {
-      return std::clamp(static_cast<int>(std::floor((value / (1.8f * spread) + 1) * kSide / 2)), 0,
-                        kSide - 1);
-    };
-    std::uint64_t filled = 0;
-    for (Eigen::Index i = 0; i < u_.size(); ++i)
-      filled |= std::uint64_t{1} << (bin(u_[i], 1) + kSide * bin(v_[i], v_spread));
-    return std::popcount(filled) >= kMin;
-  }
-
-  using Row = Eigen::Array<float, 1, Eigen::Dynamic, Eigen::RowMajor, 1, kMaxPoints>;
-  const MapCloud& cloud_;
-  const VoxelGrid& grid_;
-  const VoxelLevel& level_;
-  const ThicknessOptions& options_;
-  Neighbourhood near_;
-  Row x_, y_, z_, u_, v_, h_;
-  Eigen::Matrix<float, 6, Eigen::Dynamic, Eigen::RowMajor, 6, kMaxPoints> terms_;
-};
-
-// The sharpest of the surfaces through a cell's own cube and its six neighbours': beside a step or a corner
-// a cube pushed aside holds the one face alone. Pushed across a thick surface it would cut off a part of it,
-// and hold fewer points.
-LocalSurface sharpest(const std::vector<CellSurface>& fitted, const VoxelLevel& level, std::uint32_t cell) {
-  constexpr double kMinPart = 0.8;
+Around patches_around(const std::vector<SurfacePatch>& patches, const VoxelLevel& level, std::uint32_t cell) {
+  Around around;
   const VoxelLevel::Place place = level.place(cell);
-  LocalSurface best = fitted[cell].surface;
-  for (int axis = 0; axis < 3; ++axis)
-    for (const int d : {-1, 1}) {
-      VoxelLevel::Place beside = place;
-      beside[axis] += d;
-      const std::uint32_t other = level.find(beside);
-      if (other == VoxelLevel::kNone || fitted[other].points < kMinPart * fitted[cell].points) continue;
-      const LocalSurface& surface = fitted[other].surface;
-      if (surface.thickness_m < best.thickness_m ||
-          (std::isnan(best.thickness_m) && !std::isnan(surface.thickness_m)))
-        best = surface;
+  for (int dz = -1; dz <= 1; ++dz)
+    for (int dy = -1; dy <= 1; ++dy)
+      for (int dx = -1; dx <= 1; ++dx) {
+        const std::uint32_t other = level.find({place[0] + dx, place[1] + dy, place[2] + dz});
+        if (other != VoxelLevel::kNone && patches[other].kind == SurfaceKind::kFlat)
+          around.patches[around.count++] = &patches[other];
+      }
+  return around;
+}
+
+// The mean of the patches that hold the point, weighted by its distance from their middles.
+LocalSurface surface_at(const Eigen::Vector3f& p_m, const Around& around, float margin_m) {
+  LocalSurface surface;
+  float weights = 0, weighted_m = 0, greatest = 0;
+  for (const SurfacePatch* patch : std::span(around.patches.data(), around.count)) {
+    const Eigen::Vector3f from_middle_m = p_m - patch->middle_m;
+    const float height_m = patch->normal.dot(from_middle_m);
+    if (height_m < patch->from_m - margin_m || height_m > patch->to_m + margin_m) continue;
+    const float beside_m2 = from_middle_m.squaredNorm() - height_m * height_m;
+    const float weight = 1 - beside_m2 / (patch->radius_m * patch->radius_m);
+    if (weight <= 0) continue;
+    weights += weight;
+    weighted_m += weight * patch->thickness_m;
+    if (weight > greatest) greatest = weight, surface.normal = patch->normal;
+  }
+  if (weights == 0) return surface;
+  surface.thickness_m = weighted_m / weights;
+  surface.kind = SurfaceKind::kFlat;
+  return surface;
+}
+
+bool any_open(const Work& work, const VoxelLevel& level, std::uint32_t cell) {
+  for (std::uint32_t i = level.begin(cell); i < level.begin(cell + 1); ++i)
+    if (work.is_open(i)) return true;
+  return false;
+}
+
+void assign(Work& work, const std::vector<SurfacePatch>& patches, const VoxelLevel& level) {
+  constexpr double kMarginInNoise = 2.5;  // patches know a sample of their points
+  const auto margin_m = static_cast<float>(kMarginInNoise * work.options.range_noise_m);
+  for_each_block(level.cells(), kBlock, [&](const auto& block) {
+    for (std::uint32_t cell = block.begin(); cell < block.end(); ++cell) {
+      if (!any_open(work, level, cell)) continue;
+      const Around around = patches_around(patches, level, cell);
+      for (std::uint32_t i = level.begin(cell); i < level.begin(cell + 1); ++i) {
+        if (!work.is_open(i)) continue;
+        const LocalSurface found = surface_at(work.point_m(i), around, margin_m);
+        if (found.kind == SurfaceKind::kFlat)
+          work.surfaces[i] = found;
+        else if (patches[cell].kind == SurfaceKind::kEdge)
+          work.surfaces[i].kind = SurfaceKind::kEdge;
+        // Where there are too few points in a large neighbourhood there are too few in a small one.
+        work.open[i] = found.kind != SurfaceKind::kFlat && patches[cell].kind != SurfaceKind::kUnknown;
+      }
     }
-  return best;
+  });
+}
+
+// The noise of a single sweep across flat surfaces: the median over a sample of cubes.
+double range_noise_m(const Work& work, const VoxelLevel& level) {
+  constexpr std::uint32_t kSamples = 2048;
+  const std::uint32_t stride = 1 + level.cells() / kSamples;
+  std::vector<double> noise_m((level.cells() + stride - 1) / stride);
+  for_each_block(noise_m.size(), 64, [&](const auto& block) {
+    SurfaceColumn column(work.cloud, work.grid, level, work.options);
+    for (std::size_t k = block.begin(); k < block.end(); ++k)
+      noise_m[k] = column.range_noise_at_m(seed_of(work, level, static_cast<std::uint32_t>(k) * stride));
+  });
+  std::erase_if(noise_m, [](double value_m) { return std::isnan(value_m); });
+  constexpr double kMax_m = 0.05;  // a map without flat surfaces has more
+  return std::min(kMax_m, median(std::move(noise_m)));
+}
+
+enum class CubeKind : std::uint8_t { kOther, kEdge, kFlat };
+struct Cube {
+  CubeKind kind = CubeKind::kOther;
+  float thickness_m = 0;
+};
+
+Cube cube_of(const Work& work, const VoxelLevel& level, std::uint32_t cell) {
+  Cube cube;
+  double sum_m = 0, count = 0;
+  for (std::uint32_t i = level.begin(cell); i < level.begin(cell + 1); ++i) {
+    const LocalSurface& surface = work.surfaces[i];
+    if (surface.kind == SurfaceKind::kFlat) sum_m += double(surface.thickness_m), count += 1;
+    if (surface.kind == SurfaceKind::kEdge) cube.kind = CubeKind::kEdge;
+  }
+  if (count > 0) cube = {CubeKind::kFlat, static_cast<float>(sum_m / count)};
+  return cube;
+}
+
+std::optional<MapThickness> thickness_of_map(const Work& work, const VoxelLevel& finest) {
+  std::vector<Cube> cubes(finest.cells());
+  for_each_block(finest.cells(), kBlock, [&](const auto& block) {
+    for (std::uint32_t cell = block.begin(); cell < block.end(); ++cell)
+      cubes[cell] = cube_of(work, finest, cell);
+  });
+  std::vector<float> thickness_m;
+  double edges = 0;
+  for (const Cube& cube : cubes) {
+    if (cube.kind == CubeKind::kFlat) thickness_m.push_back(cube.thickness_m);
+    edges += cube.kind == CubeKind::kEdge ? 1 : 0;
+  }
+  if (thickness_m.empty()) return std::nullopt;
+  MapThickness map;
+  map.flat_part = static_cast<double>(thickness_m.size()) / static_cast<double>(cubes.size());
+  map.edge_part = edges / static_cast<double>(cubes.size());
+  map.median_m = double(quantile(thickness_m, 0.5));
+  map.p90_m = double(quantile(thickness_m, 0.9));
+  return map;
 }
 
 }  // namespace
 
-std::vector<LocalSurface> local_surfaces(const MapCloud& cloud, const ThicknessOptions& options) {
-  std::vector<LocalSurface> surfaces(cloud.size());
-  if (cloud.empty()) return surfaces;
-  const VoxelGrid grid(cloud, options.cell_m);
-  const auto open = [&](std::uint32_t i) { return std::isnan(surfaces[grid.index[i]].thickness_m); };
-  // Coarse cubes last: they fill what finer ones left open.
-  for (int doublings = 0; doublings <= options.doublings; ++doublings) {
-    const VoxelLevel level = grid.level(doublings);
-    std::vector<CellSurface> fitted(level.cells());
-    for_each_block(level.cells(), 256, [&](const auto& block) {
-      SurfaceFitter fitter(cloud, grid, level, options);
-      for (std::uint32_t cell = block.begin(); cell < block.end(); ++cell) fitted[cell] = fitter.fit(cell);
-    });
-    for_each_block(level.cells(), 256, [&](const auto& block) {
-      for (std::uint32_t cell = block.begin(); cell < block.end(); ++cell) {
-        const LocalSurface surface = sharpest(fitted, level, cell);
-        for (std::uint32_t i = level.begin(cell); i < level.begin(cell + 1); ++i)
-          if (open(i)) surfaces[grid.index[i]] = surface;
-      }
-    });
-  }
-  return surfaces;
+std::string in_words(const MapThickness& map) {
+  return fmt::format("median thickness {:.0f} mm, 90 % under {:.0f} mm", map.median_m * 1e3, map.p90_m * 1e3);
 }
 
-std::vector<float> surface_thickness_m(const MapCloud& cloud, const ThicknessOptions& options) {
-  const std::vector<LocalSurface> surfaces = local_surfaces(cloud, options);
-  std::vector<float> thickness_m(surfaces.size());
-  std::transform(surfaces.begin(), surfaces.end(), thickness_m.begin(),
-                 [](const LocalSurface& surface) { return surface.thickness_m; });
-  return thickness_m;
+SurfaceThickness surface_thickness(const MapCloud& cloud, const ThicknessOptions& options, const Job& job) {
+  SurfaceThickness found;
+  if (cloud.empty()) return found;
+  const VoxelGrid grid(cloud, options.min_radius_m);
+  Work work{cloud, grid, column_options(cloud, options), std::vector<LocalSurface>(cloud.size()),
+            std::vector<char>(cloud.size(), 1)};
+  for (int doublings = kLevels - 1; doublings >= 0 && !job.cancelled(); --doublings) {
+    const VoxelLevel level = grid.level(doublings);
+    if (doublings == kLevels - 1) work.options.range_noise_m = range_noise_m(work, level);
+    std::atomic<std::size_t> cells{0};
+    const auto patches = patches_of(work, level, job, [&](std::size_t count) {
+      const double part = double(cells += count) / level.cells();
+      job.report("thickness", (kLevels - 1 - doublings + part) / kLevels);
+    });
+    assign(work, patches, level);
+  }
+  found.surfaces.resize(cloud.size());
+  for (std::size_t i = 0; i < grid.size(); ++i) found.surfaces[grid.index[i]] = work.surfaces[i];
+  found.map = thickness_of_map(work, grid.level(0));
+  return found;
 }
 
 }  // namespace sweepscope

@@ -50,6 +50,14 @@ Result<std::vector<float>> distance_values(const ComparedMap& map, const Compare
   return in_millimetres(distances_to_m(*map.cloud, *other->cloud, {}));
 }
 
+std::vector<float> thickness_values(ComparedMap map) {
+  measure_thickness(map);
+  std::vector<float> values;
+  if (!map.thickness) return values;
+  for (const LocalSurface& surface : map.thickness->surfaces) values.push_back(surface.thickness_m);
+  return in_millimetres(std::move(values));
+}
+
 /// Bands of the table, one for each class, for the values 0, 1, 2, ...
 void set_classes(Colouring& colouring, std::vector<ColourClass> classes) {
   const std::size_t count = classes.size();
@@ -97,7 +105,7 @@ ValueRange range_of(ColourBy by, std::span<const std::span<const float>> values)
   if (all.empty()) return {};
   const auto at = [&](double fraction) { return static_cast<double>(quantile(all, fraction)); };
   // Lengths begin at nothing: dark is sharp, in every picture.
-  if (by == ColourBy::kBlur) return {0, std::clamp(at(0.9), 20.0, 60.0)};
+  if (by == ColourBy::kBlur) return {0, std::clamp(at(0.9), 30.0, 300.0)};
   if (by == ColourBy::kDistance) return {0, std::max(10.0, at(0.98))};
   const double from = at(0.005);
   return {from, at(0.995)};
@@ -143,7 +151,7 @@ Result<std::vector<float>> colour_values(const ComparedMap& map, const ComparedM
     case ColourBy::kFeatures:
       return feature_values(map);
     case ColourBy::kBlur:
-      return map.size() > 0 ? in_millimetres(surface_thickness_m(*map.cloud, {})) : std::vector<float>{};
+      return thickness_values(map);
     case ColourBy::kDistance:
       return distance_values(map, other);
   }

@@ -13,7 +13,7 @@
 namespace sweepscope {
 
 /// The value that colours the points: z in the map frame; the laser's intensity; the time; the direction in
-/// which the motor turned; edge and plane points; the local blur (thickness of the surface around a point);
+/// which the motor turned; edge and plane points; the blur (thickness of the surface around a point);
 /// the distance to the other map.
 enum class ColourBy { kElevation, kIntensity, kTime, kDirection, kFeatures, kBlur, kDistance };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -7,6 +8,7 @@
 #include "core/geometry/map_cloud.hpp"
 #include "core/geometry/pose.hpp"
 #include "core/map/feature_points.hpp"
+#include "core/map/surface_thickness.hpp"
 
 namespace sweepscope {
 
@@ -19,7 +21,13 @@ struct ComparedMap {
   double path_height_m = 0;                // the sensor's height if `path` is empty
   std::vector<FeatureKind> feature_kinds;  // of each point; empty if not known
 
+  std::shared_ptr<const SurfaceThickness> thickness;  // of the cloud; null if it was not measured
+
   std::size_t size() const { return cloud ? cloud->size() : 0; }
 };
+
+/// Measures the thickness of the map's surfaces unless that was done. If `job` is cancelled it stays as it
+/// was.
+void measure_thickness(ComparedMap& map, const Job& job = {});
 
 }  // namespace sweepscope

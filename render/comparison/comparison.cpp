@@ -20,6 +20,11 @@ std::string label_of(const ComparedMap& map) {
   return map.offset_s ? fmt::format("offset {} ms", offset_label_ms(*map.offset_s)) : "";
 }
 
+std::string label_with_thickness(const ComparedMap& map) {
+  if (!map.thickness || !map.thickness->map) return label_of(map);
+  return label_of(map) + "   " + in_words(*map.thickness->map);
+}
+
 constexpr float kNoLimit_m = -std::numeric_limits<float>::infinity();
 
 /// The maps as they are drawn: what is shown of them, by what cameras and in what colours.
@@ -198,7 +203,9 @@ void add_map(Picture& picture, const ComparedMap& map, std::size_t index, const 
   const double scale = layout.scale;
   const bool empty = points.points.size() == 0;
   const PixelRect& place = prepared.overviews[index].place;
-  add_label(picture.marks, layout.labels[index], place.width, label_of(map), style.maps[index], style, scale);
+  add_label(picture.marks, layout.labels[index], place.width,
+            options.colour_by == ColourBy::kBlur ? label_with_thickness(map) : label_of(map),
+            style.maps[index], style, scale);
   if (empty) {
     add_no_points(picture.marks, map, place, prepared.slabs, style, scale);
     if (!prepared.close_ups.empty()) picture.marks.frame(prepared.close_ups[index].place, scale, style.frame);
@@ -262,9 +269,12 @@ Result<void> check_size(const ComparisonOptions& options) {
   return {};
 }
 
-Result<Picture> comparison_picture(std::span<const ComparedMap> maps, const Estimate* estimate,
+Result<Picture> comparison_picture(std::span<const ComparedMap> given, const Estimate* estimate,
                                    const ComparisonOptions& options) {
-  if (auto usable = check(maps, options); !usable) return tl::unexpected(usable.error());
+  if (auto usable = check(given, options); !usable) return tl::unexpected(usable.error());
+  std::vector<ComparedMap> maps(given.begin(), given.end());
+  if (options.colour_by == ColourBy::kBlur)
+    for (ComparedMap& map : maps) measure_thickness(map);
   const Style style = style_of(options.background);
   std::vector<MarkedOffset> marked;
   for (std::size_t m = 0; m < maps.size(); ++m) {
@@ -291,12 +301,20 @@ Result<Picture> comparison_picture(std::span<const ComparedMap> maps, const Esti
 std::vector<PngText> comparison_texts(std::span<const ComparedMap> maps, const ComparisonOptions& options) {
   std::string labels;
   for (const ComparedMap& map : maps) labels += (labels.empty() ? "" : "; ") + label_of(map);
-  return {{"Software", "sweepscope " SWEEPSCOPE_VERSION},
-          {"Equation", "t_motor = t_laser + offset"},
-          {"Maps", labels},
-          {"Recipe", fmt::format("compare, {} x {}, by {}, {}", options.width_px, options.height_px,
-                                 colour_by_names()[static_cast<std::size_t>(options.colour_by)],
-                                 options.colour_table)}};
+  std::string thickness;
+  for (const ComparedMap& map : maps) {
+    if (map.thickness && map.thickness->map)
+      thickness += (thickness.empty() ? "" : "; ") + in_words(*map.thickness->map);
+  }
+  std::vector<PngText> texts{
+      {"Software", "sweepscope " SWEEPSCOPE_VERSION},
+      {"Equation", "t_motor = t_laser + offset"},
+      {"Maps", labels},
+      {"Recipe",
+       fmt::format("compare, {} x {}, by {}, {}", options.width_px, options.height_px,
+                   colour_by_names()[static_cast<std::size_t>(options.colour_by)], options.colour_table)}};
+  if (!thickness.empty()) texts.push_back({"Thickness", thickness});
+  return texts;
 }
 
 }  // namespace sweepscope

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <system_error>
 
 #include "core/io/atomic_file.hpp"
+#include "core/io/printable_text.hpp"
 #include "core/map/offset_map.hpp"
 #include "core/offset/prepared.hpp"
 #include "core/offset/rig_motion.hpp"
@@ -34,6 +36,8 @@ Result<void> add_maps(ReportContent& content, const PreparedRecording& prepared,
     next.offset_s = map.offset_s;
     next.cloud = map.cloud;
     next.path = std::move(map.trajectory);
+    measure_thickness(next, job);
+    if (job.cancelled()) return failure(ExitCode::kInterrupted, "interrupted while measuring the map");
   }
   for (const ComparedMap& map : content.maps) on_paths.push_back({map.cloud.get(), map.path});
   SectionSearch search;
@@ -93,6 +97,21 @@ Result<ReportContent> gather_report(const PreparedRecording& prepared, std::opti
       .map([&] { return std::move(content); });
 }
 
+/// The estimate, and how thick the maps are.
+std::string report_json(const ReportContent& content) {
+  const std::string estimate = estimate_to_json(content.estimate, Timing::kNull);
+  auto json = nlohmann::ordered_json::parse(estimate);
+  for (const ComparedMap& map : content.maps) {
+    if (!map.thickness || !map.thickness->map) continue;
+    const MapThickness& thickness = *map.thickness->map;
+    json["map_thickness"].push_back({{"offset_ms", std::round(*map.offset_s * 1e12) * 1e-9},
+                                     {"median_mm", std::round(thickness.median_m * 1e4) * 0.1},
+                                     {"p90_mm", std::round(thickness.p90_m * 1e4) * 0.1},
+                                     {"flat_part", std::round(thickness.flat_part * 1e3) * 1e-3}});
+  }
+  return json_text(std::move(json));
+}
+
 Result<void> make_report_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
@@ -109,8 +128,7 @@ Result<void> write_report(const ReportContent& content, const std::filesystem::p
   return make_report_folder(folder)
       .and_then([&] { return report_html(content); })
       .and_then([&](const std::string& page) { return write_file(folder / "report.html", page); })
-      .and_then(
-          [&] { return write_estimate_json(folder / "estimate.json", content.estimate, Timing::kNull); });
+      .and_then([&] { return write_file(folder / "estimate.json", report_json(content)); });
 }
 
 }  // namespace sweepscope

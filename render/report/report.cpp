@@ -185,6 +185,18 @@ Result<std::string> over_time_strip(const ReportContent& content) {
   });
 }
 
+std::string thickness_table(const ReportContent& content) {
+  std::string rows;
+  for (const ComparedMap& map : content.maps) {
+    if (!map.thickness || !map.thickness->map) continue;
+    rows += row(fmt::format("offset {} ms", offset_label_ms(*map.offset_s)), in_words(*map.thickness->map));
+  }
+  if (rows.empty()) return rows;
+  return html::element("table", rows) +
+         "<p class=\"caption\">How thick flat surfaces are in the map: the width at half height across "
+         "each. In a sharp map this is the range noise.</p>\n";
+}
+
 Result<std::string> maps(const ReportContent& content) {
   if (content.maps.empty()) return std::string();
   ComparisonOptions look;
@@ -192,8 +204,8 @@ Result<std::string> maps(const ReportContent& content) {
   look.title = content.recording.name;
   look.width_px = 1800;
   look.height_px = 1100;
-  return comparison_picture(content.maps, nullptr, look).and_then(draw).map([](const Image& image) {
-    return html::element("h2", "The map 5 ms off, and at the answer") +
+  return comparison_picture(content.maps, nullptr, look).and_then(draw).map([&](const Image& image) {
+    return html::element("h2", "The map 5 ms off, and at the answer") + thickness_table(content) +
            figure(html::png_image(encode_png(image), "Two maps from above, side by side"),
                   "All else is equal. Where the right picture is the sharper one, the answer is the better "
                   "offset.");

@@ -46,7 +46,8 @@ struct Pane {
   PlacedCloudPtr coarse, full;  // full is null while it is being placed
   BeamValuesPtr slow;           // of a slow colouring, perhaps of the offset before
   ColourBy slow_colouring = ColourBy::kElevation;
-  std::string problem;  // why the map could not be solved
+  std::optional<MapThickness> thickness;  // of the map, with slow values that are its blur
+  std::string problem;                    // why the map could not be solved
   bool lost = false;
 };
 

@@ -20,19 +20,19 @@ std::string solve_key(std::int64_t offset_ns) {
 /// All points of a pane, and what came with them.
 struct Placed {
   PlacedCloudPtr full, coarse;  // coarse: where its colours had to wait for slow values, else null
-  BeamValuesPtr slow;
+  SlowValues slow;
 };
 
-Placed place_fully(const CloudRequest& request, const FeatureSet* features) {
+Placed place_fully(const CloudRequest& request, const FeatureSet* features, const Job& job) {
   const Placement* other = request.other ? &*request.other : nullptr;
   Placed placed;
   if (other == nullptr && is_slow(request.look.colouring)) {
-    placed.slow = slow_values(request.placement, request.look.colouring, features);
+    placed.slow = slow_values(request.placement, request.look.colouring, features, job);
     placed.coarse = std::make_shared<PlacedCloud>(
-        place_cloud(request.placement, request.look, true, nullptr, placed.slow.get()));
+        place_cloud(request.placement, request.look, true, nullptr, placed.slow.values.get()));
   }
   placed.full = std::make_shared<PlacedCloud>(
-      place_cloud(request.placement, request.look, false, other, placed.slow.get()));
+      place_cloud(request.placement, request.look, false, other, placed.slow.values.get()));
   return placed;
 }
 
@@ -150,14 +150,15 @@ void Explorer::start_full(Side side) {
   if (pane.full || !pane.request || (!key.empty() && background_.has(key))) return;
   key = "place " + std::to_string(++placings_);
   const std::string title = side == Side::kA ? "Placing all points of A" : "Placing all points of B";
-  background_.start("place", key, title, [this, side, request = *pane.request](const Job&) {
+  background_.start("place", key, title, [this, side, request = *pane.request](const Job& job) {
     const auto& features = request.placement.loaded->prepared.features;
-    auto placed = std::make_shared<Placed>(place_fully(request, features.get()));
+    auto placed = std::make_shared<Placed>(place_fully(request, features.get(), job));
     return [this, side, request, placed] {
       Pane& target = pane_of(side);
       if (target.request != request) return;
       target.full = placed->full;
-      target.slow = placed->slow;
+      target.slow = placed->slow.values;
+      target.thickness = placed->slow.thickness;
       target.slow_colouring = request.look.colouring;
       if (placed->coarse) target.coarse = placed->coarse;
     };

@@ -48,6 +48,12 @@ std::string estimate_word(const Estimate* estimate) {
   return estimate->identifiable ? "found" : "refused";
 }
 
+std::string thickness_words(const Pane& pane) {
+  if (!pane.full || !pane.thickness || !pane.request || pane.request->look.colouring != ColourBy::kBlur)
+    return "";
+  return in_words(*pane.thickness);
+}
+
 }  // namespace
 
 std::string Explorer::status() const {
@@ -79,6 +85,7 @@ std::vector<std::pair<std::string, std::string>> Explorer::observables() {
           {"kind", "stationary, moving or unknown"},
           {"state-a, state-b", "empty, provisional, preview or solved"},
           {"points-a, points-b", "how many points the pane shows"},
+          {"thickness-a, thickness-b", "how thick the map's surfaces are; empty unless blur colours it"},
           {"estimate", "none, found or refused"},
           {"found-ms", "the offset found"},
           {"message", "the message in front; empty without one"},
@@ -99,6 +106,8 @@ std::optional<std::string> Explorer::observe(std::string_view name) const {
   if (name == "state-b") return state_word(pane(Side::kB));
   if (name == "points-a") return points(Side::kA);
   if (name == "points-b") return points(Side::kB);
+  if (name == "thickness-a") return thickness_words(pane(Side::kA));
+  if (name == "thickness-b") return thickness_words(pane(Side::kB));
   if (name == "estimate") return estimate_word(estimate());
   if (name == "found-ms")
     return estimate_ && estimate_->offset_s ? fmt::format("{:.4f}", *estimate_->offset_s * 1e3) : "";

@@ -5,7 +5,6 @@
 #include <limits>
 #include <numeric>
 
-#include "core/map/surface_thickness.hpp"
 #include "core/numbers.hpp"
 #include "core/parallel.hpp"
 
@@ -159,7 +158,8 @@ bool is_slow(ColourBy by) {
   return by == ColourBy::kFeatures || by == ColourBy::kBlur;
 }
 
-BeamValuesPtr slow_values(const Placement& placement, ColourBy by, const FeatureSet* features) {
+SlowValues slow_values(const Placement& placement, ColourBy by, const FeatureSet* features, const Job& job) {
+  SlowValues found;
   const Beams& beams = placement.loaded->beams;
   auto values = std::make_shared<BeamValues>(beams.size(), std::numeric_limits<float>::quiet_NaN());
   if (by == ColourBy::kFeatures && features != nullptr) {
@@ -169,10 +169,13 @@ BeamValuesPtr slow_values(const Placement& placement, ColourBy by, const Feature
   }
   if (by == ColourBy::kBlur) {
     const WholeMap map = whole_map(placement);
-    const std::vector<float> thickness_m = surface_thickness_m(map.cloud);
-    for (std::size_t i = 0; i < map.beams.size(); ++i) (*values)[map.beams[i]] = thickness_m[i] * 1000;
+    const SurfaceThickness thickness = surface_thickness(map.cloud, {}, job);
+    for (std::size_t i = 0; i < map.beams.size(); ++i)
+      (*values)[map.beams[i]] = thickness.surfaces[i].thickness_m * 1000;
+    found.thickness = thickness.map;
   }
-  return values;
+  found.values = std::move(values);
+  return found;
 }
 
 double intensity_of(const Placement& placement, std::uint32_t beam) {
@@ -203,7 +206,7 @@ ColourSpan colour_span(ColourBy by, const Loaded& loaded, const SolvedMap* a, co
     case ColourBy::kDirection:
       return {-1.5, 1.5};  // the two directions stand well inside the table's ends
     case ColourBy::kBlur:
-      return {0, 40};  // mm: always the same, so that maps compare
+      return {0, 150};  // mm: always the same, so that maps compare
     case ColourBy::kFeatures:
     case ColourBy::kDistance:
       break;

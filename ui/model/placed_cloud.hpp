@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/map/feature_points.hpp"
+#include "core/map/surface_thickness.hpp"
 #include "render/comparison/colouring.hpp"
 #include "render/images/colour_table.hpp"
 #include "render/pictures/live_view.hpp"
@@ -51,8 +52,14 @@ using BeamValuesPtr = std::shared_ptr<const BeamValues>;
 /// Whether a colouring's values are computed from all points together, which takes a second or more.
 bool is_slow(ColourBy by);
 
-/// The values of a slow colouring: the local blur in millimetres, or a FeatureKind as a number.
-BeamValuesPtr slow_values(const Placement& placement, ColourBy by, const FeatureSet* features);
+/// The values of a slow colouring: the thickness in millimetres, or a FeatureKind as a number; and with the
+/// thickness that of the whole map.
+struct SlowValues {
+  BeamValuesPtr values;
+  std::optional<MapThickness> thickness;
+};
+/// If `job` is cancelled, values are missing.
+SlowValues slow_values(const Placement& placement, ColourBy by, const FeatureSet* features, const Job& job);
 
 /// `coarse`: only the chosen points. With `other`, points are coloured by their distance from that placement,
 /// in millimetres, instead of by the look's colouring. `slow`: the values of the look's colouring if it is

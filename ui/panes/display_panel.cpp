@@ -94,6 +94,14 @@ void legend(const PaneContext& context) {
   ImGui::Dummy({width, height + context.pxf(20)});
 }
 
+/// How thick the surfaces of both maps are, while blur colours them.
+void map_thickness(const PaneContext& context) {
+  for (const auto& [map, name] : {std::pair{"A", "thickness-a"}, std::pair{"B", "thickness-b"}}) {
+    const std::string words = context.explorer.observe(name).value_or("");
+    if (!words.empty()) ImGui::TextDisabled("%s: %s", map, words.c_str());
+  }
+}
+
 /// A bar for the whole recording with a handle at either end of the part that is shown.
 void time_window(const PaneContext& context) {
   const double duration_s = context.explorer.loaded()->duration_s();
@@ -154,6 +162,7 @@ void draw_display_panel(const PaneContext& context, const PixelRect& place) {
   field(context, "colouring");
   field(context, "table");
   legend(context);
+  map_thickness(context);
   field(context, "point-size");
   field(context, "backdrop");
   field(context, "trajectory");
