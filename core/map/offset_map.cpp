@@ -203,6 +203,7 @@ Result<std::vector<OffsetMap>> build_maps(const PreparedRecording& prepared,
     if (!solved) return failure(ExitCode::kInterrupted, "interrupted while building the map");
     walk = std::make_shared<const SolvedWalk>(std::move(*solved));
   }
+  job.report("placing", 0);
   std::vector<OffsetMap> maps(offsets_s.size());
   for_each_index(offsets_s.size(), [&](std::size_t i) {
     if (!options.poses.empty())
