@@ -24,6 +24,7 @@
 #include "app/threads.hpp"
 #include "core/io/printable_text.hpp"
 #include "core/io/temporary_file.hpp"
+#include "core/nearest_word.hpp"
 
 using namespace sweepscope;
 
@@ -42,6 +43,21 @@ std::string input_of(const CLI::App& app) {
 
 ExitCode fail_for_memory(const CLI::App& app) {
   return app::fail({ExitCode::kUnreadableInput, input_of(app) + ": needs more memory than this machine has"});
+}
+
+/// Says what is wrong with a first word that names no subcommand; "" if it names one, or is an option.
+std::string unknown_subcommand(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return {};
+  const std::string word = argv[1];
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) {
+    if (command->get_name() == word) return {};
+    names.push_back(command->get_name());
+  }
+  const std::string nearest = nearest_word(word, names);
+  return fmt::format("sweepscope: there is no subcommand \"{}\".{} {}\n", printable_line(word),
+                     nearest.empty() ? "" : fmt::format(" Did you mean \"{}\"?", nearest),
+                     "All subcommands: sweepscope --help");
 }
 
 int run(int argc, char** argv) {
@@ -67,6 +83,10 @@ int run(int argc, char** argv) {
   app::add_report(app, exit_code);
   app::add_view(app, exit_code);
   app::declare_manual(app);
+  if (const std::string unknown = unknown_subcommand(app, argc, argv); !unknown.empty()) {
+    app::say("{}", unknown);
+    return static_cast<int>(ExitCode::kWrongUsage);
+  }
   try {
     app.parse(argc, argv);
   } catch (const std::bad_alloc&) {

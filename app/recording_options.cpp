@@ -15,6 +15,7 @@
 #include "core/io/output_check.hpp"
 #include "core/map/offset_map.hpp"
 #include "core/recording/formats/read_raw_recording.hpp"
+#include "core/recording/time_window.hpp"
 
 namespace sweepscope::app {
 namespace {
@@ -104,14 +105,7 @@ Result<Recording> RecordingOptions::read(const Job& job) const {
   if (!options) return tl::unexpected(options.error());
   auto whole = read_recording(recording, *options, job);
   if (!whole || !window) return whole;
-  Recording part = sweepscope::window(*whole, window->from_s, window->to_s);
-  if (part.scans.empty()) {
-    return failure(ExitCode::kWrongUsage,
-                   fmt::format("{}: no scan lies within --window {}:{}; the last one is at {:.3f} s",
-                               recording.string(), window->from_s, window->to_s,
-                               whole->scans.back().first_beam_s - whole->scans.front().first_beam_s));
-  }
-  return part;
+  return cut_to_window(*whole, {window->from_s, window->to_s}, recording.string());
 }
 
 CLI::Validator finite_number() {

@@ -62,6 +62,10 @@ Result<ui::Ui::Options> ui_options(const ViewOptions& options) {
   if (options.reading.stamps)
     others += *options.reading.stamps == StampSource::kHeader ? " --stamps header" : " --stamps receive";
   if (options.reading.assume) others += " --assume " + *options.reading.assume;
+  if (const auto& part = options.reading.window) {
+    others += fmt::format(" --window {}:{}", part->from_s, part->to_s);
+    out.explorer.window = TimeWindow{part->from_s, part->to_s};
+  }
   out.explorer.shell_options += others;
   out.explorer.report_options += others;
   if (options.reading.rig) out.explorer.input_files.push_back(*options.reading.rig);
@@ -116,7 +120,6 @@ Result<void> view(const ViewOptions& options) {
 void declare(CLI::App& command, ViewOptions& options) {
   options.reading.declare_reading(command);
   options.reading.declare_computing(command);
-  command.remove_option(command.get_option("--window"));  // the explorer has its time window
   CLI::Option* recording = command.add_option("REC", options.recording,
                                               "A recording, or a session (.json); default: the start page");
   command

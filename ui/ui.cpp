@@ -1,5 +1,7 @@
 #include "ui/ui.hpp"
 
+#include <fmt/format.h>
+#include <imgui.h>
 #include <malloc.h>
 #include <tbb/task_arena.h>
 
@@ -8,6 +10,8 @@
 
 #include "render/gl/default_framebuffer.hpp"
 #include "ui/host/imgui_host.hpp"
+#include "ui/host/input_queue.hpp"
+#include "ui/panes/number_box.hpp"
 #include "ui/panes/pane_context.hpp"
 #include "ui/recent.hpp"
 
@@ -18,6 +22,13 @@ namespace {
 /// Whether a tool left something on the maps.
 bool marked(const Settings& s) {
   return s.asked_scan >= 0 || s.measure_from_m != s.measure_to_m || s.profile_from_m != s.profile_to_m;
+}
+
+/// A key that was pressed, or a "?", which is on another key of every keyboard.
+std::optional<Chord> chord_of_event(const InputEvent& event) {
+  if (event.what == InputEvent::What::kText && event.text == "?") return Chord{'?', 0};
+  if (event.what == InputEvent::What::kKey && event.down) return Chord{event.key, event.modifiers};
+  return std::nullopt;
 }
 
 }  // namespace
@@ -43,16 +54,26 @@ struct Ui::Parts {
     return transient.palette || transient.help || transient.asks_for.has_value();
   }
 
+  /// A menu, or a list of choices.
+  static bool menu_is_open() {
+    return ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
+  }
+
   Result<void> act(const Call& call);
   void open_front(const std::string& name, const Call& call);
   void dismiss();
+  void perform(const std::string& line, const std::string& gesture);
+  bool is_command_now(const Chord& chord) const;
+  bool use_start_page(const Chord& chord);
   void use_keys(std::span<const InputEvent> events);
   void use_drops(std::span<const InputEvent> events);
-  void frame(std::span<const InputEvent> events, double seconds_since_last);
+  void frame(std::span<const InputEvent> all_events, double seconds_since_last);
   void draw(const PaneContext& panes);
   void let_go();
   double pane_aspect() const;
   void remember_opened();
+  bool shows_all_points() const;
+  bool picture_is_whole() const { return explorer.loaded() == nullptr || shows_all_points(); }
   void write_picture();
 
   tbb::task_arena alone{1};
@@ -60,11 +81,13 @@ struct Ui::Parts {
   gl::Context& context;
   Explorer explorer;
   ImGuiHost host;
+  InputQueue input;
   LiveView view_a, view_b;
   bool holds_recording = false;  // or what is left of one that was closed
   Transient transient;
   std::map<std::string, PixelRect> anchors;
   std::string remembered;  // the source that the recent list knows already
+  PixelRect maps_place;    // as drawn last
   std::optional<Call> picture_asked;
   int frames_until_picture = 0;  // what asked for it, a dialog or the palette, is to be gone by then
 };
@@ -74,6 +97,13 @@ Result<void> Ui::Parts::act(const Call& call) {
   if (name == "quit") transient.quit = true;
   if (name == "palette" || name == "help" || name == "ask") open_front(name, call);
   if (name == "dismiss") dismiss();
+  if (name == "menu") transient.opens_menu = call.text(0);
+  if (name == "next-field") type_into_next_box(transient, call.values.empty() ? 1 : -1);
+  if (name == "copy") {
+    const Explorer::Copied copied = explorer.what_to_copy();
+    host.clipboard = copied.text;
+    explorer.say(Message::Kind::kNote, fmt::format("Copied {}: {}", copied.what, copied.text));
+  }
   if (name == "copy-command") {
     host.clipboard = explorer.command_line(context.width_px(), context.height_px());
     explorer.say(Message::Kind::kNote, "Copied: " + host.clipboard);
@@ -89,6 +119,7 @@ void Ui::Parts::open_front(const std::string& name, const Call& call) {
   const bool palette_was = transient.palette, help_was = transient.help;
   transient.palette = transient.help = false;
   transient.asks_for.reset();
+  transient.replaces.clear();
   if (name == "palette") transient.palette = !palette_was;
   if (name == "help") transient.help = !help_was;
   if (name == "ask") transient.asks_for = Transient::Asked{call.text(0), call.text(1)};
@@ -116,18 +147,51 @@ void Ui::Parts::dismiss() {
   }
 }
 
+/// Whether a chord is a command now, rather than part of what is typed, or of what a menu does with it.
+bool Ui::Parts::is_command_now(const Chord& chord) const {
+  const bool ctrl = (chord.modifiers & kCtrl) != 0, escape = chord.key == keys::kEscape;
+  if (ImGui::GetIO().WantTextInput || transient.typing) {
+    const bool tab = chord.key == keys::kTab && transient.typing;
+    return escape || tab || (ctrl && (chord.key == 'P' || chord.key == 'Q'));
+  }
+  if (menu_is_open()) return ctrl;
+  return ctrl || escape || chord.key == keys::kF1 || !something_in_front();
+}
+
+/// The start page by keyboard: arrows and Tab choose, Enter does it. Whether the key was its own.
+bool Ui::Parts::use_start_page(const Chord& chord) {
+  const auto count = static_cast<int>(transient.start_lines.size());
+  if (explorer.loaded() != nullptr || explorer.is_loading() || something_in_front() || menu_is_open() ||
+      count == 0)
+    return false;
+  const bool tab = chord.key == keys::kTab, back = tab && (chord.modifiers & kShift) != 0;
+  int& choice = transient.start_choice;
+  if (chord.key == keys::kDown || (tab && !back))
+    choice = (choice + 1) % count;
+  else if (chord.key == keys::kUp || back)
+    choice = (std::max(choice, 0) + count - 1) % count;
+  else if (chord.key == keys::kEnter && choice >= 0)
+    perform(transient.start_lines[static_cast<std::size_t>(choice)], {});
+  else
+    return false;
+  return true;
+}
+
+void Ui::Parts::perform(const std::string& line, const std::string& gesture) {
+  if (const auto done = explorer.perform(line, gesture); !done)
+    explorer.say(Message::Kind::kError, done.error().message);
+}
+
 void Ui::Parts::use_keys(std::span<const InputEvent> events) {
   for (const InputEvent& event : events) {
-    if (event.what != InputEvent::What::kKey || !event.down) continue;
-    const Chord chord{event.key, event.modifiers};
-    const bool always = event.key == keys::kEscape || (event.modifiers & kCtrl) != 0;
-    const bool typing = ImGui::GetIO().WantTextInput;
-    if ((typing || something_in_front()) && !always) continue;
-    if (typing && event.key != 'P' && event.key != 'Q' && event.key != keys::kEscape) continue;
+    const auto chord = chord_of_event(event);
+    if (!chord || !is_command_now(*chord) || use_start_page(*chord)) continue;
+    if (transient.typing && chord->key == keys::kEscape) {
+      transient.typing.reset();  // the number stays as it was, and nothing else is closed
+      continue;
+    }
     for (const Shortcut& shortcut : shortcuts()) {
-      if (parse_chord(shortcut.chord) != chord) continue;
-      if (const auto done = explorer.perform(shortcut.line, "key " + shortcut.line); !done)
-        explorer.say(Message::Kind::kError, done.error().message);
+      if (parse_chord(shortcut.chord) == chord) perform(shortcut.line, "key " + shortcut.line);
     }
   }
 }
@@ -136,16 +200,17 @@ void Ui::Parts::use_drops(std::span<const InputEvent> events) {
   for (const InputEvent& event : events) {
     if (event.what != InputEvent::What::kDrop) continue;
     transient.asks_for.reset();
-    if (const auto done = explorer.perform("open " + ui::quoted(event.text)); !done)
-      explorer.say(Message::Kind::kError, done.error().message);
+    perform("open " + ui::quoted(event.text), {});
   }
 }
 
 void Ui::Parts::draw(const PaneContext& panes) {
   const double width = context.width_px(), height = context.height_px();
   const bool open = explorer.loaded() != nullptr;
-  const Places places = lay_out(width, height, panes.scale, explorer.settings(), open);
+  const double message_px = message_height(panes, width);
+  const Places places = lay_out(width, height, panes.scale, explorer.settings(), open, message_px);
   const PixelRect whole{0, 0, width, height};
+  maps_place = places.maps;
   if (open) {
     holds_recording = true;
     draw_recording_panel(panes, places.left);
@@ -158,6 +223,8 @@ void Ui::Parts::draw(const PaneContext& panes) {
   } else {
     draw_start_page(panes, places.maps);
   }
+  explorer.hold_message(false);
+  draw_message(panes, places.message);
   draw_status_bar(panes, places.status);
   draw_menu_bar(panes, places.menu);
   const bool opened = transient.just_opened;
@@ -165,9 +232,10 @@ void Ui::Parts::draw(const PaneContext& panes) {
   draw_help(panes, whole);
   draw_ask(panes, whole);
   if (opened) transient.just_opened = false;
-  draw_message(panes, whole);
   if (!ImGui::IsMouseDown(0)) transient.handle.reset();
-  explorer.hold_handle(transient.handle.has_value() || ImGui::IsAnyItemActive());
+  // A field that is typed into is active too, and changes nothing until it is left.
+  const bool dragged = ImGui::IsAnyItemActive() && !ImGui::GetIO().WantTextInput;
+  explorer.hold_handle(transient.handle.has_value() || dragged);
 }
 
 /// Once what still worked on a closed recording has ended, its memory goes back to the system, small pieces
@@ -183,7 +251,7 @@ void Ui::Parts::let_go() {
 /// Of a map's picture, once a recording is open.
 double Ui::Parts::pane_aspect() const {
   const Settings& settings = explorer.settings();
-  const PixelRect maps = lay_out(context.width_px(), context.height_px(), scale(), settings, true).maps;
+  const PixelRect maps = lay_out(context.width_px(), context.height_px(), scale(), settings, true, 0).maps;
   const MapPlaces places = lay_out_maps(maps, scale(), settings.layout);
   const PixelRect& picture = places.picture_b.width > 0 ? places.picture_b : places.picture_a;
   return picture.width / std::max(picture.height, 1.0);
@@ -203,18 +271,16 @@ void Ui::Parts::write_picture() {
   picture_asked.reset();
   Image image = gl::read_default_framebuffer(context);
   if (asked.text(1) == "maps" && explorer.loaded() != nullptr) {
-    const PixelRect maps =
-        lay_out(context.width_px(), context.height_px(), scale(), explorer.settings(), true).maps;
-    Image part(static_cast<int>(maps.width), static_cast<int>(maps.height));
+    Image part(static_cast<int>(maps_place.width), static_cast<int>(maps_place.height));
     for (int y = 0; y < part.height_px; ++y)
-      std::copy_n(image.pixel(static_cast<int>(maps.left), static_cast<int>(maps.top) + y),
+      std::copy_n(image.pixel(static_cast<int>(maps_place.left), static_cast<int>(maps_place.top) + y),
                   Image::kChannels * static_cast<std::size_t>(part.width_px), part.pixel(0, y));
     image = std::move(part);
   }
   const std::string path = asked.text(0);
   explorer.start_export(
       "Writing " + path, [image = std::move(image), path](const Job&) { return write_png(image, path); },
-      "The picture is saved in " + path + ".");
+      "The picture is saved in " + whole_path(path) + ".");
 }
 
 Ui::Ui(gl::Context& context, Options options)
@@ -234,8 +300,10 @@ void Ui::frame(std::span<const InputEvent> events, double seconds_since_last) {
   parts_->alone.execute([&] { parts_->frame(events, seconds_since_last); });
 }
 
-void Ui::Parts::frame(std::span<const InputEvent> events, double seconds_since_last) {
+void Ui::Parts::frame(std::span<const InputEvent> all_events, double seconds_since_last) {
   host.use(explorer.settings().theme, scale());
+  input.add(all_events);
+  const std::vector<InputEvent> events = input.take();
   use_keys(events);
   use_drops(events);
   transient.camera_moved_s += seconds_since_last;
@@ -243,14 +311,18 @@ void Ui::Parts::frame(std::span<const InputEvent> events, double seconds_since_l
   explorer.update(seconds_since_last);
   remember_opened();
   let_go();
+  // The keyboard is ImGui's in its menus alone: elsewhere arrows move the view.
+  host.navigate_by_keys(menu_is_open());
   host.begin_frame(events, seconds_since_last);
   anchors.clear();
-  const PaneContext panes{explorer, transient, host.fonts(), style(), scale(), {&view_a, &view_b}, anchors};
+  begin_number_boxes(transient);
+  const PaneContext panes{explorer, transient,          host.fonts(),          style(),
+                          scale(),  {&view_a, &view_b}, options.draw_budget_s, anchors};
   draw(panes);
   host.end_frame(style().page);
   // A software renderer would let frames pile up, hundreds of megabytes of them, until one must wait for all.
   gl::finish_drawing(context);
-  if (picture_asked && frames_until_picture-- == 0) write_picture();
+  if (picture_asked && frames_until_picture-- <= 0 && picture_is_whole()) write_picture();
 }
 
 Image Ui::screenshot() {
@@ -258,7 +330,7 @@ Image Ui::screenshot() {
 }
 
 bool Ui::wants_quit() const {
-  return parts_->transient.quit && !parts_->explorer.is_exporting() && !parts_->picture_asked;
+  return parts_->transient.quit && !is_exporting();
 }
 
 bool Ui::pictures_done() const {
@@ -266,14 +338,33 @@ bool Ui::pictures_done() const {
   if (p.picture_asked) return false;
   if (p.transient.camera_moved_s < 0.5) return false;
   if (p.explorer.loaded() == nullptr) return true;
-  const Layout layout = p.explorer.settings().layout;
-  const bool a = layout != Layout::kOnlyB && layout != Layout::kDifference, b = layout != Layout::kOnlyA;
-  return (!a || p.view_a.done()) && (!b || p.view_b.done());
+  const auto sides = sides_of(p.explorer.settings().layout);
+  const auto done = [&](Side side) { return (side == Side::kA ? p.view_a : p.view_b).done(); };
+  return std::all_of(sides.begin(), sides.end(), done);
+}
+
+bool Ui::Parts::shows_all_points() const {
+  if (explorer.loaded() == nullptr) return false;
+  const auto has = [&](Side side) { return (side == Side::kA ? view_a : view_b).has_all_points(); };
+  const auto sides = sides_of(explorer.settings().layout);
+  return std::all_of(sides.begin(), sides.end(), has);
+}
+
+bool Ui::shows_all_points() const {
+  return parts_->shows_all_points();
+}
+
+bool Ui::has_input() const {
+  return !parts_->input.empty();
+}
+
+bool Ui::is_exporting() const {
+  return parts_->picture_asked || parts_->explorer.is_exporting();
 }
 
 bool Ui::animates() const {
   const Parts& p = *parts_;
-  return !pictures_done() || p.transient.just_opened || p.explorer.waits_to_place();
+  return !pictures_done() || has_input() || p.transient.just_opened || p.explorer.waits_to_place();
 }
 
 std::optional<PixelRect> Ui::anchor(const std::string& name) const {

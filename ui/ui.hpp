@@ -22,6 +22,7 @@ class Ui {
     Explorer::Options explorer;
     double display_scale = 1;           // 1 at 100 %
     std::filesystem::path recent_list;  // empty: none is kept
+    double draw_budget_s = 0.012;       // of each map and frame, for points beyond the coarse ones
   };
   /// The context must outlive it.
   Ui(gl::Context& context, Options options);
@@ -32,15 +33,21 @@ class Ui {
   Explorer& explorer();
   const Explorer& explorer() const;
 
-  /// Draws the interface into the context's default framebuffer. With at most as many events as
-  /// events_of_next_frame returns.
+  /// Draws the interface into the context's default framebuffer. Events that do not fit into one frame wait
+  /// for the next ones.
   void frame(std::span<const InputEvent> events, double seconds_since_last);
   /// The picture of the last frame.
   Image screenshot();
 
   bool wants_quit() const;
+  /// Whether events wait for a frame.
+  bool has_input() const;
+  /// Whether a file is still to be written.
+  bool is_exporting() const;
   /// Whether the pictures of the maps are complete.
   bool pictures_done() const;
+  /// Whether the maps are shown with all their points, rather than thinned.
+  bool shows_all_points() const;
   /// Whether the next frame would differ without any event, because something moves or is being drawn.
   /// Progress of background work does not count.
   bool animates() const;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 #include "render/gl/window.hpp"
 #include "ui/host/imgui_host.hpp"
@@ -28,7 +29,7 @@ std::string utf8(unsigned code) {
   return text;
 }
 
-/// What the window reported and no frame has used yet.
+/// What the window reported since the last frame.
 class EventQueue {
  public:
   explicit EventQueue(gl::Window& window) {
@@ -50,12 +51,9 @@ class EventQueue {
   }
 
   bool any() const { return !events_.empty() || changed_; }
-  std::vector<InputEvent> take_for_frame() {
+  std::vector<InputEvent> take() {
     changed_ = false;
-    const std::size_t count = events_of_next_frame(events_);
-    std::vector<InputEvent> now(events_.begin(), events_.begin() + static_cast<std::ptrdiff_t>(count));
-    events_.erase(events_.begin(), events_.begin() + static_cast<std::ptrdiff_t>(count));
-    return now;
+    return std::exchange(events_, {});
   }
 
  private:
@@ -110,11 +108,12 @@ void loop(gl::Window& window, Ui& ui) {
   ClipboardLink clipboard;
   auto last = Clock::now(), last_event = last;
   int frames_due = kFramesAfterEvent;
-  while ((!window.should_close() || ui.explorer().is_exporting()) && !ui.wants_quit()) {
+  while ((!window.should_close() || ui.is_exporting()) && !ui.wants_quit()) {
     const Background& background = ui.explorer().background();
     const bool moves =
         frames_due > 0 || ui.animates() || seconds_between(last_event, Clock::now()) < kTooltip_s;
-    const double interval_s = moves ? kFrame_s : background.busy() ? kWorking_s : kIdle_s;
+    const bool goes_on = background.busy() || ui.explorer().message();  // a message goes after its time
+    const double interval_s = moves ? kFrame_s : goes_on ? kWorking_s : kIdle_s;
     const double waited_s = interval_s == kIdle_s ? 0 : seconds_between(last, Clock::now());
     window.wait(std::max(1e-3, interval_s - waited_s));
     const auto now = Clock::now();
@@ -127,7 +126,7 @@ void loop(gl::Window& window, Ui& ui) {
     }
     last = now;
     ui.set_display_scale(window.scale());
-    const std::vector<InputEvent> events = queue.take_for_frame();
+    const std::vector<InputEvent> events = queue.take();
     clipboard.before(window, ui, events);
     ui.frame(events, std::clamp(seconds, 1e-3, 0.25));
     clipboard.after(window, ui);
@@ -144,7 +143,9 @@ Result<void> run_in_window(Ui::Options options, int width_px, int height_px, con
   auto window = gl::make_window(width_px, height_px, "sweepscope");
   if (!window)
     return failure(window.error().code,
-                   window.error().message + ". Without a display: --headless, with --script or --run.");
+                   window.error().message +
+                       ". Without a display: --headless, with --script or --run, draws this interface; "
+                       "`sweepscope report` and `sweepscope compare` need none.");
   (*window)->make_current();
   options.recent_list = recent_list_path();
   const double wanted_scale = options.display_scale;

@@ -112,6 +112,7 @@ Result<std::vector<OffsetMap>> build_maps(const PreparedRecording& prepared,
   const OffsetProblem problem = problem_for(prepared, *least, *greatest);
   const auto path = find_map_path(problem, *least, *greatest, options, job);
   if (!path) return tl::unexpected(path.error());
+  job.report("placing", 0);
   std::vector<OffsetMap> maps(offsets_s.size());
   for_each_index(offsets_s.size(), [&](std::size_t i) {
     if (!options.poses.empty())

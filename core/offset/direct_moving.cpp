@@ -31,6 +31,7 @@ std::optional<MovingDirect> solve_moving(const OffsetProblem& problem, double fi
     result.converged = walk->near && walk->joint->converged;
     const Eigen::Vector3d axis = problem.recording->rig.mount.axis.normalized();
     result.sway_rad = alternating_sway_rad(walk->joint->sweeps, axis);
+    job.report("comparing", 0);
     result.curve = sides(problem, *walk, options);
   }
   result.walk = std::make_shared<const SolvedWalk>(std::move(*walk));

@@ -1,6 +1,7 @@
 #include "core/offset/direct_stationary.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "core/loam/least_squares.hpp"
@@ -315,9 +316,11 @@ std::vector<CurvePoint> stationary_coarse_curve(const StillGrid& grid, const std
                                                 const Job& job) {
   const StillPatchOptions patches = still_patch_options(*grid.problem);
   std::vector<CurvePoint> curve(offsets_s.size());
+  std::atomic<std::size_t> done{0};
   for_each_index(offsets_s.size(), [&](std::size_t i) {
     curve[i].offset_s = offsets_s[i];
     if (!job.cancelled()) curve[i].capped_cost_m = coarse_cost_m(grid, patches, offsets_s[i]);
+    job.report("searching", double(++done) / double(offsets_s.size()));
   });
   return curve;
 }

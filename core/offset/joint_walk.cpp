@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <numeric>
 
@@ -45,14 +47,14 @@ class Part {
     result_.offset_s = offset_s;
   }
 
-  void solve(const Job& job) {
+  /// `iterated` is called after each of at most `iterations()`.
+  void solve(const Job& job, const std::function<void()>& iterated) {
     std::vector<double> offsets_s, shifts_s;
     std::optional<WalkEquations::Solution> solution;
-    const int iterations = options_.first_iterations + options_.averaged_iterations;
     const auto rows = Eigen::Index(6 * path_.blocks() + 1);
     std::optional<JerkEvidence> evidence;
     if (path_.shift_block() && path_.knots() > 0) evidence.emplace(path_.knots(), rows);
-    for (int i = 0; i < iterations && !job.cancelled(); ++i) {
+    for (int i = 0; i < iterations(options_) && !job.cancelled(); ++i, iterated()) {
       WalkEquations equations(path_.blocks());
       linearise(equations);
       if (result_.matches < options_.min_matches) return;
@@ -81,6 +83,9 @@ class Part {
       const double mean_s = std::accumulate(shifts_s.begin(), shifts_s.end(), 0.0) / double(shifts_s.size());
       result_.time_shift = TimeShift{mean_s, clustered_sigma_s(influence, sigma_s)};
     }
+  }
+  static int iterations(const JointWalkOptions& options) {
+    return options.first_iterations + options.averaged_iterations;
   }
   const JointWalkPart& result() const { return result_; }
   const GuidedPath& path() const { return path_; }
@@ -320,9 +325,12 @@ std::optional<JointWalk> solve_joint_walk(const OffsetProblem& problem, const st
   const std::vector<Sweeps> cuts = parts_of(tracked, options.part_s, options.mapping.given.get());
   std::vector<JointWalkPart> parts(cuts.size());
   std::vector<Sweeps> sweeps = cuts;
+  std::atomic<std::size_t> done{0};
+  const auto all = double(cuts.size()) * Part::iterations(options);
+  const auto iterated = [&] { job.report("adjusting", std::min(1.0, double(++done) / all)); };
   for_each_index(cuts.size(), [&](std::size_t i) {
     Part part(problem, cuts[i], offset_s, options);
-    part.solve(job);
+    part.solve(job, iterated);
     parts[i] = part.result();
     if (parts[i].matches >= options.min_matches)
       for (SweepPose& sweep : sweeps[i]) sweep = part.path().as_sweep(sweep);

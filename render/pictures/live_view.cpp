@@ -5,6 +5,8 @@
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkNew.h>
 #include <vtkOpenGLFramebufferObject.h>
+#include <vtkOpenGLState.h>
+#include <vtkPixelBufferObject.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
@@ -53,6 +55,55 @@ struct Slices {
   }
 };
 
+/// A copy of a finished picture: what is shown while the next one is collected.
+class KeptPicture {
+ public:
+  void keep(vtkGenericOpenGLRenderWindow& window) {
+    const int* size_px = window.GetSize();
+    const auto width_px = static_cast<unsigned>(size_px[0]), height_px = static_cast<unsigned>(size_px[1]);
+    if (!texture_) {
+      texture_ = vtkSmartPointer<vtkTextureObject>::New();
+      texture_->SetContext(&window);
+    }
+    if (texture_->GetWidth() != width_px || texture_->GetHeight() != height_px)
+      texture_->Allocate2D(width_px, height_px, Image::kChannels, VTK_UNSIGNED_CHAR);
+    vtkOpenGLFramebufferObject& drawn = *window.GetDisplayFramebuffer();
+    window.GetState()->PushReadFramebufferBinding();
+    drawn.Bind(vtkOpenGLFramebufferObject::GetReadMode());
+    drawn.ActivateReadBuffer(0);
+    texture_->CopyFromFrameBuffer(0, 0, 0, 0, size_px[0], size_px[1]);
+    texture_->Deactivate();
+    window.GetState()->PopReadFramebufferBinding();
+    valid_ = true;
+  }
+  void forget() { valid_ = false; }
+  bool valid() const { return valid_; }
+  unsigned handle() const { return texture_ ? texture_->GetHandle() : 0; }
+  void release(vtkWindow& window) {
+    if (texture_) texture_->ReleaseGraphicsResources(&window);
+  }
+
+  Image image() const {
+    if (!texture_) return {};
+    Image image(static_cast<int>(texture_->GetWidth()), static_cast<int>(texture_->GetHeight()));
+    const auto pixels = vtk::TakeSmartPointer(texture_->Download());
+    std::vector<std::uint8_t> rows(image.rgba.size());
+    unsigned size_px[2] = {texture_->GetWidth(), texture_->GetHeight()};
+    vtkIdType increments[2] = {0, 0};
+    pixels->Download2D(VTK_UNSIGNED_CHAR, rows.data(), size_px, Image::kChannels, increments);
+    const std::size_t row_bytes = Image::kChannels * static_cast<std::size_t>(image.width_px);
+    for (int y = 0; y < image.height_px; ++y)
+      std::copy_n(rows.data() + row_bytes * static_cast<std::size_t>(image.height_px - 1 - y), row_bytes,
+                  image.pixel(0, y));
+    image.make_opaque();
+    return image;
+  }
+
+ private:
+  vtkSmartPointer<vtkTextureObject> texture_;
+  bool valid_ = false;
+};
+
 double now_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
@@ -68,6 +119,7 @@ struct LiveView::Parts {
 
   ~Parts() {
     context.make_current();
+    for (KeptPicture* picture : {&coarse_picture, &full_picture}) picture->release(*window);
     window->Finalize();
   }
 
@@ -106,15 +158,23 @@ struct LiveView::Parts {
     }
   }
 
-  void begin_again() { drawn = 0; }
-  std::size_t wanted() const {
-    return 1 + coarse.actors.size() + (moving ? 0 : full.actors.size());  // 1: the empty picture
+  void begin_again() {
+    drawn = 0;
+    coarse_picture.forget();
+    full_picture.forget();
   }
+  std::size_t coarse_steps() const { return 1 + coarse.actors.size(); }  // 1: the empty picture
+  std::size_t wanted() const { return coarse_steps() + (moving ? 0 : full.actors.size()); }
   void draw_next() {
     const std::size_t slice = drawn++;
     if (slice == 0) return render(nullptr, true);
     if (slice <= coarse.actors.size()) return render(coarse.at(slice - 1, point_size_px, *renderer), false);
-    render(full.at(slice - 1 - coarse.actors.size(), point_size_px, *renderer), false);
+    render(full.at(slice - coarse_steps(), point_size_px, *renderer), false);
+  }
+  void keep_what_is_whole() {
+    if (drawn == coarse_steps() && !coarse_picture.valid()) coarse_picture.keep(*window);
+    if (full.points && drawn == coarse_steps() + full.actors.size() && !full_picture.valid())
+      full_picture.keep(*window);
   }
 
   gl::Context& context;
@@ -127,6 +187,7 @@ struct LiveView::Parts {
   bool moving = false;
   std::array<double, 6> bounds{1, -1, 1, -1, 1, -1};
   std::size_t drawn = 0;  // of the empty picture, the coarse slices and the full ones
+  KeptPicture coarse_picture, full_picture;
 };
 
 LiveView::LiveView(gl::Context& context) : parts_(std::make_unique<Parts>(context)) {}
@@ -176,14 +237,20 @@ void LiveView::set_moving(bool moving) {
 }
 
 void LiveView::draw(double budget_s) {
-  parts_->context.make_current();
+  Parts& p = *parts_;
+  p.context.make_current();
   const double end_s = now_s() + budget_s;
-  const std::size_t at_once = 1 + parts_->coarse.actors.size();  // a picture without them would flicker
-  while (!done() && (parts_->drawn < at_once || now_s() < end_s)) {
-    parts_->draw_next();
+  const bool begins = p.drawn < p.coarse_steps();
+  while (p.drawn < p.coarse_steps()) p.draw_next();
+  p.keep_what_is_whole();
+  if (begins && now_s() >= end_s) return;
+  while (!done()) {
+    p.draw_next();
+    p.keep_what_is_whole();
+    if (now_s() >= end_s) return;
     // What only waits to be drawn has taken no time yet: it would pile up, and a later frame would wait for
     // all.
-    if (parts_->drawn >= at_once && !done()) parts_->window->WaitForCompletion();
+    p.window->WaitForCompletion();
   }
 }
 
@@ -191,10 +258,19 @@ bool LiveView::done() const {
   return parts_->drawn >= parts_->wanted();
 }
 
-unsigned LiveView::texture() const {
-  vtkOpenGLFramebufferObject* drawn = parts_->window->GetDisplayFramebuffer();
-  vtkTextureObject* colours = drawn != nullptr ? drawn->GetColorAttachmentAsTextureObject(0) : nullptr;
-  return colours != nullptr ? colours->GetHandle() : 0;
+bool LiveView::has_all_points() const {
+  return parts_->full_picture.valid();
+}
+
+unsigned LiveView::texture(Points points) const {
+  const bool all = points == Points::kAll && has_all_points();
+  return (all ? parts_->full_picture : parts_->coarse_picture).handle();
+}
+
+Image LiveView::picture(Points points) const {
+  parts_->context.make_current();
+  const bool all = points == Points::kAll && has_all_points();
+  return (all ? parts_->full_picture : parts_->coarse_picture).image();
 }
 
 int LiveView::width_px() const {

@@ -20,11 +20,14 @@ struct LivePoints {
 };
 using LivePointsPtr = std::shared_ptr<const LivePoints>;
 
-/// A cloud that is drawn interactively, into a texture of a context that is shared with windows. While
+/// A cloud that is drawn interactively, into textures of a context that is shared with windows. While
 /// something moves it draws only the coarse points; at rest it adds all points in slices, so that no call
-/// takes long. The same state gives the same pixels for any slices.
+/// takes long. The same state gives the same pixels for any slices, and a texture holds a whole picture at
+/// every moment: slices are collected out of sight.
 class LiveView {
  public:
+  enum class Points { kCoarse, kAll };
+
   /// The context must outlive it.
   explicit LiveView(gl::Context& context);
   ~LiveView();
@@ -40,13 +43,19 @@ class LiveView {
   /// Coarse points only.
   void set_moving(bool moving);
 
-  /// Draws what is not drawn yet, for at most about `budget_s`.
+  /// Draws what is not drawn yet: the coarse points at once, then all points for about `budget_s`; at least a
+  /// slice of them where the coarse points are drawn already.
   void draw(double budget_s);
-  /// Whether everything is drawn.
+  /// Whether everything is drawn that is to be drawn now: while something moves, the coarse points.
   bool done() const;
+  /// Whether the picture of all points is there, for what is shown now.
+  bool has_all_points() const;
 
-  /// An OpenGL texture with the picture; its first row is the lowest.
-  unsigned texture() const;
+  /// An OpenGL texture with the picture of these points; its first row is the lowest. The coarse points'
+  /// where there is no picture of all points yet; 0 before the first drawing.
+  unsigned texture(Points points) const;
+  /// That picture, read back.
+  Image picture(Points points) const;
   int width_px() const;
   int height_px() const;
 

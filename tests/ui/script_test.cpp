@@ -214,17 +214,6 @@ TEST_F(Headless, EveryStateHasAPictureOfItsOwn) {
   }
 }
 
-TEST(Frames, APressAndItsReleaseNeedAFrameEach) {
-  const std::vector<InputEvent> click{InputEvent::move(1, 1), InputEvent::press(0, true),
-                                      InputEvent::press(0, false)};
-  EXPECT_EQ(events_of_next_frame(click), 2u);
-  const std::vector<InputEvent> word{InputEvent::words("a"), InputEvent::words("b")};
-  EXPECT_EQ(events_of_next_frame(word), 2u);
-  const std::vector<InputEvent> keys{InputEvent::stroke('A', true, 0), InputEvent::stroke('B', true, 0),
-                                     InputEvent::stroke('A', false, 0)};
-  EXPECT_EQ(events_of_next_frame(keys), 2u);
-}
-
 TEST(Chords, ReadBackAsTheyAreWritten) {
   for (const Shortcut& shortcut : shortcuts()) {
     const auto chord = parse_chord(shortcut.chord);

@@ -63,24 +63,7 @@ void feed(ImGuiIO& io, const InputEvent& event) {
   }
 }
 
-bool needs_own_frame(const InputEvent& earlier, const InputEvent& later) {
-  using What = InputEvent::What;
-  if (earlier.what == What::kButton) return later.what == What::kButton || later.what == What::kMove;
-  if (earlier.what == What::kMove) return later.what == What::kMove;
-  if (earlier.what == What::kKey) return later.what == What::kKey && later.key == earlier.key;
-  return false;
-}
-
 }  // namespace
-
-std::size_t events_of_next_frame(std::span<const InputEvent> events) {
-  for (std::size_t i = 1; i < events.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      if (needs_own_frame(events[j], events[i])) return i;
-    }
-  }
-  return events.size();
-}
 
 ImGuiHost::ImGuiHost(gl::Context& context) : context_(context), imgui_(ImGui::CreateContext()) {
   ImGui::SetCurrentContext(imgui_);
@@ -116,6 +99,12 @@ void ImGuiHost::use(Theme theme, double scale) {
   apply_theme(style_of(theme), scale);
   theme_ = theme;
   scale_ = scale;
+}
+
+void ImGuiHost::navigate_by_keys(bool on) {
+  ImGui::SetCurrentContext(imgui_);
+  ImGuiConfigFlags& flags = ImGui::GetIO().ConfigFlags;
+  flags = on ? flags | ImGuiConfigFlags_NavEnableKeyboard : flags & ~ImGuiConfigFlags_NavEnableKeyboard;
 }
 
 void ImGuiHost::begin_frame(std::span<const InputEvent> events, double seconds_since_last) {

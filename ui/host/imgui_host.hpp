@@ -27,7 +27,9 @@ class ImGuiHost {
   void use(Theme theme, double scale);
   const Fonts& fonts() const { return fonts_; }
 
-  /// The events must fit into one frame: see events_of_next_frame.
+  /// Whether arrows, Enter and Escape move through what is in front.
+  void navigate_by_keys(bool on);
+  /// The events must fit into one frame: see InputQueue.
   void begin_frame(std::span<const InputEvent> events, double seconds_since_last);
   /// Draws what the panes made.
   void end_frame(Colour background);
@@ -42,9 +44,5 @@ class ImGuiHost {
   Theme theme_ = Theme::kDark;
   double scale_ = 0;
 };
-
-/// How many of the events go into the next frame: a press and a release of one button or key need a frame
-/// each.
-std::size_t events_of_next_frame(std::span<const InputEvent> events);
 
 }  // namespace sweepscope::ui

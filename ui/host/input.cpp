@@ -26,7 +26,10 @@ constexpr std::array kNamed{Named{"Space", keys::kSpace},
                             Named{"PageUp", keys::kPageUp},
                             Named{"PageDown", keys::kPageDown},
                             Named{"Home", keys::kHome},
-                            Named{"End", keys::kEnd}};
+                            Named{"End", keys::kEnd},
+                            Named{"F1", keys::kF1},
+                            Named{"F10", keys::kF10},
+                            Named{"?", '?'}};
 
 struct NamedModifier {
   std::string_view name;

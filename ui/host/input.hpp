@@ -48,7 +48,7 @@ std::string to_text(const Chord& chord);
 namespace keys {
 inline constexpr Key kTab = 258, kEnter = 257, kEscape = 256, kBackspace = 259, kDelete = 261, kRight = 262,
                      kLeft = 263, kDown = 264, kUp = 265, kPageUp = 266, kPageDown = 267, kHome = 268,
-                     kEnd = 269, kSpace = 32;
+                     kEnd = 269, kSpace = 32, kF1 = 290, kF10 = 299;
 }  // namespace keys
 
 }  // namespace sweepscope::ui

@@ -27,16 +27,16 @@ struct Task {
   std::unique_ptr<Job> job;
   Background::Finish finish;
   bool running = false, finished = false, cancelled = false;
-  std::string phase;
-  double fraction = 0;
-  Clock::time_point phase_began;
+  TaskProgress progress;
+  Clock::time_point began;
 };
 using TaskPtr = std::shared_ptr<Task>;
 
 double seconds_left(const Task& task) {
-  const double elapsed_s = std::chrono::duration<double>(Clock::now() - task.phase_began).count();
-  if (!task.running || task.fraction < 0.02 || elapsed_s < 0.5) return -1;
-  return elapsed_s * (1 - task.fraction) / task.fraction;
+  const double elapsed_s = std::chrono::duration<double>(Clock::now() - task.began).count();
+  const double fraction = task.progress.fraction();
+  if (!task.running || fraction < 0.05 || elapsed_s < 0.5) return -1;
+  return elapsed_s * (1 - fraction) / fraction;
 }
 
 /// Makes the threads that work with the present one come after those that draw, for good: only root could
@@ -80,7 +80,7 @@ struct Background::Shared {
       changed.wait(lock, [&] { return ending || (task = next_in(lane)) != nullptr; });
       if (ending) return;
       task->running = true;
-      task->phase_began = Clock::now();
+      task->began = Clock::now();
       lock.unlock();
       // A thread that throws would end the program: the next taker of results throws instead.
       Finish finish;
@@ -100,11 +100,7 @@ struct Background::Shared {
 
   void report(Task& task, std::string_view phase, double fraction) {
     const std::lock_guard lock(mutex);
-    if (task.phase != phase) {
-      task.phase = phase;
-      task.phase_began = Clock::now();
-    }
-    task.fraction = fraction;
+    task.progress.report(phase, fraction);
     if (wake) wake();
   }
 };
@@ -132,12 +128,14 @@ void Background::on_progress(std::function<void()> wake) {
   shared_->wake = std::move(wake);
 }
 
-void Background::start(const std::string& lane, const std::string& key, const std::string& title, Work work) {
+void Background::start(const std::string& lane, const std::string& key, const std::string& title, Work work,
+                       std::vector<TaskStep> plan) {
   auto task = std::make_shared<Task>();
   task->lane = lane;
   task->key = key;
   task->title = printable_line(title);
   task->work = std::move(work);
+  task->progress = TaskProgress(std::move(plan));
   task->job = std::make_unique<Job>([this, raw = task.get()](std::string_view phase, double fraction) {
     shared_->report(*raw, phase, fraction);
   });
@@ -210,7 +208,8 @@ std::vector<JobStatus> Background::status() const {
   std::vector<JobStatus> all;
   for (const TaskPtr& task : shared_->tasks) {
     if (task->cancelled || task->finished) continue;
-    all.push_back({task->key, task->title, task->phase, task->fraction, seconds_left(*task), task->running});
+    all.push_back({task->key, task->title, task->progress.phase(), task->progress.fraction(),
+                   seconds_left(*task), task->running});
   }
   return all;
 }

@@ -6,13 +6,14 @@
 #include <vector>
 
 #include "core/job.hpp"
+#include "ui/model/task_progress.hpp"
 
 namespace sweepscope::ui {
 
 /// The status of a background task, for display.
 struct JobStatus {
   std::string key, title, phase;
-  double fraction = 0;       // of the phase
+  double fraction = 0;       // of the whole task, never falling
   double seconds_left = -1;  // below 0: not known yet
   bool running = false;      // otherwise it is queued
 };
@@ -35,7 +36,9 @@ class Background {
   void come_after_the_interface();
   /// `wake` is called, from any thread, when a task finished or progressed.
   void on_progress(std::function<void()> wake);
-  void start(const std::string& lane, const std::string& key, const std::string& title, Work work);
+  /// `plan`: the steps of the task and what part of its time each takes (see TaskProgress).
+  void start(const std::string& lane, const std::string& key, const std::string& title, Work work,
+             std::vector<TaskStep> plan = {});
   /// Whether a task with this key is queued or running, and not cancelled.
   bool has(const std::string& key) const;
   /// Its result is dropped, even if it is finished but not taken yet.

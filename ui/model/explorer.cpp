@@ -6,6 +6,9 @@
 #include <cmath>
 
 #include "core/offset/estimator.hpp"
+#include "core/offset/search_window.hpp"
+#include "ui/model/picking.hpp"
+#include "ui/model/task_plans.hpp"
 #include "ui/model/view_camera.hpp"
 
 namespace sweepscope::ui {
@@ -13,6 +16,11 @@ namespace {
 
 tl::unexpected<Error> not_now(std::string why) {
   return failure(ExitCode::kWrongUsage, std::move(why));
+}
+
+/// Turning the view to one of its directions leaves its middle and its size to the program.
+bool moves_view(const std::string& command) {
+  return command.starts_with("camera") || command == "zoom" || command == "pan" || command == "turn";
 }
 
 EstimateOptions estimate_options(const Settings& settings, std::optional<RigKind> assume) {
@@ -40,10 +48,58 @@ Result<void> Explorer::perform(std::string_view line, const std::string& gesture
 
 Result<void> Explorer::perform(const Call& call, const std::string& gesture) {
   if (call.command->is_action()) return act(call);
+  Settings next = changed(settings_, call);
+  if (auto allowed = check_offsets(next); !allowed) return allowed;
   if (call.command->name == "offset-b") b_was_set_ = true;
-  if (call.command->name.starts_with("camera")) view_fitted_ = true;
-  change_settings(changed(settings_, call), gesture);
+  if (moves_view(call.command->name)) view_moved_ = true;
+  if (next.offset_a_ms != settings_.offset_a_ms) changed_side_ = Side::kA;
+  if (next.offset_b_ms != settings_.offset_b_ms) changed_side_ = Side::kB;
+  change_settings(std::move(next), gesture);
   return {};
+}
+
+std::pair<double, double> Explorer::offset_window_ms() const {
+  const Parameter& any = find_command("offset-a")->parameters[0];
+  const double reach_ms = loaded_ ? 1e3 * search_scale(loaded_->prepared.motor).max_half_width_s : 0;
+  if (!(reach_ms > 0)) return {any.least, any.greatest};
+  double from_ms = -reach_ms, to_ms = reach_ms;
+  const auto reach_about = [&](double first_ms, double last_ms) {
+    from_ms = std::min(from_ms, first_ms - reach_ms);
+    to_ms = std::max(to_ms, last_ms + reach_ms);
+  };
+  if (settings_.search == Search::kRange) reach_about(settings_.search_from_ms, settings_.search_to_ms);
+  if (estimate_ && estimate_->offset_s) reach_about(*estimate_->offset_s * 1e3, *estimate_->offset_s * 1e3);
+  return {std::max(from_ms, any.least), std::min(to_ms, any.greatest)};
+}
+
+Result<void> Explorer::check_offsets(const Settings& next) const {
+  const std::pair<double, double> window_ms = offset_window_ms();
+  for (const auto& [now_ms, before_ms] : {std::pair{next.offset_a_ms, settings_.offset_a_ms},
+                                          std::pair{next.offset_b_ms, settings_.offset_b_ms}}) {
+    if (now_ms == before_ms || (now_ms >= window_ms.first && now_ms <= window_ms.second)) continue;
+    return failure(
+        ExitCode::kWrongUsage,
+        fmt::format("An offset of {} ms is outside the search window of this recording, {:.0f} to {:.0f} ms: "
+                    "beyond a quarter of the motor's period a mirror image of the map fits as well. To look "
+                    "elsewhere, set the candidates of the search.",
+                    now_ms, std::ceil(window_ms.first), std::floor(window_ms.second)));
+  }
+  return {};
+}
+
+Explorer::Copied Explorer::what_to_copy() const {
+  const auto& shown = pane(Side::kB).request;
+  const auto beam = loaded_ && shown ? beam_asked(settings_, loaded_->beams) : std::nullopt;
+  if (beam) {
+    std::vector<std::array<float, 3>> places_m(1);
+    replace_points(loaded_->beams, shown->placement.map->path, shown->placement.offset_s, std::array{*beam},
+                   places_m);
+    return {fmt::format("{:.3f} {:.3f} {:.3f}", places_m[0][0], places_m[0][1], places_m[0][2]),
+            "the place of the inspected point in map B, in metres"};
+  }
+  const bool a = changed_side_ == Side::kA;
+  return {to_word(Value(a ? settings_.offset_a_ms : settings_.offset_b_ms)),
+          fmt::format("the offset of map {}, in ms", a ? "A" : "B")};
 }
 
 void Explorer::change_settings(Settings next, const std::string& gesture) {
@@ -70,9 +126,9 @@ Result<void> Explorer::act(const Call& call) {
       {"open", always([](Explorer& self, const Call& c) { self.open(c.text(0), c.text(1)); })},
       {"sample", always([](Explorer& self, const Call& c) {
          const double seconds = c.values.size() > 1 ? c.number(1) : 0;
-         self.start_loading("Simulating " + c.text(0), [=, scene = c.text(0)](const Job& job) {
-           return load_sample(scene, seconds, job);
-         });
+         self.start_loading(
+             "Simulating " + c.text(0), steps_of_simulating(),
+             [=, scene = c.text(0)](const Job& job) { return load_sample(scene, seconds, job); });
        })},
       {"close", always([](Explorer& self, const Call&) { self.close(); })},
       {"cancel", always([](Explorer& self, const Call&) { self.cancel(); })},
@@ -84,6 +140,7 @@ Result<void> Explorer::act(const Call& call) {
       {"fit-view",
        [](Explorer& self, const Call&) -> Result<void> {
          if (!self.loaded_) return not_now("There is no recording to fit the view to.");
+         self.view_moved_ = false;
          self.fit_view();
          return {};
        }},
@@ -129,18 +186,20 @@ Result<void> Explorer::start_estimate() {
   if (!loaded_) return not_now("There is no recording to estimate from.");
   background_.cancel("estimate");
   const EstimateOptions options = estimate_options(settings_, options_.assume);
-  background_.start("estimate", "estimate", "Estimating the offset",
-                    [this, options, loaded = loaded_](const Job& job) -> Background::Finish {
-                      EstimateOptions along = options;
-                      along.walk = loaded->walk->get();
-                      auto found = std::make_shared<Result<Estimate>>(
-                          sweepscope::estimate(loaded->prepared, along, {}, job));
-                      if (*found && (*found)->walk) loaded->walk->keep((*found)->walk);
-                      return [this, found] {
-                        if (*found) return take(std::move(**found));
-                        say(Message::Kind::kError, found->error().message);
-                      };
-                    });
+  background_.start(
+      "estimate", "estimate", "Estimating the offset",
+      [this, options, loaded = loaded_](const Job& job) -> Background::Finish {
+        EstimateOptions along = options;
+        along.walk = loaded->walk->get();
+        auto found =
+            std::make_shared<Result<Estimate>>(sweepscope::estimate(loaded->prepared, along, {}, job));
+        if (*found && (*found)->walk) loaded->walk->keep((*found)->walk);
+        return [this, found] {
+          if (*found) return take(std::move(**found));
+          say(Message::Kind::kError, found->error().message);
+        };
+      },
+      steps_of_estimating());
   return {};
 }
 
@@ -152,13 +211,23 @@ void Explorer::take(Estimate estimate) {
   change_settings(next, {});
 }
 
-void Explorer::fit_view() {
-  const SolvedMap* map = panes_[0].request ? panes_[0].request->placement.map.get() : provisional_.get();
-  if (map == nullptr) return;
-  const Box box{{map->x_m.from, map->y_m.from, map->z_m.from}, {map->x_m.to, map->y_m.to, map->z_m.to}};
+Settings Explorer::with_fitted_view() const {
   Settings next = settings_;
+  const SolvedMap* map = panes_[0].request ? panes_[0].request->placement.map.get() : provisional_.get();
+  if (map == nullptr) return next;
+  const Box box{{map->x_m.from, map->y_m.from, map->z_m.from}, {map->x_m.to, map->y_m.to, map->z_m.to}};
   for (ViewPoint* view : {&next.camera_a, &next.camera_b}) *view = fitted(*view, box, pane_aspect_);
-  change_settings(next, {});
+  return next;
+}
+
+void Explorer::fit_view() {
+  change_settings(with_fitted_view(), {});
+}
+
+void Explorer::set_pane_aspect(double aspect) {
+  if (aspect == pane_aspect_) return;
+  pane_aspect_ = aspect;
+  if (loaded_ && !view_moved_) settings_ = with_fitted_view();  // nothing that undo would take back
 }
 
 }  // namespace sweepscope::ui

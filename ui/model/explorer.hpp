@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -44,18 +45,32 @@ struct Pane {
   PaneState state = PaneState::kEmpty;
   std::optional<CloudRequest> request;
   PlacedCloudPtr coarse, full;  // full is null while it is being placed
-  BeamValuesPtr slow;           // of a slow colouring, perhaps of the offset before
+  BeamValuesPtr slow;           // of a slow colouring; null for any other
   ColourBy slow_colouring = ColourBy::kElevation;
-  std::optional<MapThickness> thickness;  // of the map, with slow values that are its blur
-  std::string problem;                    // why the map could not be solved
+  std::optional<Placement> slow_placement;  // the placement whose values they are
+  std::optional<MapThickness> thickness;    // of the map, with slow values that are its blur
+  std::string problem;                      // why the map could not be solved
   bool lost = false;
+};
+
+/// All points of a pane, and what came with them.
+struct PlacedAll {
+  PlacedCloudPtr full, coarse;  // coarse: where its colours had to wait for slow values, else null
+  SlowValues slow;
 };
 
 struct Message {
   enum class Kind { kNote, kError };
   Kind kind = Kind::kNote;
   std::string text;
+  double shown_s = 0;  // for how long already
+
+  /// After this time it goes by itself.
+  double lasts_s() const { return kind == Kind::kNote ? 8 : 30; }
 };
+
+/// A file's path from the root of the file system, for a person.
+std::string whole_path(const std::filesystem::path& path);
 
 /// The explorer without pixels: settings and their history, the recording, the maps, the estimate,
 /// and the work in the background. Used by one thread.
@@ -63,6 +78,7 @@ class Explorer {
  public:
   struct Options {
     ReadOptions reading;
+    std::optional<TimeWindow> window;  // the part of a recording file that is used
     std::optional<RigKind> assume;
     std::string shell_options;   // " --rig F ...", repeated in command lines that are copied
     std::string report_options;  // the same as reports quote them: files without their folders
@@ -92,18 +108,29 @@ class Explorer {
   Result<void> perform(std::string_view line, const std::string& gesture = {});
   std::function<Result<void>(const Call&)> at_window;
 
-  /// Width over height of a map's picture, used to fit the view. Set it before anything is opened.
-  void set_pane_aspect(double aspect) { pane_aspect_ = aspect; }
+  /// Width over height of a map's picture. A view that nobody moved is fitted to it again.
+  void set_pane_aspect(double aspect);
+
+  /// The offsets that map A and map B can have. With a recording: as far as a search may go about 0, about
+  /// the candidates that are set, and about the offset that was found.
+  std::pair<double, double> offset_window_ms() const;
+  /// What the command "copy" copies, and in what words.
+  struct Copied {
+    std::string text, what;
+  };
+  Copied what_to_copy() const;
 
   /// While a handle is held, offsets are previewed and nothing is solved.
   void hold_handle(bool held) { handle_held_ = held; }
 
+  /// What a line would write over, as a whole path; empty if nothing, or if it is the session that is open.
+  std::string replaced_by(std::string_view line) const;
   /// Checks that none of these files is one that was opened (see check_run_files).
   Result<void> check_outputs(std::vector<std::filesystem::path> outputs) const;
 
   /// Writes a file in the background; a message reports when it is written.
   void start_export(const std::string& title, std::function<Result<void>(const Job&)> write,
-                    const std::string& done);
+                    const std::string& done, std::vector<TaskStep> steps = {});
   bool is_exporting() const { return background_.has(kExport); }
   /// The error of the last export; returned once.
   /// Why the last recording could not be opened; empty if it was opened or is still being opened.
@@ -114,10 +141,14 @@ class Explorer {
   void update(double seconds_since_last);
   /// Whether a pane waits for its settings to rest before all its points are placed.
   bool waits_to_place() const;
+  /// Whether all points of both maps are placed.
+  bool has_all_points() const { return panes_[0].full && panes_[1].full; }
   /// Whether nothing is running and every pane shows everything that its settings require.
   bool at_rest() const;
   void dismiss_message() { message_.reset(); }
-  void say(Message::Kind kind, std::string text) { message_ = Message{kind, std::move(text)}; }
+  /// While it is held, because the mouse is on it, a message stays.
+  void hold_message(bool held) { message_held_ = held; }
+  void say(Message::Kind kind, std::string text) { message_ = Message{kind, std::move(text), 0}; }
 
   /// The status line: what is shown, in words.
   std::string status() const;
@@ -134,13 +165,15 @@ class Explorer {
 
  private:
   Result<void> act(const Call& call);
+  Result<void> check_offsets(const Settings& next) const;
   Result<void> check_outputs_of(const Call& call) const;
   void open(const std::string& path, const std::string& poses);
   Result<void> open_json(const std::string& path);
   Result<void> open_session(const std::string& text, const std::string& path);
   Result<void> open_estimate(const std::string& text, const std::string& path);
   void load(const std::string& path, const std::string& poses);
-  void start_loading(const std::string& title, std::function<Result<LoadedPtr>(const Job&)> load);
+  void start_loading(const std::string& title, std::vector<TaskStep> steps,
+                     std::function<Result<LoadedPtr>(const Job&)> load);
   void take(LoadedPtr loaded, SolvedMapPtr first_map);
   void close();
   void cancel();
@@ -153,6 +186,7 @@ class Explorer {
   Result<void> export_curve(const std::string& path);
   Result<void> export_report(const std::string& folder);
   void change_settings(Settings next, const std::string& gesture);
+  Settings with_fitted_view() const;
   void fit_view();
 
   static constexpr const char* kExport = "export";
@@ -166,7 +200,9 @@ class Explorer {
   CloudLook wanted_look(const SolvedMap* a, const SolvedMap* b);
   void update_panes(double seconds_since_last);
   void show(Side side, CloudRequest request);
-  void start_full(Side side);
+  void start_full();
+  void take(std::span<const Side> sides, std::span<const CloudRequest> requests,
+            std::span<const PlacedAll> placed);
   void update_solving();
   void keep_solved(std::int64_t offset_ns, Result<SolvedMapPtr> solved);
 
@@ -186,12 +222,13 @@ class Explorer {
   ColourBy span_colouring_ = ColourBy::kElevation;
   std::array<const SolvedMap*, 2> span_maps_{nullptr, nullptr};
   std::array<Pane, 2> panes_;
-  std::array<double, 2> rest_s_{0, 0};  // since the pane's coarse points changed
-  std::array<std::string, 2> placing_;  // keys of the jobs that place all points
+  double rest_s_ = 0;    // since the coarse points of a pane changed
+  std::string placing_;  // key of the job that places all points
   std::size_t placings_ = 0;
-  bool handle_held_ = false;
-  bool b_was_set_ = false;  // by a person, since the recording was opened
-  bool view_fitted_ = false;
+  bool handle_held_ = false, message_held_ = false;
+  Side changed_side_ = Side::kB;  // whose offset was changed last
+  bool b_was_set_ = false;        // by a person, since the recording was opened
+  bool view_moved_ = false;       // by a person: no longer fitted when the pane changes its shape
   double pane_aspect_ = 1;
   std::optional<Error> export_failure_, load_failure_;
   std::vector<std::filesystem::path> input_files_;  // that were opened, or named before

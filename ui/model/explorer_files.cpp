@@ -10,6 +10,7 @@
 #include "core/results/estimate_json.hpp"
 #include "render/report/gather_report.hpp"
 #include "ui/model/explorer.hpp"
+#include "ui/model/task_plans.hpp"
 #include "ui/state/session.hpp"
 
 namespace sweepscope::ui {
@@ -61,9 +62,10 @@ void Explorer::open(const std::string& path, const std::string& poses) {
 void Explorer::load(const std::string& path, const std::string& poses) {
   for (const auto& file : recording_files(path)) input_files_.push_back(file);
   if (!poses.empty()) input_files_.emplace_back(poses);
-  start_loading("Reading " + path, [=, reading = options_.reading](const Job& job) {
-    return load_file(path, poses, reading, job);
-  });
+  start_loading("Reading " + path, steps_of_loading(),
+                [=, reading = options_.reading, part = options_.window](const Job& job) {
+                  return load_file(path, poses, reading, part, job);
+                });
 }
 
 Result<void> Explorer::open_json(const std::string& path) {
@@ -106,7 +108,8 @@ Result<void> Explorer::open_session(const std::string& text, const std::string& 
   return {};
 }
 
-void Explorer::start_loading(const std::string& title, std::function<Result<LoadedPtr>(const Job&)> load) {
+void Explorer::start_loading(const std::string& title, std::vector<TaskStep> steps,
+                             std::function<Result<LoadedPtr>(const Job&)> load) {
   background_.cancel("load");
   session_settings_.reset();
   session_estimate_.reset();
@@ -128,7 +131,7 @@ void Explorer::start_loading(const std::string& title, std::function<Result<Load
     auto first_map = map_without_solving(**loaded, stands(**loaded, assume), 0);
     return [this, opened = *loaded, first_map] { take(opened, first_map); };
   };
-  background_.start("load", "load", title, work);
+  background_.start("load", "load", title, work, std::move(steps));
 }
 
 void Explorer::close() {
@@ -144,7 +147,7 @@ void Explorer::close() {
   span_maps_ = {nullptr, nullptr};
   panes_ = {};
   b_was_set_ = false;
-  view_fitted_ = false;
+  view_moved_ = false;
 }
 
 void Explorer::take(LoadedPtr loaded, SolvedMapPtr first_map) {
@@ -153,7 +156,7 @@ void Explorer::take(LoadedPtr loaded, SolvedMapPtr first_map) {
   provisional_ = std::move(first_map);
   if (session_settings_) {
     change_settings(*session_settings_, {});
-    b_was_set_ = view_fitted_ = true;
+    b_was_set_ = view_moved_ = true;
     estimate_ = session_estimate_;
   } else {
     Settings next = settings_;  // what was asked of the recording before means nothing here
@@ -165,6 +168,26 @@ void Explorer::take(LoadedPtr loaded, SolvedMapPtr first_map) {
   }
   session_settings_.reset();
   session_estimate_.reset();
+}
+
+std::string whole_path(const std::filesystem::path& path) {
+  std::error_code failed;
+  const auto whole = std::filesystem::absolute(path, failed);
+  return failed ? path.string() : whole.lexically_normal().string();
+}
+
+std::string Explorer::replaced_by(std::string_view line) const {
+  const auto call = parse_call(line);
+  if (!call) return {};
+  const std::string& name = call->command->name;
+  std::filesystem::path path;
+  if (name == "save-session" || name == "export-curve" || name == "export-picture") path = call->text(0);
+  if (name == "export-cloud") path = call->text(1);
+  if (name == "export-report") path = std::filesystem::path(call->text(0)) / "report.html";
+  std::error_code failed;
+  if (path.empty() || !std::filesystem::exists(path, failed)) return {};
+  if (name == "save-session" && std::filesystem::equivalent(path, session_file_, failed)) return {};
+  return whole_path(path);
 }
 
 std::string Explorer::suggested_file(const std::string& command, const std::string& what) const {
@@ -204,21 +227,23 @@ Result<void> Explorer::check_outputs_of(const Call& call) const {
 Result<void> Explorer::save_session(const std::string& path) {
   auto written = write_file(path, session_json());
   if (written) session_file_ = path;
-  if (written) say(Message::Kind::kNote, fmt::format("The session is saved in {}.", path));
+  if (written) say(Message::Kind::kNote, fmt::format("The session is saved in {}.", whole_path(path)));
   return written;
 }
 
 void Explorer::start_export(const std::string& title, std::function<Result<void>(const Job&)> write,
-                            const std::string& done) {
-  background_.start("export", kExport, title,
-                    [this, write = std::move(write), done](const Job& job) -> Background::Finish {
-                      const auto written = write(job);
-                      if (written) return [this, done] { say(Message::Kind::kNote, done); };
-                      return [this, why = written.error()] {
-                        export_failure_ = why;
-                        say(Message::Kind::kError, why.message);
-                      };
-                    });
+                            const std::string& done, std::vector<TaskStep> steps) {
+  background_.start(
+      "export", kExport, title,
+      [this, write = std::move(write), done](const Job& job) -> Background::Finish {
+        const auto written = write(job);
+        if (written) return [this, done] { say(Message::Kind::kNote, done); };
+        return [this, why = written.error()] {
+          export_failure_ = why;
+          say(Message::Kind::kError, why.message);
+        };
+      },
+      std::move(steps));
 }
 
 Result<void> Explorer::export_cloud(Side side, const std::string& path) {
@@ -229,7 +254,7 @@ Result<void> Explorer::export_cloud(Side side, const std::string& path) {
       [path, request = *shown.request, placed = shown.full](const Job&) {
         return write_cloud(path, cloud_of(request, *placed));
       },
-      fmt::format("{} points are saved in {}.", shown.full->beams.size(), path));
+      fmt::format("{} points are saved in {}.", shown.full->beams.size(), whole_path(path)));
   return {};
 }
 
@@ -239,7 +264,7 @@ Result<void> Explorer::export_curve(const std::string& path) {
     return not_now(fmt::format("{}: the criteria are written as .csv or .json", path));
   auto written = path.ends_with(".csv") ? write_curve_csv(path, *estimate_)
                                         : write_estimate_json(path, *estimate_, Timing::kNull);
-  if (written) say(Message::Kind::kNote, fmt::format("The criteria are saved in {}.", path));
+  if (written) say(Message::Kind::kNote, fmt::format("The criteria are saved in {}.", whole_path(path)));
   return written;
 }
 
@@ -255,7 +280,8 @@ Result<void> Explorer::export_report(const std::string& folder) {
         job.report("drawing", 0);
         return write_report(*content, folder);
       },
-      fmt::format("The report is saved in {}.", (std::filesystem::path(folder) / "report.html").string()));
+      fmt::format("The report is saved in {}.", whole_path(std::filesystem::path(folder) / "report.html")),
+      steps_of_reporting());
   return {};
 }
 

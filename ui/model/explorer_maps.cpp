@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "ui/model/explorer.hpp"
+#include "ui/model/task_plans.hpp"
 
 namespace sweepscope::ui {
 namespace {
@@ -17,15 +18,9 @@ std::string solve_key(std::int64_t offset_ns) {
   return "solve " + std::to_string(offset_ns);
 }
 
-/// All points of a pane, and what came with them.
-struct Placed {
-  PlacedCloudPtr full, coarse;  // coarse: where its colours had to wait for slow values, else null
-  SlowValues slow;
-};
-
-Placed place_fully(const CloudRequest& request, const FeatureSet* features, const Job& job) {
+PlacedAll place_fully(const CloudRequest& request, const FeatureSet* features, const Job& job) {
   const Placement* other = request.other ? &*request.other : nullptr;
-  Placed placed;
+  PlacedAll placed;
   if (other == nullptr && is_slow(request.look.colouring)) {
     placed.slow = slow_values(request.placement, request.look.colouring, features, job);
     placed.coarse = std::make_shared<PlacedCloud>(
@@ -92,6 +87,8 @@ CloudLook Explorer::wanted_look(const SolvedMap* a, const SolvedMap* b) {
 }
 
 void Explorer::update(double seconds_since_last) {
+  if (message_ && !message_held_ && (message_->shown_s += seconds_since_last) > message_->lasts_s())
+    message_.reset();
   background_.take_finished();
   if (!loaded_) {
     panes_ = {};
@@ -115,11 +112,8 @@ void Explorer::update_panes(double seconds_since_last) {
   }
   show(Side::kA, std::move(at_a));
   show(Side::kB, std::move(at_b));
-  for (const Side side : kBothSides) {
-    double& rest_s = rest_s_[static_cast<std::size_t>(side)];
-    rest_s += seconds_since_last;
-    if (rest_s >= kRest_s && !handle_held_) start_full(side);
-  }
+  rest_s_ += seconds_since_last;
+  if (rest_s_ >= kRest_s && !handle_held_) start_full();
 }
 
 void Explorer::show(Side side, CloudRequest request) {
@@ -135,34 +129,56 @@ void Explorer::show(Side side, CloudRequest request) {
     pane.problem = "Cancelled. Move the offset, or choose Solve the maps in the menu Offset.";
   if (pane.request == request) return;
   const Placement* other = request.other ? &*request.other : nullptr;
-  const BeamValues* slow = pane.slow_colouring == request.look.colouring ? pane.slow.get() : nullptr;
+  // The thickness of a surface at another offset would be a false picture: those points stay grey.
+  const bool known =
+      pane.slow_colouring == request.look.colouring &&
+      (request.look.colouring == ColourBy::kFeatures || pane.slow_placement == request.placement);
+  const BeamValues* slow = known ? pane.slow.get() : nullptr;
   pane.coarse =
       std::make_shared<PlacedCloud>(place_cloud(request.placement, request.look, true, other, slow));
   pane.full = nullptr;
   pane.request = std::move(request);
-  rest_s_[static_cast<std::size_t>(side)] = 0;
-  background_.cancel(placing_[static_cast<std::size_t>(side)]);
+  rest_s_ = 0;
+  background_.cancel(placing_);
 }
 
-void Explorer::start_full(Side side) {
-  Pane& pane = pane_of(side);
-  std::string& key = placing_[static_cast<std::size_t>(side)];
-  if (pane.full || !pane.request || (!key.empty() && background_.has(key))) return;
-  key = "place " + std::to_string(++placings_);
-  const std::string title = side == Side::kA ? "Placing all points of A" : "Placing all points of B";
-  background_.start("place", key, title, [this, side, request = *pane.request](const Job& job) {
-    const auto& features = request.placement.loaded->prepared.features;
-    auto placed = std::make_shared<Placed>(place_fully(request, features.get(), job));
-    return [this, side, request, placed] {
-      Pane& target = pane_of(side);
-      if (target.request != request) return;
-      target.full = placed->full;
-      target.slow = placed->slow.values;
-      target.thickness = placed->slow.thickness;
-      target.slow_colouring = request.look.colouring;
-      if (placed->coarse) target.coarse = placed->coarse;
-    };
-  });
+/// One job for both panes, so that they change together.
+void Explorer::start_full() {
+  if (!placing_.empty() && background_.has(placing_)) return;
+  std::vector<Side> sides;
+  std::vector<CloudRequest> requests;
+  for (const Side side : kBothSides) {
+    if (pane(side).full || !pane(side).request) continue;
+    sides.push_back(side);
+    requests.push_back(*pane(side).request);
+  }
+  if (sides.empty()) return;
+  placing_ = "place " + std::to_string(++placings_);
+  background_.start(
+      "place", placing_, "Placing all points", [this, sides, requests](const Job& job) -> Background::Finish {
+        std::vector<PlacedAll> placed;
+        for (const CloudRequest& request : requests) {
+          if (job.cancelled()) return {};
+          const auto& features = request.placement.loaded->prepared.features;
+          placed.push_back(place_fully(request, features.get(), job));
+        }
+        if (job.cancelled()) return {};
+        return [this, sides, requests, placed = std::move(placed)] { take(sides, requests, placed); };
+      });
+}
+
+void Explorer::take(std::span<const Side> sides, std::span<const CloudRequest> requests,
+                    std::span<const PlacedAll> placed) {
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    Pane& target = pane_of(sides[i]);
+    if (target.request != requests[i]) continue;
+    target.full = placed[i].full;
+    target.slow = placed[i].slow.values;
+    target.thickness = placed[i].slow.thickness;
+    target.slow_colouring = requests[i].look.colouring;
+    target.slow_placement = placed[i].slow.values ? std::optional(requests[i].placement) : std::nullopt;
+    if (placed[i].coarse) target.coarse = placed[i].coarse;
+  }
 }
 
 void Explorer::update_solving() {
@@ -182,12 +198,13 @@ void Explorer::update_solving() {
   for (const std::int64_t ns : wanted) {
     if (background_.has(solve_key(ns))) continue;
     const double offset_s = static_cast<double>(ns) * 1e-9;
-    background_.start("solve", solve_key(ns), "Solving the map",
-                      [this, ns, offset_s, loaded = loaded_, assume = options_.assume](const Job& job) {
-                        auto solved =
-                            std::make_shared<Result<SolvedMapPtr>>(solve_map(*loaded, offset_s, assume, job));
-                        return [this, ns, solved] { keep_solved(ns, *solved); };
-                      });
+    background_.start(
+        "solve", solve_key(ns), "Solving the map",
+        [this, ns, offset_s, loaded = loaded_, assume = options_.assume](const Job& job) {
+          auto solved = std::make_shared<Result<SolvedMapPtr>>(solve_map(*loaded, offset_s, assume, job));
+          return [this, ns, solved] { keep_solved(ns, *solved); };
+        },
+        steps_of_solving());
   }
 }
 
@@ -203,17 +220,14 @@ void Explorer::keep_solved(std::int64_t offset_ns, Result<SolvedMapPtr> solved) 
     solved_.erase(solved_order_.front());
     solved_order_.erase(solved_order_.begin());
   }
-  if (!first || view_fitted_) return;
+  if (!first || view_moved_) return;
   update_panes(0);  // the first whole map: its extent is known now
-  fit_view();
+  settings_ = with_fitted_view();
 }
 
 bool Explorer::waits_to_place() const {
-  const auto waits = [&](Side side) {
-    const std::string& placing = placing_[static_cast<std::size_t>(side)];
-    return !pane(side).full && (placing.empty() || !background_.has(placing));
-  };
-  return loaded_ && !handle_held_ && std::any_of(kBothSides.begin(), kBothSides.end(), waits);
+  if (!loaded_ || handle_held_ || (!placing_.empty() && background_.has(placing_))) return false;
+  return std::any_of(kBothSides.begin(), kBothSides.end(), [&](Side side) { return !pane(side).full; });
 }
 
 bool Explorer::at_rest() const {

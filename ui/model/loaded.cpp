@@ -42,8 +42,10 @@ Result<LoadedPtr> finish(std::shared_ptr<Loaded> loaded, const Job& job) {
 }  // namespace
 
 Result<LoadedPtr> load_file(const std::filesystem::path& path, const std::filesystem::path& poses,
-                            const ReadOptions& options, const Job& job) {
+                            const ReadOptions& options, const std::optional<TimeWindow>& part,
+                            const Job& job) {
   auto recording = read_recording(path, options, job);
+  if (recording && part) recording = cut_to_window(*recording, *part, path.string());
   if (!recording) return tl::unexpected(recording.error());
   auto loaded = std::make_shared<Loaded>();
   loaded->source = "open " + ui::quoted(path.string());

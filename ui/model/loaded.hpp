@@ -14,6 +14,7 @@
 #include "core/offset/walk.hpp"
 #include "core/recording/formats/read_recording.hpp"
 #include "core/recording/inspect.hpp"
+#include "core/recording/time_window.hpp"
 
 namespace sweepscope::ui {
 
@@ -56,9 +57,10 @@ struct Loaded {
 };
 using LoadedPtr = std::shared_ptr<const Loaded>;
 
-/// `poses`: a TUM file with the rig's trajectory, or empty.
+/// `poses`: a TUM file with the rig's trajectory, or empty. `part`: empty for all of the recording.
 Result<LoadedPtr> load_file(const std::filesystem::path& path, const std::filesystem::path& poses,
-                            const ReadOptions& options, const Job& job);
+                            const ReadOptions& options, const std::optional<TimeWindow>& part,
+                            const Job& job);
 /// A simulated recording; seconds 0: all of the walk.
 Result<LoadedPtr> load_sample(const std::string& scene, double seconds, const Job& job);
 

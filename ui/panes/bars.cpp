@@ -1,6 +1,12 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
 #include "core/io/printable_text.hpp"
+#include "render/charts/curve_charts.hpp"
+#include "ui/host/input.hpp"
 #include "ui/panes/widgets.hpp"
 
 namespace sweepscope::ui {
@@ -27,11 +33,36 @@ bool makes_sense(const Explorer& explorer, const std::string& line) {
                      [&](const std::string& always) { return line.starts_with(always); });
 }
 
+std::vector<std::string> menu_names() {
+  std::vector<std::string> names;
+  for (const MenuItem& item : menu_items()) {
+    if (names.empty() || names.back() != item.menu) names.push_back(item.menu);
+  }
+  return names;
+}
+
+/// Left and right go from an open menu to its neighbours.
+void open_neighbour(const PaneContext& context, const std::string& name) {
+  const int way = int(ImGui::IsKeyPressed(keys::kRight)) - int(ImGui::IsKeyPressed(keys::kLeft));
+  if (way == 0) return;
+  const std::vector<std::string> names = menu_names();
+  const auto at = static_cast<int>(std::find(names.begin(), names.end(), name) - names.begin());
+  const auto count = static_cast<int>(names.size());
+  context.transient.opens_menu = names[static_cast<std::size_t>((at + way + count) % count)];
+}
+
+bool equal_ignoring_case(std::string_view a, std::string_view b) {
+  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [&](char x, char y) { return lower(x) == lower(y); });
+}
+
 void menu(const PaneContext& context, const std::string& name) {
   if (!ImGui::BeginMenu(name.c_str())) {
     context.anchor_last("menu " + name);
     return;
   }
+  open_neighbour(context, name);
   for (const MenuItem& item : menu_items()) {
     if (item.menu != name) continue;
     if (item.line.empty()) {
@@ -64,10 +95,11 @@ void draw_menu_bar(const PaneContext& context, const PixelRect& place) {
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(context.pxf(8), context.pxf(7)));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(context.pxf(8), context.pxf(6)));
   if (ImGui::BeginMainMenuBar()) {
-    std::string last;
-    for (const MenuItem& item : menu_items()) {
-      if (item.menu != last) menu(context, item.menu);
-      last = item.menu;
+    // Asked for in the frame before: its neighbour, which was open, is drawn first.
+    const std::string opened = std::exchange(context.transient.opens_menu, {});
+    for (const std::string& name : menu_names()) {
+      if (equal_ignoring_case(name, opened)) ImGui::OpenPopup(name.c_str());
+      menu(context, name);
     }
     title(context, place);
     const float y = static_cast<float>(place.bottom()) - 1;
@@ -77,6 +109,56 @@ void draw_menu_bar(const PaneContext& context, const PixelRect& place) {
   }
   ImGui::PopStyleVar(2);
 }
+
+namespace {
+
+/// A task in a few words, with its bar and the time left, so that it ends at `right`. Returns where it
+/// begins.
+double draw_task(const PaneContext& context, const JobStatus& job, const PixelRect& place, double right) {
+  std::string title = job.title;
+  if (job.key.starts_with("solve "))
+    title += " at " + offset_label_ms(std::stod(job.key.substr(6)) * 1e-9) + " ms";
+  const std::string left = !job.running ? "waits" : time_left(job.seconds_left);
+  const auto width_of = [](const std::string& text) {
+    return static_cast<double>(ImGui::CalcTextSize(text.c_str()).x);
+  };
+  const double bar = context.px(90), gap = context.px(8);
+  // The widest time that comes, or the bar would jump as the time shrinks.
+  const double left_width = std::max(width_of("0:00 left"), width_of(left));
+  const double begin = right - left_width - gap - bar - gap - width_of(title);
+  const double middle = place.top + place.height / 2;
+  const auto y = static_cast<float>(middle - static_cast<double>(ImGui::GetFontSize()) / 2);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddText({static_cast<float>(begin), y}, to_imgui(context.style.text), title.c_str());
+  list.AddText({static_cast<float>(right - left_width), y}, to_imgui(context.style.faint_text), left.c_str());
+  const double bar_left = right - left_width - gap - bar;
+  ImGui::SetCursorScreenPos({static_cast<float>(bar_left), static_cast<float>(middle - context.px(2.5))});
+  progress_bar(context, job.running ? job.fraction : 0, bar);
+  ImGui::SetCursorScreenPos({static_cast<float>(begin), static_cast<float>(place.top)});
+  ImGui::InvisibleButton(("task " + job.key).c_str(),
+                         {static_cast<float>(right - begin), static_cast<float>(place.height)});
+  context.anchor_last("task " + job.key.substr(0, job.key.find(' ')));
+  tooltip(context, fmt::format("{}: {:.0f} %{}", title, std::floor(100 * job.fraction),
+                               job.phase.empty() ? "" : ", " + job.phase));
+  return begin;
+}
+
+/// One bar for each task, from the right: those that run first. Returns where they begin.
+double draw_tasks(const PaneContext& context, const PixelRect& place, double right) {
+  std::vector<JobStatus> jobs = context.explorer.background().status();
+  const bool on_page = context.explorer.loaded() == nullptr;  // the page that waits for it has its bar
+  std::erase_if(jobs, [&](const JobStatus& job) {
+    return job.key.starts_with("place") || (on_page && job.key == "load");  // "refining" stands for the first
+  });
+  std::stable_partition(jobs.begin(), jobs.end(), [](const JobStatus& job) { return job.running; });
+  for (const JobStatus& job : jobs) {
+    if (right < place.left + 0.4 * place.width) break;  // the rest comes when these are done
+    right = draw_task(context, job, place, right) - context.px(24);
+  }
+  return right;
+}
+
+}  // namespace
 
 void draw_status_bar(const PaneContext& context, const PixelRect& place) {
   begin_panel(context, "status", place, false);
@@ -90,7 +172,8 @@ void draw_status_bar(const PaneContext& context, const PixelRect& place) {
   const auto y =
       static_cast<float>(place.top + (place.height - static_cast<double>(ImGui::GetFontSize())) / 2);
   const std::string status = context.explorer.status();
-  const double room = place.width - context.px(14) * 3 - equation_width;
+  const double room = draw_tasks(context, place, place.right() - context.px(28) - equation_width) -
+                      place.left - context.px(14);
   list.PushClipRect(
       {static_cast<float>(place.left), static_cast<float>(place.top)},
       {static_cast<float>(place.left + context.px(14) + room), static_cast<float>(place.bottom())});

@@ -101,9 +101,10 @@ void drag_handle(const PaneContext& context) {
   const double at_ms = handle.from_ms + std::clamp(share, 0.0, 1.0) * (handle.to_ms - handle.from_ms);
   const double step_ms = handle.to_ms - handle.from_ms > 20 ? 0.1 : 0.01;
   const char* command = handle.side == Side::kA ? "offset-a" : "offset-b";
-  context.perform(
-      Call{find_command(command), {std::round(std::round(at_ms / step_ms) * step_ms * 1e4) / 1e4}},
-      context.transient.gesture);
+  const auto [least_ms, greatest_ms] = context.explorer.offset_window_ms();
+  const double stepped_ms = std::round(std::round(at_ms / step_ms) * step_ms * 1e4) / 1e4;
+  context.perform(Call{find_command(command), {std::clamp(stepped_ms, least_ms, greatest_ms)}},
+                  context.transient.gesture);
 }
 
 /// Grips at the feet of the two lines.

@@ -112,12 +112,26 @@ void run_entry(const PaneContext& context, const Entry& entry) {
   context.perform(entry.line);
 }
 
+/// As typed, but what would replace a file asks first.
+void perform_or_ask(const PaneContext& context, const std::string& line) {
+  const std::string replaced = context.explorer.replaced_by(line);
+  if (replaced.empty()) return context.perform(line);
+  const Call call = *parse_call(line);
+  const std::string& command = call.command->name;
+  const bool cloud = command == "export-cloud";
+  Transient& transient = context.transient;
+  transient.asks_for = Transient::Asked{command, call.text(cloud ? 0 : 1)};
+  transient.asked_text = call.text(cloud ? 1 : 0);
+  transient.replaces = replaced;
+  transient.just_opened = true;
+}
+
 /// A whole command with its arguments was typed: it is run as it stands.
 bool run_typed(const PaneContext& context) {
   if (!parse_call(context.transient.palette_query)) return false;
   const std::string line = context.transient.palette_query;
   context.transient.palette = false;
-  context.perform(line);
+  perform_or_ask(context, line);
   return true;
 }
 
@@ -205,81 +219,125 @@ void draw_help(const PaneContext& context, const PixelRect& whole) {
   end_front();
 }
 
-void draw_ask(const PaneContext& context, const PixelRect& whole) {
+namespace {
+
+/// The line that does what was asked for.
+std::string line_of_asking(const Transient::Asked& asked, const std::string& text) {
+  const std::string file = ui::quoted(text);
+  if (asked.command == "export-cloud")
+    return fmt::format("export-cloud {} {}", asked.what == "a" ? "a" : "b", file);
+  if (asked.command == "export-picture" && !asked.what.empty())
+    return fmt::format("export-picture {} {}", file, asked.what);
+  return asked.command + " " + file;
+}
+
+/// The file, what happens to it, and the buttons. Whether it was confirmed.
+bool ask_for_file(const PaneContext& context, const Transient::Asked& asked) {
   Transient& transient = context.transient;
-  if (!transient.asks_for) return;
-  const Transient::Asked asked = *transient.asks_for;
-  const Command& command = *find_command(asked.command);
   const bool folder = asked.command == "export-report";
-  begin_front(context, "ask", whole, 520, 172, 0.22);
-  ImGui::PushFont(context.fonts.heading);
-  ImGui::TextUnformatted(title_of_asking(asked).c_str());
-  ImGui::PopFont();
-  ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(context.style.faint_text));
-  ImGui::TextWrapped("%s", command.help.c_str());
-  ImGui::PopStyleColor();
   if (transient.just_opened) ImGui::SetKeyboardFocusHere();
   ImGui::SetNextItemWidth(-1e-3f);
+  const std::string before = transient.asked_text;
   const bool entered = ImGui::InputTextWithHint(
       "##file", folder ? "A folder" : "A file, or drop one here", &transient.asked_text,
       ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
   context.anchor_last("ask file");
+  if (transient.asked_text != before) transient.replaces.clear();
+  if (asked.command != "open" && !transient.asked_text.empty()) {
+    ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(transient.replaces.empty() ? context.style.faint_text
+                                                                             : colour_of_a(context.style)));
+    const std::string says = transient.replaces.empty()
+                                 ? whole_path(transient.asked_text)
+                                 : transient.replaces + " exists. Replace it? Enter or Replace does.";
+    ImGui::TextWrapped("%s", printable_line(says).c_str());
+    ImGui::PopStyleColor();
+  }
   ImGui::Dummy({0, context.pxf(2)});
-  const bool confirmed = ImGui::Button("OK", {context.pxf(100), 0});
+  const bool confirmed =
+      ImGui::Button(transient.replaces.empty() ? "OK##ok" : "Replace##ok", {context.pxf(100), 0});
   context.anchor_last("button ok");
+  return entered || confirmed;
+}
+
+}  // namespace
+
+void draw_ask(const PaneContext& context, const PixelRect& whole) {
+  Transient& transient = context.transient;
+  if (!transient.asks_for) return;
+  const Transient::Asked asked = *transient.asks_for;
+  begin_front(context, "ask", whole, 560, 206, 0.22);
+  ImGui::PushFont(context.fonts.heading);
+  ImGui::TextUnformatted(title_of_asking(asked).c_str());
+  ImGui::PopFont();
+  ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(context.style.faint_text));
+  ImGui::TextWrapped("%s", find_command(asked.command)->help.c_str());
+  ImGui::PopStyleColor();
+  const bool confirmed = ask_for_file(context, asked);
   ImGui::SameLine();
   const bool dismissed = ImGui::Button("Cancel", {context.pxf(100), 0});
   context.anchor_last("button cancel-asking");
   end_front();
   if (dismissed) return context.perform("dismiss");
-  if ((!entered && !confirmed) || transient.asked_text.empty() || !transient.asks_for) return;
+  if (!confirmed || transient.asked_text.empty() || !transient.asks_for) return;
+  const std::string line = line_of_asking(asked, transient.asked_text);
+  if (transient.replaces.empty()) {
+    transient.replaces = context.explorer.replaced_by(line);
+    transient.just_opened = !transient.replaces.empty();  // Enter left the field
+    if (transient.just_opened) return;
+  }
   transient.asks_for.reset();
-  const std::string file = ui::quoted(transient.asked_text);
-  if (asked.command == "export-cloud")
-    context.perform(fmt::format("export-cloud {} {}", asked.what == "a" ? "a" : "b", file));
-  else if (asked.command == "export-picture" && !asked.what.empty())
-    context.perform(fmt::format("export-picture {} {}", file, asked.what));
-  else
-    context.perform(asked.command + " " + file);
+  context.perform(line);
 }
 
-void draw_message(const PaneContext& context, const PixelRect& whole) {
+namespace {
+
+constexpr double kMessageMargin = 9, kDismissWidth = 110;  // at 100 %
+
+float message_wrap(const PaneContext& context, double width_px) {
+  return static_cast<float>(width_px - context.px(kMessageMargin + 20 + kDismissWidth));
+}
+
+std::string message_text(const Message& message) {
+  return (message.kind == Message::Kind::kError ? "That did not work. " : "") +
+         printable_message(message.text);
+}
+
+}  // namespace
+
+double message_height(const PaneContext& context, double width_px) {
+  const auto& message = context.explorer.message();
+  if (!message) return 0;
+  ImGui::PushFont(context.fonts.body);
+  const auto text = static_cast<double>(
+      ImGui::CalcTextSize(message_text(*message).c_str(), nullptr, false, message_wrap(context, width_px)).y);
+  ImGui::PopFont();
+  return text + context.px(2 * kMessageMargin);
+}
+
+void draw_message(const PaneContext& context, const PixelRect& place) {
   const auto& message = context.explorer.message();
   if (!message) return;
   const bool error = message->kind == Message::Kind::kError;
-  const double width = std::min(context.px(620), whole.width - context.px(40));
-  const auto wrap = static_cast<float>(width - context.px(130));
-  ImGui::PushFont(context.fonts.body);
-  const double text_height =
-      static_cast<double>(ImGui::CalcTextSize(message->text.c_str(), nullptr, false, wrap).y);
-  ImGui::PopFont();
-  const double height = text_height + context.px(error ? 52 : 28);
-  const PixelRect place{std::round((whole.width - width) / 2), context.px(44), width, height};
-  ImGui::SetNextWindowPos({static_cast<float>(place.left), static_cast<float>(place.top)});
-  ImGui::SetNextWindowSize({static_cast<float>(place.width), static_cast<float>(place.height)});
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, context.pxf(5));
   ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyleColorVec4(ImGuiCol_PopupBg));
+  begin_panel(context, "message", place, false, true);
+  ImGui::PopStyleColor();
   const Colour mark = error ? colour_of_a(context.style) : colour_of_b(context.style);
-  ImGui::PushStyleColor(ImGuiCol_Border, to_imgui(mark));
-  ImGui::Begin("message", nullptr,
-               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
-                   ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
-  ImGui::PopStyleColor(2);
-  ImGui::PopStyleVar(2);
-  if (error) {
-    ImGui::PushFont(context.fonts.bold);
-    ImGui::TextUnformatted("That did not work");
-    ImGui::PopFont();
-  }
-  ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + wrap);
-  ImGui::TextUnformatted(printable_message(message->text).c_str());
+  const auto left = static_cast<float>(place.left), top = static_cast<float>(place.top);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddRectFilled({left, top}, {left + context.pxf(4), static_cast<float>(place.bottom())},
+                     to_imgui(mark));
+  list.AddLine({left, top}, {static_cast<float>(place.right()), top}, to_imgui(context.style.frame));
+  ImGui::SetCursorPos({context.pxf(14), context.pxf(kMessageMargin)});
+  ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + message_wrap(context, place.width));
+  ImGui::TextUnformatted(message_text(*message).c_str());
   ImGui::PopTextWrapPos();
-  ImGui::SetCursorPos({static_cast<float>(place.width - context.px(92)), context.pxf(10)});
+  ImGui::SetCursorPos(
+      {static_cast<float>(place.width) - context.pxf(kDismissWidth - 20), context.pxf(kMessageMargin)});
   const bool dismissed = ImGui::SmallButton("Dismiss");
   context.anchor_last("button dismiss");
   context.anchor("message", place);
-  ImGui::End();
+  context.explorer.hold_message(ImGui::IsWindowHovered());
+  end_panel();
   if (dismissed) context.explorer.dismiss_message();  // not "dismiss": that is for what is in front of it
 }
 

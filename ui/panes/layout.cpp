@@ -15,22 +15,27 @@ PixelRect snapped(const PixelRect& rect) {
 
 }  // namespace
 
-Places lay_out(double width_px, double height_px, double scale, const Settings& settings,
-               bool has_recording) {
+Places lay_out(double width_px, double height_px, double scale, const Settings& settings, bool has_recording,
+               double message_px) {
   const double menu = 30 * scale, status = 28 * scale;
   const bool panels = settings.panels && has_recording && width_px > 760 * scale;
   const double left = panels ? std::min(292 * scale, 0.26 * width_px) : 0;
   const double right = panels ? std::min(244 * scale, 0.24 * width_px) : 0;
   const double middle = height_px - menu - status;
   const bool criteria = settings.criteria && has_recording && middle > 420 * scale;
-  const double below = criteria ? std::clamp(0.29 * middle, 190 * scale, 300 * scale) : 0;
+  const double charts = criteria ? std::clamp(0.29 * middle, 190 * scale, 300 * scale) : 0;
+  // A message takes its place from the charts, so that the maps keep their size as long as charts remain.
+  const double charts_beside_message = std::max(charts - message_px, std::min(charts, 120 * scale));
+  const double below = message_px > 0 ? message_px + charts_beside_message : charts;
+  const double above_message = height_px - status - message_px;
   Places places;
   places.menu = snapped({0, 0, width_px, menu});
   places.status = snapped({0, height_px - status, width_px, status});
-  places.left = snapped({0, menu, left, middle});
-  places.right = snapped({width_px - right, menu, right, middle});
+  places.message = snapped({0, above_message, width_px, message_px});
+  places.left = snapped({0, menu, left, above_message - menu});
+  places.right = snapped({width_px - right, menu, right, above_message - menu});
   places.maps = snapped({left, menu, width_px - left - right, middle - below});
-  places.criteria = snapped({left, height_px - status - below, width_px - left - right, below});
+  places.criteria = snapped({left, height_px - status - below, width_px - left - right, below - message_px});
   return places;
 }
 

@@ -7,11 +7,13 @@ namespace sweepscope::ui {
 
 /// The positions of the parts of the interface, in pixels. A part that is not shown has no width.
 struct Places {
-  PixelRect menu, left, right, maps, criteria, status;
+  PixelRect menu, left, right, maps, criteria, message, status;
 };
 
-/// For a drawing of this size; `scale` is 1 at 100 %. Without a recording there are no side panels.
-Places lay_out(double width_px, double height_px, double scale, const Settings& settings, bool has_recording);
+/// For a drawing of this size; `scale` is 1 at 100 %. Without a recording there are no side panels. A message
+/// of that height gets a strip of its own, so that it covers nothing.
+Places lay_out(double width_px, double height_px, double scale, const Settings& settings, bool has_recording,
+               double message_px);
 
 /// The panes of the maps: each has a header above its picture. B's is empty if only one is shown.
 struct MapPlaces {

@@ -1,16 +1,17 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "render/charts/curve_charts.hpp"
 #include "ui/panes/map_tools.hpp"
+#include "ui/panes/number_box.hpp"
 #include "ui/panes/widgets.hpp"
 
 namespace sweepscope::ui {
 namespace {
 
-constexpr double kMoving_s = 0.2;        // after the last move of a camera, thinned points alone are drawn
-constexpr double kDrawBudget_s = 0.012;  // of each pane and frame; a slice may go beyond it
+constexpr double kMoving_s = 0.2;  // after the last move of a camera, thinned points alone are drawn
 
 ImVec2 corner(const PixelRect& rect) {
   return {static_cast<float>(rect.left), static_cast<float>(rect.top)};
@@ -31,7 +32,7 @@ Colour backdrop(const PaneContext& context) {
   return context.style.map_panel;
 }
 
-/// Draws the map into its texture, as far as the frame's time allows.
+/// Draws the map, as far as the frame's time allows.
 void render(const PaneContext& context, Side side, const PixelRect& picture) {
   LiveView& view = *context.views[static_cast<std::size_t>(side)];
   const Pane& pane = context.explorer.pane(side);
@@ -42,13 +43,23 @@ void render(const PaneContext& context, Side side, const PixelRect& picture) {
   view.set_camera(camera_of(view_of(context.settings(), side), context.settings().perspective));
   view.show(points(pane.coarse), points(pane.full));
   view.set_moving(context.transient.camera_moved_s < kMoving_s || context.transient.handle);
-  view.draw(kDrawBudget_s);
+  view.draw(context.draw_budget_s);
+}
+
+/// What both panes show: all points as soon as both have them, and the coarse points until then. A map with
+/// all its points beside a thinned one would look like a difference.
+LiveView::Points shown_points(const PaneContext& context) {
+  const std::vector<Side> sides = sides_of(context.settings().layout);
+  const bool all = std::all_of(sides.begin(), sides.end(), [&](Side side) {
+    return context.views[static_cast<std::size_t>(side)]->has_all_points();
+  });
+  return all ? LiveView::Points::kAll : LiveView::Points::kCoarse;
 }
 
 /// The part of the rendered map between two shares of its width.
 void show_texture(const PaneContext& context, Side side, const PixelRect& picture, double from = 0,
                   double to = 1) {
-  const unsigned texture = context.views[static_cast<std::size_t>(side)]->texture();
+  const unsigned texture = context.views[static_cast<std::size_t>(side)]->texture(shown_points(context));
   if (texture == 0) return;
   const auto x = [&](double share) { return static_cast<float>(picture.left + share * picture.width); };
   // ImGui keeps OpenGL's numbers as pointers.
@@ -59,7 +70,8 @@ void show_texture(const PaneContext& context, Side side, const PixelRect& pictur
                                        {static_cast<float>(from), 1}, {static_cast<float>(to), 0});
 }
 
-std::string state_in_words(const PaneContext& context, Side side) {
+/// How far the map is; the picture's own progress is not part of it.
+std::string state_of_map(const PaneContext& context, Side side) {
   const Pane& pane = context.explorer.pane(side);
   for (const JobStatus& job : context.explorer.background().status()) {
     const auto& request = pane.request;
@@ -81,6 +93,13 @@ std::string state_in_words(const PaneContext& context, Side side) {
       return pane.lost ? "lost track" : "solved";
   }
   return "";
+}
+
+/// "solved" only where the picture shows it: until all points are there, it says that they are coming.
+std::string state_in_words(const PaneContext& context, Side side) {
+  const std::string state = state_of_map(context, side);
+  if (state.empty() || shown_points(context) == LiveView::Points::kAll) return state;
+  return context.explorer.pane(side).state == PaneState::kSolved ? "refining" : state + ", refining";
 }
 
 /// Two links of a chain, apart while the cameras are not linked.
@@ -126,18 +145,21 @@ void draw_header(const PaneContext& context, Side side, const PixelRect& place) 
   ImGui::PopFont();
   ImGui::SameLine(0, context.pxf(10));
   ImGui::SetCursorScreenPos({ImGui::GetCursorScreenPos().x, middle - ImGui::GetFrameHeight() / 2});
-  double offset_ms = a ? context.settings().offset_a_ms : context.settings().offset_b_ms;
+  const double offset_ms = a ? context.settings().offset_a_ms : context.settings().offset_b_ms;
   ImGui::SetNextItemWidth(context.pxf(104));
   const int decimals = std::abs(offset_ms * 10 - std::round(offset_ms * 10)) < 1e-6 ? 1 : 3;
-  const std::string format = fmt::format("%.{}f ms", decimals);
-  const bool edited = ImGui::DragScalar((std::string("##") + command).c_str(), ImGuiDataType_Double,
-                                        &offset_ms, 0.02f, nullptr, nullptr, format.c_str());
+  const auto [from_ms, to_ms] = context.explorer.offset_window_ms();
+  number_box(context, {.id = std::string(command) + "0",
+                       .command = find_command(command),
+                       .index = 0,
+                       .least = from_ms,
+                       .greatest = to_ms,
+                       .step = 1e-3,
+                       .per_px = 0.02,
+                       .slider = false,
+                       .format = fmt::format("%.{}f ms", decimals)});
   context.anchor_last(command);
-  if (ImGui::IsItemActivated()) context.begin_gesture();
-  if (edited)
-    context.perform(Call{find_command(command), {std::clamp(std::round(offset_ms * 1e3) / 1e3, -1e4, 1e4)}},
-                    context.transient.gesture);
-  tooltip(context, find_command(command)->help + "  Drag, or double-click to type.");
+  tooltip(context, find_command(command)->help + "  Drag, or click to type.");
   if (context.settings().layout == Layout::kSideBySide)
     draw_link(context, side, static_cast<double>(ImGui::GetItemRectMax().x) + context.px(8), middle);
   const std::string state = state_in_words(context, side);
@@ -162,10 +184,13 @@ void cover(const PaneContext& context, const char* name, const PixelRect& pictur
   context.anchor(name, picture);
 }
 
-void draw_map(const PaneContext& context, Side side, const PixelRect& picture) {
+/// Before anything is drawn, since linked cameras move both maps in the same frame.
+void take_mouse(const PaneContext& context, Side side, const PixelRect& picture) {
   cover(context, side == Side::kA ? "map a" : "map b", picture);
   use_mouse(context, side, picture);
-  render(context, side, picture);
+}
+
+void draw_map(const PaneContext& context, Side side, const PixelRect& picture) {
   show_texture(context, side, picture);
   draw_overlays(context, side, picture);
   draw_frame(context, picture);
@@ -206,10 +231,7 @@ void divider(const PaneContext& context, const PixelRect& picture) {
 }
 
 void draw_swipe(const PaneContext& context, const PixelRect& picture) {
-  cover(context, "map a", picture);
-  use_mouse(context, Side::kA, picture);
   const double share = context.settings().divider;
-  for (const Side side : kBothSides) render(context, side, picture);
   show_texture(context, Side::kA, picture, 0, share);
   show_texture(context, Side::kB, picture, share, 1);
   draw_overlays(context, Side::kB, picture);
@@ -219,21 +241,31 @@ void draw_swipe(const PaneContext& context, const PixelRect& picture) {
 
 }  // namespace
 
+std::vector<Side> sides_of(Layout layout) {
+  if (layout == Layout::kOnlyA) return {Side::kA};
+  if (layout == Layout::kOnlyB || layout == Layout::kDifference) return {Side::kB};
+  return {Side::kA, Side::kB};
+}
+
 void draw_maps(const PaneContext& context, const PixelRect& place) {
   begin_panel(context, "maps", place, false);
   const Layout layout = context.settings().layout;
   const MapPlaces places = lay_out_maps(place, context.scale, layout);
+  const auto picture_of = [&](Side side) { return side == Side::kA ? places.picture_a : places.picture_b; };
   if (layout == Layout::kSwipe) {
+    take_mouse(context, Side::kA, places.picture_b);
+    for (const Side side : kBothSides) render(context, side, places.picture_b);
     const double half = places.header_b.width / 2 - context.px(8);
     draw_header(context, Side::kA, {places.header_b.left, places.header_b.top, half, places.header_b.height});
     draw_header(context, Side::kB,
                 {places.header_b.right() - half, places.header_b.top, half, places.header_b.height});
     draw_swipe(context, places.picture_b);
   } else {
+    for (const Side side : sides_of(layout)) take_mouse(context, side, picture_of(side));
+    for (const Side side : sides_of(layout)) render(context, side, picture_of(side));
     draw_header(context, Side::kA, places.header_a);
     draw_header(context, Side::kB, places.header_b);
-    if (places.picture_a.width > 0) draw_map(context, Side::kA, places.picture_a);
-    if (places.picture_b.width > 0) draw_map(context, Side::kB, places.picture_b);
+    for (const Side side : sides_of(layout)) draw_map(context, side, picture_of(side));
   }
   end_panel();
 }

@@ -26,7 +26,8 @@ struct Transient {
   };
   std::optional<Asked> asks_for;  // the command whose file is asked for, and what of it
   std::string asked_text;
-  bool just_opened = false;                       // the window in front takes the keyboard
+  std::string replaces;      // what exists, and is to be replaced if it is confirmed once more
+  bool just_opened = false;  // the window in front takes the keyboard
   std::optional<Eigen::Vector3d> measure_from_m;  // the first end, until there is a second
   std::optional<Eigen::Vector2d> profile_from_m;  // while a profile is drawn
   std::string gesture;                            // of the current drag
@@ -36,7 +37,18 @@ struct Transient {
     double plot_left = 0, plot_width = 1, from_ms = 0, to_ms = 1;  // the axis as it was at the start
   };
   std::optional<HandleDrag> handle;
-  double time_handle = 0;  // which end of the time window is held
+  struct Typing {
+    std::string box;  // NumberBox::id
+    std::string text;
+    bool begun = false, focused = false;
+  };
+  std::optional<Typing> typing;          // the number that is typed into
+  std::optional<std::string> type_next;  // the box that is typed into from the next frame on
+  std::vector<std::string> boxes;        // of this frame, in the order of drawing
+  std::string opens_menu;                // a menu's title, until it is open
+  int start_choice = -1;                 // of the start page, by the keyboard; below 0: none
+  std::vector<std::string> start_lines;  // what can be chosen there
+  double time_handle = 0;                // which end of the time window is held
   struct KnownProfile {
     PlacedCloudPtr cloud;
     std::array<double, 4> line{};
@@ -57,6 +69,7 @@ struct PaneContext {
   const Style& style;
   double scale;
   std::array<LiveView*, 2> views;
+  double draw_budget_s;  // of each pane and frame; a slice of points may go beyond it
   /// Names of positions that scripts can click: "button estimate", "handle a", "map b", ...
   std::map<std::string, PixelRect>& anchors;
 
@@ -73,6 +86,9 @@ struct PaneContext {
   void anchor_last(const std::string& name) const;
 };
 
+/// The maps whose pictures the layout shows.
+std::vector<Side> sides_of(Layout layout);
+
 /// Each pane is drawn into its part of the interface, once per frame.
 void draw_menu_bar(const PaneContext& context, const PixelRect& place);
 void draw_status_bar(const PaneContext& context, const PixelRect& place);
@@ -84,10 +100,12 @@ void draw_maps(const PaneContext& context, const PixelRect& place);
 void draw_criteria(const PaneContext& context, const PixelRect& place);
 /// The card of the inspected point, and of the measured distance.
 void draw_cards(const PaneContext& context, const PixelRect& maps);
-/// The windows in front: the palette, the keys, a dialog, a message.
+/// The windows in front: the palette, the keys, a dialog.
 void draw_palette(const PaneContext& context, const PixelRect& whole);
 void draw_help(const PaneContext& context, const PixelRect& whole);
 void draw_ask(const PaneContext& context, const PixelRect& whole);
-void draw_message(const PaneContext& context, const PixelRect& whole);
+/// The strip above the status line, and the height that it needs; 0 without a message.
+void draw_message(const PaneContext& context, const PixelRect& place);
+double message_height(const PaneContext& context, double width_px);
 
 }  // namespace sweepscope::ui

@@ -70,32 +70,6 @@ void search(const PaneContext& context) {
     button(context, "Estimate the offset", "estimate", 0, context.explorer.estimate() == nullptr);
 }
 
-void jobs(const PaneContext& context) {
-  for (const JobStatus& job : context.explorer.background().status()) {
-    if (job.key.starts_with("place")) continue;  // over before it could be read
-    ImGui::Dummy({0, context.pxf(2)});
-    std::string title = job.title;
-    if (job.key.starts_with("solve "))
-      title += " at " + offset_label_ms(std::stod(job.key.substr(6)) * 1e-9) + " ms";
-    ImGui::TextUnformatted(title.c_str());
-    if (!job.running) {
-      ImGui::SameLine();
-      ImGui::TextDisabled("waits");
-      continue;
-    }
-    progress_bar(context, job.fraction);
-    ImGui::PushFont(context.fonts.small);
-    ImGui::TextDisabled("%s %.0f %%", job.phase.empty() ? "beginning" : job.phase.c_str(),
-                        std::floor(100 * job.fraction));
-    const std::string left = time_left(job.seconds_left);
-    if (!left.empty()) {
-      ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(left.c_str()).x);
-      ImGui::TextDisabled("%s", left.c_str());
-    }
-    ImGui::PopFont();
-  }
-}
-
 void criterion_rows(const PaneContext& context, const Estimate& estimate) {
   for (const CriterionOptimum& optimum : estimate.criteria) {
     const std::string at = fmt::format("{:.2f} ms", optimum.offset_s * 1e3);
@@ -145,7 +119,6 @@ void draw_recording_panel(const PaneContext& context, const PixelRect& place) {
   begin_panel(context, "recording", place);
   recording_rows(context, *context.explorer.loaded());
   search(context);
-  jobs(context);
   if (const Estimate* estimate = context.explorer.estimate()) answer(context, *estimate);
   notes(context, *context.explorer.loaded());
   end_panel();

@@ -16,9 +16,22 @@ void centred_window(const PaneContext& context, const char* name, const PixelRec
                std::round(place.top + (place.height - h) / 2.4), w, h});
 }
 
+/// What the last widget does can be chosen by the keyboard too.
+void can_be_chosen(const PaneContext& context, const std::string& line) {
+  Transient& transient = context.transient;
+  if (static_cast<int>(transient.start_lines.size()) == transient.start_choice) {
+    const ImVec2 from = ImGui::GetItemRectMin(), to = ImGui::GetItemRectMax();
+    const float gap = context.pxf(2);
+    ImGui::GetWindowDrawList()->AddRect({from.x - gap, from.y - gap}, {to.x + gap, to.y + gap},
+                                        to_imgui(context.style.text), context.pxf(4), 0, context.pxf(1.5f));
+  }
+  transient.start_lines.push_back(line);
+}
+
 void sample_button(const PaneContext& context, const char* title, const char* text, const std::string& line) {
   ImGui::BeginGroup();
   button(context, title, line, context.px(200));
+  can_be_chosen(context, line);
   ImGui::EndGroup();
   ImGui::SameLine(0, context.pxf(14));
   ImGui::AlignTextToFramePadding();
@@ -35,6 +48,7 @@ void recent_files(const PaneContext& context) {
     if (ImGui::Selectable(printable_line(std::filesystem::path(path).filename().string()).c_str()))
       context.perform("open " + ui::quoted(path));
     context.anchor_last("recent " + path);
+    can_be_chosen(context, "open " + ui::quoted(path));
     tooltip(context, path);
   }
 }
@@ -42,6 +56,7 @@ void recent_files(const PaneContext& context) {
 }  // namespace
 
 void draw_start_page(const PaneContext& context, const PixelRect& place) {
+  context.transient.start_lines.clear();
   centred_window(context, "start", place, 620, 430);
   ImGui::PushFont(context.fonts.title);
   ImGui::TextUnformatted("sweepscope");
@@ -52,6 +67,7 @@ void draw_start_page(const PaneContext& context, const PixelRect& place) {
   ImGui::PopTextWrapPos();
   heading(context, "Open a recording");
   button(context, "Open …", "ask open", context.px(200), true);
+  can_be_chosen(context, "ask open");
   ImGui::SameLine(0, context.pxf(14));
   ImGui::AlignTextToFramePadding();
   ImGui::TextDisabled("or drop one onto this window");

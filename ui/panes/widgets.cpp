@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/io/printable_text.hpp"
+#include "ui/panes/number_box.hpp"
 
 namespace sweepscope::ui {
 namespace {
@@ -73,25 +74,18 @@ void number_field(const PaneContext& context, const Command& command) {
   const float width = (ImGui::GetContentRegionAvail().x - gap * (count - 1)) / count;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const Parameter& parameter = command.parameters[i];
-    double number = std::get<double>(values[i]);
-    const std::string id = fmt::format("##{}{}", command.name, i);
     if (i > 0) ImGui::SameLine(0, gap);
     ImGui::SetNextItemWidth(width);
     const bool narrow = parameter.greatest - parameter.least < 100;
-    const bool edited =
-        narrow && values.size() == 1
-            ? ImGui::SliderScalar(id.c_str(), ImGuiDataType_Double, &number, &parameter.least,
-                                  &parameter.greatest, format_of(parameter).c_str())
-            : ImGui::DragScalar(id.c_str(), ImGuiDataType_Double, &number,
-                                static_cast<float>(std::max(parameter.step, 1e-3)) * 0.2f, &parameter.least,
-                                &parameter.greatest, format_of(parameter).c_str());
-    if (ImGui::IsItemActivated()) context.begin_gesture();
-    if (!edited) continue;
-    Call call{&command, values};
-    const double step = parameter.step > 0 ? parameter.step : 1e-3;
-    call.values[i] = std::clamp(std::round(std::round(number / step) * step * 1e6) / 1e6, parameter.least,
-                                parameter.greatest);
-    context.perform(call, context.transient.gesture);
+    number_box(context, {.id = fmt::format("{}{}", command.name, i),
+                         .command = &command,
+                         .index = i,
+                         .least = parameter.least,
+                         .greatest = parameter.greatest,
+                         .step = parameter.step,
+                         .per_px = std::max(parameter.step, 1e-3) * 0.2,
+                         .slider = narrow && values.size() == 1,
+                         .format = format_of(parameter)});
   }
 }
 
@@ -219,9 +213,10 @@ void tooltip(const PaneContext& context, const std::string& text) {
   ImGui::PopStyleVar();
 }
 
-void progress_bar(const PaneContext& context, double fraction) {
+void progress_bar(const PaneContext& context, double fraction, double width_px) {
   const ImVec2 from = ImGui::GetCursorScreenPos();
-  const float width = ImGui::GetContentRegionAvail().x, height = context.pxf(5);
+  const float width = width_px > 0 ? static_cast<float>(width_px) : ImGui::GetContentRegionAvail().x;
+  const float height = context.pxf(5);
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const float done = width * static_cast<float>(std::clamp(fraction, 0.0, 1.0));
   list.AddRectFilled(from, {from.x + width, from.y + height}, to_imgui(context.style.frame), height / 2);

@@ -28,8 +28,8 @@ bool button(const PaneContext& context, const char* title, const std::string& li
 /// A tooltip, shown while the mouse rests on the last widget.
 void tooltip(const PaneContext& context, const std::string& text);
 
-/// A thin bar, `fraction` of it filled.
-void progress_bar(const PaneContext& context, double fraction);
+/// A thin bar, `fraction` of it filled; as wide as there is room unless `width_px` says otherwise.
+void progress_bar(const PaneContext& context, double fraction, double width_px = 0);
 
 /// "1:05 left"; empty if it is not known.
 std::string time_left(double seconds);

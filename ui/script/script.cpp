@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <random>
@@ -55,26 +56,44 @@ class Words {
   std::size_t next_ = 1;
 };
 
+/// Pictures of the interface just as a person sees it, finished or not, named by the time since the first.
+class Film {
+ public:
+  Film(std::filesystem::path folder, double every_s) : folder_(std::move(folder)), every_s_(every_s) {}
+
+  void after_frame(Ui& ui) {
+    const double now_s = std::chrono::duration<double>(Clock::now() - begin_).count();
+    if (now_s < next_s_ || !written_) return;
+    next_s_ = now_s + every_s_;
+    std::error_code failed;
+    std::filesystem::create_directories(folder_, failed);
+    written_ = write_png(ui.screenshot(), (folder_ / fmt::format("{:08.3f}s.png", now_s)).string());
+  }
+  const Result<void>& written() const { return written_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::filesystem::path folder_;
+  double every_s_ = 0, next_s_ = 0;
+  Clock::time_point begin_ = Clock::now();
+  Result<void> written_;
+};
+
 class Runner {
  public:
   Runner(Ui& ui, double max_s) : ui_(ui), max_s_(max_s) {}
 
   Result<void> run(const Script::Line& line) {
     using Step = Result<void> (Runner::*)(Words&);
-    static const std::map<std::string, Step> kSteps{{"click", &Runner::click},
-                                                    {"double-click", &Runner::double_click},
-                                                    {"mouse", &Runner::mouse},
-                                                    {"drag", &Runner::drag},
-                                                    {"wheel", &Runner::wheel},
-                                                    {"key", &Runner::key},
-                                                    {"type", &Runner::type},
-                                                    {"drop", &Runner::drop},
-                                                    {"frames", &Runner::frames},
-                                                    {"wait", &Runner::wait},
-                                                    {"screenshot", &Runner::screenshot},
-                                                    {"expect", &Runner::expect},
-                                                    {"hover", &Runner::hover},
-                                                    {"wander", &Runner::wander}};
+    static const std::map<std::string, Step> kSteps{
+        {"click", &Runner::click},   {"double-click", &Runner::double_click},
+        {"mouse", &Runner::mouse},   {"drag", &Runner::drag},
+        {"wheel", &Runner::wheel},   {"key", &Runner::key},
+        {"type", &Runner::type},     {"drop", &Runner::drop},
+        {"film", &Runner::film},     {"frames", &Runner::frames},
+        {"wait", &Runner::wait},     {"screenshot", &Runner::screenshot},
+        {"expect", &Runner::expect}, {"hover", &Runner::hover},
+        {"wander", &Runner::wander}};
     const auto step = kSteps.find(line.words[0]);
     if (step == kSteps.end()) return command(line.text);
     Words words(line.words);
@@ -83,27 +102,52 @@ class Runner {
     return done;
   }
 
+  /// What a film that runs could not write.
+  Result<void> end() const { return film_ ? film_->written() : Result<void>(); }
+
  private:
   /// What it exports is there when the line is done.
   Result<void> command(const std::string& line) {
+    if (auto there = wait_for_need(line); !there) return there;
     auto done = ui_.explorer().perform(line);
     settle();
     if (!done) return done;
-    done = wait_until([&] { return !ui_.explorer().is_exporting(); }, "the file", max_s_);
+    done = wait_until([&] { return !ui_.is_exporting(); }, "the file", max_s_);
     if (auto why = ui_.explorer().take_export_failure()) return tl::unexpected(*why);
     return done;
   }
 
+  /// A line waits for the work that it needs and that is under way: a recording that is still being opened,
+  /// an estimate, all points of a map.
+  Result<void> wait_for_need(const std::string& line) {
+    const auto call = parse_call(line);
+    if (!call || call->command->needs == Need::kNothing) return {};
+    const Explorer& explorer = ui_.explorer();
+    const Need need = call->command->needs;
+    if (explorer.is_loading()) {
+      if (auto there = wait_until([&] { return !explorer.is_loading(); }, "the recording", max_s_); !there)
+        return there;
+      if (const auto& why = explorer.load_failure()) return tl::unexpected(*why);
+    }
+    if (need == Need::kEstimate && explorer.background().has("estimate"))
+      return wait_until([&] { return !explorer.background().has("estimate"); }, "the estimate", max_s_);
+    if (need == Need::kPoints && explorer.loaded() != nullptr)
+      return wait_until([&] { return explorer.has_all_points(); }, "all points of the maps", max_s_);
+    return {};
+  }
+
+  void frame(std::span<const InputEvent> events, double seconds) {
+    ui_.frame(events, seconds);
+    if (film_) film_->after_frame(ui_);
+  }
+
   void pump(std::span<const InputEvent> events) {
-    do {
-      const std::size_t now = events_of_next_frame(events);
-      ui_.frame(events.first(now), kFrame_s);
-      events = events.subspan(now);
-    } while (!events.empty());
+    frame(events, kFrame_s);
+    while (ui_.has_input()) frame({}, kFrame_s);
   }
   /// ImGui wants a frame or two to place what is new.
   void settle() {
-    for (int i = 0; i < 3; ++i) ui_.frame({}, kFrame_s);
+    for (int i = 0; i < 3; ++i) frame({}, kFrame_s);
   }
   void send(std::vector<InputEvent> events) {
     pump(events);
@@ -139,7 +183,7 @@ class Runner {
   Result<void> hover(Words& words) {
     return place(words).map([&](PixelPoint at) {
       send({InputEvent::move(at.x, at.y)});
-      for (int i = 0; i < 60; ++i) ui_.frame({}, kFrame_s);
+      for (int i = 0; i < 60; ++i) frame({}, kFrame_s);
     });
   }
 
@@ -228,10 +272,21 @@ class Runner {
     return {};
   }
 
+  Result<void> film(Words& words) {
+    const std::string folder = words.take();
+    if (folder.empty()) return wrong("film FOLDER [SECONDS], or film off");
+    const double every_s = words.any() ? number(words.take()).value_or(-1) : 0.1;
+    if (every_s < 0) return wrong("film FOLDER [SECONDS]: the seconds between two pictures, 0 for all");
+    auto done = end();
+    film_.reset();
+    if (folder != "off") film_.emplace(folder, every_s);
+    return done;
+  }
+
   Result<void> frames(Words& words) {
     const auto count = number(words.take());
     if (!count || *count < 0 || *count > 1e6) return wrong("frames needs a number");
-    for (int i = 0; i < static_cast<int>(*count); ++i) ui_.frame({}, kFrame_s);
+    for (int i = 0; i < static_cast<int>(*count); ++i) frame({}, kFrame_s);
     return {};
   }
 
@@ -243,7 +298,7 @@ class Runner {
     std::mt19937 random(static_cast<std::uint32_t>(*seed));
     for (int i = 0; i < static_cast<int>(*actions); ++i) wander_once(random);
     // A file that could not be written was told in the window, as a person is told: no fault of the script's.
-    auto done = wait_until([&] { return !ui_.explorer().is_exporting(); }, "the file", max_s_);
+    auto done = wait_until([&] { return !ui_.is_exporting(); }, "the file", max_s_);
     (void)ui_.explorer().take_export_failure();
     return done;
   }
@@ -291,7 +346,7 @@ class Runner {
   Result<void> wait_until(const std::function<bool()>& there, const std::string& what, double max_s) {
     const auto begin = std::chrono::steady_clock::now();
     while (!there()) {
-      ui_.frame({}, kFrame_s);
+      frame({}, kFrame_s);
       if (std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() > max_s)
         return unmet(fmt::format("{} was not reached within {} s", what, max_s));
       if (ui_.explorer().background().busy())
@@ -309,14 +364,14 @@ class Runner {
     if (what == "estimated")
       return wait_until([&] { return !explorer.background().has("estimate"); }, what, max_s);
     if (what != "solved") return wrong("wait loaded, wait estimated or wait solved");
-    ui_.frame({}, kFrame_s);
+    frame({}, kFrame_s);
     return wait_until([&] { return explorer.at_rest() && ui_.pictures_done(); }, what, max_s);
   }
 
   /// The interface as it is, its pictures drawn to the end.
   Image picture() {
-    for (int i = 0; i < 600 && !ui_.pictures_done(); ++i) ui_.frame({}, kFrame_s);
-    ui_.frame({}, kFrame_s);
+    for (int i = 0; i < 600 && !ui_.pictures_done(); ++i) frame({}, kFrame_s);
+    frame({}, kFrame_s);
     return ui_.screenshot();
   }
 
@@ -366,6 +421,7 @@ class Runner {
 
   Ui& ui_;
   double max_s_;
+  std::optional<Film> film_;
 };
 
 }  // namespace
@@ -395,7 +451,7 @@ Result<void> run_script(Ui& ui, const Script& script, double max_s) {
                      fmt::format("{}:{}: {}", script.name, line.number, done.error().message));
     if (ui.wants_quit()) break;
   }
-  return {};
+  return runner.end();
 }
 
 std::string script_help() {
@@ -409,7 +465,9 @@ std::string script_help() {
       "  mouse move PLACE, mouse down|up [BUTTON], wheel CLICKS\n"
       "  key CHORD, type TEXT, drop FILE                   CHORD: H, 7, Space, Ctrl+Shift+Z ...\n"
       "  wait loaded|estimated|solved [SECONDS], frames N\n"
-      "  screenshot FILE.png                               the whole interface\n"
+      "  screenshot FILE.png                               the whole interface, once its pictures are complete\n"
+      "  film FOLDER [SECONDS], film off                   a picture each 0.1 s (or SECONDS) of what is seen on "
+      "the way\n"
       "  expect NAME is|contains TEXT, expect NAME near VALUE WITHIN, expect NAME above|below VALUE\n"
       "  expect picture FILE.png                           the same picture, within the limits for pictures\n"
       "  wander ACTIONS [SEED]                             tries everything in a random order that SEED "

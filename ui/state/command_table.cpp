@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <map>
 
 #include "core/offset/estimate_options.hpp"
 #include "ui/state/commands.hpp"
@@ -359,6 +360,10 @@ void add_actions(std::vector<Command>& all) {
       action({"save-session", "Save the session", "The recording's name, all settings and the estimate."},
              {text_of("FILE")}));
   all.push_back(
+      action({"copy", "Copy the offset or the point",
+              "Copies the place of the inspected point in map B, in metres; without one, the offset "
+              "that was changed last, in milliseconds."}));
+  all.push_back(
       action({"copy-command", "Copy as command line", "Copies the shell command that makes this picture."}));
   all.push_back(
       action({"export-picture", "Export the picture", "As PNG: everything, or the maps alone."},
@@ -383,7 +388,26 @@ void add_actions(std::vector<Command>& all) {
                          .kind = Kind::kChoice,
                          .choices = {"a", "b", "everything", "maps"},
                          .optional = true}}));
+  all.push_back(action({"menu", "Open a menu", "Shows it, for the arrow keys, Enter and Escape."},
+                       {choice_of("MENU", {"file", "edit", "offset", "view", "tools", "help"})}));
+  all.push_back(
+      action({"next-field", "Next field", "Types into the next number; \"back\": into the one before."},
+             {{.name = "WAY", .kind = Kind::kChoice, .choices = {"back"}, .optional = true}}));
   all.push_back(action({"quit", "Quit", "Ends the program."}));
+}
+
+/// Settings need nothing but those of a place in the recording, which are forgotten when one is opened.
+Need need_of(const std::string& name) {
+  static const std::map<std::string, Need> kNeeds{
+      {"pick", Need::kRecording},           {"profile", Need::kRecording},
+      {"measure", Need::kRecording},        {"fit-view", Need::kRecording},
+      {"estimate", Need::kRecording},       {"solve", Need::kRecording},
+      {"save-session", Need::kRecording},   {"copy-command", Need::kRecording},
+      {"export-picture", Need::kRecording}, {"export-report", Need::kRecording},
+      {"take-found", Need::kEstimate},      {"export-curve", Need::kEstimate},
+      {"export-cloud", Need::kPoints}};
+  const auto need = kNeeds.find(name);
+  return need == kNeeds.end() ? Need::kNothing : need->second;
 }
 
 std::vector<Command> make_commands() {
@@ -393,6 +417,7 @@ std::vector<Command> make_commands() {
   add_fields_of_tools(all);
   add_edits(all);
   add_actions(all);
+  for (Command& command : all) command.needs = need_of(command.name);
   return all;
 }
 

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "core/nearest_word.hpp"
+
 namespace sweepscope::ui {
 namespace {
 
@@ -17,6 +19,14 @@ std::string usage(const Command& command) {
     text += parameter.optional ? " [" + parameter.name + "]" : " " + parameter.name;
   }
   return text;
+}
+
+std::string unknown_command(const std::string& word) {
+  std::vector<std::string> names;
+  for (const Command& command : commands()) names.push_back(command.name);
+  const std::string nearest = nearest_word(word, names);
+  return fmt::format("There is no command \"{}\"{}", word,
+                     nearest.empty() ? "" : fmt::format(". Did you mean \"{}\"?", nearest));
 }
 
 std::size_t needed(const Command& command) {
@@ -52,7 +62,7 @@ Result<Call> parse_call(std::string_view line) {
   if (words->empty()) return wrong("An empty line names no command");
   Call call;
   call.command = find_command(words->front());
-  if (call.command == nullptr) return wrong(fmt::format("There is no command \"{}\"", words->front()));
+  if (call.command == nullptr) return wrong(unknown_command(words->front()));
   const Command& command = *call.command;
   const std::size_t given = words->size() - 1;
   if (given == 0 && moves_on(command)) return call;

@@ -12,6 +12,9 @@
 
 namespace sweepscope::ui {
 
+/// What must be there before a command makes sense. A script waits for it where it is under way.
+enum class Need { kNothing, kRecording, kEstimate, kPoints };
+
 /// A command of the explorer, for clicks, keys, the palette and scripts. Declared once.
 ///  - A field command (`get` and `set`) holds one part of the settings. Without arguments a switch
 ///    toggles and a choice takes its next value.
@@ -24,6 +27,7 @@ struct Command {
   std::vector<Parameter> parameters = {};
   std::function<std::vector<Value>(const Settings&)> get = {};
   std::function<void(Settings&, const std::vector<Value>&)> set = {};
+  Need needs = Need::kNothing;
 
   bool is_field() const { return get != nullptr; }
   bool is_action() const { return set == nullptr; }

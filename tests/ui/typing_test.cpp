@@ -1,0 +1,178 @@
+// What a person types, in fields and beside them, without a display.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "core/io/atomic_file.hpp"
+#include "tests/folder_test.hpp"
+#include "ui/panes/number_box.hpp"
+#include "ui/script/script.hpp"
+
+namespace sweepscope::ui {
+namespace {
+
+/// An explorer without a display, in a folder of its own.
+class Typing : public test::FolderTest {
+ protected:
+  void SetUp() override {
+    before_ = std::filesystem::current_path();
+    std::filesystem::current_path(folder_);
+  }
+  void TearDown() override { std::filesystem::current_path(before_); }
+  void expect_runs(const std::string& lines) {
+    const auto done = run_script(ui_, *parse_script(lines, "test"), 120);
+    EXPECT_TRUE(done) << done.error().message;
+  }
+  std::string now(const std::string& name) { return *ui_.explorer().observe(name); }
+  /// All at once, as a window reports what is typed while a frame is drawn.
+  void type_fast(const std::string& text) {
+    std::vector<InputEvent> events;
+    for (const char letter : text) {
+      const Key key = letter >= 'a' && letter <= 'z' ? letter - 'a' + 'A' : letter;
+      events.push_back(InputEvent::stroke(key, true, 0));
+      events.push_back(InputEvent::words(std::string(1, letter)));
+      events.push_back(InputEvent::stroke(key, false, 0));
+    }
+    ui_.frame(events, 1.0 / 60);
+  }
+  void frames_until_taken() {
+    do {
+      ui_.frame({}, 1.0 / 60);
+    } while (ui_.has_input());
+  }
+
+  std::unique_ptr<gl::Context> context_ = *gl::make_offscreen_context(1200, 800);
+  Ui ui_{*context_, Ui::Options()};
+
+ private:
+  std::filesystem::path before_;
+};
+
+TEST_F(Typing, WhatFollowsTheKeyOfADialogInTheSameFrameArrivesWholeInItsField) {
+  std::vector<InputEvent> open{InputEvent::stroke('P', true, kCtrl), InputEvent::stroke('P', false, kCtrl)};
+  ui_.frame(open, 1.0 / 60);
+  type_fast("theme light");
+  frames_until_taken();
+  expect_runs("expect theme is dark\nkey Enter\nexpect theme is light");
+}
+
+TEST_F(Typing, LettersInAFieldAreNoShortcuts) {
+  expect_runs("sample room-1\nwait solved\nclick offset-a");
+  type_fast("17.5");
+  frames_until_taken();
+  type_fast("tbsdhe");
+  frames_until_taken();
+  expect_runs("expect theme is dark\nexpect layout is side-by-side\nexpect jobs is 0\nkey Escape");
+  EXPECT_EQ(now("offset-a"), "0");
+}
+
+TEST_F(Typing, ASingleClickAndANumberSetAnOffset) {
+  expect_runs("sample room-1\nwait solved\nclick offset-a\ntype 19.25\nkey Enter\nexpect offset-a is 19.25");
+  expect_runs("undo\nexpect offset-a is 0");
+  expect_runs("click offset-b\ntype \"24,5 ms\"\nkey Enter\nexpect offset-b is 24.5");
+}
+
+TEST_F(Typing, TabGoesOnToTheNextNumberAndSetsTheOneBefore) {
+  expect_runs("sample room-1\nwait solved\nkey Tab\ntype 12\nkey Tab\ntype 13\nkey Enter");
+  EXPECT_EQ(now("offset-a"), "12");
+  EXPECT_EQ(now("offset-b"), "13");
+  expect_runs("key Tab\nkey Tab\nkey Shift+Tab\ntype 14\nkey Enter\nexpect offset-a is 14");
+  expect_runs("key Tab\ntype 3\nkey Escape\nexpect offset-a is 14");
+}
+
+TEST_F(Typing, ANumberThatIsNoneOrOutsideTheSearchWindowIsRefusedWithTheReason) {
+  expect_runs("sample room-1\nwait solved\noffset-a 5");
+  for (const char* text : {"2,4,5", "abc", "1.2.3", "\"\""}) {
+    expect_runs(std::string("click offset-a\nkey Ctrl+A\ntype ") + text +
+                "\nkey Enter\nexpect offset-a is 5");
+    if (std::string(text) != "\"\"") expect_runs("expect message contains cannot be used\ndismiss");
+  }
+  expect_runs("dismiss\nclick offset-a\ntype 400\nkey Enter\nexpect offset-a is 5");
+  expect_runs("expect message contains outside the search window\nexpect message contains -250 to 250 ms");
+  EXPECT_FALSE(ui_.explorer().perform("offset-b -251"));
+  EXPECT_TRUE(ui_.explorer().perform("offset-b -250"));
+  EXPECT_TRUE(ui_.explorer().perform("search range"));
+  EXPECT_TRUE(ui_.explorer().perform("search-range 380 420 1"));
+  EXPECT_TRUE(ui_.explorer().perform("offset-b 400"));  // who searches there may look there
+}
+
+TEST(TypedNumbers, HaveAPointOrACommaAndPerhapsTheirUnit) {
+  const Parameter& offset = find_command("offset-a")->parameters[0];
+  for (const auto& [text, number] : std::vector<std::pair<std::string, double>>{
+           {"24.5", 24.5}, {"24,5", 24.5}, {" 24.5 ms", 24.5}, {"-3", -3}, {"+3", 3}, {"1e1ms", 10}})
+    EXPECT_EQ(parse_typed_number(offset, text), number) << text;
+  for (const char* text : {"", "ms", "24,5,1", "1,234.5", "24.5 s", "1e9", "nan", "24 5"})
+    EXPECT_FALSE(parse_typed_number(offset, text)) << text;
+}
+
+TEST_F(Typing, ThePointOrTheOffsetIsCopiedAndTheCommandLineByItsOwnKey) {
+  expect_runs("sample room-1\nwait solved\noffset-a 19.5\nkey Ctrl+C");
+  EXPECT_EQ(ui_.clipboard(), "19.5");
+  expect_runs("expect message contains the offset of map A\noffset-b 24\nkey Ctrl+C");
+  EXPECT_EQ(ui_.clipboard(), "24");
+  expect_runs("tool pick\nwait solved\nclick \"map a\"\nkey Ctrl+C");
+  if (now("pick") != "-1 -1") {
+    EXPECT_EQ(std::count(ui_.clipboard().begin(), ui_.clipboard().end(), ' '), 2) << ui_.clipboard();
+  }
+  expect_runs("key Ctrl+Shift+C");
+  EXPECT_EQ(ui_.clipboard().find("sweepscope view"), 0u);
+}
+
+TEST_F(Typing, TheKeysAreListedByF1AndByAQuestionMark) {
+  const Image before = (expect_runs("frames 3"), ui_.screenshot());
+  for (const char* line : {"key F1", "key ?", "type ?"}) {
+    expect_runs(line);
+    EXPECT_NE(ui_.screenshot(), before) << line;
+    expect_runs("key Escape");
+    EXPECT_EQ(ui_.screenshot(), before) << line;
+  }
+}
+
+TEST_F(Typing, MenusWorkByKeyboard) {
+  expect_runs("sample room-1\nwait solved\nkey F10\nkey Escape\nkey T\nexpect theme is light");
+  // Two menus to the right of File is Offset; its third entry swaps the offsets.
+  expect_runs(
+      "offset-a 3\noffset-b 4\nkey F10\nkey Right\nkey Right\nkey Down\nkey Down\nkey Down\nkey Enter");
+  if (now("offset-a") != "4") expect_runs("key Escape");
+  EXPECT_EQ(now("offset-a"), "4");
+  EXPECT_EQ(now("offset-b"), "3");
+}
+
+TEST_F(Typing, TheStartPageWorksByKeyboard) {
+  expect_runs("key Down\nkey Down\nkey Enter\nwait loaded\nexpect recording is room-1");
+}
+
+TEST_F(Typing, AFileIsReplacedOnlyWhenThatIsConfirmed) {
+  const auto file = std::filesystem::current_path() / "criteria.csv";
+  expect_runs("sample room-1\nwait solved\nestimate\nwait estimated");
+  ASSERT_TRUE(write_file(file, "mine"));
+  expect_runs("ask export-curve\nkey Ctrl+A\ntype criteria.csv\nkey Enter");
+  EXPECT_EQ(*read_file(file), "mine");
+  expect_runs("key Escape\nframes 3");
+  EXPECT_EQ(*read_file(file), "mine");
+  expect_runs("ask export-curve\nkey Ctrl+A\ntype criteria.csv\nkey Enter\nkey Enter");
+  EXPECT_NE(*read_file(file), "mine");
+  expect_runs("expect message contains " + file.string());
+  ASSERT_TRUE(write_file(file, "mine"));
+  expect_runs("key Ctrl+P\ntype \"export-curve criteria.csv\"\nkey Enter");
+  EXPECT_EQ(*read_file(file), "mine");
+  expect_runs("key Enter");
+  EXPECT_NE(*read_file(file), "mine");
+}
+
+TEST_F(Typing, AMessageGoesByItselfAndCoversNothing) {
+  expect_runs("sample room-1\nwait solved\nkey Ctrl+C\nframes 2");
+  ASSERT_NE(now("message"), "");
+  const PixelRect message = *ui_.anchor("message");
+  for (const char* name : {"map a", "map b", "chart 0", "button estimate"}) {
+    const PixelRect other = *ui_.anchor(name);
+    EXPECT_LE(other.bottom(), message.top) << name;
+  }
+  const PixelRect map = *ui_.anchor("map a");
+  expect_runs("frames 500");
+  EXPECT_EQ(now("message"), "");
+  EXPECT_EQ(ui_.anchor("map a")->height, map.height);  // the charts made room for it
+}
+
+}  // namespace
+}  // namespace sweepscope::ui
