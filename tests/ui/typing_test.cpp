@@ -88,9 +88,9 @@ TEST_F(Typing, ANumberThatIsNoneOrOutsideTheSearchWindowIsRefusedWithTheReason) 
     if (std::string(text) != "\"\"") expect_runs("expect message contains cannot be used\ndismiss");
   }
   expect_runs("dismiss\nclick offset-a\ntype 400\nkey Enter\nexpect offset-a is 5");
-  expect_runs("expect message contains outside the search window\nexpect message contains -250 to 250 ms");
+  expect_runs("expect message contains outside the search window\nexpect message contains -249 to 249 ms");
   EXPECT_FALSE(ui_.explorer().perform("offset-b -251"));
-  EXPECT_TRUE(ui_.explorer().perform("offset-b -250"));
+  EXPECT_TRUE(ui_.explorer().perform("offset-b -249"));
   EXPECT_TRUE(ui_.explorer().perform("search range"));
   EXPECT_TRUE(ui_.explorer().perform("search-range 380 420 1"));
   EXPECT_TRUE(ui_.explorer().perform("offset-b 400"));  // who searches there may look there

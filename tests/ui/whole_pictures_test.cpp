@@ -45,7 +45,8 @@ class WholePictures : public testing::Test {
   /// Frames until all points are shown, the present one first.
   std::pair<Strip, Strip> strips_to_rest() {
     std::pair<Strip, Strip> strips;
-    for (int frame = 0; frame == 0 || !ui_.explorer().at_rest() || !ui_.shows_all_points(); ++frame) {
+    // What was asked for is seen by the explorer in the next frame.
+    for (int frame = 0; frame < 2 || !ui_.explorer().at_rest() || !ui_.shows_all_points(); ++frame) {
       if (frame > 0) ui_.frame({}, kFrame_s);
       const Image all = ui_.screenshot();
       strips.first.add(part_of(all, *ui_.anchor("map a")), frame);
