@@ -22,7 +22,7 @@ std::string label_of(const ComparedMap& map) {
 
 std::string label_with_thickness(const ComparedMap& map) {
   if (!map.thickness || !map.thickness->map) return label_of(map);
-  return label_of(map) + "   " + in_words(*map.thickness->map);
+  return fmt::format("{}   {:.0f} mm thick", label_of(map), map.thickness->map->median_m * 1e3);
 }
 
 constexpr float kNoLimit_m = -std::numeric_limits<float>::infinity();

@@ -150,7 +150,8 @@ TEST_F(InARoom, ColouringByBlurGivesEveryPointAThicknessOrNone) {
     EXPECT_GE(value, 0);
     ++known;
   }
-  EXPECT_GT(known, values.size() / 2);
+  // Half of this furnished room's points lie on edges, which have none.
+  EXPECT_GT(known, values.size() * 2 / 5);
 }
 
 TEST_F(InARoom, ASessionBringsEverythingBack) {

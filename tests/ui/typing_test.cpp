@@ -130,9 +130,10 @@ TEST_F(Typing, TheKeysAreListedByF1AndByAQuestionMark) {
 
 TEST_F(Typing, MenusWorkByKeyboard) {
   expect_runs("sample room-1\nwait solved\nkey F10\nkey Escape\nkey T\nexpect theme is light");
-  // Two menus to the right of File is Offset; its third entry swaps the offsets.
+  // Two menus to the right of File is Offset. Its first entry has the focus, its second one makes no sense
+  // yet and is passed over, and its third one swaps the offsets.
   expect_runs(
-      "offset-a 3\noffset-b 4\nkey F10\nkey Right\nkey Right\nkey Down\nkey Down\nkey Down\nkey Enter");
+      "offset-a 3\noffset-b 4\nkey F10\nkey Right\nframes 2\nkey Right\nframes 2\nkey Down\nkey Enter");
   if (now("offset-a") != "4") expect_runs("key Escape");
   EXPECT_EQ(now("offset-a"), "4");
   EXPECT_EQ(now("offset-b"), "3");

@@ -57,6 +57,13 @@ bool equal_ignoring_case(std::string_view a, std::string_view b) {
                     [&](char x, char y) { return lower(x) == lower(y); });
 }
 
+/// Enter on the entry that has the focus: ImGui itself does nothing with it in a menu.
+bool chosen_by_key(bool makes_sense) {
+  if (!makes_sense || !ImGui::IsKeyPressed(keys::kEnter, false) || !ImGui::IsItemFocused()) return false;
+  ImGui::CloseCurrentPopup();
+  return true;
+}
+
 void menu(const PaneContext& context, const std::string& name) {
   if (!ImGui::BeginMenu(name.c_str())) {
     context.anchor_last("menu " + name);
@@ -70,9 +77,10 @@ void menu(const PaneContext& context, const std::string& name) {
       continue;
     }
     const std::string chord = chord_of(item.line);
-    if (ImGui::MenuItem(item.title.c_str(), chord.c_str(), holds(context.settings(), item.line),
-                        makes_sense(context.explorer, item.line)))
-      context.perform(item.line);
+    const bool enabled = makes_sense(context.explorer, item.line);
+    const bool clicked =
+        ImGui::MenuItem(item.title.c_str(), chord.c_str(), holds(context.settings(), item.line), enabled);
+    if (clicked || chosen_by_key(enabled)) context.perform(item.line);
     context.anchor_last("menu " + item.line);
   }
   ImGui::EndMenu();

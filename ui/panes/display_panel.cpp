@@ -98,7 +98,10 @@ void legend(const PaneContext& context) {
 void map_thickness(const PaneContext& context) {
   for (const auto& [map, name] : {std::pair{"A", "thickness-a"}, std::pair{"B", "thickness-b"}}) {
     const std::string words = context.explorer.observe(name).value_or("");
-    if (!words.empty()) ImGui::TextDisabled("%s: %s", map, words.c_str());
+    if (words.empty()) continue;
+    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+    ImGui::TextWrapped("%s: %s", map, words.c_str());
+    ImGui::PopStyleColor();
   }
 }
 

@@ -190,7 +190,7 @@ void draw_palette(const PaneContext& context, const PixelRect& whole) {
 
 void draw_help(const PaneContext& context, const PixelRect& whole) {
   if (!context.transient.help) return;
-  begin_front(context, "keys", whole, 780, 560, 0.1);
+  begin_front(context, "keys", whole, 940, 470, 0.1);
   ImGui::PushFont(context.fonts.heading);
   ImGui::TextUnformatted("Keys");
   ImGui::PopFont();
@@ -198,14 +198,16 @@ void draw_help(const PaneContext& context, const PixelRect& whole) {
       "Drag to turn, drag with the right button or Shift to move, wheel to zoom. Every command: Ctrl+P.");
   ImGui::Dummy({0, context.pxf(4)});
   const auto all = shortcuts();
-  const std::size_t rows = (all.size() + 1) / 2;
+  constexpr std::size_t kColumns = 3;
+  const std::size_t rows = (all.size() + kColumns - 1) / kColumns;
   ImGui::PushFont(context.fonts.small);
-  if (ImGui::BeginTable("keys", 4, ImGuiTableFlags_SizingFixedFit)) {
-    for (const float width : {92.0f, 270.0f, 92.0f, 270.0f})
-      ImGui::TableSetupColumn("", 0, width * static_cast<float>(context.scale));
+  if (ImGui::BeginTable("keys", 2 * kColumns, ImGuiTableFlags_SizingFixedFit)) {
+    for (std::size_t i = 0; i < kColumns; ++i)
+      for (const float width : {88.0f, 200.0f})
+        ImGui::TableSetupColumn("", 0, width * static_cast<float>(context.scale));
     for (std::size_t r = 0; r < rows; ++r) {
       ImGui::TableNextRow(0, context.pxf(17));
-      for (const std::size_t i : {r, r + rows}) {
+      for (std::size_t i = r; i < kColumns * rows; i += rows) {
         ImGui::TableNextColumn();
         if (i < all.size()) ImGui::TextUnformatted(all[i].chord.c_str());
         ImGui::TableNextColumn();

@@ -61,7 +61,8 @@ TEST(MetroThickness, IsWithinAFifthOfTheProfileTool) {
   simulated.offset_s = 0.024;
   const Simulation simulation = simulate(simulated, Job()).value();
   MapOptions options;
-  for (const TruthPose& pose : simulation.truth) options.poses.push_back({pose.time_s, pose.position_m, pose.orientation});
+  for (const TruthPose& pose : simulation.truth)
+    options.poses.push_back({pose.time_s, pose.position_m, pose.orientation});
   for (const double offset_ms : {19.0, 22.0, 24.0}) {
     const std::vector<double> offsets_s{offset_ms * 1e-3};
     const auto maps = build_maps(simulation.recording, offsets_s, options, Job()).value();
