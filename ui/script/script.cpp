@@ -124,11 +124,10 @@ class Runner {
     if (!call || call->command->needs == Need::kNothing) return {};
     const Explorer& explorer = ui_.explorer();
     const Need need = call->command->needs;
-    if (explorer.is_loading()) {
+    if (explorer.is_loading())
       if (auto there = wait_until([&] { return !explorer.is_loading(); }, "the recording", max_s_); !there)
         return there;
-      if (const auto& why = explorer.load_failure()) return tl::unexpected(*why);
-    }
+    if (const auto& why = explorer.load_failure()) return tl::unexpected(*why);
     if (need == Need::kEstimate && explorer.background().has("estimate"))
       return wait_until([&] { return !explorer.background().has("estimate"); }, "the estimate", max_s_);
     if (need == Need::kPoints && explorer.loaded() != nullptr)
