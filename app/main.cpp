@@ -55,7 +55,7 @@ std::string unknown_subcommand(const CLI::App& app, int argc, char** argv) {
     names.push_back(command->get_name());
   }
   const std::string nearest = nearest_word(word, names);
-  return fmt::format("sweepscope: there is no subcommand \"{}\".{} {}\n", printable_line(word),
+  return fmt::format("sweepscope: there is no subcommand \"{}\".{} {}", printable_line(word),
                      nearest.empty() ? "" : fmt::format(" Did you mean \"{}\"?", nearest),
                      "All subcommands: sweepscope --help");
 }
@@ -84,7 +84,7 @@ int run(int argc, char** argv) {
   app::add_view(app, exit_code);
   app::declare_manual(app);
   if (const std::string unknown = unknown_subcommand(app, argc, argv); !unknown.empty()) {
-    app::say("{}", unknown);
+    app::say("{}\n", unknown);
     return static_cast<int>(ExitCode::kWrongUsage);
   }
   try {

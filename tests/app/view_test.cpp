@@ -52,9 +52,9 @@ TEST_F(View, WithoutADisplayTheOtherWaysAreNamed) {
 TEST_F(View, AMisspeltNameIsAnsweredWithTheNearestOne) {
   const Outcome misspelt = run("estimte room.bag");
   EXPECT_EQ(misspelt.exit_code, 2);
-  EXPECT_NE(misspelt.err.find("there is no subcommand \"estimte\". Did you mean \"estimate\"?"),
-            std::string::npos)
-      << misspelt.err;
+  EXPECT_EQ(misspelt.err,
+            "sweepscope: there is no subcommand \"estimte\". Did you mean \"estimate\"? All subcommands: "
+            "sweepscope --help\n");
   const Outcome file = run("room.bag");
   EXPECT_EQ(file.exit_code, 2);
   EXPECT_EQ(file.err.find("Did you mean"), std::string::npos) << file.err;
