@@ -1,12 +1,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "app/commands.hpp"
 #include "app/progress.hpp"
 #include "app/recording_options.hpp"
 #include "app/say.hpp"
+#include "core/apply/applied_records.hpp"
 #include "core/apply/apply.hpp"
 #include "core/apply/sweep_folder.hpp"
 #include "core/io/atomic_file.hpp"
@@ -96,11 +98,21 @@ Result<void> check_options(const Options& options) {
   return {};
 }
 
+/// Tables hold no record: they are as they were recorded.
+Result<void> check_not_applied(const Recording& recording, const Options& options, const Job& job) {
+  const auto stream = open_stream(options.recording, job);
+  if (options.again || !stream) return {};
+  const auto& topics = recording.report.topics;
+  const bool has_record = std::ranges::find(topics, kAppliedTopic, &RecordedTopic::name) != topics.end();
+  return sweepscope::check_not_applied(*stream, has_record);
+}
+
 Result<void> write_clouds(const Options& options, const ApplyOptions& apply_options,
                           const Progress& progress) {
   const ReadOptions read_options{apply_options.rig, apply_options.stamps};
   auto recording = read_recording(options.recording, read_options, progress.job());
   if (!recording) return tl::unexpected(recording.error());
+  if (auto checked = check_not_applied(*recording, options, progress.job()); !checked) return checked;
   const auto written = write_sweeps(std::move(*recording), apply_options.offset, apply_options.add,
                                     *options.clouds_only, "." + options.clouds_format, progress.job());
   if (!written) return tl::unexpected(written.error());

@@ -63,4 +63,19 @@ Result<std::vector<std::string>> applied_records(const StreamFile& file) {
   return std::vector<std::string>();
 }
 
+Result<void> check_not_applied(const StreamRecording& recording, bool has_record_topic) {
+  bool applied = has_record_topic;
+  for (const StreamFile& file : recording.files) {
+    const auto records = applied_records(file);
+    if (!records) return tl::unexpected(records.error());
+    applied = applied || !records->empty();
+  }
+  if (!applied) return {};
+  return failure(
+      ExitCode::kWrongUsage,
+      fmt::format("{}: an offset was applied to it before, which its record {} says; apply another "
+                  "one with --again",
+                  recording.path.string(), kAppliedMetadata));
+}
+
 }  // namespace sweepscope

@@ -12,4 +12,8 @@ namespace sweepscope {
 /// where they are messages.
 Result<std::vector<std::string>> applied_records(const StreamFile& file);
 
+/// Refuses a recording that an offset was applied to before (ExitCode::kWrongUsage). `has_record_topic`:
+/// whether one of its topics is kAppliedTopic.
+Result<void> check_not_applied(const StreamRecording& recording, bool has_record_topic);
+
 }  // namespace sweepscope

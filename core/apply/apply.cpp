@@ -52,7 +52,6 @@ class Application {
   Result<void> prepare();
   Result<void> prepare_added();
   Result<Recording> recording_to_add() const;
-  Result<void> check_not_applied();
   Result<std::unique_ptr<MessageSink>> create_sink(const OutputFile& file, const fs::path& path) const;
   Result<void> write_file(const OutputFile& file, const fs::path& folder, bool last);
   Result<void> write_folder();
@@ -72,22 +71,6 @@ class Application {
   std::vector<WrittenFile> written_;
 };
 
-Result<void> Application::check_not_applied() {
-  if (options_.again) return {};
-  bool applied = std::ranges::find(survey_.topics, kAppliedTopic, &StreamTopic::name) != survey_.topics.end();
-  for (const StreamFile& file : recording_.files) {
-    const auto records = applied_records(file);
-    if (!records) return tl::unexpected(records.error());
-    applied = applied || !records->empty();
-  }
-  if (!applied) return {};
-  return failure(
-      ExitCode::kWrongUsage,
-      fmt::format("{}: an offset was applied to it before, which its record {} says; apply another "
-                  "one with --again",
-                  recording_.path.string(), kAppliedMetadata));
-}
-
 Result<void> Application::prepare() {
   auto kind = output_kind(recording_, output_);
   if (!kind) return tl::unexpected(kind.error());
@@ -97,7 +80,10 @@ Result<void> Application::prepare() {
   auto surveyed = survey(recording_, options_.rig, job_);
   if (!surveyed) return tl::unexpected(surveyed.error());
   survey_ = std::move(*surveyed);
-  if (auto checked = check_not_applied(); !checked) return checked;
+  const bool has_record =
+      std::ranges::find(survey_.topics, kAppliedTopic, &StreamTopic::name) != survey_.topics.end();
+  if (!options_.again)
+    if (auto checked = check_not_applied(recording_, has_record); !checked) return checked;
   auto move = find_move(survey_, options_);
   if (!move) return tl::unexpected(move.error());
   move_ = std::move(*move);

@@ -48,6 +48,19 @@ TEST_F(ApplyCommand, SweepsAsFilesWithTheirPoses) {
   EXPECT_EQ(run("apply room.bag --offset-ms 24 --clouds-only sweeps").exit_code, 2);
 }
 
+TEST_F(ApplyCommand, SweepsOfARecordingThatIsRightAlreadyAreNotShiftedAgain) {
+  ASSERT_EQ(run("convert room.bag -o room.mcap").exit_code, 0);
+  for (const std::string format : {".bag", ".mcap"}) {
+    const std::string out = "out" + format;
+    ASSERT_EQ(run("apply room" + format + " --estimate room.json -o " + out).exit_code, 0);
+    const Outcome twice = run("apply " + out + " --estimate room.json --clouds-only twice");
+    EXPECT_EQ(twice.exit_code, 2);
+    EXPECT_NE(twice.err.find("was applied to it before"), std::string::npos) << twice.err;
+    EXPECT_FALSE(exists("twice"));
+    EXPECT_EQ(run("apply " + out + " --offset-ms 0 --again --clouds-only of-" + out).exit_code, 0);
+  }
+}
+
 TEST_F(ApplyCommand, TheRecordingWithCloudsHasTheSameOffset) {
   ASSERT_EQ(run("apply room.bag --estimate room.json -o out.bag --clouds /sweeps --tf").exit_code, 0);
   EXPECT_LT(std::abs(estimate("out.bag")["offset_ms"].get<double>()), 0.01);
