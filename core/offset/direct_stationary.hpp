@@ -25,7 +25,7 @@ enum class Resampling { kAll, kParts };
 /// change the answers in two simulated rooms by at most 0.002 ms (sweepscope_option_changes of
 /// tests/benchmark).
 struct StationaryDirectOptions {
-  int max_iterations = 10;          // it takes 3 to 6
+  int max_iterations = 10;          // rooms take 3 or 4
   double step_tolerance_s = 1e-6;   // a thousandth of the unit of most motors, see search_scale
   double first_loss_width_m = 0.1;  // later: `loss_widths` times the residuals' robust deviation
   double loss_widths = 2.5;         // near 2.385, where Cauchy's loss is 95 % efficient on normal noise

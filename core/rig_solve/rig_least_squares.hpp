@@ -16,7 +16,7 @@ namespace sweepscope {
 using RigPriors = RigVector;
 
 struct RigLeastSquaresOptions {
-  int max_iterations = 60;           // 15 to 40 in the families of tests/benchmark/rig_table
+  int max_iterations = 60;           // a bound: the size of the step ends it
   double first_loss_width_m = 0.2;   // what a mount 0.2 m wrong displaces a wall by
   double min_loss_width_m = 0.004;   // twice the least range noise, see estimate_range_noise_m
   double loss_widths = 3;            // width of the loss in deviations of the residuals

@@ -23,23 +23,19 @@ LivePointsPtr plane(std::size_t step, double shift_m = 0) {
 
 class Live : public testing::Test {
  protected:
-  void SetUp() override {
-    view_.resize(300, 260);
-    view_.set_background({10, 20, 30});
+  void SetUp() override { set_up(view_); }
+  static void set_up(LiveView& view) {
+    view.resize(300, 260);
+    view.set_background({10, 20, 30});
     Camera camera;
     camera.position_m = {0, 0, 100};
     camera.view_height_m = 12;
-    view_.set_camera(camera);
+    view.set_camera(camera);
   }
   /// As it is drawn alone, without a pause.
   Image drawn_at_once(const LivePointsPtr& coarse, const LivePointsPtr& full, LiveView::Points points) {
     LiveView other(*context_);
-    other.resize(300, 260);
-    other.set_background({10, 20, 30});
-    Camera camera;
-    camera.position_m = {0, 0, 100};
-    camera.view_height_m = 12;
-    other.set_camera(camera);
+    set_up(other);
     other.show(coarse, full);
     other.draw(60);
     return other.picture(points);
