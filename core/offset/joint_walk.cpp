@@ -45,6 +45,11 @@ class Part {
         jerk_sigma_(jerk_sigma(problem, path_.deviations(sweeps), options)) {
     result_.middle_s = (sweeps.front().begin_s + sweeps.back().end_s) / 2;
     result_.offset_s = offset_s;
+    const auto& used = problem_.scan_used;
+    const auto first = std::find(used.begin(), used.end(), 1);
+    const auto last = std::find(used.rbegin(), used.rend(), 1);
+    first_scan_ = static_cast<std::uint32_t>(first - used.begin());
+    if (first != used.end()) scans_.resize(std::size_t(last.base() - first) * slices_);
   }
 
   /// `iterated` is called after each of at most `iterations()`.
@@ -124,9 +129,11 @@ class Part {
   }
 
   void linearise(WalkEquations& equations) {
-    for_each_match([&](const KnotRow& row, double slope, double distance_m, double weight, const Vector3d&) {
-      equations.add(row, slope, distance_m, weight);
+    ScanEquations scans(scans_.size());
+    for_each_match([&](const ScanRow& row, double slope, double distance_m, double weight, const Vector3d&) {
+      scans.add(row, slope, distance_m, weight);
     });
+    equations.add(scans, scans_, path_);
   }
 
   // Of the offset or a time shift, where what the surfaces err by is not taken from the matches' standard
@@ -138,8 +145,10 @@ class Part {
     double formal_s2 = 0;
     constexpr double kCell_m = 1;  // about the size of a piece of furniture, or of a bay of a wall
     for_each_match(
-        [&](const KnotRow& row, double slope, double distance_m, double weight, const Vector3d& p_m) {
-          const double influence = row.times(influences) + slope * influences[influences.size() - 1];
+        [&](const ScanRow& row, double slope, double distance_m, double weight, const Vector3d& p_m) {
+          double influence = slope * influences[influences.size() - 1];
+          for (std::size_t i = 0; i < row.size(); ++i)
+            influence += row.row(i).dot(by_pose(influences, scans_[row.scan(i)], path_));
           std::array<int, 3> cell;
           for (int i = 0; i < 3; ++i) cell[std::size_t(i)] = int(std::floor(p_m[i] / kCell_m));
           pulls_s[cell] += weight * distance_m * influence;
@@ -156,7 +165,6 @@ class Part {
   void for_each_match(const Use& use) {
     const std::vector<PlacedSweep> sweeps = place_sweeps(problem_, result_.offset_s);
     FeatureMap edges, planes;
-    scans_.resize(problem_.recording->scans.size() * slices_);
     last_line_ = kNoLine;
     for (const PlacedSweep& sweep : sweeps) {
       for (const PlacedFeature& feature : sweep.edges) insert(sweep, feature, edges);
@@ -206,13 +214,14 @@ class Part {
     return (track.angle_at(to_s) - track.angle_at(from_s)) / (to_s - from_s);
   }
 
-  // The number of a feature's scan line, or of the slice of it.
+  // The number of a feature's scan within the part, or of the slice of it.
   std::uint32_t line_of(const PlacedSweep& sweep, const PlacedFeature& feature) const {
-    if (slices_ == 1) return feature.line;
+    const std::uint32_t number = feature.line - first_scan_;
+    if (slices_ == 1) return number;
     const LaserScan& scan = problem_.recording->scans[feature.line];
     const double u = (time_s(sweep, feature) - scan.first_beam_s) / (scan.last_beam_s() - scan.first_beam_s);
     const double slice = std::clamp(std::floor(u * slices_), 0.0, slices_ - 1.0);
-    return feature.line * slices_ + static_cast<std::uint32_t>(slice);
+    return number * slices_ + static_cast<std::uint32_t>(slice);
   }
 
   // One match: a point of one direction, its surface from points of the other.
@@ -221,12 +230,12 @@ class Part {
            const Use& use) {
     const Vector3d& normal = match.normal;
     row_.clear();
-    double slope = row_.add_point(path_, scans_[line], p_m, normal, 1);
+    double slope = row_.add_point(line, scans_[line], p_m, normal, 1);
     result_.lever_m2 += square(normal.dot(arm_m(line, p_m)));
     result_.reach_m2 += arm_m(line, p_m).squaredNorm();
     for (int i = 0; i < near.count; ++i) {
       const auto at = std::size_t(i);
-      slope += row_.add_point(path_, scans_[near.line[at]], near.p_m[at].cast<double>(), normal,
+      slope += row_.add_point(near.line[at], scans_[near.line[at]], near.p_m[at].cast<double>(), normal,
                               -1.0 / near.count);
     }
     const double weight =
@@ -243,14 +252,15 @@ class Part {
 
   OffsetProblem problem_;
   const JointWalkOptions& options_;
-  std::uint32_t slices_;  // of every scan
+  std::uint32_t slices_;          // of every scan
+  std::uint32_t first_scan_ = 0;  // of the recording's, that the part uses
   GuidedPath path_;
   Eigen::Vector2d jerk_sigma_;  // rad/s^3 and m/s^3
   JointWalkPart result_;
   std::vector<ScanMotion> scans_;
   static constexpr std::uint32_t kNoLine = 0xffffffffu;
   std::uint32_t last_line_ = kNoLine;  // whose motion was worked out last
-  KnotRow row_;
+  ScanRow row_;
 };
 
 using Sweeps = std::vector<SweepPose>;

@@ -1,41 +1,102 @@
 #include "core/offset/walk_equations.hpp"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 
-#include "core/loam/least_squares.hpp"
 #include "core/offset/jerk_prior.hpp"
 
 namespace sweepscope {
 
 using Eigen::Vector3d;
 
-double KnotRow::add_point(const GuidedPath& path, const ScanMotion& scan, const Vector3d& p_m,
-                          const Vector3d& normal, double share) {
-  const Vector6d row = share * distance_jacobian(p_m, normal, scan.base_in_map_m);
-  const auto& [first_knot, weights] = scan.place.knots;
-  for (std::size_t i = 0; i < 4 && path.knots() > 0; ++i) add(first_knot + i, weights[i] * row);
-  if (const auto block = path.shift_block())
-    add(*block, row.dot(scan.place.per_shift_second) * Vector6d::Unit(0));
-  return share * normal.dot(scan.turning_rad_s.cross(p_m - scan.base_in_map_m));
+namespace {
+
+// What the steps of a scan's pose have to do with blocks, by the unknowns that the pose depends on: every
+// knot acts by its weight, the time shift as the first unknown of its block.
+template <typename Knot, typename Shift>
+void for_blocks(const GuidedPath::Place& place, const GuidedPath& path, const Knot& knot,
+                const Shift& shift) {
+  const auto& [first_knot, weights] = place.knots;
+  for (std::size_t i = 0; i < 4 && path.knots() > 0; ++i) knot(first_knot + i, weights[i]);
+  if (const auto block = path.shift_block()) shift(*block, place.per_shift_second);
 }
+
+// The sums of one scan with the others, by the blocks that those depend on. Blocks that none does are absent.
+class Columns {
+ public:
+  explicit Columns(const GuidedPath& path) : path_(path), sums_(path.blocks()), used_(path.blocks()) {}
+
+  void sum_up(std::uint32_t number, const ScanEquations::Scan& scan, const std::vector<ScanMotion>& motions) {
+    std::fill(used_.begin(), used_.end(), false);
+    for (const auto& [other, sum] : scan.products) {
+      const Matrix6d half = (other == number ? 0.5 : 1.0) * sum;
+      for_blocks(
+          motions[other].place, path_,
+          [&](std::size_t block, double weight) { at(block).noalias() += weight * half; },
+          [&](std::size_t block, const Vector6d& per_second) {
+            at(block).col(0).noalias() += half * per_second;
+          });
+    }
+  }
+  template <typename Use>
+  void for_each(const Use& use) const {
+    for (std::size_t block = 0; block < used_.size(); ++block)
+      if (used_[block]) use(block, sums_[block]);
+  }
+
+ private:
+  Matrix6d& at(std::size_t block) {
+    if (!used_[block]) sums_[block].setZero();
+    used_[block] = true;
+    return sums_[block];
+  }
+
+  const GuidedPath& path_;
+  std::vector<Matrix6d> sums_;
+  std::vector<char> used_;
+};
+
+}  // namespace
 
 WalkEquations::WalkEquations(std::size_t blocks)
     : matrix_(Eigen::MatrixXd::Zero(Eigen::Index(6 * blocks + 1), Eigen::Index(6 * blocks + 1))),
       gradient_(Eigen::VectorXd::Zero(matrix_.rows())) {}
 
-void WalkEquations::add(const KnotRow& row, double offset_slope, double residual, double weight) {
+// Half of the matrix: it and its transpose are the whole.
+void WalkEquations::add_block(std::size_t row, std::size_t column, const Matrix6d& half) {
+  const auto r = Eigen::Index(6 * row), c = Eigen::Index(6 * column);
+  if (row >= column) matrix_.block<6, 6>(r, c) += half;
+  if (row <= column) matrix_.block<6, 6>(c, r) += half.transpose();
+}
+
+void WalkEquations::add(const ScanEquations& scans, const std::vector<ScanMotion>& motions,
+                        const GuidedPath& path) {
   const Eigen::Index last = matrix_.rows() - 1;
-  for (std::size_t a = 0; a < row.size(); ++a) {
-    const Vector6d weighted = weight * row.row(a);
-    const auto ka = Eigen::Index(6 * row.knot(a));
-    for (std::size_t b = 0; b < row.size(); ++b)
-      if (row.knot(b) <= row.knot(a))
-        matrix_.block<6, 6>(ka, Eigen::Index(6 * row.knot(b))).noalias() += weighted * row.row(b).transpose();
-    matrix_.block<1, 6>(last, ka) += offset_slope * weighted.transpose();
-    gradient_.segment<6>(ka) += residual * weighted;
+  Columns columns(path);
+  for (std::uint32_t number = 0; number < scans.scans().size(); ++number) {
+    const ScanEquations::Scan& scan = scans.scans()[number];
+    if (scan.products.empty()) continue;
+    columns.sum_up(number, scan, motions);
+    for_blocks(
+        motions[number].place, path,
+        [&](std::size_t row, double weight) {
+          columns.for_each(
+              [&](std::size_t column, const Matrix6d& sum) { add_block(row, column, weight * sum); });
+          gradient_.segment<6>(Eigen::Index(6 * row)) += weight * scan.gradient;
+          matrix_.block<1, 6>(last, Eigen::Index(6 * row)) += weight * scan.with_offset.transpose();
+        },
+        [&](std::size_t row, const Vector6d& per_second) {
+          columns.for_each([&](std::size_t column, const Matrix6d& sum) {
+            Matrix6d first_only = Matrix6d::Zero();
+            first_only.row(0) = per_second.transpose() * sum;
+            add_block(row, column, first_only);
+          });
+          gradient_[Eigen::Index(6 * row)] += per_second.dot(scan.gradient);
+          matrix_(last, Eigen::Index(6 * row)) += per_second.dot(scan.with_offset);
+        });
   }
-  matrix_(last, last) += weight * offset_slope * offset_slope;
-  gradient_[last] += weight * offset_slope * residual;
+  gradient_[last] += scans.offset_gradient();
+  matrix_(last, last) += scans.offset_square();
 }
 
 void WalkEquations::add_jerks(const GuidedPath& path, const Eigen::Vector2d& sigma) {
@@ -74,6 +135,19 @@ std::optional<WalkEquations::Solution> WalkEquations::solve(std::optional<std::s
         cholesky.solve(Eigen::VectorXd::Unit(matrix_.rows(), Eigen::Index(6 * *shift_block)));
   for (Eigen::Index k = 0; k < last / 6; ++k) solution.block_steps.push_back(x.segment<6>(6 * k));
   return solution;
+}
+
+Vector6d by_pose(const Eigen::VectorXd& by_unknowns, const ScanMotion& motion, const GuidedPath& path) {
+  Vector6d sum = Vector6d::Zero();
+  for_blocks(
+      motion.place, path,
+      [&](std::size_t block, double weight) {
+        sum += weight * by_unknowns.segment<6>(Eigen::Index(6 * block));
+      },
+      [&](std::size_t block, const Vector6d& per_second) {
+        sum += by_unknowns[Eigen::Index(6 * block)] * per_second;
+      });
+  return sum;
 }
 
 }  // namespace sweepscope

@@ -61,9 +61,15 @@ ScanMotion scan_at(const GuidedPath& path, double t_s) {
   return {path.place(t_s), pose.translation_m, kSpeed_rad_s * (pose.rotation * kAxis)};
 }
 
-Eigen::VectorXd dense(const KnotRow& row, Eigen::Index unknowns) {
-  Eigen::VectorXd all(unknowns);
-  for (Eigen::Index i = 0; i < unknowns; ++i) all[i] = row.times(Eigen::VectorXd::Unit(unknowns, i));
+// By all unknowns but the offset.
+Eigen::VectorXd dense(const ScanRow& row, const std::vector<ScanMotion>& motions, const GuidedPath& path) {
+  Eigen::VectorXd all(Eigen::Index(6 * path.blocks()));
+  for (Eigen::Index k = 0; k < all.size(); ++k) {
+    const Eigen::VectorXd step = Eigen::VectorXd::Unit(all.size(), k);
+    all[k] = 0;
+    for (std::size_t i = 0; i < row.size(); ++i)
+      all[k] += row.row(i).dot(by_pose(step, motions[row.scan(i)], path));
+  }
   return all;
 }
 
@@ -79,8 +85,9 @@ TEST_P(WalkEquationsOf, APointsRowIsThatOfFiniteDifferences) {
   ASSERT_GT(unknowns, 0);
   for (const double t_s : {2.31, 2.75, 3.123}) {
     const Vector3d p_m = in_map_m(path, t_s, 0);
-    KnotRow row;
-    const double slope = row.add_point(path, scan_at(path, t_s), p_m, kNormal, kShare);
+    ScanRow row;
+    const std::vector<ScanMotion> motions{scan_at(path, t_s)};
+    const double slope = row.add_point(0, motions[0], p_m, kNormal, kShare);
     Eigen::VectorXd numeric(unknowns);
     for (Eigen::Index i = 0; i < unknowns; ++i)
       numeric[i] =
@@ -88,26 +95,25 @@ TEST_P(WalkEquationsOf, APointsRowIsThatOfFiniteDifferences) {
           kNormal.dot(in_map_m(moved(path, i, kStep), t_s, 0) - in_map_m(moved(path, i, -kStep), t_s, 0)) /
           (2 * kStep);
     // The spline's rotations do not quite add up, and between its samples it goes linearly.
-    EXPECT_LT((dense(row, unknowns) - numeric).norm(), 0.02 * numeric.norm()) << t_s;
+    EXPECT_LT((dense(row, motions, path) - numeric).norm(), 0.02 * numeric.norm()) << t_s;
     const double numeric_slope =
         kShare * kNormal.dot(in_map_m(path, t_s, kStep) - in_map_m(path, t_s, -kStep)) / (2 * kStep);
     EXPECT_NEAR(slope, numeric_slope, 1e-5 * std::abs(numeric_slope)) << t_s;
   }
 }
 
-TEST(WalkEquations, PointsThatShareAKnotAddUpInItsRow) {
+TEST(WalkEquations, PointsOfOneScanAddUpInItsRow) {
   const GuidedPath path = path_of(std::nullopt);
-  const auto unknowns = Eigen::Index(6 * path.blocks());
-  KnotRow one, other, both;
-  const auto add = [&](KnotRow& row, double t_s, double share) {
-    row.add_point(path, scan_at(path, t_s), in_map_m(path, t_s, 0), kNormal, share);
-  };
-  add(one, 2.31, 1);
-  add(other, 2.4, -0.5);
-  add(both, 2.31, 1);
-  add(both, 2.4, -0.5);
-  EXPECT_LT(both.size(), one.size() + other.size());
-  EXPECT_LT((dense(both, unknowns) - dense(one, unknowns) - dense(other, unknowns)).norm(), 1e-12);
+  const std::vector<ScanMotion> motions{scan_at(path, 2.31), scan_at(path, 2.4)};
+  const Vector3d a_m = in_map_m(path, 2.31, 0), b_m = a_m + Vector3d(0.3, -0.1, 0.2);
+  ScanRow first, second, both;
+  first.add_point(0, motions[0], a_m, kNormal, 1);
+  second.add_point(0, motions[0], b_m, kNormal, -0.5);
+  both.add_point(0, motions[0], a_m, kNormal, 1);
+  both.add_point(1, motions[1], a_m, kNormal, -0.5);
+  both.add_point(0, motions[0], b_m, kNormal, -0.5);
+  ASSERT_EQ(both.size(), 2u);
+  EXPECT_LT((both.row(0) - first.row(0) - second.row(0)).norm(), 1e-12);
 }
 
 // A path whose acceleration changes.
@@ -138,31 +144,55 @@ TEST(WalkEquations, JerksHaveTheGradientOfTheirSquares) {
   EXPECT_LT((equations.gradient().head(numeric.size()) - numeric).norm(), 0.05 * numeric.norm());
 }
 
-TEST(WalkEquations, TheSolutionIsThatOfTheWholeMatrix) {
-  const GuidedPath path = path_of(std::nullopt);
-  const auto unknowns = Eigen::Index(6 * path.blocks()), last = unknowns;
-  WalkEquations equations(path.blocks());
-  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(unknowns + 1, unknowns + 1);
-  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(unknowns + 1);
-  for (int i = 0; i < 40; ++i) {
-    const double t_s = 2.05 + 0.035 * i, residual = 0.01 * std::sin(3.0 * i), weight = 1 + 0.1 * i;
-    KnotRow row;
-    const double slope = row.add_point(path, scan_at(path, t_s), in_map_m(path, t_s, 0), kNormal, 1);
-    equations.add(row, slope, residual, weight);
-    Eigen::VectorXd whole(unknowns + 1);
-    whole << dense(row, unknowns), slope;
-    matrix += weight * whole * whole.transpose();
-    gradient += weight * residual * whole;
+// Matches that each depend on three scans, some of them on two of one knot.
+struct Matches {
+  ScanEquations scans;
+  Eigen::MatrixXd matrix;
+  Eigen::VectorXd gradient;
+};
+
+Matches matches_of(const GuidedPath& path, const std::vector<ScanMotion>& motions) {
+  const auto last = Eigen::Index(6 * path.blocks());
+  Matches sum{ScanEquations(motions.size()), Eigen::MatrixXd::Zero(last + 1, last + 1),
+              Eigen::VectorXd::Zero(last + 1)};
+  const auto count = static_cast<std::uint32_t>(motions.size());
+  for (std::uint32_t i = 0; i < 3 * count; ++i) {
+    const double residual = 0.01 * std::sin(3.0 * i), weight = 1 + 0.1 * i;
+    ScanRow row;
+    double slope = 0;
+    const auto add = [&](std::uint32_t scan, double share) {
+      const Vector3d p_m = kPoint_m + Vector3d(std::sin(i), std::cos(2.0 * i), 0.1 * scan);
+      slope += row.add_point(scan, motions[scan], p_m, kNormal, share);
+    };
+    add(i % count, 1);
+    add((i * 7 + 3) % count, -0.4);
+    add((i * 5 + 1) % count, -0.6);
+    sum.scans.add(row, slope, residual, weight);
+    Eigen::VectorXd whole(last + 1);
+    whole << dense(row, motions, path), slope;
+    sum.matrix += weight * whole * whole.transpose();
+    sum.gradient += weight * residual * whole;
   }
+  return sum;
+}
+
+TEST_P(WalkEquationsOf, TheSolutionIsThatOfTheWholeMatrix) {
+  const GuidedPath path = path_of(GetParam());
+  const auto last = Eigen::Index(6 * path.blocks());
+  std::vector<ScanMotion> motions;
+  for (int i = 0; i < 40; ++i) motions.push_back(scan_at(path, 2.05 + 0.035 * i));
+  auto [scans, matrix, gradient] = matches_of(path, motions);
+  WalkEquations equations(path.blocks());
+  equations.add(scans, motions, path);
   constexpr double kFirst = 0.01, kKnot = 0.5, kOffset_s = 0.02;
   equations.hold(path.knots(), kFirst, kKnot, kOffset_s);
-  matrix.diagonal().head(unknowns).array() += 1 / (kKnot * kKnot);
-  matrix.diagonal().head<6>().array() += 1 / (kFirst * kFirst);
+  matrix.diagonal().head(last).array() += 1 / (kKnot * kKnot);
+  if (path.knots() > 0) matrix.diagonal().head<6>().array() += 1 / (kFirst * kFirst);
   matrix(last, last) += 1 / (kOffset_s * kOffset_s);
   EXPECT_LT((equations.gradient() - gradient).norm(), 1e-10 * gradient.norm());
   const Eigen::MatrixXd inverse = matrix.inverse();
   const Eigen::VectorXd step = -inverse * gradient;
-  const auto solution = equations.solve(std::nullopt, Eigen::MatrixXd(unknowns + 1, 0));
+  const auto solution = equations.solve(path.shift_block(), Eigen::MatrixXd(last + 1, 0));
   ASSERT_TRUE(solution);
   EXPECT_NEAR(solution->offset_step_s, step[last], 1e-9 * std::abs(step[last]));
   EXPECT_NEAR(solution->offset_sigma_s, std::sqrt(inverse(last, last)), 1e-9);
@@ -170,6 +200,10 @@ TEST(WalkEquations, TheSolutionIsThatOfTheWholeMatrix) {
   ASSERT_EQ(solution->block_steps.size(), path.blocks());
   for (std::size_t k = 0; k < path.blocks(); ++k)
     EXPECT_LT((solution->block_steps[k] - step.segment<6>(Eigen::Index(6 * k))).norm(), 1e-9 * step.norm());
+  if (const auto block = path.shift_block()) {
+    const auto column = inverse.col(Eigen::Index(6 * *block));
+    EXPECT_LT((solution->shift_influence - column).norm(), 1e-8 * column.norm());
+  }
 }
 
 }  // namespace
