@@ -196,7 +196,7 @@ class Walk {
   // Each stretch goes on from where the one before it ended, at its velocity; so do sweeps that were not
   // tracked at all.
   void join_stretches() {
-    std::optional<Pose> map_from_stretch;
+    Pose map_from_stretch;
     for (std::size_t i = 0; i < poses_.size(); ++i) {
       SweepPose& pose = poses_[i];
       const SweepPose* last = i > 0 ? &poses_[i - 1] : nullptr;
@@ -211,7 +211,7 @@ class Walk {
         map_from_stretch = last->end() * pose.begin().inverse();
       else if (last == nullptr)
         map_from_stretch = pose.begin().inverse();
-      for (Pose& knot : pose.knots) knot = *map_from_stretch * knot;
+      for (Pose& knot : pose.knots) knot = map_from_stretch * knot;
     }
   }
 

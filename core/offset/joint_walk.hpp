@@ -2,6 +2,7 @@
 
 // The mathematics: docs/algorithms.md, sections 11 and 13.2.
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -36,6 +37,8 @@ struct JointWalkOptions {
   // Every iteration matches again, and other matches give another answer: the mean of several is more
   // accurate.
   int first_iterations = 3, averaged_iterations = 6;
+  // Where the first iterations lead further away, the others are not run: the walk is to be tracked anew.
+  double far_s = std::numeric_limits<double>::infinity();
   std::size_t min_matches = 200;  // of a part; in a furnished place it has some thousands
 };
 
@@ -65,7 +68,8 @@ struct JointWalk {
 };
 
 /// `tracked` are the poses of the problem's sweeps as `track` gives them at `offset_s`. Absent where no part
-/// has enough matches, or the job was cancelled. The same bytes for any number of threads.
+/// has enough matches, or the job was cancelled; not converged where it leads away by more than `far_s`. The
+/// same bytes for any number of threads.
 std::optional<JointWalk> solve_joint_walk(const OffsetProblem& problem, const std::vector<SweepPose>& tracked,
                                           double offset_s, const JointWalkOptions& options, const Job& job);
 

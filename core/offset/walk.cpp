@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/loam/given_motion.hpp"
 #include "core/offset/coarse_search.hpp"
@@ -25,6 +26,8 @@ std::optional<SolvedWalk> solve_walk(const OffsetProblem& problem, double first_
   double offset_s = first_offset_s;
   MappingOptions mapping = options.mapping;
   JointWalkOptions joint = options.joint;
+  // The first iterations end within a tolerance of all of them.
+  constexpr double kFarTolerances = 2;
   for (int pass = 0; pass < options.max_passes && !walk.near; ++pass) {
     auto tracked = track(problem, offset_s, mapping, job);
     if (!tracked) return std::nullopt;
@@ -33,6 +36,8 @@ std::optional<SolvedWalk> solve_walk(const OffsetProblem& problem, double first_
     walk.lost = tracked->tracked() < options.min_sweeps;
     walk.sweeps = std::move(tracked->sweeps);
     if (walk.lost) return walk;
+    const bool last = pass + 1 == options.max_passes;
+    joint.far_s = last ? std::numeric_limits<double>::infinity() : kFarTolerances * options.step_tolerance_s;
     walk.joint = solve_joint_walk(problem, walk.sweeps, offset_s, joint, job);
     if (job.cancelled()) return std::nullopt;
     if (!walk.joint) return walk;

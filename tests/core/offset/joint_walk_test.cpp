@@ -12,7 +12,8 @@ namespace {
 
 using test::kMs;
 
-std::optional<JointWalk> solved(const Recording& recording, double offset_s, JointWalkOptions options = {}) {
+std::optional<JointWalk> solved(const Recording& recording, double offset_s,
+                                const JointWalkOptions& options = {}) {
   const OffsetProblem problem = test::problem_of(recording);
   const TrackedWalk tracked = track(problem, offset_s, options.mapping, Job()).value();
   return solve_joint_walk(problem, tracked.sweeps, offset_s, options, Job());
