@@ -58,7 +58,7 @@ std::vector<const CLI::App*> commands_of(const CLI::App& app) {
   return app.get_subcommands([](const CLI::App*) { return true; });
 }
 
-std::string replaced(std::string text, const std::map<char, std::string>& by) {
+std::string replaced(const std::string& text, const std::map<char, std::string>& by) {
   std::string out;
   for (const char c : text) {
     const auto found = by.find(c);

@@ -169,6 +169,7 @@ double default_window_s(const MotorMotion& motor, double recorded_s) {
 std::vector<RecordingPart> windows_of(double recorded_s, double window_s) {
   const auto count = std::max<std::size_t>(1, std::size_t(std::floor(recorded_s / window_s + 1e-6)));
   std::vector<RecordingPart> windows;
+  windows.reserve(count);
   for (std::size_t i = 0; i < count; ++i)
     windows.push_back({recorded_s * double(i) / double(count), recorded_s * double(i + 1) / double(count)});
   return windows;
@@ -182,6 +183,7 @@ std::vector<RecordingPart> windows_over_time(const Recording& recording, const M
 
 std::vector<RecordingPart> used_parts(const std::vector<RecordingPart>& windows, const MotorMotion& motor) {
   std::vector<RecordingPart> parts;
+  parts.reserve(windows.size());
   for (const RecordingPart& window : windows) parts.push_back(used_part(window, motor.median_sweep_s));
   return parts;
 }

@@ -23,7 +23,7 @@ struct Plane {
 
 // If there is a plane `before`, points are weighted by their distance from it.
 Plane fitted(std::span<const Eigen::Vector3d> points_m, Keys keys, const Plane* before, double width_m) {
-  const Eigen::Vector3d origin = points_m[keys.front().index];
+  const Eigen::Vector3d& origin = points_m[keys.front().index];
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
   double sum = 0;

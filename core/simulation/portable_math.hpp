@@ -8,10 +8,10 @@ namespace sweepscope::simulation {
 
 inline constexpr double kPi = 3.14159265358979323846;
 
-inline constexpr double radians(double angle_deg) {
+constexpr double radians(double angle_deg) {
   return angle_deg * (kPi / 180.0);
 }
-inline constexpr double degrees(double angle_rad) {
+constexpr double degrees(double angle_rad) {
   return angle_rad * (180.0 / kPi);
 }
 

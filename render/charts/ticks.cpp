@@ -17,9 +17,10 @@ Ticks round_ticks(double from, double to, int at_most) {
     if (ticks.step >= rough * (1 - 1e-9)) break;
   }
   const int decimals = std::max(0, static_cast<int>(-std::floor(std::log10(ticks.step) + 1e-9)));
-  const double first = std::ceil(from / ticks.step - 1e-9), last = std::floor(to / ticks.step + 1e-9);
-  for (double k = first; k <= last; ++k) {
-    const double value = k == 0 ? 0 : k * ticks.step;  // no minus zero
+  const auto first = std::llround(std::ceil(from / ticks.step - 1e-9));
+  const auto last = std::llround(std::floor(to / ticks.step + 1e-9));
+  for (auto k = first; k <= last; ++k) {
+    const double value = double(k) * ticks.step;
     ticks.values.push_back(value);
     std::string label = fmt::format("{:.{}f}", value, decimals);
     if (label.front() == '-') label.replace(0, 1, "−");

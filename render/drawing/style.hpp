@@ -47,7 +47,7 @@ inline constexpr Style kLightStyle{
 };
 
 /// The same without dark panels.
-inline constexpr Style white_style() {
+constexpr Style white_style() {
   Style style = kLightStyle;
   style.panel = {255, 255, 255};
   style.map_panel = {255, 255, 255};
@@ -56,7 +56,7 @@ inline constexpr Style white_style() {
 }
 
 /// For a page of any light colour.
-inline constexpr Style transparent_style() {
+constexpr Style transparent_style() {
   Style style = white_style();
   style.page.alpha = style.panel.alpha = style.map_panel.alpha = 0;
   return style;
@@ -66,7 +66,7 @@ enum class Background { kDark, kLight, kWhite, kTransparent };
 
 inline constexpr std::array<std::string_view, 4> kBackgroundNames{"dark", "light", "white", "transparent"};
 
-inline constexpr Style style_of(Background background) {
+constexpr Style style_of(Background background) {
   switch (background) {
     case Background::kLight:
       return kLightStyle;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 
 namespace sweepscope {
 namespace {
@@ -17,7 +18,7 @@ using Polynomial = std::array<double, 6>;
 
 double evaluate(const Polynomial& polynomial, double t) {
   double value = 0;
-  for (auto c = polynomial.rbegin(); c != polynomial.rend(); ++c) value = value * t + *c;
+  for (const double coefficient : polynomial | std::views::reverse) value = value * t + coefficient;
   return value;
 }
 

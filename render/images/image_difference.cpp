@@ -41,7 +41,8 @@ ImageDifference compare_images(const Image& actual, const Image& expected, const
       }
     }
   }
-  const auto pixels = static_cast<double>(actual.rgba.size() / Image::kChannels);
+  const std::size_t all_pixels = actual.rgba.size() / Image::kChannels;
+  const auto pixels = static_cast<double>(all_pixels);
   result.differing_fraction = pixels > 0 ? static_cast<double>(result.differing_pixels) / pixels : 0;
   result.passes = result.differing_fraction <= limits.differing_fraction &&
                   result.worst_tile_fraction <= limits.tile_fraction;

@@ -44,7 +44,8 @@ std::vector<std::array<std::uint8_t, 3>> colours_of(const ColouredPoints& points
 class PatientMapper final : public vtkOpenGLPolyDataMapper {
  public:
   static PatientMapper* New();
-  vtkTypeMacro(PatientMapper, vtkOpenGLPolyDataMapper)
+  vtkTypeMacro(PatientMapper,
+               vtkOpenGLPolyDataMapper)  // NOLINT(bugprone-derived-method-shadowing-base-method)
 
       void RenderPieceFinish(vtkRenderer* renderer, vtkActor* actor) override {
     Superclass::RenderPieceFinish(renderer, actor);

@@ -19,7 +19,7 @@
 namespace {
 
 int signal_number() {
-  static const int number = std::atoi(std::getenv("SIGNAL_ITSELF"));
+  static const int number = std::stoi(std::getenv("SIGNAL_ITSELF"));
   return number;
 }
 
@@ -30,7 +30,7 @@ const std::string& words() {
 
 // To the thread that comes here: it is delivered before anything else is done.
 void count_moment() {
-  static std::atomic<int> left{std::atoi(std::getenv("SIGNAL_ITSELF_TIMES"))};
+  static std::atomic<int> left{std::stoi(std::getenv("SIGNAL_ITSELF_TIMES"))};
   if (--left == 0) raise(signal_number());
 }
 

@@ -187,6 +187,6 @@ int run(const std::string& group) {
 }  // namespace
 }  // namespace sweepscope
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape): it may end a benchmark
   return sweepscope::run(argc > 1 ? argv[1] : "");
 }

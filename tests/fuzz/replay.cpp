@@ -97,9 +97,9 @@ int main(int argc, char** argv) {
     return 1;
   }
   for (const Bytes& bytes : corpus) try_input(bytes);
-  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(std::atof(argv[2]));
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(std::stod(argv[2]));
   std::size_t tried = 0;
-  Random random(1);
+  Random random(1);  // NOLINT(bugprone-random-generator-seed): the same tries each time
   for (; std::chrono::steady_clock::now() < end; ++tried) {
     Bytes bytes = corpus[below(random, corpus.size())];
     for (std::uint64_t changes = 1 + random() % 5; changes > 0; --changes) change_once(bytes, corpus, random);

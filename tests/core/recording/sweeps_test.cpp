@@ -179,6 +179,7 @@ TEST_F(AssignSweeps, APositiveOffsetMovesScansToLaterSweeps) {
 
 TEST_F(AssignSweeps, KeepsTheOrderOfScans) {
   std::vector<LaserScan> scans;
+  scans.reserve(60);
   for (int i = 0; i < 60; ++i) scans.push_back(scan_about(0.4 + 0.02 * i));
   const auto assigned = assign_sweeps(scans, {{0.5, 1.0, 0.5, 1.0, 1, 1}, {1.0, 1.5, 1.0, 1.5, -1, 1}}, 0);
   EXPECT_EQ(std::count(assigned.begin(), assigned.end(), 0u), 25);

@@ -231,7 +231,7 @@ TEST(PointCloud, EveryCutMessageAndAnyLyingSizeIsMalformed) {
   for (std::size_t n = 0; n < message.size(); ++n)
     EXPECT_FALSE(decode_cloud(Encoding::kRos1, as_span(message).first(n))) << n;
   // A number of the message replaced by 2^32 - 1: no read outside the message, no great allocation.
-  for (std::size_t at = 0; at + 4 <= message.size() - 10 * cloud.point_bytes(); ++at) {
+  for (std::size_t at = 0; at + 4 <= message.size() - std::size_t{10} * cloud.point_bytes(); ++at) {
     std::string lying = message;
     lying.replace(at, 4, 4, '\xff');
     CloudReader reader;
