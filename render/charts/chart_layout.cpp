@@ -68,10 +68,10 @@ double widest(const Ticks& ticks, double size_px) {
 /// As many ticks as have room for their labels beside each other.
 Ticks ticks_along(const Chart& chart, const AxisRange& range, double length_px, double size_px) {
   Ticks ticks;
-  const double most = chart.x_counts ? range.to - range.from : length_px;
-  const int min_count = chart.x_counts ? 1 : 2;
-  for (int count = std::max(min_count, static_cast<int>(std::min(length_px / (3.5 * size_px), most)));
-       count > 0; --count) {
+  // A step of 1 follows from this many, and none below it.
+  const double most = chart.x_counts ? std::ceil(range.to - range.from) : length_px;
+  for (int count = std::max(2, static_cast<int>(std::min(length_px / (3.5 * size_px), most))); count > 0;
+       --count) {
     ticks = chart.x_dates_from_s ? date_ticks(range.from, range.to, count, *chart.x_dates_from_s)
                                  : round_ticks(range.from, range.to, count);
     const double step_px = ticks.step / (range.to - range.from) * length_px;
