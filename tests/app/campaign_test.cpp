@@ -220,6 +220,23 @@ TEST_F(Campaign, OneRecordingIsHeldToWhatIsExpectedToo) {
   EXPECT_NE(outside.err.find(" ms is outside 24 +- 0.5 ms\n"), std::string::npos) << outside.err;
 }
 
+TEST_F(Campaign, ATrendIsDrawnByTheCommandAndByARecipe) {
+  EXPECT_EQ(run("estimate 06.bag 07.bag --expect 24+-0.5 --table t.json --trend t.svg").exit_code, 1);
+  EXPECT_NE(file("t.svg").find("within 24 +- 0.5 ms, 1 outside"), std::string::npos) << "under its summary";
+  const auto draw = [&](const std::string& figure) {
+    std::ofstream(folder_ / "recipe.yaml") << "figures: {trend: {kind: trend, " << figure << "}}\n";
+    return run("figures recipe.yaml -o drawn");
+  };
+  EXPECT_EQ(draw("table: t.json, formats: [svg, png], size: 900x500").exit_code, 0);
+  EXPECT_NE(file("drawn/trend.svg").find("within 24 +- 0.5 ms"), std::string::npos);
+  EXPECT_TRUE(exists("drawn/trend.png"));
+  const Outcome without = draw("formats: [svg]");
+  EXPECT_EQ(without.exit_code, 3);
+  EXPECT_NE(without.err.find("figure trend needs a table"), std::string::npos) << without.err;
+  ASSERT_EQ(run("estimate 06.bag --json one.json").exit_code, 0);
+  EXPECT_EQ(draw("table: one.json").exit_code, 3) << "an estimate is no table";
+}
+
 TEST_F(Campaign, TheTestReportIsXmlWithItsCounts) {
   if (std::system("python3 -c 'import xml.etree.ElementTree' 2>/dev/null") != 0)
     GTEST_SKIP() << "python3 with xml is not installed";
