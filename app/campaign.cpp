@@ -208,7 +208,8 @@ ExitCode run_campaign(const CampaignOptions& options, const EstimateInput& input
   const CampaignEnd end = sweepscope::run_campaign(inputs, work, options.expected, run, job);
   if (!end.done) return fail(end.done.error());
   if (job.cancelled()) {
-    if (const auto written = table.write(end.campaign); !written) return fail(written.error());
+    if (!end.campaign.rows.empty())
+      if (const auto written = table.write(end.campaign); !written) return fail(written.error());
     return fail(interrupted(end.campaign, options.table));
   }
   return conclude_campaign(options, end.campaign, table, kept.get(), inputs);

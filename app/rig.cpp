@@ -1,7 +1,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <fstream>
 #include <memory>
+#include <string_view>
 
 #include "app/applied_offset.hpp"
 #include "app/commands.hpp"
@@ -25,9 +28,15 @@ struct Options {
   std::string base_frame = "base_link", motor_frame = "motor_link", laser_frame = "laser";
 };
 
-/// By its name: recordings are recognised by their content, and no recording is YAML.
-bool is_rig_file(const std::filesystem::path& path) {
-  return path.extension() == ".yaml" || path.extension() == ".yml";
+/// --as takes rig files too. They are text, and recordings are not.
+bool is_rig_file(const Options& options) {
+  std::error_code unknown;
+  if (!options.system || !std::filesystem::is_regular_file(options.recording, unknown)) return false;
+  std::array<char, 4096> begin{};
+  std::ifstream file(options.recording, std::ios::binary);
+  file.read(begin.data(), begin.size());
+  const std::string_view bytes(begin.data(), static_cast<std::size_t>(file.gcount()));
+  return !bytes.empty() && bytes.find('\0') == bytes.npos;
 }
 
 Result<DetectedRig> detect(const Options& options) {
@@ -44,7 +53,7 @@ Result<DetectedRig> detect(const Options& options) {
 
 /// The rig that a snippet is made of: of a rig file, or of a recording.
 Result<Rig> rig_of(const Options& options) {
-  if (is_rig_file(options.recording)) return read_rig(options.recording);
+  if (is_rig_file(options)) return read_rig(options.recording);
   return detect(options).map([](const DetectedRig& detected) { return detected.rig; });
 }
 
@@ -69,16 +78,14 @@ Result<void> check_options(const Options& options) {
   if (options.system && options.estimate.has_value() == options.offset_ms.has_value())
     return refuse("--as writes the offset as well: give one of --estimate and --offset-ms");
   if (!options.system && has_offset) return refuse("--estimate and --offset-ms belong to --as");
-  if (is_rig_file(options.recording) && !options.system)
-    return refuse("a rig file is there already; --as writes it for another system");
-  if (is_rig_file(options.recording) && (options.rig || options.stamps))
+  if (is_rig_file(options) && (options.rig || options.stamps))
     return refuse("--rig and --stamps belong to a recording, not to a rig file");
   return {};
 }
 
 std::vector<std::filesystem::path> input_files(const Options& options) {
   std::vector<std::filesystem::path> files = recording_files(options.recording);
-  if (is_rig_file(options.recording)) files.push_back(options.recording);
+  if (is_rig_file(options)) files.push_back(options.recording);
   if (options.rig) files.push_back(*options.rig);
   if (options.estimate) files.push_back(*options.estimate);
   return files;
@@ -130,7 +137,7 @@ void add_rig(CLI::App& app, ExitCode& exit_code) {
   auto options = std::make_shared<Options>();
   command
       ->add_option("REC", options->recording,
-                   std::string("The recording: ") + kRecordings + "; with --as also a rig file (.yaml)")
+                   std::string("The recording: ") + kRecordings + "; with --as also a rig file")
       ->required();
   command->add_option("-o,--output", options->output, "The rig file, or that of --as (default: stdout)")
       ->type_name("OUT");

@@ -116,7 +116,7 @@ TEST_F(Campaign, IsTheSameBytesForAnyNumberOfThreads) {
     std::filesystem::remove(folder_ / (std::string("t.") + format + ".rows"));
     const Outcome two = shell("estimate 0?.bag --expect 24+-0.5 --threads 3" + table);
     EXPECT_EQ(one.out, two.out);
-    EXPECT_GT(bytes.size(), 1000U);
+    EXPECT_NE(bytes.find("09.bag"), std::string::npos) << bytes;
     EXPECT_EQ(file(std::string("t.") + format), bytes) << format;
     EXPECT_EQ(file(std::string("t.") + format + ".rows"), kept) << format;
   }

@@ -91,10 +91,11 @@ TEST_F(RigCommand, AsNeedsASystemAndOneOffset) {
   ASSERT_EQ(run("simulate room-1 --duration-s 1 -o room.bag").exit_code, 0);
   ASSERT_EQ(run("rig room.bag -o rig.yaml").exit_code, 0);
   for (const char* arguments :
-       {"room.bag --as urdf", "room.bag --as sdf --offset-ms 24", "room.bag --offset-ms 24", "rig.yaml",
+       {"room.bag --as urdf", "room.bag --as sdf --offset-ms 24", "room.bag --offset-ms 24",
         "rig.yaml --as urdf --offset-ms 24 -o rig.yaml", "rig.yaml --rig rig.yaml --as urdf --offset-ms 24",
         "room.bag --as urdf --offset-ms nan"})
     EXPECT_EQ(run(std::string("rig ") + arguments).exit_code, 2) << arguments;
+  EXPECT_EQ(run("rig rig.yaml").exit_code, 3) << "no recording";
   EXPECT_EQ(run("rig missing.yaml --as urdf --offset-ms 24").exit_code, 3);
   EXPECT_EQ(run("rig room.bag --as urdf --estimate missing.json").exit_code, 3);
 }
