@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "app/applied_offset.hpp"
 #include "app/commands.hpp"
 #include "app/progress.hpp"
 #include "app/recording_options.hpp"
@@ -11,7 +12,6 @@
 #include "core/apply/applied_records.hpp"
 #include "core/apply/apply.hpp"
 #include "core/apply/sweep_folder.hpp"
-#include "core/io/atomic_file.hpp"
 #include "core/recording/formats/read_raw_recording.hpp"
 
 namespace sweepscope::app {
@@ -32,17 +32,6 @@ struct Options {
   bool transforms = false;
 };
 
-Result<AppliedOffset> offset_of(const Options& options) {
-  if (!options.estimate) {
-    AppliedOffset offset;
-    offset.offset_s = *options.offset_ms * 1e-3;
-    return offset;
-  }
-  return read_file(*options.estimate).and_then([&](const std::string& json) {
-    return parse_applied_offset(json, options.estimate->string());
-  });
-}
-
 /// Whether the output may be written, before anything is read.
 Result<void> check_files(const Options& options) {
   std::vector<fs::path> inputs = recording_files(options.recording);
@@ -61,7 +50,7 @@ Result<void> check_files(const Options& options) {
 
 Result<ApplyOptions> apply_options(const Options& options) {
   ApplyOptions result;
-  const auto offset = offset_of(options);
+  const auto offset = applied_offset(options.estimate, options.offset_ms);
   if (!offset) return tl::unexpected(offset.error());
   result.offset = *offset;
   if (options.estimate) result.estimate = options.estimate->filename().string();

@@ -9,6 +9,7 @@
 #include "app/progress.hpp"
 #include "app/say.hpp"
 #include "core/live/calibration.hpp"
+#include "core/live/foxglove_source.hpp"
 #include "core/live/ros_source.hpp"
 #include "core/live/stream_source.hpp"
 #include "core/recording/assemble/choose_streams.hpp"
@@ -18,8 +19,8 @@ namespace sweepscope::app {
 namespace {
 
 struct Options {
-  std::string source;
-  RecordingOptions recording;  // --rig, --stamps and --threads
+  std::string source, address;  // the address: of a Foxglove server
+  RecordingOptions recording;   // --rig, --stamps and --threads
   CalibrationOptions calibration;
   std::filesystem::path record;
   EstimateOutput output;
@@ -41,6 +42,7 @@ constexpr const char* kLines =
 Result<std::unique_ptr<LiveSource>> open_source(const Options& options) {
   if (options.source == "-")
     return std::make_unique<StreamSource>(STDIN_FILENO, "standard input", options.calibration.rig);
+  if (options.source == "foxglove") return open_foxglove_source(options.address, options.calibration.rig);
   return open_ros_source(options.calibration.rig);
 }
 
@@ -115,6 +117,11 @@ bool is_a_reason(ListeningEnd end) {
 
 /// `kept`: whether what was heard could be recorded.
 Result<Estimate> run_calibration(Options& options, Result<void>& kept) {
+  if ((options.source == "foxglove") == options.address.empty())
+    return failure(ExitCode::kWrongUsage,
+                   options.address.empty()
+                       ? "calibrate foxglove needs an address, such as ws://localhost:8765"
+                       : "an address belongs to calibrate foxglove");
   if (options.recording.rig) {
     const auto rig = read_rig(*options.recording.rig);
     if (!rig) return tl::unexpected(rig.error());
@@ -164,11 +171,15 @@ void add_calibrate(CLI::App& app, ExitCode& exit_code) {
   const auto options = std::make_shared<Options>();
   const bool ros = ros_source_is_built();
   const std::string sources =
-      ros ? "- for lines on standard input, or ros for a running ROS 1 system"
-          : "- for lines on standard input (a running ROS 1 system: not built in here)";
+      ros ? "- for lines on standard input, or ros for a running ROS 1 system, or foxglove with an address"
+          : "- for lines on standard input, or foxglove with an address (a running ROS 1 system: not built in "
+            "here)";
   command->add_option("SOURCE", options->source, sources)
       ->required()
-      ->check(CLI::IsMember(ros ? std::vector<std::string>{"-", "ros"} : std::vector<std::string>{"-"}));
+      ->check(CLI::IsMember(ros ? std::vector<std::string>{"-", "ros", "foxglove"}
+                                : std::vector<std::string>{"-", "foxglove"}));
+  command->add_option("ADDRESS", options->address,
+                      "ws://HOST:PORT of a Foxglove WebSocket server, such as ROS 2's foxglove_bridge");
   command
       ->add_option("--seconds", options->calibration.seconds, "How long to listen, in seconds of scan stamps")
       ->check(finite_number())

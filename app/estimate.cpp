@@ -1,17 +1,16 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <cstdint>
 #include <filesystem>
 #include <memory>
 
+#include "app/campaign.hpp"
 #include "app/commands.hpp"
 #include "app/estimate_options.hpp"
+#include "app/estimate_recording.hpp"
 #include "app/progress.hpp"
 #include "app/say.hpp"
 #include "core/io/trajectory_file.hpp"
-#include "core/recording/formats/read_parts.hpp"
-#include "core/recording/formats/read_raw_recording.hpp"
 #include "core/recording/rig/detect_rig.hpp"
 #include "core/rig_solve/rig_solve.hpp"
 
@@ -19,7 +18,8 @@ namespace sweepscope::app {
 namespace {
 
 struct Options {
-  EstimateInput input;
+  CampaignOptions campaign;
+  EstimateInput input;  // its recording: the single one
   EstimateOutput output;
   std::string poses;  // a trajectory from elsewhere; empty: none
   bool trust_poses = false;
@@ -90,7 +90,9 @@ ExitCode conclude_search(const Options& options, const Estimate& found, Candidat
   if (found.interrupted) return conclude_interrupted(options, found, candidates);
   const auto ordered = candidates == nullptr ? Result<void>() : candidates->put_in_order();
   if (options.shard) return ordered ? say_shard(options, found, *candidates, path) : fail(ordered.error());
-  const ExitCode code = conclude(found, options.output);
+  ExitCode code = conclude(found, options.output);
+  if (code == ExitCode::kDone && options.campaign.expected)
+    code = conclude_expectation(*options.campaign.expected, found, !options.output.on_stdout());
   if (const auto written = write_rig(options, found); !written) return fail(written.error());
   return ordered ? code : fail(ordered.error());
 }
@@ -111,6 +113,8 @@ Result<void> check_options(const Options& options) {
     return refuse("--rig-out writes what --solve found: add --solve mount, play or encoder");
   if (options.shard && (!options.output.json.empty() || !options.output.csv.empty()))
     return refuse("--shard computes candidates; merge takes --json and --csv");
+  if (options.shard && options.campaign.expected)
+    return refuse("--shard computes candidates; --expect needs an offset");
   if (options.shard && search.ranges.empty() && !search.around)
     return refuse("--shard needs --range or --around: the default search chooses its candidates as it goes");
   if (search.over_time_s && method_of(search, RigKind::kMoving, keeps(options)) != Method::kDirect)
@@ -134,46 +138,37 @@ std::vector<std::filesystem::path> input_files(const Options& options) {
   return files;
 }
 
-bool is_large(const std::filesystem::path& recording) {
-  constexpr std::uintmax_t kLarge_bytes = std::uintmax_t{64} << 20;
-  std::uintmax_t bytes = 0;
-  std::error_code unknown;
-  for (const std::filesystem::path& file : recording_files(recording))
-    if (const auto size = std::filesystem::file_size(file, unknown); !unknown) bytes += size;
-  return bytes > kLarge_bytes;
+/// What makes no sense for several recordings, which share one table.
+Result<void> check_campaign(const Options& options) {
+  const auto refuse = [](const char* option, const char* instead) {
+    return failure(
+        ExitCode::kWrongUsage,
+        fmt::format("{} belongs to a single recording without --table and --trend{}", option, instead));
+  };
+  if (!options.output.json.empty() || !options.output.csv.empty())
+    return refuse(options.output.json.empty() ? "--csv" : "--json",
+                  ": use --table OUT.csv, .md, .json or .xml");
+  if (keeps(options)) return refuse(options.shard ? "--shard" : "--resume", "");
+  if (!options.poses.empty()) return refuse("--poses", "");
+  if (!options.rig_out.empty()) return refuse("--rig-out", "");
+  return {};
 }
 
-/// Of a large file of a rig that stood still only those parts are read that decide. None where the rig moved,
-/// and where the file is to be read wholly anyway.
-Result<std::optional<Estimate>> estimate_from_parts(const Options& options, const EstimateOptions& search) {
-  const RecordingOptions& input = options.input.recording;
-  if (keeps(options) || input.window || !options.poses.empty() || !is_large(input.recording))
-    return std::nullopt;
-  const auto how = input.read_options();
-  if (!how) return tl::unexpected(how.error());
+Result<std::optional<DatedEstimate>> from_parts(const Options& options, const EstimateOptions& search) {
+  if (keeps(options) || !options.poses.empty()) return std::nullopt;
   const Progress progress;
-  const Job& job = progress.job();
-  const auto outline = read_without_ranges(input.recording, *how, job);
-  if (!outline) return tl::unexpected(outline.error());
-  const auto parts = parts_of_estimate(*outline, search);
-  if (!parts) return std::nullopt;
-  return read_parts(input.recording, *how, *outline, *parts, job).and_then([&](const Recording& read) {
-    return estimate_by_parts(read, search, job);
-  });
+  return estimate_from_parts(options.input.recording, search, progress.job());
 }
 
-ExitCode run(const Options& options, std::vector<std::string> deciding) {
-  const auto threads = options.input.recording.limit_threads();
+ExitCode run_single(const Options& options, std::vector<std::string> deciding) {
   const std::string path = options.resume.empty() && options.shard ? shard_file(options) : options.resume;
-  const auto checked = check_options(options).and_then([&] {
-    return options.output.check(input_files(options), {path, options.rig_out});
-  });
-  if (!checked) return fail(checked.error());
+  if (const auto checked = options.output.check(input_files(options), {path, options.rig_out}); !checked)
+    return fail(checked.error());
   EstimateOptions estimate_options = options.input.estimate;
   estimate_options.assume = options.input.recording.assumed_kind();
-  auto from_parts = estimate_from_parts(options, estimate_options);
-  if (!from_parts) return fail(from_parts.error());
-  if (*from_parts) return conclude_search(options, **from_parts, nullptr, path);
+  const auto in_parts = from_parts(options, estimate_options);
+  if (!in_parts) return fail(in_parts.error());
+  if (*in_parts) return conclude_search(options, (*in_parts)->estimate, nullptr, path);
   std::unique_ptr<CandidateFile> candidates;
   Result<Estimate> found;
   {
@@ -194,6 +189,17 @@ ExitCode run(const Options& options, std::vector<std::string> deciding) {
   }
   if (!found) return fail(found.error());
   return conclude_search(options, *found, candidates.get(), path);
+}
+
+ExitCode run(Options& options, std::vector<std::string> deciding) {
+  const auto threads = options.input.recording.limit_threads();
+  const bool campaign = options.campaign.is_campaign();
+  const auto checked =
+      check_options(options).and_then([&] { return campaign ? check_campaign(options) : Result<void>(); });
+  if (!checked) return fail(checked.error());
+  if (campaign) return run_campaign(options.campaign, options.input, deciding);
+  options.input.recording.recording = options.campaign.recordings.front();
+  return run_single(options, std::move(deciding));
 }
 
 void declare_poses(CLI::App& command, Options& options) {
@@ -229,7 +235,8 @@ void add_estimate(CLI::App& app, ExitCode& exit_code) {
   CLI::App* command = app.add_subcommand("estimate", "Find the offset: t_motor = t_laser + offset");
   auto options = std::make_shared<Options>();
   options->input.recording.keep_intensities = false;
-  options->input.declare(*command);
+  options->campaign.declare(*command);
+  options->input.declare_search(*command);
   options->output.declare(*command);
   declare_poses(*command, *options);
   command

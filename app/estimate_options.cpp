@@ -140,6 +140,12 @@ void EstimateInput::declare(CLI::App& app) {
   declare_options(app, estimate);
 }
 
+void EstimateInput::declare_search(CLI::App& app) {
+  recording.declare_reading(app);
+  recording.declare_computing(app);
+  declare_options(app, estimate);
+}
+
 void EstimateOutput::declare(CLI::App& app) {
   app.add_option("--json", json, "Write the result as JSON; - for stdout")->type_name("F");
   app.add_option("--csv", csv,
@@ -166,8 +172,8 @@ Result<void> EstimateOutput::write(const Estimate& estimate) const {
 }
 
 std::vector<std::string> deciding_options(const CLI::App& command) {
-  static constexpr std::array kOthers{"--rig",     "--json",   "--csv",  "--no-timing",
-                                      "--threads", "--resume", "--shard"};
+  static constexpr std::array kOthers{"--rig",    "--json",  "--csv",    "--no-timing", "--threads",
+                                      "--resume", "--shard", "--expect", "--table",     "--trend"};
   std::vector<std::string> options;
   for (const CLI::Option* option : command.get_options()) {
     const std::string name = option->get_name();

@@ -19,6 +19,8 @@ struct EstimateInput {
 
   /// The options write to this object, which must outlive `app`'s parsing.
   void declare(CLI::App& app);
+  /// The same without REC, for a subcommand that takes several.
+  void declare_search(CLI::App& app);
 };
 
 /// The outputs of the result.

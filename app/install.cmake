@@ -19,7 +19,7 @@ add_custom_target(manual ALL DEPENDS ${manual_files})
 
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME program)
 install(TARGETS sweepscope RUNTIME COMPONENT program)
-install(DIRECTORY assets/rigs assets/figures assets/ui assets/slurm
+install(DIRECTORY assets/rigs assets/figures assets/ui assets/slurm assets/snakemake
         DESTINATION ${CMAKE_INSTALL_DATADIR}/sweepscope COMPONENT program PATTERN "*.png" EXCLUDE)
 install(FILES ${manual_folder}/sweepscope.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
 install(FILES ${manual_folder}/sweepscope.bash

@@ -121,8 +121,9 @@ int output_failed() {
 
 int internal_error(const std::exception& error) {
   if (std::ferror(stdout) != 0) return output_failed();
+  constexpr int kFaultOfTheProgram = 70;  // as sysexits.h has it; 1 is an answer, that of --expect
   app::say("sweepscope: internal error: {}\n", error.what());
-  return 1;
+  return kFaultOfTheProgram;
 }
 
 // What was printed may still lie in a buffer, and its disk may be full or its reader gone.

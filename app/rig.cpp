@@ -1,10 +1,16 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <fstream>
 #include <memory>
+#include <string_view>
 
+#include "app/applied_offset.hpp"
 #include "app/commands.hpp"
 #include "app/progress.hpp"
 #include "app/recording_options.hpp"
+#include "core/apply/rig_snippet.hpp"
 #include "core/recording/formats/read_raw_recording.hpp"
 #include "core/recording/rig/detect_rig.hpp"
 
@@ -16,9 +22,24 @@ struct Options {
   std::optional<std::filesystem::path> rig;
   std::optional<StampSource> stamps;
   std::string output = "-";
+  std::optional<RigSystem> system;  // none: the rig file
+  std::optional<std::filesystem::path> estimate;
+  std::optional<double> offset_ms;
+  std::string base_frame = "base_link", motor_frame = "motor_link", laser_frame = "laser";
 };
 
-Result<std::string> detect(const Options& options) {
+/// --as takes rig files too. They are text, and recordings are not.
+bool is_rig_file(const Options& options) {
+  std::error_code unknown;
+  if (!options.system || !std::filesystem::is_regular_file(options.recording, unknown)) return false;
+  std::array<char, 4096> begin{};
+  std::ifstream file(options.recording, std::ios::binary);
+  file.read(begin.data(), begin.size());
+  const std::string_view bytes(begin.data(), static_cast<std::size_t>(file.gcount()));
+  return !bytes.empty() && bytes.find('\0') == bytes.npos;
+}
+
+Result<DetectedRig> detect(const Options& options) {
   ReadOptions reading;
   reading.stamps = options.stamps;
   if (options.rig) {
@@ -27,33 +48,99 @@ Result<std::string> detect(const Options& options) {
     reading.rig = *given;
   }
   const Progress progress;
-  return detect_rig(options.recording, reading, progress.job()).map(rig_file_text);
+  return detect_rig(options.recording, reading, progress.job());
+}
+
+/// The rig that a snippet is made of: of a rig file, or of a recording.
+Result<Rig> rig_of(const Options& options) {
+  if (is_rig_file(options)) return read_rig(options.recording);
+  return detect(options).map([](const DetectedRig& detected) { return detected.rig; });
+}
+
+Result<std::string> snippet_text(const Options& options) {
+  RigSnippet snippet;
+  const auto rig = rig_of(options);
+  if (!rig) return tl::unexpected(rig.error());
+  snippet.rig = *rig;
+  const auto offset = applied_offset(options.estimate, options.offset_ms);
+  if (!offset) return tl::unexpected(offset.error());
+  snippet.offset = *offset;
+  snippet.base_frame = options.base_frame;
+  snippet.motor_frame = options.motor_frame;
+  snippet.laser_frame = options.laser_frame;
+  snippet.source = options.recording.filename().string();
+  return rig_snippet(snippet, *options.system);
+}
+
+Result<void> check_options(const Options& options) {
+  const auto refuse = [](const char* why) { return failure(ExitCode::kWrongUsage, why); };
+  const bool has_offset = options.estimate || options.offset_ms;
+  if (options.system && options.estimate.has_value() == options.offset_ms.has_value())
+    return refuse("--as writes the offset as well: give one of --estimate and --offset-ms");
+  if (!options.system && has_offset) return refuse("--estimate and --offset-ms belong to --as");
+  if (is_rig_file(options) && (options.rig || options.stamps))
+    return refuse("--rig and --stamps belong to a recording, not to a rig file");
+  return {};
 }
 
 std::vector<std::filesystem::path> input_files(const Options& options) {
   std::vector<std::filesystem::path> files = recording_files(options.recording);
+  if (is_rig_file(options)) files.push_back(options.recording);
   if (options.rig) files.push_back(*options.rig);
+  if (options.estimate) files.push_back(*options.estimate);
   return files;
 }
 
 ExitCode run(const Options& options) {
-  if (const auto checked = check_outputs({options.output}, input_files(options)); !checked)
-    return fail(checked.error());
-  const auto text = detect(options);
+  const auto checked =
+      check_options(options).and_then([&] { return check_outputs({options.output}, input_files(options)); });
+  if (!checked) return fail(checked.error());
+  const auto text = options.system ? snippet_text(options) : detect(options).map(rig_file_text);
   if (!text) return fail(text.error());
   const auto written = write_text(options.output, *text);
   return written ? ExitCode::kDone : fail(written.error());
+}
+
+void declare_snippet(CLI::App& command, Options& options) {
+  command
+      .add_option_function<std::string>(
+          "--as",
+          [&options](const std::string& name) {
+            const auto& names = rig_system_names();
+            options.system = static_cast<RigSystem>(std::ranges::find(names, name) - names.begin());
+          },
+          "Write the mount and the offset for this system instead")
+      ->type_name("SYSTEM")
+      ->check(CLI::IsMember(rig_system_names()));
+  command.add_option("--estimate", options.estimate, "Estimate (JSON) whose offset --as writes")
+      ->type_name("E.json");
+  command.add_option("--offset-ms", options.offset_ms, "The offset, where there is no estimate")
+      ->check(finite_number());
+  command.add_option("--base-frame", options.base_frame, "The base frame in what --as writes")
+      ->capture_default_str()
+      ->type_name("NAME");
+  command.add_option("--motor-frame", options.motor_frame, "The frame that turns with the motor")
+      ->capture_default_str()
+      ->type_name("NAME");
+  command.add_option("--laser-frame", options.laser_frame, "The laser's frame")
+      ->capture_default_str()
+      ->type_name("NAME");
 }
 
 }  // namespace
 
 void add_rig(CLI::App& app, ExitCode& exit_code) {
   CLI::App* command = app.add_subcommand(
-      "rig", "Write a rig file with what was detected in a recording, to edit and to give with --rig");
+      "rig",
+      "Write a rig file with what was detected in a recording, to edit and to give with --rig; or the mount "
+      "and the offset as other systems read them");
   auto options = std::make_shared<Options>();
-  command->add_option("REC", options->recording, std::string("The recording: ") + kRecordings)->required();
-  command->add_option("-o,--output", options->output, "The rig file (default: stdout)")
-      ->type_name("OUT.yaml");
+  command
+      ->add_option("REC", options->recording,
+                   std::string("The recording: ") + kRecordings + "; with --as also a rig file")
+      ->required();
+  command->add_option("-o,--output", options->output, "The rig file, or that of --as (default: stdout)")
+      ->type_name("OUT");
   command
       ->add_option("--rig", options->rig,
                    "Rig file with what is already known, or that names the laser and the motor where that is "
@@ -68,6 +155,7 @@ void add_rig(CLI::App& app, ExitCode& exit_code) {
           "Stamps to use for both streams: header or receive (default: the rig file's, else header)")
       ->type_name("S")
       ->check(CLI::IsMember({"header", "receive"}));
+  declare_snippet(*command, *options);
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

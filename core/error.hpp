@@ -9,6 +9,7 @@ namespace sweepscope {
 /// The program's exit codes.
 enum class ExitCode : int {
   kDone = 0,
+  kNotAsExpected = 1,  // an offset lies outside of where it was expected
   kWrongUsage = 2,
   kUnreadableInput = 3,
   kNotIdentifiable = 4,

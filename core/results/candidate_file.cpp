@@ -1,8 +1,6 @@
 #include "core/results/candidate_file.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -15,8 +13,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/io/atomic_file.hpp"
-#include "core/io/content_hash.hpp"
 #include "core/results/fields.hpp"
+#include "core/results/sealed_line.hpp"
 
 namespace sweepscope {
 namespace {
@@ -26,21 +24,8 @@ using Json = nlohmann::ordered_json;
 constexpr std::string_view kSchema = "sweepscope.candidates/2";
 constexpr std::string_view kOurs = "{\"schema\":\"sweepscope.candidates/";  // what every version begins with
 
-/// What ends a line: the hash of the bytes before it.
-std::string seal_of(std::string_view bytes) {
-  return fmt::format(",\"hash\":\"{}\"}}", content_hash(bytes));
-}
-
 std::string text_of(const Json& line) {
   return sealed_line(line.dump(-1, ' ', false, Json::error_handler_t::replace));
-}
-
-/// Whether no byte of it is another than when it was written.
-bool is_sound(std::string_view line) {
-  static const std::size_t seal_bytes = seal_of("").size();
-  if (line.size() < seal_bytes) return false;
-  const std::string_view bytes = line.substr(0, line.size() - seal_bytes);
-  return line.substr(bytes.size()) == seal_of(bytes);
 }
 
 std::string header_line(const CandidateSearch& search) {
@@ -126,40 +111,6 @@ std::string listed(const std::vector<std::string>& options) {
   return text.empty() ? "no options" : text;
 }
 
-bool write_whole(int descriptor, std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t written = write(descriptor, bytes.data(), bytes.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) return false;
-    bytes.remove_prefix(static_cast<std::size_t>(written));
-  }
-  return true;
-}
-
-// Opened and locked; -1 with errno where that cannot be. The file may be put in order, and thereby renamed
-// away, between the two.
-int open_locked(const std::filesystem::path& path) {
-  constexpr int kTries = 10;
-  for (int i = 0; i < kTries; ++i) {
-    const int descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-    if (descriptor < 0) return -1;
-    // Where a file system knows no locks there is none.
-    if (flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-      close(descriptor);
-      errno = EWOULDBLOCK;
-      return -1;
-    }
-    struct stat opened {
-    }, named{};
-    if (fstat(descriptor, &opened) == 0 && stat(path.c_str(), &named) == 0 && opened.st_ino == named.st_ino &&
-        opened.st_dev == named.st_dev)
-      return descriptor;
-    close(descriptor);
-  }
-  errno = EWOULDBLOCK;
-  return -1;
-}
-
 bool is_ours(std::string_view text) {
   return text.starts_with(kOurs) || kOurs.starts_with(text);
 }
@@ -184,7 +135,7 @@ Result<Candidates> parse_candidates(std::string_view text, std::string_view name
     if (++number == 1) {
       if (auto checked = check_header(line, name); !checked) return tl::unexpected(checked.error());
     }
-    if (!is_sound(line))
+    if (!is_sound_line(line))
       return unreadable(
           fmt::format("{}: line {}: is damaged. Delete the file and run the estimate again", name, number));
     try {
@@ -206,11 +157,6 @@ Result<Candidates> parse_candidates(std::string_view text, std::string_view name
 Result<Candidates> read_candidates(const std::filesystem::path& path) {
   return read_file(path).and_then(
       [&](const std::string& text) { return parse_candidates(text, path.string()); });
-}
-
-std::string sealed_line(std::string_view object) {
-  const std::string_view bytes = object.substr(0, object.size() - 1);  // the seal closes it
-  return fmt::format("{}{}\n", bytes, seal_of(bytes));
 }
 
 std::string candidates_text(const CandidateSearch& search, const std::vector<CurvePoint>& points) {

@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/offset/kept_candidates.hpp"
+#include "core/results/sealed_line.hpp"
 
 namespace sweepscope {
 
@@ -37,9 +38,6 @@ Result<Candidates> parse_candidates(std::string_view text, std::string_view name
 Result<Candidates> read_candidates(const std::filesystem::path& path);
 /// The text of such a file.
 std::string candidates_text(const CandidateSearch& search, const std::vector<CurvePoint>& points);
-
-/// A JSON object as a line of such a file, with its hash and its end.
-std::string sealed_line(std::string_view object);
 
 /// Why two searches are not the same, except for their shards: "it holds --weight-c=2, and this is
 /// --weight-c=1". The folders of the files are not compared. Empty if the searches are the same.

@@ -70,6 +70,11 @@ void add_bands(const Canvas& c) {
                  to = std::min(plot.right(), c.layout.x_px(band.to));
     if (from < to) c.drawing.fill({from, plot.top, to - from, plot.height}, with_alpha(band.colour, 56));
   }
+  for (const ChartBand& band : c.chart.y_bands) {
+    const double top = std::max(plot.top, c.layout.y_px(band.to)),
+                 bottom = std::min(plot.bottom(), c.layout.y_px(band.from));
+    if (top < bottom) c.drawing.fill({plot.left, top, plot.width, bottom - top}, with_alpha(band.colour, 56));
+  }
 }
 
 LineMark line_of(const Canvas& c, const ChartSeries& series) {
@@ -98,7 +103,8 @@ void add_area(const Canvas& c, const ChartSeries& series) {
   }
 }
 
-/// Points that lie close get smaller shapes, or, beside other series, a shape now and then.
+/// Points that lie close get smaller shapes, or, on a line beside other series, a shape now and then. Of
+/// single points beside other series each is shown.
 void add_shapes(const Canvas& c, const ChartSeries& series, const std::vector<PixelPoint>& stretch,
                 bool beside_others) {
   const double radius = 3.2 * c.scale;
@@ -106,10 +112,10 @@ void add_shapes(const Canvas& c, const ChartSeries& series, const std::vector<Pi
   PixelPoint last{-std::numeric_limits<double>::max(), 0};
   for (std::size_t i = 0; i < stretch.size(); ++i) {
     double fitting = radius;
-    if (beside_others) {
+    if (beside_others && series.joined) {
       if (std::hypot(stretch[i].x - last.x, stretch[i].y - last.y) < 4 * radius) continue;
       last = stretch[i];
-    } else {
+    } else if (!beside_others) {
       if (i > 0) fitting = std::min(fitting, 0.36 * gap_px(i));
       if (i + 1 < stretch.size()) fitting = std::min(fitting, 0.36 * gap_px(i + 1));
     }

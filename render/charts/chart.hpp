@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -38,7 +39,7 @@ struct ChartMarker {
   MarkerShape shape = MarkerShape::kDiamond;
 };
 
-/// A shaded range of x, such as an uncertainty.
+/// A shaded range of x, such as an uncertainty, or of y, such as where values are expected.
 struct ChartBand {
   double from = 0, to = 0;
   Colour colour;
@@ -62,6 +63,9 @@ struct Chart {
   std::vector<ChartBand> bands;
   std::vector<ChartSpan> spans;
   std::string absent_name;  // what an absent value means, in the legend
+  std::vector<ChartBand> y_bands;
+  bool x_counts = false;                       // x are whole numbers, as are the ticks
+  std::optional<std::int64_t> x_dates_from_s;  // x is a date: seconds since this one, which is since 1970
 };
 
 /// Draws the chart with its title, legend and labels inside `place`; `scale` is 1 for letters of 13 px.

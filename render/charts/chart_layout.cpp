@@ -28,7 +28,10 @@ class Extent {
 AxisRange range_of_x(const Chart& chart) {
   Extent extent;
   for (const ChartSeries& series : chart.series) {
-    for (const double x : series.x) extent.include(x);
+    for (const double x : series.x) {
+      extent.include(chart.x_counts ? x - 0.5 : x);
+      extent.include(chart.x_counts ? x + 0.5 : x);
+    }
   }
   for (const ChartVertical& vertical : chart.verticals) extent.include(vertical.x);
   return extent.padded(0.04, false);
@@ -48,6 +51,10 @@ AxisRange range_of_y(const Chart& chart) {
   }
   for (const ChartMarker& marker : chart.markers) extent.include(marker.y);
   for (const ChartSpan& span : chart.spans) extent.include(span.y);
+  for (const ChartBand& band : chart.y_bands) {
+    extent.include(band.from);
+    extent.include(band.to);
+  }
   if (with_zero) extent.include(0);
   return extent.padded(0.08, with_zero);
 }
@@ -59,10 +66,14 @@ double widest(const Ticks& ticks, double size_px) {
 }
 
 /// As many ticks as have room for their labels beside each other.
-Ticks ticks_along(const AxisRange& range, double length_px, double size_px) {
+Ticks ticks_along(const Chart& chart, const AxisRange& range, double length_px, double size_px) {
   Ticks ticks;
-  for (int count = std::max(2, static_cast<int>(length_px / (3.5 * size_px))); count > 0; --count) {
-    ticks = round_ticks(range.from, range.to, count);
+  // A step of 1 follows from this many, and none below it.
+  const double most = chart.x_counts ? std::ceil(range.to - range.from) : length_px;
+  for (int count = std::max(2, static_cast<int>(std::min(length_px / (3.5 * size_px), most))); count > 0;
+       --count) {
+    ticks = chart.x_dates_from_s ? date_ticks(range.from, range.to, count, *chart.x_dates_from_s)
+                                 : round_ticks(range.from, range.to, count);
     const double step_px = ticks.step / (range.to - range.from) * length_px;
     if (widest(ticks, size_px) + size_px <= step_px) break;
   }
@@ -179,7 +190,7 @@ ChartLayout lay_out_chart(const Chart& chart, const PixelRect& place, double sca
                                std::max(2, static_cast<int>(layout.plot.height / (32 * scale))));
   layout.plot.left = place.left + std::min(widest(layout.y_ticks, size) + 12 * scale, 0.2 * place.width);
   layout.plot.width = place.right() - layout.plot.left;
-  layout.x_ticks = ticks_along(layout.x, layout.plot.width, size);
+  layout.x_ticks = ticks_along(chart, layout.x, layout.plot.width, size);
   if (!layout.x_ticks.values.empty()) {  // the last tick's label stays inside too
     const double end =
         layout.x_px(layout.x_ticks.values.back()) + text_width_px(layout.x_ticks.labels.back(), size) / 2;

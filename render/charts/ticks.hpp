@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,11 @@ struct Ticks {
 
 /// Steps of 1, 2 or 5 times a power of ten, `at_most` of them over the range.
 Ticks round_ticks(double from, double to, int at_most);
+
+/// Ticks at dates (UTC), for values in seconds since `origin_s`, which is since 1970: at whole seconds,
+/// minutes, hours, days, months or years, `at_most` of them over the range. `step` is the least distance
+/// between two.
+Ticks date_ticks(double from, double to, int at_most, std::int64_t origin_s);
 
 /// The greatest of 1, 2 or 5 times a power of ten that is at most `length`.
 double round_length(double length);

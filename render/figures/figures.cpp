@@ -7,6 +7,8 @@
 #include <cmath>
 #include <system_error>
 
+#include "core/campaign/campaign_json.hpp"
+#include "core/io/atomic_file.hpp"
 #include "core/io/output_check.hpp"
 #include "core/io/table.hpp"
 #include "core/loam/features.hpp"
@@ -17,6 +19,7 @@
 #include "render/figures/figure_data.hpp"
 #include "render/figures/figure_pictures.hpp"
 #include "render/figures/figure_table.hpp"
+#include "render/figures/trend_picture.hpp"
 #include "render/vector/vector_file.hpp"
 
 namespace sweepscope {
@@ -184,6 +187,14 @@ Result<Made> make(const OverTimeFigure& figure, const ComparisonOptions& look, F
   });
 }
 
+Result<Made> make(const TrendFigure& figure, const ComparisonOptions& look, FigureData&) {
+  const auto campaign = read_file(figure.table).and_then([&](const std::string& json) {
+    return parse_campaign_json(json, figure.table.string());
+  });
+  if (!campaign) return tl::unexpected(campaign.error());
+  return Made{trend_picture(*campaign, look), summary_of(*campaign)};
+}
+
 std::string extension_of(PictureFormat format) {
   return format == PictureFormat::kSvg ? ".svg" : format == PictureFormat::kPdf ? ".pdf" : ".png";
 }
@@ -200,6 +211,8 @@ std::vector<std::filesystem::path> input_files(const Recipe& recipe) {
   }
   for (const auto& [name, estimate] : recipe.estimates)
     if (!estimate.file.empty()) files.push_back(estimate.file);
+  for (const FigureSpec& figure : recipe.figures)
+    if (const auto* trend = std::get_if<TrendFigure>(&figure.what)) files.push_back(trend->table);
   return files;
 }
 

@@ -329,16 +329,24 @@ class RecipeReader {
     };
   }
 
+  void add_trend_members(Members& members, TrendFigure& figure, const std::string& name) {
+    members["table"] = [this, &figure, name](const Node& v) {
+      figure.table = folder_ / read_text(v, name + ": table");
+    };
+  }
+
   static std::string kind_of(const Node& node, const std::string& name) {
     if (!node.IsMap()) refuse(node, name + " must be a map of keys to values");
     const Node kind = node["kind"];
-    if (!kind.IsDefined()) refuse(node, name + " needs a kind: maps, curves, profile, scan or over-time");
+    if (!kind.IsDefined())
+      refuse(node, name + " needs a kind: maps, curves, profile, scan, over-time or trend");
     return read_choice<std::string>(kind, name + ": kind",
                                     {{"maps", "maps"},
                                      {"curves", "curves"},
                                      {"profile", "profile"},
                                      {"scan", "scan"},
-                                     {"over-time", "over-time"}});
+                                     {"over-time", "over-time"},
+                                     {"trend", "trend"}});
   }
 
   FigureSpec read_figure(const std::string& figure_name, const Node& node) {
@@ -360,12 +368,15 @@ class RecipeReader {
     ProfileFigure profile;
     ScanFigure scan;
     OverTimeFigure over_time;
+    TrendFigure trend;
     if (kind == "maps") add_maps_members(members, maps, name);
     if (kind == "curves") add_curves_members(members, curves, name);
     if (kind == "profile") add_profile_members(members, profile, name);
     if (kind == "scan") add_scan_members(members, scan, name);
     if (kind == "over-time") add_over_time_members(members, over_time);
+    if (kind == "trend") add_trend_members(members, trend, name);
     read_members(node, name, members);
+    if (kind == "trend") spec.what = trend;
     if (kind == "over-time") spec.what = over_time;
     if (kind == "maps") spec.what = maps;
     if (kind == "curves") spec.what = curves;
@@ -387,6 +398,8 @@ class RecipeReader {
     const auto* over_time = std::get_if<OverTimeFigure>(&spec.what);
     if (scan && scan->recording.empty()) refuse(node, name + " needs a recording");
     if (over_time && over_time->estimate.empty()) refuse(node, name + " needs an estimate");
+    const auto* trend = std::get_if<TrendFigure>(&spec.what);
+    if (trend && trend->table.empty()) refuse(node, name + " needs a table");
     if (profile && profile->at_m && !profile->heights) refuse(node, name + ": at_m needs heights_m");
   }
 

@@ -79,9 +79,14 @@ struct OverTimeFigure {
   std::string estimate;
 };
 
+/// The offsets of many recordings, from a table that `estimate --table` wrote as JSON.
+struct TrendFigure {
+  std::filesystem::path table;
+};
+
 struct FigureSpec {
   std::string name;  // of the files
-  std::variant<MapsFigure, CurvesFigure, ProfileFigure, ScanFigure, OverTimeFigure> what;
+  std::variant<MapsFigure, CurvesFigure, ProfileFigure, ScanFigure, OverTimeFigure, TrendFigure> what;
   ComparisonOptions look;
   std::vector<PictureFormat> formats;
 };

@@ -149,5 +149,16 @@ TEST_F(CalibrateCommand, NoCommandLeavesAnythingOfRossInTheHomeFolder) {
   }
 }
 
+TEST_F(CalibrateCommand, AFoxgloveServerHasAnAddressAndMustBeThere) {
+  EXPECT_EQ(run("calibrate foxglove").exit_code, 2);
+  EXPECT_EQ(run("calibrate foxglove localhost:8765").exit_code, 2);
+  EXPECT_EQ(run("calibrate - ws://localhost:8765 <stream.csv").exit_code, 2);
+  const Outcome nobody = run("calibrate foxglove ws://127.0.0.1:9 --record kept.mcap --json out.json");
+  EXPECT_EQ(nobody.exit_code, 3);
+  EXPECT_NE(nobody.err.find("ws://127.0.0.1:9/: cannot be reached"), std::string::npos) << nobody.err;
+  EXPECT_FALSE(exists("kept.mcap"));
+  EXPECT_FALSE(exists("out.json"));
+}
+
 }  // namespace
 }  // namespace sweepscope

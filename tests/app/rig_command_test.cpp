@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "tests/program.hpp"
@@ -63,6 +64,40 @@ TEST_F(RigCommand, WhatItCannotReadOrWriteIsSaid) {
   EXPECT_EQ(run("rig missing.bag").exit_code, 3);
   ASSERT_EQ(run("simulate room-1 --duration-s 1 -o room.bag").exit_code, 0);
   EXPECT_EQ(run("rig room.bag -o no/such/rig.yaml").exit_code, 2);
+}
+
+TEST_F(RigCommand, AsWritesTheMountAndTheOffsetOfARecordingOrARigFile) {
+  ASSERT_EQ(run("simulate room-1 --duration-s 3 --offset-ms 24 -o room.bag").exit_code, 0);
+  ASSERT_EQ(run("rig room.bag -o rig.yaml").exit_code, 0);
+  ASSERT_EQ(run("estimate room.bag --no-timing --json E.json").exit_code, 0);
+  const double offset_ms =
+      nlohmann::json::parse(test::contents_of(folder_ / "E.json")).at("offset_ms").get<double>();
+  for (const char* system :
+       {"urdf", "xacro", "ros2-static-tf", "laser_assembler", "cartographer", "fast-lio"}) {
+    const std::string as = std::string(" --as ") + system;
+    const Outcome of_estimate = run("rig room.bag --estimate E.json" + as);
+    ASSERT_EQ(of_estimate.exit_code, 0) << of_estimate.err;
+    EXPECT_NE(of_estimate.out.find(fmt::format("offset {:.9f} s", offset_ms * 1e-3)), std::string::npos)
+        << of_estimate.out;
+    EXPECT_EQ(run("rig room.bag --offset-ms " + fmt::format("{}", offset_ms) + as).out, of_estimate.out);
+    EXPECT_EQ(run("rig rig.yaml -o out --estimate E.json" + as).exit_code, 0);
+    std::string of_rig = test::contents_of(folder_ / "out");
+    of_rig.replace(of_rig.find("rig.yaml"), 8, "room.bag");
+    EXPECT_EQ(of_rig, of_estimate.out);
+  }
+}
+
+TEST_F(RigCommand, AsNeedsASystemAndOneOffset) {
+  ASSERT_EQ(run("simulate room-1 --duration-s 1 -o room.bag").exit_code, 0);
+  ASSERT_EQ(run("rig room.bag -o rig.yaml").exit_code, 0);
+  for (const char* arguments :
+       {"room.bag --as urdf", "room.bag --as sdf --offset-ms 24", "room.bag --offset-ms 24",
+        "rig.yaml --as urdf --offset-ms 24 -o rig.yaml", "rig.yaml --rig rig.yaml --as urdf --offset-ms 24",
+        "room.bag --as urdf --offset-ms nan"})
+    EXPECT_EQ(run(std::string("rig ") + arguments).exit_code, 2) << arguments;
+  EXPECT_EQ(run("rig rig.yaml").exit_code, 3) << "no recording";
+  EXPECT_EQ(run("rig missing.yaml --as urdf --offset-ms 24").exit_code, 3);
+  EXPECT_EQ(run("rig room.bag --as urdf --estimate missing.json").exit_code, 3);
 }
 
 }  // namespace

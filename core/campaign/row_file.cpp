@@ -1,0 +1,129 @@
+#include "core/campaign/row_file.hpp"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "core/campaign/campaign_json.hpp"
+#include "core/io/atomic_file.hpp"
+#include "core/recording/formats/read_raw_recording.hpp"
+#include "core/results/sealed_line.hpp"
+
+namespace sweepscope {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string header_line() {
+  return sealed_line("{\"schema\":\"sweepscope.rows/1\"}");
+}
+
+std::string line_of(const KeptRow& kept) {
+  Json json;
+  json["key"] = kept.key;
+  json["row"] = row_to_json(kept.row);
+  return sealed_line(json.dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
+}  // namespace
+
+RowFile::RowFile(std::filesystem::path path, int descriptor)
+    : path_(std::move(path)), descriptor_(descriptor) {}
+
+RowFile::~RowFile() {
+  close(descriptor_);
+}
+
+Error RowFile::cannot_write() const {
+  return {ExitCode::kWrongUsage,
+          fmt::format("{}: cannot be written: {}", path_.string(), std::strerror(errno))};
+}
+
+Result<std::unique_ptr<RowFile>> RowFile::open(const std::filesystem::path& path) {
+  struct stat status {};
+  if (stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode))
+    return failure(ExitCode::kWrongUsage, fmt::format("{}: is not a regular file", path.string()));
+  const int descriptor = open_locked(path);
+  if (descriptor < 0) {
+    const std::string why = errno == EWOULDBLOCK ? "another run is writing it" : std::strerror(errno);
+    return failure(ExitCode::kWrongUsage, fmt::format("{}: cannot be opened: {}", path.string(), why));
+  }
+  std::unique_ptr<RowFile> file(new RowFile(path, descriptor));
+  if (auto taken = file->take_up(); !taken) return tl::unexpected(taken.error());
+  return file;
+}
+
+Result<void> RowFile::take_up() {
+  const auto text = read_file(path_);
+  if (!text) return tl::unexpected(text.error());
+  const std::string header = header_line();
+  if (text->size() < header.size() && header.starts_with(*text)) {  // new, or killed in its first line
+    if (ftruncate(descriptor_, 0) != 0 || !write_whole(descriptor_, header))
+      return tl::unexpected(cannot_write());
+    return {};
+  }
+  if (!text->starts_with(header))
+    return unreadable(
+        fmt::format("{}: is not a file of rows that estimate --table kept; move it away", path_.string()));
+  std::size_t whole_bytes = header.size();
+  for (std::size_t end; (end = text->find('\n', whole_bytes)) != text->npos; whole_bytes = end + 1) {
+    const std::string_view line(text->data() + whole_bytes, end - whole_bytes);
+    if (!is_sound_line(line)) continue;
+    try {
+      const Json json = Json::parse(line);
+      rows_[json.at("key").get<std::string>()] = row_from_json(json.at("row"));
+    } catch (const std::exception&) {
+      continue;  // of a later version: estimated again
+    }
+  }
+  // A last line that was not written to its end must not run into the next one.
+  if (ftruncate(descriptor_, static_cast<off_t>(whole_bytes)) != 0) return tl::unexpected(cannot_write());
+  return {};
+}
+
+std::optional<CampaignRow> RowFile::find(const std::string& key) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = rows_.find(key);
+  return found == rows_.end() ? std::nullopt : std::optional(found->second);
+}
+
+void RowFile::keep(const KeptRow& kept) {
+  const std::lock_guard lock(mutex_);
+  if (failed_) return;
+  const off_t end = lseek(descriptor_, 0, SEEK_END);
+  if (write_whole(descriptor_, line_of(kept))) {
+    rows_[kept.key] = kept.row;
+    return;
+  }
+  failed_ = cannot_write();
+  if (ftruncate(descriptor_, end) != 0) return;  // a broken last line is cut off by the next run
+}
+
+std::optional<Error> RowFile::failed() const {
+  const std::lock_guard lock(mutex_);
+  return failed_;
+}
+
+Result<void> RowFile::replace(const std::vector<KeptRow>& rows) {
+  const std::lock_guard lock(mutex_);
+  std::string text = header_line();
+  for (const KeptRow& kept : rows) text += line_of(kept);
+  return write_file(path_, text);
+}
+
+std::optional<std::string> recording_fingerprint(const std::filesystem::path& recording) {
+  std::string text;
+  for (const std::filesystem::path& file : recording_files(recording)) {
+    struct stat status {};
+    if (stat(file.c_str(), &status) != 0) return std::nullopt;
+    text += fmt::format("{}\n{} {}.{:09}\n", file.string(), status.st_size, status.st_mtim.tv_sec,
+                        status.st_mtim.tv_nsec);
+  }
+  return text.empty() ? std::nullopt : std::optional(text);
+}
+
+}  // namespace sweepscope

@@ -1,0 +1,85 @@
+#include "core/live/foxglove_protocol.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+namespace sweepscope {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::byte kMessageData{1};
+
+template <typename T>
+T little_endian(const std::byte* bytes) {
+  T value{};
+  std::memcpy(&value, bytes, sizeof value);  // the machine is little-endian, see messages.cpp
+  return value;
+}
+
+bool is_port(std::string_view text) {
+  return !text.empty() && text.size() <= 5 &&
+         std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
+}
+
+bool is_host(std::string_view text) {
+  return !text.empty() && std::ranges::all_of(text, [](char c) { return c > ' ' && c < 0x7f && c != '@'; });
+}
+
+}  // namespace
+
+std::optional<FoxgloveNews> parse_foxglove_text(std::string_view text) {
+  FoxgloveNews news;
+  try {
+    const Json json = Json::parse(text);
+    const auto op = json.at("op").get<std::string>();
+    if (op == "advertise")
+      for (const Json& channel : json.at("channels"))
+        news.advertised.push_back(
+            {channel.at("id").get<std::uint64_t>(), channel.at("topic").get<std::string>(),
+             channel.at("encoding").get<std::string>(), channel.at("schemaName").get<std::string>()});
+    if (op == "unadvertise") news.withdrawn = json.at("channelIds").get<std::vector<std::uint64_t>>();
+  } catch (const Json::exception&) {
+    return std::nullopt;
+  }
+  return news;
+}
+
+std::optional<FoxgloveMessage> parse_foxglove_bytes(std::span<const std::byte> bytes) {
+  constexpr std::size_t kId = 1, kTime = kId + 4, kHead = kTime + 8;
+  if (bytes.size() < kHead || bytes[0] != kMessageData) return std::nullopt;
+  return FoxgloveMessage{little_endian<std::uint32_t>(bytes.data() + kId),
+                         static_cast<std::int64_t>(little_endian<std::uint64_t>(bytes.data() + kTime)),
+                         bytes.subspan(kHead)};
+}
+
+std::string foxglove_subscribe_text(const std::vector<FoxgloveSubscription>& subscriptions) {
+  Json list = Json::array();
+  for (const FoxgloveSubscription& one : subscriptions)
+    list.push_back({{"id", one.id}, {"channelId", one.channel}});
+  return Json{{"op", "subscribe"}, {"subscriptions", list}}.dump();
+}
+
+std::optional<FoxgloveAddress> parse_foxglove_address(std::string_view url) {
+  constexpr std::string_view kScheme = "ws://";
+  if (!url.starts_with(kScheme)) return std::nullopt;
+  url.remove_prefix(kScheme.size());
+  FoxgloveAddress address;
+  const std::size_t slash = std::min(url.find('/'), url.size());
+  if (slash < url.size()) address.path = url.substr(slash);
+  std::string_view host = url.substr(0, slash);
+  const bool bracketed = host.starts_with('[');  // IPv6
+  const std::size_t colon = host.find(':', bracketed ? std::min(host.find(']'), host.size()) : 0);
+  if (colon != host.npos) {
+    if (!is_port(host.substr(colon + 1))) return std::nullopt;
+    address.port = host.substr(colon + 1);
+    host = host.substr(0, colon);
+  }
+  if (bracketed && (host.size() < 2 || !host.ends_with(']'))) return std::nullopt;
+  address.host = bracketed ? host.substr(1, host.size() - 2) : host;
+  if (!is_host(address.host)) return std::nullopt;
+  return address;
+}
+
+}  // namespace sweepscope

@@ -1,0 +1,148 @@
+#include "core/live/foxglove_source.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <thread>
+
+#include "core/live/foxglove_protocol.hpp"
+#include "core/live/web_socket.hpp"
+#include "core/recording/messages/message_collector.hpp"
+
+namespace sweepscope {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// When to try to connect again.
+class Backoff {
+ public:
+  void wait(Clock::time_point now) {
+    constexpr std::chrono::milliseconds kMost(3000);
+    next_ = now + pause_;
+    pause_ = std::min(2 * pause_, kMost);
+  }
+  void reset() { pause_ = kFirst; }
+  Clock::time_point next() const { return next_; }
+
+ private:
+  static constexpr std::chrono::milliseconds kFirst{100};
+  std::chrono::milliseconds pause_ = kFirst;
+  Clock::time_point next_;
+};
+
+class FoxgloveSource : public LiveSource {
+ public:
+  FoxgloveSource(FoxgloveAddress address, std::unique_ptr<WebSocket> socket, const std::string& url,
+                 const Rig& rig)
+      : address_(std::move(address)), socket_(std::move(socket)), collector_(rig, raw_) {
+    raw_.file = raw_.name = url;
+  }
+
+  Result<bool> listen(std::chrono::milliseconds most) override {
+    if (!socket_ && !reconnect(most)) return true;
+    const auto until = Clock::now() + most;
+    // All that is there is taken at once; a connection that ended is not the end of the input.
+    for (auto wait = most; socket_; wait = std::chrono::milliseconds(0)) {
+      const auto message = socket_->receive(wait);
+      if (!message) lose_connection();
+      if (!message || !*message) break;
+      if (const auto taken = take(**message); !taken) return tl::unexpected(taken.error());
+      if (Clock::now() >= until) break;
+    }
+    return true;
+  }
+  const RawRecording& so_far() const override { return raw_; }
+  RawRecording heard() override {
+    const std::size_t warnings = raw_.warnings.size();
+    collector_.finish();
+    RawRecording heard = raw_;
+    raw_.warnings.resize(warnings);
+    if (lost_ > 0)
+      heard.warnings.push_back(
+          fmt::format("The connection to {} ended {} time{}; what was sent meanwhile may be missing.",
+                      raw_.file, lost_, lost_ == 1 ? "" : "s"));
+    return heard;
+  }
+
+ private:
+  /// Waits for at most so long; whether there is a connection then.
+  bool reconnect(std::chrono::milliseconds most) {
+    const auto now = Clock::now();
+    if (now < backoff_.next()) {
+      std::this_thread::sleep_for(std::min<Clock::duration>(most, backoff_.next() - now));
+      if (Clock::now() < backoff_.next()) return false;
+    }
+    auto socket = WebSocket::connect(address_, kFoxgloveSubprotocols);
+    if (socket)
+      socket_ = std::move(*socket);
+    else
+      backoff_.wait(Clock::now());
+    return socket.has_value();
+  }
+
+  void lose_connection() {
+    socket_.reset();
+    subscribed_.clear();
+    ++lost_;
+    backoff_.wait(Clock::now());
+  }
+
+  Result<void> take(const WebSocketMessage& message) {
+    if (!message.binary) {
+      const std::string_view text(reinterpret_cast<const char*>(message.bytes.data()), message.bytes.size());
+      if (const auto news = parse_foxglove_text(text)) follow(*news);
+      return {};
+    }
+    const auto data = parse_foxglove_bytes(message.bytes);
+    if (!data) return {};
+    const auto topic = subscribed_.find(data->subscription);
+    if (topic == subscribed_.end()) return {};
+    backoff_.reset();
+    ++messages_;
+    if (const auto error = collector_.add(topic->second, data->log_ns, data->bytes,
+                                          [&] { return fmt::format("message {} heard", messages_); }))
+      return tl::unexpected(*error);
+    return {};
+  }
+
+  /// Subscribes to what may be a laser or a motor.
+  void follow(const FoxgloveNews& news) {
+    std::vector<FoxgloveSubscription> wanted;
+    for (const FoxgloveChannel& channel : news.advertised) {
+      const auto* const type = find_message_type(channel.type);
+      const bool ros1 = channel.encoding == "ros1";
+      if (type == nullptr || is_motion(type->kind) || (!ros1 && channel.encoding != "cdr")) continue;
+      const std::size_t topic = collector_.number_of(
+          {channel.topic, channel.type, ros1 ? Encoding::kRos1 : Encoding::kCdr, true, "*"});
+      subscribed_[next_id_] = topic;
+      wanted.push_back({next_id_++, channel.id});
+    }
+    if (!wanted.empty() && !socket_->send(foxglove_subscribe_text(wanted))) lose_connection();
+  }
+
+  FoxgloveAddress address_;
+  std::unique_ptr<WebSocket> socket_;  // null: not connected
+  RawRecording raw_;
+  MessageCollector collector_;
+  std::map<std::uint32_t, std::size_t> subscribed_;  // the topic of a subscription's id
+  std::uint32_t next_id_ = 0;
+  Backoff backoff_;
+  std::size_t messages_ = 0, lost_ = 0;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<LiveSource>> open_foxglove_source(const std::string& url, const Rig& rig) {
+  const auto address = parse_foxglove_address(url);
+  if (!address)
+    return failure(
+        ExitCode::kWrongUsage,
+        fmt::format("\"{}\" is no address of a Foxglove server, such as ws://localhost:8765", url));
+  auto socket = WebSocket::connect(*address, kFoxgloveSubprotocols);
+  if (!socket) return tl::unexpected(socket.error());
+  return std::make_unique<FoxgloveSource>(*address, std::move(*socket), url, rig);
+}
+
+}  // namespace sweepscope
