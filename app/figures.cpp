@@ -51,6 +51,7 @@ std::string recipe_keys() {
       "    kind: profile  maps; at_m: [X, Y], normal_deg, length_m, heights_m: [FROM, TO] above the path\n"
       "                   (without at_m: the wall that shows the offset best)\n"
       "    kind: scan     recording, at_s\n"
+      "    kind: interactive  two maps of one recording, estimate, points: a page to turn the offset in\n"
       "  tables:     {NAME: {title, estimates: [NAME, ...], columns: [{title, unit, decimals, and\n"
       "                   value: offset|sigma|offset-by-d|d|offset-by-n|offset-by-e|truth|difference,\n"
       "                   or values: [a text for each row]}]}}\n"
