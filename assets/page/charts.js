@@ -84,7 +84,7 @@ class CriterionChart {
 
   drawAxes(height, edge) {
     const {svg, width} = this, bottom = height - edge.bottom;
-    for (const tick of roundTicks(...this.shown, 4)) {
+    for (const tick of roundTicks(...this.shown, 5)) {
       const y = this.y(tick.value);
       svgElement('line', {x1: edge.left, x2: width - edge.right, y1: y, y2: y, class: 'chart-grid'}, svg);
       svgElement('text', {x: edge.left - 6, y: y + 4, class: 'chart-label', 'text-anchor': 'end'}, svg, tick.label);

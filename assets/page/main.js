@@ -39,6 +39,9 @@ class LivePage {
       button.addEventListener('click', () => this.view(Number(key)));
       this.viewButtons[key] = button;
     }
+    const close = htmlElement('button', {type: 'button', title: 'key N'}, views, 'Where they differ');
+    close.addEventListener('click', () => this.view('n'));
+    this.viewButtons.n = close;
     const layouts = group('Layout');
     this.layoutButtons = {};
     for (const [layout, name, key] of [['side', 'Side by side', 'B'], ['swipe', 'Swipe', 'S']]) {
@@ -53,9 +56,15 @@ class LivePage {
       this.scene.colouring = Number(this.colours.value);
       this.changed();
     });
-    htmlElement('p', {class: 'live-keys'}, document.getElementById('live-legend'),
-                'Drag turns, two fingers or the right button move, wheel or pinch zooms. Keys: 1 3 7 9 views, 0 fit, ' +
-                'B S layout, , . and K L the offsets of A and B.');
+    const help = htmlElement('p', {class: 'live-help'}, document.getElementById('live-legend'),
+                             'Drag turns; two fingers or the right button move; wheel or pinch zooms.');
+    const keys = htmlElement('span', {class: 'live-keys'}, help);
+    for (const [names, what] of [['1 3 7 9 0', 'views'], ['N', 'where they differ'], ['B S', 'layout'], [', .', 'offset A'],
+                                 ['K L', 'offset B']]) {
+      keys.append(' ');
+      for (const name of names.split(' ')) htmlElement('kbd', {}, keys, name);
+      keys.append(` ${what}`);
+    }
   }
 
   makeStage() {
@@ -122,7 +131,7 @@ class LivePage {
     this.canvas.addEventListener('webglcontextlost', () => this.stop());
     document.addEventListener('keydown', (event) => this.key(event));
     new ResizeObserver(() => {
-      if (this.scene.camera.fitted) this.scene.fit(this.scene.camera.fitted);
+      this.refit();
       this.layCharts();
       this.changed();
     }).observe(document.getElementById('live-stage'));
@@ -133,6 +142,7 @@ class LivePage {
     const step = event.shiftKey ? 1 : 0.1, key = event.key.toLowerCase();
     const steps = {',': [0, -step], '<': [0, -1], '.': [0, step], '>': [0, 1], k: [1, -step], l: [1, step]};
     if (kViews[key]) this.view(Number(key));
+    else if (key === 'n') this.view('n');
     else if (key === '0') this.view(this.scene.isTop() ? 7 : 9);
     else if (key === 'b') this.setLayout('side');
     else if (key === 's') this.setLayout('swipe');
@@ -142,13 +152,19 @@ class LivePage {
   }
 
   view(key) {
-    this.scene.fit(key);
+    if (key === 'n') this.scene.fitCloseUp();
+    else this.scene.fit(key);
     this.changed();
+  }
+
+  // A view that nobody moved fits again when its pane changes.
+  refit() {
+    if (this.scene.camera.fitted) this.view(this.scene.camera.fitted);
   }
 
   setLayout(layout) {
     this.scene.layout = layout;
-    if (this.scene.camera.fitted) this.scene.fit(this.scene.camera.fitted);
+    this.refit();
     this.changed();
   }
 
@@ -187,7 +203,7 @@ class LivePage {
     });
     for (const chart of this.charts) chart.setOffsets(this.offset_ms);
     for (const [key, button] of Object.entries(this.viewButtons))
-      button.setAttribute('aria-pressed', scene.camera.fitted === Number(key));
+      button.setAttribute('aria-pressed', String(scene.camera.fitted) === key);
     for (const [layout, button] of Object.entries(this.layoutButtons))
       button.setAttribute('aria-pressed', scene.layout === layout);
     this.showLabels();
@@ -248,7 +264,7 @@ class LivePage {
   pointsAt(offset_ms) {
     const {scene, data} = this;
     scene.setOffset(1, offset_ms);
-    const placed = scene.placer.read(scene.buffers[1].points), points = [];
+    const placed = scene.placer.read(scene.buffers[1]), points = [];
     for (let i = 0; i < data.count; ++i) {
       const time_s = data.head.laser_origin_s + data.words[3 * i + 2] * data.head.tick_s;
       points.push([placed[5 * i], placed[5 * i + 1], placed[5 * i + 2], time_s, placed[5 * i + 3]]);

@@ -41,28 +41,31 @@ class Scene {
     if (!gl) throw new Error('no WebGL 2');
     this.gl = gl;
     this.placer = new Placer(gl, data);
-    this.shader = makeProgram(gl, document.getElementById('draw-shader').textContent, kFragment);
-    this.makeInputs();
-    this.buffers = [this.makeMap(), this.makeMap()];
-    this.splatter = isSoftware(gl) ? new Splatter(gl, data) : null;
+    this.buffers = [this.placer.makeBuffer(), this.placer.makeBuffer()];
+    if (isSoftware(gl)) this.splatter = new Splatter(gl, data);
+    else this.useCard();
     this.placed = [NaN, NaN];
     this.layout = 'side';
     this.divider = 0.5;
     this.colouring = 0;
-    this.tables = data.head.colourings.map((one) => this.makeColours(one.table));
     this.camera = {middle: [0, 0, 0], ...kViews[7], height: 10, fitted: 7};
   }
 
-  makeInputs() {
+  // Draws by the graphics card from here on.
+  useCard() {
     const {gl, data} = this;
+    this.splatter = null;
+    this.shader = makeProgram(gl, document.getElementById('draw-shader').textContent, kFragment);
+    this.tables = data.head.colourings.map((one) => this.makeColours(one.table));
     this.intensity = gl.createBuffer();
     gl.bindBuffer(gl.ARRAY_BUFFER, this.intensity);
     gl.bufferData(gl.ARRAY_BUFFER, data.intensity.length ? data.intensity : new Uint8Array(data.count),
                   gl.STATIC_DRAW);
+    this.arrays = this.buffers.map((points) => this.makeArray(points));
   }
 
-  makeMap() {
-    const {gl, shader, placer} = this, points = placer.makeBuffer(), array = gl.createVertexArray();
+  makeArray(points) {
+    const {gl, shader, placer} = this, array = gl.createVertexArray();
     const use = (name, call) => {
       const at = gl.getAttribLocation(shader.program, name);
       if (at < 0) return;
@@ -80,7 +83,7 @@ class Scene {
     use('a_intensity', (at) => gl.vertexAttribPointer(at, 1, gl.UNSIGNED_BYTE, true, 1, 0));
     gl.bindVertexArray(null);
     gl.bindBuffer(gl.ARRAY_BUFFER, null);
-    return {points, array};
+    return array;
   }
 
   makeColours(table) {
@@ -94,9 +97,9 @@ class Scene {
 
   setOffset(map, offset_ms) {
     if (this.placed[map] === offset_ms) return;
-    this.placer.place(offset_ms, this.buffers[map].points);
+    this.placer.place(offset_ms, this.buffers[map]);
     this.placed[map] = offset_ms;
-    if (this.splatter) this.splatter.setPoints(map, this.placer.read(this.buffers[map].points));
+    if (this.splatter) this.splatter.setPoints(map, this.placer.read(this.buffers[map]));
   }
 
   // Where the maps are in the canvas, in CSS pixels: `view` is what the camera fills, `clip` what is drawn of it.
@@ -134,6 +137,16 @@ class Scene {
     if (key === 7 && heightOf(turned) < 0.83 * heightOf(view)) view = turned;
     const middle = [0, 1, 2].map((i) => (box[0][i] + box[1][i]) / 2);
     this.camera = {middle, yaw: view.yaw, pitch: view.pitch, height: heightOf(view), fitted: key};
+  }
+
+  // From above, the place where the maps differ most.
+  fitCloseUp() {
+    const {centre_m, height_m} = this.data.head.close_up, {head} = this.data;
+    this.fit(7);
+    const {width, height} = this.panes()[0].view;
+    this.camera.middle = [...centre_m, (head.box_m.top[0][2] + head.box_m.top[1][2]) / 2];
+    this.camera.height = height_m * Math.max(1, height / width);
+    this.camera.fitted = 'n';
   }
 
   orbit(dx, dy) {
@@ -196,7 +209,7 @@ class Scene {
     gl.uniform2f(shader.at('u_range'), one.from, one.to);
     gl.uniform1f(shader.at('u_tick_s'), this.data.head.tick_s);
     this.setCamera();
-    this.panes().forEach(({view, clip}, map) => this.drawMap(view, clip, this.buffers[map].array));
+    this.panes().forEach(({view, clip}, map) => this.drawMap(view, clip, this.arrays[map]));
     gl.bindVertexArray(null);
   }
 

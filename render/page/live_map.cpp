@@ -88,6 +88,15 @@ Json box_json(const LiveMap& live, const std::vector<HeightRange>& slabs) {
   return {from, to};
 }
 
+/// Where the two maps differ most, seen from above.
+Region close_up(const LiveMap& live, const std::vector<HeightRange>& slabs) {
+  constexpr double kHeight_m = 4;
+  std::vector<SlabPoints> shown;
+  for (const ComparedMap& map : live.still)
+    shown.push_back(points_in_slabs(map, std::vector<float>(map.size()), slabs));
+  return find_close_up(shown, kHeight_m, kHeight_m);
+}
+
 Json json_of(const Chart& chart) {
   Json series = Json::array(), markers = Json::array(), verticals = Json::array();
   for (const ChartSeries& one : chart.series) {
@@ -146,7 +155,7 @@ std::string what_is_drawn(const TurnableMap& map) {
 }  // namespace
 
 OffsetSpan live_span(const PreparedRecording& prepared, double a_s, double b_s) {
-  constexpr double kMargin_s = 0.015;
+  constexpr double kMargin_s = 0.010;
   const double middle_s = (a_s + b_s) / 2, apart_s = std::abs(b_s - a_s) / 2;
   const double most_s = std::max(search_scale(prepared.motor).max_half_width_s, apart_s);
   const double half_s = std::min(apart_s + kMargin_s, most_s);
@@ -188,6 +197,9 @@ Result<std::string> live_map_data(const LiveMap& live) {
   head["span_ms"] = {in_ms(live.span.from_s), in_ms(live.span.to_s)};
   head["slabs_m"] = {{"top", json_of(top_slabs)}, {"other", json_of(all_slabs)}};
   head["box_m"] = {{"top", box_json(live, top_slabs)}, {"other", box_json(live, all_slabs)}};
+  const Region differs = close_up(live, top_slabs);
+  head["close_up"] = {{"centre_m", {differs.centre_m.x(), differs.centre_m.y()}},
+                      {"height_m", differs.height_m}};
   head["colourings"] = std::move(*colourings);
   head["charts"] = charts_json(live);
   return html::json_block("live-head", json_text(std::move(head))) +

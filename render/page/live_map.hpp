@@ -22,7 +22,7 @@ struct OffsetSpan {
   double from_s = 0, to_s = 0;
 };
 
-/// A span for a map that starts at these offsets: 15 ms to either side of them, within a quarter of the
+/// A span for a map that starts at these offsets: 10 ms to either side of them, within a quarter of the
 /// motor's period about the middle, beyond which the map would be a mirror image.
 OffsetSpan live_span(const PreparedRecording& prepared, double a_s, double b_s);
 

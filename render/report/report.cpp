@@ -61,6 +61,7 @@ std::string meaning_of(std::string_view criterion) {
   if (criterion == "n") return "matches with the map";
   if (criterion == "e") return "mean distance per match";
   if (criterion == "direct") return "distance per match that is left";
+  if (criterion == "capped_cost") return "distance between sweeps, capped";
   return "";
 }
 
@@ -74,7 +75,7 @@ std::string criteria_table(const ReportContent& content) {
       "class=\"number-cell\">value</th></tr>\n";
   for (const CriterionOptimum& one : criteria) {
     const std::string value = one.name == "n"   ? fmt::format("{:.0f} matches", one.value)
-                              : one.name == "d" ? fmt::format("{:.4g}", one.value)
+                              : one.name == "d" ? fmt::format("{:.4g} m", one.value)
                                                 : fmt::format("{:.2f} mm", one.value * 1e3);
     rows += fmt::format(
         "<tr><td>{}</td><td>{}</td><td class=\"number-cell\">{}</td><td class=\"number-cell\">{}</td></tr>\n",

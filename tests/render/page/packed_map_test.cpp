@@ -178,8 +178,8 @@ TEST(LiveMap, ColoursAreThoseOfThePictureThatStandsStill) {
 TEST(LiveMap, CanBeTurnedByAQuarterOfThePeriodAtMost) {
   const PreparedRecording prepared = prepare(test::room(24 * kMs), FeatureOptions(), Job()).value();
   const OffsetSpan span = live_span(prepared, 19 * kMs, 24 * kMs);
-  EXPECT_NEAR(span.from_s, 4 * kMs, 1e-9);
-  EXPECT_NEAR(span.to_s, 39 * kMs, 1e-9);
+  EXPECT_NEAR(span.from_s, 9 * kMs, 1e-9);
+  EXPECT_NEAR(span.to_s, 34 * kMs, 1e-9);
 }
 
 TEST(HtmlPage, NamesAreEscapedInTextAndInData) {
