@@ -52,8 +52,8 @@ std::string answer(const Estimate& estimate) {
 }
 
 /// Wide tables scroll by themselves, and not the page.
-std::string in_table(const std::string& rows) {
-  return "<div class=\"table\">" + html::element("table", rows) + "</div>\n";
+std::string in_table(const std::string& rows, std::string_view look = "table") {
+  return fmt::format("<div class=\"{}\">", look) + html::element("table", rows) + "</div>\n";
 }
 
 std::string meaning_of(std::string_view criterion) {
@@ -82,7 +82,7 @@ std::string criteria_table(const ReportContent& content) {
         html::escape(one.name), meaning_of(one.name),
         offset_text(one.offset_s, one.name == "direct" ? content.estimate.sigma_s : std::nullopt), value);
   }
-  return in_table(rows);
+  return in_table(rows, "table criteria");
 }
 
 std::string row(std::string_view name, const std::string& value) {

@@ -35,7 +35,7 @@ TEST_F(ReportCommand, PointsDecideHowMuchOfTheMapIsInThePage) {
   const std::size_t without = page().size();
   ASSERT_EQ(run("report r.bag -o out --points 50000").exit_code, 0);
   EXPECT_NE(page().find("50,000 of "), std::string::npos);
-  EXPECT_NEAR(double(page().size() - without), 50'000 * 16, 150'000);
+  EXPECT_NEAR(double(page().size() - without), 50'000 * 17.3, 100'000);
   EXPECT_EQ(run("report r.bag -o out --points 500001").exit_code, 2);
   EXPECT_EQ(run("report r.bag -o out --points -1").exit_code, 2);
 }
