@@ -22,7 +22,7 @@ struct ReportContent {
       criteria;  // the paper's criteria over the offset, as evidence; none without an answer
   std::optional<Estimate> over_time;  // the offset in windows; only of long recordings of a stationary rig
   std::vector<ComparedMap> maps;
-  std::optional<LiveMap> live;      // of those maps, for the reader to turn; absent: none was asked for
+  std::optional<LiveMap> live;          // of those maps, for the reader to turn; absent: none was asked for
   std::optional<CrossSection> section;  // the face that shows the offset best, if there is one
 };
 
