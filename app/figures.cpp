@@ -52,6 +52,7 @@ std::string recipe_keys() {
       "                   (without at_m: the wall that shows the offset best)\n"
       "    kind: scan     recording, at_s\n"
       "    kind: trend    table: the JSON file of estimate --table\n"
+      "    kind: interactive  two maps of one recording, estimate, points: a page to turn the offset in\n"
       "  tables:     {NAME: {title, estimates: [NAME, ...], columns: [{title, unit, decimals, and\n"
       "                   value: offset|sigma|offset-by-d|d|offset-by-n|offset-by-e|truth|difference,\n"
       "                   or values: [a text for each row]}]}}\n"

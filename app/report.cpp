@@ -21,6 +21,7 @@ namespace {
 struct Options {
   RecordingOptions recording;
   std::string folder;
+  std::size_t points = kDefaultLivePoints;
   std::string quoted;              // the options that decide, as the report quotes them
   std::vector<std::string> given;  // the options, as they were given
 };
@@ -39,7 +40,8 @@ Result<ReportContent> make(const Options& options) {
   const auto kept = keep_while_working(kept_candidates(options), options.recording, options.given);
   if (!kept) return tl::unexpected(kept.error());
   auto content = prepare(*recording, FeatureOptions(), progress.job()).and_then([&](const auto& prepared) {
-    return gather_report(prepared, options.recording.assumed_kind(), kept->get(), progress.job());
+    return gather_report(prepared, {options.recording.assumed_kind(), options.points}, kept->get(),
+                         progress.job());
   });
   if (!content) return tl::unexpected(ended(content.error(), **kept));
   content->command = report_command(recording->name, options.quoted);
@@ -92,6 +94,12 @@ void add_report(CLI::App& app, ExitCode& exit_code) {
   command->add_option("-o,--output", options->folder, "The folder for report.html and estimate.json")
       ->type_name("DIR")
       ->required();
+  command
+      ->add_option("--points", options->points,
+                   "Measured points that the page draws at any offset; 0: only pictures that stand still")
+      ->type_name("N")
+      ->capture_default_str()
+      ->check(CLI::Range(std::size_t{0}, kMaxLivePoints));
   command->callback([options, command, &exit_code] {
     options->given = deciding_options(*command);
     options->quoted = quoted_options(*command);

@@ -1,5 +1,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -195,6 +196,27 @@ Profile turned_profile(const SectionPoints& points, const CrossSection& section,
   return profile_of(kept_m, section.reach_m);
 }
 
+// Whether the face is a plane for its whole length, and not a round column or a corner: in each part of the
+// length there are points, and their median is near the plane.
+bool is_plane(const SectionPoints& points, const CrossSection& face) {
+  constexpr std::size_t kParts = 5;
+  constexpr double kMinShare = 0.25;  // of an even share of the points
+  constexpr double kMaxBend_m = 0.006;
+  const auto inside = points_inside(*points.cloud, points.near, face);
+  const std::vector<double> distances_m = distances_across_m(*points.cloud, inside, face);
+  std::array<std::vector<double>, kParts> parts;
+  for (std::size_t i = 0; i < inside.size(); ++i) {
+    const Eigen::Vector3d from_middle_m =
+        points.cloud->points[inside[i]].getVector3fMap().cast<double>() - face.middle_m();
+    const double along = from_middle_m.dot(face.along()) / face.length_m + 0.5;
+    parts[static_cast<std::size_t>(std::clamp(along, 0.0, 0.999) * kParts)].push_back(distances_m[i]);
+  }
+  return std::ranges::all_of(parts, [&](const std::vector<double>& part) {
+    return static_cast<double>(part.size()) * kParts >= kMinShare * static_cast<double>(inside.size()) &&
+           !part.empty() && std::abs(median(part)) <= kMaxBend_m;
+  });
+}
+
 struct Measured {
   FoundSection found;
   double score = 0;
@@ -207,7 +229,7 @@ std::optional<Measured> measured(const Candidate& candidate, std::size_t sharpes
   const SectionPoints& sharp = per_map[sharpest];
   const auto fitted =
       face_of(*sharp.cloud, points_inside(*sharp.cloud, sharp.near, candidate.section), candidate.section);
-  if (!fitted) return std::nullopt;
+  if (!fitted || !is_plane(sharp, *fitted)) return std::nullopt;
   std::vector<Profile> profiles;
   for (const SectionPoints& points : per_map) profiles.push_back(points.profile(*fitted));
   Measured result{{*fitted, sharpest, {}, candidate.lever_m}, 0};

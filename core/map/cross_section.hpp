@@ -83,10 +83,10 @@ struct FoundSection {
   double lever_m = 0;
 };
 
-/// The vertical face at least 0.8 m above or below the rig's path that shows best what the offset does: seen
-/// by sweeps of both directions, thin in the sharpest of the maps (no map's points beyond the reach), and of
-/// several maps the one whose widths differ most; of one alone the one that would grow widest if sweeps were
-/// turned by +-error_rad. Absent if no face is suitable.
+/// The vertical face at least 0.8 m above or below the rig's path that shows best what the offset does: a
+/// plane for the whole length of the section, seen by sweeps of both directions, thin in the sharpest of the
+/// maps (no map's points beyond the reach), and of several maps the one whose widths differ most; of one
+/// alone the one that would grow widest if sweeps were turned by +-error_rad. Absent if no face is suitable.
 std::optional<FoundSection> best_section(std::span<const MapOnPath> maps, const SectionSearch& search = {});
 
 }  // namespace sweepscope

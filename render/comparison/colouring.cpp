@@ -19,6 +19,8 @@ constexpr std::array<std::string_view, 7> kNames{"elevation", "intensity", "time
                                                  "features",  "blur",      "distance"};
 constexpr float kNoValue = std::numeric_limits<float>::quiet_NaN();
 constexpr Colour kOrange{242, 180, 41}, kBlue{58, 146, 214}, kGrey{104, 110, 118};
+// Not those of the compared maps, which stand beside them.
+constexpr Colour kViolet{176, 122, 226}, kGreen{64, 190, 148};
 
 template <typename ValueOf>
 std::vector<float> each_point(const ComparedMap& map, ValueOf value_of) {
@@ -87,7 +89,7 @@ void set_titles(Colouring& colouring, ColourBy by) {
       return;
     case ColourBy::kDirection:
       colouring.title = "sweep";
-      set_classes(colouring, {{"one way", kOrange}, {"back", kBlue}});
+      set_classes(colouring, {{"one way", kViolet}, {"back", kGreen}});
       return;
     case ColourBy::kFeatures:
       colouring.title = "features";

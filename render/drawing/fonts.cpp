@@ -8,11 +8,8 @@
 #include <stdexcept>
 
 #include "core/io/temporary_file.hpp"
+#include "render/drawing/embed.hpp"
 
-// The build gives the fonts' paths; the assembler copies the files in.
-#define SWEEPSCOPE_EMBED(symbol, path)                                                     \
-  __asm__(".section .rodata\n.balign 16\n" symbol "_begin:\n.incbin \"" path "\"\n" symbol \
-          "_end:\n.byte 0\n.previous\n")
 SWEEPSCOPE_EMBED("sweepscope_font_regular", SWEEPSCOPE_FONT_REGULAR);
 SWEEPSCOPE_EMBED("sweepscope_font_bold", SWEEPSCOPE_FONT_BOLD);
 

@@ -10,6 +10,7 @@
 #include "core/io/content_hash.hpp"
 #include "core/map/feature_points.hpp"
 #include "core/map/offset_map.hpp"
+#include "core/offset/walk.hpp"
 #include "core/recording/rig.hpp"
 #include "core/results/candidate_file.hpp"
 #include "core/results/estimate_json.hpp"
@@ -212,6 +213,33 @@ Result<void> FigureData::build(const std::string& name, bool true_poses, bool wi
     map.feature_kinds = std::move(cloud.kinds);
   }
   return {};
+}
+
+Result<LiveMap> FigureData::live(const InteractiveFigure& figure) {
+  std::optional<Estimate> criteria;
+  if (!figure.estimate.empty()) {
+    const auto found = estimate(figure.estimate);
+    if (!found) return tl::unexpected(found.error());
+    criteria = **found;
+  }
+  const auto data = recording(figure.maps.at(0).recording);
+  if (!data) return tl::unexpected(data.error());
+  said_("map " + figure.maps[0].recording);
+  const auto prepared = prepare(**data, FeatureOptions(), job_);
+  if (!prepared) return tl::unexpected(prepared.error());
+  const std::array<double, 2> offsets_s{figure.maps[0].offset_s, figure.maps.at(1).offset_s};
+  auto built = build_maps(*prepared, offsets_s, {}, job_);
+  if (!built) return tl::unexpected(built.error());
+  std::vector<ComparedMap> still(2);
+  for (std::size_t i = 0; i < still.size(); ++i) {
+    still[i].label = figure.maps[i].label;
+    still[i].offset_s = offsets_s[i];
+    still[i].cloud = (*built)[i].cloud;
+    still[i].path = std::move((*built)[i].trajectory);
+  }
+  const auto& walk = built->front().walk;
+  return live_map(*prepared, walk ? &walk->sweeps : nullptr, std::move(still), std::move(criteria),
+                  figure.points);
 }
 
 Result<std::vector<ComparedMap>> FigureData::maps(std::span<const MapSpec> specs, bool with_features) {

@@ -32,6 +32,8 @@ class FigureData {
   Result<const Estimate*> estimate(const std::string& name);
   /// Maps of one recording are built from the same scans. `with_features`: with each point's kind.
   Result<std::vector<ComparedMap>> maps(std::span<const MapSpec> specs, bool with_features);
+  /// The maps of a page and what draws them at any offset.
+  Result<LiveMap> live(const InteractiveFigure& figure);
   /// The true offset of a simulation.
   std::optional<double> truth_s(const std::string& recording) const;
 

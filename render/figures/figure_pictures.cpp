@@ -5,7 +5,7 @@
 
 namespace sweepscope {
 
-Page make_page(const ComparisonOptions& look, int columns) {
+Page make_page(const ComparisonOptions& look, double columns) {
   Page page;
   page.style = style_of(look.background);
   const double width = look.width_px, height = look.height_px;

@@ -23,7 +23,7 @@ struct Page {
 
 /// The look gives size, background and title; without a title the space begins higher. `columns`: the number
 /// of parts of about 640 pixels side by side.
-Page make_page(const ComparisonOptions& look, int columns = 1);
+Page make_page(const ComparisonOptions& look, double columns = 1);
 
 /// Charts side by side under a title; a single one fills the picture.
 Picture charts_picture(std::span<const Chart> charts, const ComparisonOptions& look);
@@ -35,7 +35,8 @@ struct NamedProfile {
 };
 
 /// The face seen from above in each of the maps, and the density of points across it, with the width at half
-/// height of each in millimetres. The profiles are those of the maps, in the same order.
+/// height of each in millimetres; the densities beside the views or, in a picture that is higher than
+/// wide, below them. The profiles are those of the maps, in the same order.
 Picture profile_picture(std::span<const ComparedMap> maps, const CrossSection& section,
                         std::span<const NamedProfile> profiles, const ComparisonOptions& look);
 

@@ -20,6 +20,8 @@
 #include "render/figures/figure_pictures.hpp"
 #include "render/figures/figure_table.hpp"
 #include "render/figures/trend_picture.hpp"
+#include "render/page/html.hpp"
+#include "render/page/page.hpp"
 #include "render/vector/vector_file.hpp"
 
 namespace sweepscope {
@@ -27,7 +29,8 @@ namespace {
 
 struct Made {
   Picture picture;
-  std::string what;  // the offsets or the like, for the file's own description
+  std::string what;       // the offsets or the like, for the file's own description
+  std::string page = {};  // HTML, instead of the picture
 };
 
 std::string describe(std::span<const MapSpec> maps) {
@@ -195,8 +198,30 @@ Result<Made> make(const TrendFigure& figure, const ComparisonOptions& look, Figu
   return Made{trend_picture(*campaign, look), summary_of(*campaign)};
 }
 
+Result<Made> make(const InteractiveFigure& figure, const ComparisonOptions& look, FigureData& data) {
+  const auto live = data.live(figure);
+  if (!live) return tl::unexpected(live.error());
+  const Estimate* criteria = live->criteria ? &*live->criteria : nullptr;
+  const auto still = comparison_picture(live->still, criteria, look).and_then(draw);
+  if (!still) return tl::unexpected(still.error());
+  return live_map_data(*live).map([&](const std::string& live_data) {
+    const std::string title = look.title.empty() ? figure.maps[0].recording : look.title;
+    const std::string body =
+        fmt::format("<h1>{}</h1>\n{}<figure class=\"still\">{}</figure>\n", html::escape(title),
+                    live_map_part(*live), html::png_image(encode_png(*still), "Maps A and B"));
+    return Made{{}, describe(figure.maps), html_page(title, body, live_data)};
+  });
+}
+
 std::string extension_of(PictureFormat format) {
   return format == PictureFormat::kSvg ? ".svg" : format == PictureFormat::kPdf ? ".pdf" : ".png";
+}
+
+std::vector<std::string> extensions_of(const FigureSpec& figure) {
+  if (std::holds_alternative<InteractiveFigure>(figure.what)) return {".html"};
+  std::vector<std::string> extensions;
+  for (const PictureFormat format : figure.formats) extensions.push_back(extension_of(format));
+  return extensions;
 }
 
 constexpr std::array kTableExtensions{".csv", ".md", ".tex"};
@@ -219,8 +244,8 @@ std::vector<std::filesystem::path> input_files(const Recipe& recipe) {
 std::vector<std::filesystem::path> output_files(const Recipe& recipe, const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;
   for (const FigureSpec& figure : recipe.figures)
-    for (const PictureFormat format : figure.formats)
-      files.push_back(folder / (figure.name + extension_of(format)));
+    for (const std::string& extension : extensions_of(figure))
+      files.push_back(folder / (figure.name + extension));
   for (const TableSpec& table : recipe.tables)
     for (const char* extension : kTableExtensions) files.push_back(folder / (table.name + extension));
   return files;
@@ -263,6 +288,11 @@ class FigureMaker {
     const auto made =
         std::visit([&](const auto& what) { return make(what, figure.look, data_); }, figure.what);
     if (!made) return tl::unexpected(made.error());
+    if (!made->page.empty()) {
+      const auto path = folder_ / (figure.name + ".html");
+      if (auto written = write_file(path, made->page); !written) return written;
+      keep(path, made->what);
+    }
     const std::vector<PngText> texts{{"Title", figure.look.title.empty() ? figure.name : figure.look.title},
                                      {"Software", "sweepscope " SWEEPSCOPE_VERSION},
                                      {"Equation", "t_motor = t_laser + offset"},

@@ -104,22 +104,30 @@ Chart density_chart(std::span<const NamedProfile> profiles, const Style& style) 
 
 Picture profile_picture(std::span<const ComparedMap> maps, const CrossSection& section,
                         std::span<const NamedProfile> profiles, const ComparisonOptions& look) {
-  Page page = make_page(look, 2);
+  constexpr double kNarrow = 0.6;  // of a column: letters stay legible on a phone
+  const bool upright = look.height_px > look.width_px;
+  Page page = make_page(look, upright ? kNarrow : 2);
   // By direction: a wrong offset puts the two to different sides of the face.
   const Colouring colouring = *make_colouring(ColourBy::kDirection, look.colour_table, {}, std::nullopt);
   const double label_room = std::round(24 * page.scale), gap = std::round(18 * page.scale);
-  const double rows = static_cast<double>(maps.size() > 2 ? 2 : maps.size()),
-               columns = std::ceil(static_cast<double>(maps.size()) / 2);
-  const double side = std::floor(std::min((page.room.height - rows * label_room - (rows - 1) * gap) / rows,
-                                          0.42 * page.room.width / columns));
+  const auto count = static_cast<double>(maps.size());
+  const double rows = upright ? std::ceil(count / 2) : std::min(count, 2.0),
+               columns = std::ceil(count / rows);
+  const double side =
+      upright ? std::floor((page.room.width - gap) / 2)
+              : std::floor(std::min((page.room.height - rows * label_room - (rows - 1) * gap) / rows,
+                                    0.42 * page.room.width / columns));
   for (std::size_t i = 0; i < maps.size(); ++i) {
-    const double row = static_cast<double>(i % 2), column = static_cast<double>(i / 2);
+    const auto line = static_cast<std::size_t>(upright ? columns : rows);
+    const double across = static_cast<double>(i % line), along = static_cast<double>(i / line);
+    const double row = upright ? along : across, column = upright ? across : along;
     const PixelRect place{page.room.left + column * (side + gap),
                           page.room.top + label_room + row * (side + label_room + gap), side, side};
     add_map_view(page, maps[i], section, colouring, place, profiles[i].name, page.style.maps[i]);
   }
-  const double left = page.room.left + columns * (side + gap) + gap;
-  add_chart(page.picture.marks, {left, page.room.top, page.room.right() - left, page.room.height},
+  const double left = page.room.left + (upright ? 0 : columns * (side + gap) + gap);
+  const double top = page.room.top + (upright ? rows * (side + label_room + gap) : 0);
+  add_chart(page.picture.marks, {left, top, page.room.right() - left, page.room.bottom() - top},
             density_chart(profiles, page.style), page.style, page.scale);
   return std::move(page.picture);
 }

@@ -323,6 +323,17 @@ class RecipeReader {
     };
   }
 
+  void add_interactive_members(Members& members, InteractiveFigure& figure, const std::string& name) {
+    members["maps"] = [this, &figure, name](const Node& v) { figure.maps = read_maps(v, name); };
+    members["estimate"] = [this, &figure](const Node& v) {
+      figure.estimate = read_reference(v, recipe_.estimates, "estimate");
+    };
+    members["points"] = [&figure, name](const Node& v) {
+      const double points = read_within(v, name + ": points", 1000, double(kMaxLivePoints));
+      figure.points = static_cast<std::size_t>(points);
+    };
+  }
+
   void add_over_time_members(Members& members, OverTimeFigure& figure) {
     members["estimate"] = [this, &figure](const Node& v) {
       figure.estimate = read_reference(v, recipe_.estimates, "estimate");
@@ -339,14 +350,15 @@ class RecipeReader {
     if (!node.IsMap()) refuse(node, name + " must be a map of keys to values");
     const Node kind = node["kind"];
     if (!kind.IsDefined())
-      refuse(node, name + " needs a kind: maps, curves, profile, scan, over-time or trend");
+      refuse(node, name + " needs a kind: maps, curves, profile, scan, over-time, trend or interactive");
     return read_choice<std::string>(kind, name + ": kind",
                                     {{"maps", "maps"},
                                      {"curves", "curves"},
                                      {"profile", "profile"},
                                      {"scan", "scan"},
                                      {"over-time", "over-time"},
-                                     {"trend", "trend"}});
+                                     {"trend", "trend"},
+                                     {"interactive", "interactive"}});
   }
 
   FigureSpec read_figure(const std::string& figure_name, const Node& node) {
@@ -369,6 +381,8 @@ class RecipeReader {
     ScanFigure scan;
     OverTimeFigure over_time;
     TrendFigure trend;
+    InteractiveFigure interactive;
+    if (kind == "interactive") add_interactive_members(members, interactive, name);
     if (kind == "maps") add_maps_members(members, maps, name);
     if (kind == "curves") add_curves_members(members, curves, name);
     if (kind == "profile") add_profile_members(members, profile, name);
@@ -377,14 +391,24 @@ class RecipeReader {
     if (kind == "trend") add_trend_members(members, trend, name);
     read_members(node, name, members);
     if (kind == "trend") spec.what = trend;
+    if (kind == "interactive") spec.what = interactive;
     if (kind == "over-time") spec.what = over_time;
     if (kind == "maps") spec.what = maps;
     if (kind == "curves") spec.what = curves;
     if (kind == "profile") spec.what = profile;
     if (kind == "scan") spec.what = scan;
-    if (spec.formats.empty()) spec.formats = {PictureFormat::kPng};
+    if (kind == "interactive" && !spec.formats.empty()) refuse(node, name + " is a page: it has no formats");
+    if (spec.formats.empty() && kind != "interactive") spec.formats = {PictureFormat::kPng};
     check_complete(spec, node, name);
     return spec;
+  }
+
+  static void check_complete(const InteractiveFigure& figure, const Node& node, const std::string& name) {
+    if (figure.maps.size() != 2 || figure.maps[0].recording != figure.maps[1].recording)
+      refuse(node, name + " needs two maps of one recording");
+    for (const MapSpec& map : figure.maps)
+      if (map.true_poses || map.features_only)
+        refuse(node, name + " shows all points along the solved trajectory");
   }
 
   static void check_complete(const FigureSpec& spec, const Node& node, const std::string& name) {
@@ -400,6 +424,8 @@ class RecipeReader {
     if (over_time && over_time->estimate.empty()) refuse(node, name + " needs an estimate");
     const auto* trend = std::get_if<TrendFigure>(&spec.what);
     if (trend && trend->table.empty()) refuse(node, name + " needs a table");
+    const auto* interactive = std::get_if<InteractiveFigure>(&spec.what);
+    if (interactive) check_complete(*interactive, node, name);
     if (profile && profile->at_m && !profile->heights) refuse(node, name + ": at_m needs heights_m");
   }
 

@@ -12,6 +12,7 @@
 #include "core/recording/formats/read_recording.hpp"
 #include "core/simulation/simulate.hpp"
 #include "render/comparison/comparison.hpp"
+#include "render/page/live_map.hpp"
 
 namespace sweepscope {
 
@@ -84,11 +85,20 @@ struct TrendFigure {
   std::filesystem::path table;
 };
 
+/// A page in which a recording's map is drawn at any offset: NAME.html.
+struct InteractiveFigure {
+  std::vector<MapSpec> maps;  // A and B, of one recording: what it shows at first, and as pictures on paper
+  std::string estimate;       // its criteria below; may be empty
+  std::size_t points = kDefaultLivePoints;
+};
+
 struct FigureSpec {
   std::string name;  // of the files
-  std::variant<MapsFigure, CurvesFigure, ProfileFigure, ScanFigure, OverTimeFigure, TrendFigure> what;
+  std::variant<MapsFigure, CurvesFigure, ProfileFigure, ScanFigure, OverTimeFigure, TrendFigure,
+               InteractiveFigure>
+      what;
   ComparisonOptions look;
-  std::vector<PictureFormat> formats;
+  std::vector<PictureFormat> formats;  // empty for a page
 };
 
 /// The value that a column of a table shows for each estimate.

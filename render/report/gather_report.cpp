@@ -11,6 +11,7 @@
 #include "core/map/offset_map.hpp"
 #include "core/offset/prepared.hpp"
 #include "core/offset/rig_motion.hpp"
+#include "core/offset/walk.hpp"
 #include "core/recording/inspect.hpp"
 #include "core/results/estimate_json.hpp"
 
@@ -21,7 +22,8 @@ constexpr double kOff_s = 0.005;
 constexpr double kMinRatio = 1.3;  // of a wall's widths: a face that shows no difference tells nothing
 
 /// The maps 5 ms off and at the answer, and the face between them that tells most.
-Result<void> add_maps(ReportContent& content, const PreparedRecording& prepared, const Job& job) {
+Result<void> add_maps(ReportContent& content, const PreparedRecording& prepared, std::size_t live_points,
+                      const Job& job) {
   const Recording& recording = *prepared.recording;
   const double offset_s = std::round(*content.estimate.offset_s * 1e5) / 1e5;  // as it is printed
   const std::vector<double> offsets_s{offset_s - kOff_s, offset_s};
@@ -38,6 +40,11 @@ Result<void> add_maps(ReportContent& content, const PreparedRecording& prepared,
     next.path = std::move(map.trajectory);
     measure_thickness(next, job);
     if (job.cancelled()) return failure(ExitCode::kInterrupted, "interrupted while measuring the map");
+  }
+  if (live_points > 0) {
+    const auto& walk = built->front().walk;
+    content.live =
+        live_map(prepared, walk ? &walk->sweeps : nullptr, content.maps, content.criteria, live_points);
   }
   for (const ComparedMap& map : content.maps) on_paths.push_back({map.cloud.get(), map.path});
   SectionSearch search;
@@ -77,23 +84,23 @@ Result<void> add_over_time(ReportContent& content, const PreparedRecording& prep
 
 }  // namespace
 
-Result<ReportContent> gather_report(const PreparedRecording& prepared, std::optional<RigKind> assume,
+Result<ReportContent> gather_report(const PreparedRecording& prepared, const ReportOptions& wanted,
                                     CandidateStore* kept, const Job& job) {
   ReportContent content;
   content.recording = inspect(*prepared.recording);
   const MotionTest motion = test_motion(prepared);
   if (motion.answered()) content.recording.motion = motion.moving() ? "moving" : "stationary";
   EstimateOptions options;
-  options.assume = assume;
+  options.assume = wanted.assume;
   auto found = estimate(prepared, options, {}, job);
   if (!found) return tl::unexpected(found.error());
   if (found->interrupted) return failure(ExitCode::kInterrupted, "interrupted while looking for the offset");
   content.estimate = std::move(*found);
-  if (auto followed = add_over_time(content, prepared, assume, job); !followed)
+  if (auto followed = add_over_time(content, prepared, wanted.assume, job); !followed)
     return tl::unexpected(followed.error());
   if (!content.estimate.identifiable) return content;
   return add_criteria(content, prepared, kept, job)
-      .and_then([&] { return add_maps(content, prepared, job); })
+      .and_then([&] { return add_maps(content, prepared, wanted.live_points, job); })
       .map([&] { return std::move(content); });
 }
 

@@ -10,11 +10,16 @@
 
 namespace sweepscope {
 
+struct ReportOptions {
+  std::optional<RigKind> assume = std::nullopt;  // instead of the motion test
+  std::size_t live_points = kDefaultLivePoints;  // of the live map; 0: no live map
+};
+
 /// The content of a report on a recording: the offset, as `estimate` finds it with default options; the
 /// paper's criteria for that kind of rig as evidence; and the maps at the answer and 5 ms off, all along one
-/// trajectory. Long work; an interruption is ExitCode::kInterrupted. Finished candidates are kept in the
-/// store, if any.
-Result<ReportContent> gather_report(const PreparedRecording& prepared, std::optional<RigKind> assume,
+/// trajectory, with a live map of at most `options.live_points`. Long work; an interruption is
+/// ExitCode::kInterrupted. Finished candidates are kept in the store, if any.
+Result<ReportContent> gather_report(const PreparedRecording& prepared, const ReportOptions& options,
                                     CandidateStore* kept, const Job& job);
 
 /// Creates the folder of a report if it does not exist.

@@ -10,44 +10,12 @@
 #include "render/charts/over_time_chart.hpp"
 #include "render/comparison/comparison.hpp"
 #include "render/figures/figure_pictures.hpp"
-#include "render/report/html.hpp"
+#include "render/page/html.hpp"
+#include "render/page/page.hpp"
 #include "render/vector/vector_file.hpp"
 
 namespace sweepscope {
 namespace {
-
-// Legible on paper and on a phone: one column, pictures that shrink, wide ones that scroll.
-constexpr std::string_view kStyleSheet = R"(
-:root { color-scheme: light; }
-body { margin: 0 auto; max-width: 68rem; padding: 1.5rem 1.25rem 4rem; background: #fff; color: #1a1e24;
-  font: 1rem/1.55 "DejaVu Sans", Verdana, system-ui, sans-serif; }
-h1 { font-size: 1.5rem; margin: 0 0 .25rem; overflow-wrap: anywhere; }
-h2 { font-size: 1.15rem; margin: 2.5rem 0 .75rem; }
-p { max-width: 46rem; }
-.answer { margin: 1.25rem 0; padding: 1rem 1.25rem; border-left: .35rem solid #0072b2; background: #f2f6fa; }
-.answer.refused { border-color: #b77800; background: #fdf7ea; }
-.number { font-size: 2rem; font-weight: bold; }
-.equation, code { font-family: "DejaVu Sans Mono", ui-monospace, monospace; font-size: .95em; }
-table { border-collapse: collapse; margin: .5rem 0; }
-th, td { text-align: left; padding: .3rem 1.25rem .3rem 0; border-bottom: 1px solid #e0e4e9; vertical-align: top; }
-th { font-weight: normal; color: #5c6572; }
-td.number-cell, th.number-cell { text-align: right; font-variant-numeric: tabular-nums; }
-ul.warnings { padding-left: 1.2rem; }
-figure { margin: 1rem 0; overflow-x: auto; }
-figure > img, figure > svg { display: block; width: 100%; height: auto; min-width: 40rem; }
-.charts { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(28rem, 100%), 1fr)); gap: 1rem; }
-.charts > svg { display: block; width: 100%; height: auto; }
-figcaption, .caption { color: #5c6572; font-size: .9rem; margin-top: .4rem; }
-pre { white-space: pre-wrap; overflow-wrap: anywhere; background: #f6f7f9; padding: .75rem 1rem; }
-@media print {
-  body { max-width: none; padding: 0; font-size: 10pt; }
-  figure, .answer, table, .charts > svg { break-inside: avoid; }
-  .charts { grid-template-columns: 1fr 1fr; }
-  figure { overflow: visible; }
-  figure > img, figure > svg { min-width: 0; }
-  h2 { break-after: avoid; }
-}
-)";
 
 std::string offset_text(double offset_s, const std::optional<double>& sigma_s) {
   std::string text = fmt::format("{}{:.2f} ms", offset_s < 0 ? "−" : "", std::abs(offset_s) * 1e3);
@@ -83,24 +51,38 @@ std::string answer(const Estimate& estimate) {
       estimate.sigma_s ? " The uncertainty is one standard deviation." : "");
 }
 
+/// Wide tables scroll by themselves, and not the page.
+std::string in_table(const std::string& rows, std::string_view look = "table") {
+  return fmt::format("<div class=\"{}\">", look) + html::element("table", rows) + "</div>\n";
+}
+
+std::string meaning_of(std::string_view criterion) {
+  if (criterion == "d") return "motion between sweeps";
+  if (criterion == "n") return "matches with the map";
+  if (criterion == "e") return "mean distance per match";
+  if (criterion == "direct") return "distance per match that is left";
+  if (criterion == "capped_cost") return "distance between sweeps, capped";
+  return "";
+}
+
 std::string criteria_table(const ReportContent& content) {
   std::vector<CriterionOptimum> criteria = content.estimate.criteria;
   if (content.criteria)
     criteria.insert(criteria.end(), content.criteria->criteria.begin(), content.criteria->criteria.end());
   if (criteria.empty()) return "";
   std::string rows =
-      "<tr><th>criterion</th><th class=\"number-cell\">offset</th><th "
+      "<tr><th>criterion</th><th></th><th class=\"number-cell\">offset</th><th "
       "class=\"number-cell\">value</th></tr>\n";
   for (const CriterionOptimum& one : criteria) {
     const std::string value = one.name == "n"   ? fmt::format("{:.0f} matches", one.value)
-                              : one.name == "d" ? fmt::format("{:.4g}", one.value)
+                              : one.name == "d" ? fmt::format("{:.4g} m", one.value)
                                                 : fmt::format("{:.2f} mm", one.value * 1e3);
     rows += fmt::format(
-        "<tr><td>{}</td><td class=\"number-cell\">{}</td><td class=\"number-cell\">{}</td></tr>\n",
-        html::escape(one.name),
+        "<tr><td>{}</td><td>{}</td><td class=\"number-cell\">{}</td><td class=\"number-cell\">{}</td></tr>\n",
+        html::escape(one.name), meaning_of(one.name),
         offset_text(one.offset_s, one.name == "direct" ? content.estimate.sigma_s : std::nullopt), value);
   }
-  return html::element("table", rows);
+  return in_table(rows, "table criteria");
 }
 
 std::string row(std::string_view name, const std::string& value) {
@@ -134,7 +116,7 @@ std::string recorded(const RecordingSummary& summary) {
               fmt::format("{} whole, {:.3f} s each, at {:.1f}°/s: 1 ms is {:.3g}°", motor.whole_sweeps(),
                           motor.median_sweep_s, motor.median_speed_deg_s, motor.deg_per_ms()));
   if (summary.motion) rows += row("the rig is", *summary.motion);
-  return html::element("table", rows);
+  return in_table(rows);
 }
 
 std::string warnings_list(const ReportContent& content) {
@@ -146,8 +128,23 @@ std::string warnings_list(const ReportContent& content) {
   return "<ul class=\"warnings\">" + items + "</ul>\n";
 }
 
-std::string figure(const std::string& picture, const std::string& caption) {
-  return "<figure>" + picture + html::element("figcaption", html::escape(caption)) + "</figure>\n";
+/// `look`: classes of the style sheet.
+std::string figure(std::string_view look, const std::string& picture, const std::string& caption) {
+  return fmt::format("<figure class=\"{}\">{}{}</figure>\n", look, picture,
+                     html::element("figcaption", html::escape(caption)));
+}
+
+/// A picture for wide windows and paper, and one for narrow windows.
+Result<std::string> both_widths(const Result<std::string>& wide_svg, const Result<std::string>& narrow_svg) {
+  if (!wide_svg) return wide_svg;
+  if (!narrow_svg) return narrow_svg;
+  return "<div class=\"chart wide\">" + html::inline_svg(*wide_svg) + "</div><div class=\"chart narrow\">" +
+         html::inline_svg(*narrow_svg) + "</div>";
+}
+
+/// A class for what a live map of the page stands for, while it is drawn.
+const char* still_class(const ReportContent& content) {
+  return content.live ? "still" : "alone";
 }
 
 Result<std::string> curves(const ReportContent& content) {
@@ -165,22 +162,26 @@ Result<std::string> curves(const ReportContent& content) {
     pictures += html::inline_svg(*svg);
   }
   if (pictures.empty()) return pictures;
-  return html::element("h2", "The criteria over the offset") + "<div class=\"charts\">" + pictures +
-         "</div>\n<p class=\"caption\">Each point is one candidate offset; a larger mark is the criterion's "
-         "best; the blue line is the answer.</p>\n";
+  return fmt::format(
+      "<section class=\"{}\">{}<div class=\"charts\">{}</div>\n<p class=\"caption\">Each point is one candidate "
+      "offset; a larger mark is the criterion's best; the blue line is the answer.</p></section>\n",
+      still_class(content), html::element("h2", "The criteria over the offset"), pictures);
 }
 
 Result<std::string> over_time_strip(const ReportContent& content) {
   if (!content.over_time || !content.over_time->over_time) return std::string();
   const auto chart = over_time_chart(*content.over_time, style_of(Background::kWhite));
   if (!chart) return tl::unexpected(chart.error());
-  ComparisonOptions look;
-  look.background = Background::kWhite;
-  look.width_px = 1100;
-  look.height_px = 300;
-  return encode_svg(charts_picture(std::span(&*chart, 1), look)).map([](const std::string& svg) {
-    return html::element("h2", "The offset over time") + "<div>" + html::inline_svg(svg) +
-           "</div>\n<p class=\"caption\">Each point is one window by itself, with a bar of one sigma to either "
+  const auto svg_of = [&](int width_px) {
+    ComparisonOptions look;
+    look.background = Background::kWhite;
+    look.width_px = width_px;
+    look.height_px = 300;
+    return encode_svg(charts_picture(std::span(&*chart, 1), look));
+  };
+  return both_widths(svg_of(1100), svg_of(460)).map([](const std::string& pictures) {
+    return html::element("h2", "The offset over time") + pictures +
+           "\n<p class=\"caption\">Each point is one window by itself, with a bar of one sigma to either "
            "side; the line is the course that they have evidence for.</p>\n";
   });
 }
@@ -189,10 +190,12 @@ std::string thickness_table(const ReportContent& content) {
   std::string rows;
   for (const ComparedMap& map : content.maps) {
     if (!map.thickness || !map.thickness->map) continue;
-    rows += row(fmt::format("offset {} ms", offset_label_ms(*map.offset_s)), in_words(*map.thickness->map));
+    const char* chip = &map == &content.maps.front() ? "map-a" : "map-b";
+    rows += fmt::format("<tr><th><span class=\"{}\"></span>offset {} ms</th><td>{}</td></tr>\n", chip,
+                        offset_label_ms(*map.offset_s), html::escape(in_words(*map.thickness->map)));
   }
   if (rows.empty()) return rows;
-  return html::element("table", rows) +
+  return in_table(rows) +
          "<p class=\"caption\">How thick flat surfaces are in the map: the width at half height across "
          "each. In a sharp map this is the range noise.</p>\n";
 }
@@ -205,8 +208,10 @@ Result<std::string> maps(const ReportContent& content) {
   look.width_px = 1800;
   look.height_px = 1100;
   return comparison_picture(content.maps, nullptr, look).and_then(draw).map([&](const Image& image) {
-    return html::element("h2", "The map 5 ms off, and at the answer") + thickness_table(content) +
-           figure(html::png_image(encode_png(image), "Two maps from above, side by side"),
+    return fmt::format("<h2 class=\"{}\">The map 5 ms off, and at the answer</h2>\n", still_class(content)) +
+           thickness_table(content) +
+           figure(still_class(content),
+                  html::png_image(encode_png(image), "Two maps from above, side by side"),
                   "All else is equal. Where the right picture is the sharper one, the answer is the better "
                   "offset.");
   });
@@ -222,14 +227,18 @@ Result<std::string> profile(const ReportContent& content) {
     const auto width_mm = profiles.back().profile.width_at_half_height_mm;
     if (width_mm) caption += fmt::format("; {}: {:.0f} mm wide at half height", name, *width_mm);
   }
-  ComparisonOptions look;
-  look.background = Background::kLight;
-  look.width_px = 1300;
-  look.height_px = 620;
-  const Picture picture = profile_picture(content.maps, *content.section, profiles, look);
-  return encode_svg(picture).map([&](const std::string& svg) {
+  caption +=
+      ". Points in the views from above: violet where the motor turned one way, green where it turned back.";
+  const auto svg_of = [&](int width_px, int height_px) {
+    ComparisonOptions look;
+    look.background = Background::kLight;
+    look.width_px = width_px;
+    look.height_px = height_px;
+    return encode_svg(profile_picture(content.maps, *content.section, profiles, look));
+  };
+  return both_widths(svg_of(1300, 620), svg_of(400, 560)).map([&](const std::string& pictures) {
     return html::element("h2", "Profile across the wall that shows it best") +
-           figure(html::inline_svg(svg), caption + ".");
+           figure("profile", pictures, caption);
   });
 }
 
@@ -242,21 +251,20 @@ std::string report_command(const std::string& recording_name, const std::string&
 Result<std::string> report_html(const ReportContent& content) {
   const auto strip = over_time_strip(content);
   const auto curve_part = curves(content), map_part = maps(content), profile_part = profile(content);
-  for (const auto* part : {&strip, &curve_part, &map_part, &profile_part}) {
+  const auto data = content.live ? live_map_data(*content.live) : Result<std::string>();
+  for (const auto* part : {&strip, &curve_part, &map_part, &profile_part, &data}) {
     if (!*part) return tl::unexpected(part->error());
   }
   const std::string name = html::escape(content.recording.name);
-  return fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-      "<title>{0}: offset between laser and motor</title>\n<style>{1}</style>\n</head>\n<body>\n"
-      "<h1>{0}</h1>\n<p>Offset between the laser scanner's clock and its motor's.</p>\n{2}{3}"
-      "<h2>Warnings</h2>\n{4}{13}{5}{6}{7}<h2>What was recorded</h2>\n{8}"
-      "<h2>How this was made</h2>\n<p>{9} sweeps, {10} scans; sweepscope {11}.</p>\n<pre>{12}</pre>\n"
-      "</body>\n</html>\n",
-      name, kStyleSheet, answer(content.estimate), criteria_table(content), warnings_list(content),
-      *curve_part, *map_part, *profile_part, recorded(content.recording), content.estimate.sweeps,
-      content.estimate.scans, SWEEPSCOPE_VERSION, html::escape(content.command), *strip);
+  const std::string body = fmt::format(
+      "<h1>{0}</h1>\n<p>Offset between the laser scanner's clock and its motor's.</p>\n{1}{2}"
+      "<h2>Warnings</h2>\n{3}{4}{5}{6}{7}{8}<h2>What was recorded</h2>\n{9}"
+      "<h2>How this was made</h2>\n<p>{10} sweeps, {11} scans; sweepscope {12}.</p>\n<pre>{13}</pre>\n",
+      name, answer(content.estimate), criteria_table(content), warnings_list(content), *strip,
+      content.live ? live_map_part(*content.live) : "", *curve_part, *map_part, *profile_part,
+      recorded(content.recording), content.estimate.sweeps, content.estimate.scans, SWEEPSCOPE_VERSION,
+      html::escape(content.command));
+  return html_page(content.recording.name + ": offset between laser and motor", body, *data);
 }
 
 }  // namespace sweepscope

@@ -9,6 +9,7 @@
 #include "core/offset/estimate.hpp"
 #include "core/recording/inspect.hpp"
 #include "render/comparison/compared_map.hpp"
+#include "render/page/live_map.hpp"
 
 namespace sweepscope {
 
@@ -21,6 +22,7 @@ struct ReportContent {
       criteria;  // the paper's criteria over the offset, as evidence; none without an answer
   std::optional<Estimate> over_time;  // the offset in windows; only of long recordings of a stationary rig
   std::vector<ComparedMap> maps;
+  std::optional<LiveMap> live;          // of those maps, for the reader to turn; absent: none was asked for
   std::optional<CrossSection> section;  // the face that shows the offset best, if there is one
 };
 
@@ -30,7 +32,8 @@ std::string report_command(const std::string& recording_name, const std::string&
 
 /// One self-contained HTML page: what was recorded, the answer with its equation and uncertainty or the
 /// reasons why there is none, the criteria, the maps, a profile, warnings, and how it was made. Pictures are
-/// embedded; it contains no time and no host name, needs no network, and can be printed.
+/// embedded; it contains no time and no host name, needs no network, and can be printed. With a live map its
+/// reader can turn the offset; on paper, and where scripts or WebGL 2 are missing, the pictures stand in.
 Result<std::string> report_html(const ReportContent& content);
 
 }  // namespace sweepscope

@@ -24,7 +24,20 @@ TEST_F(ReportCommand, IsOnePageWithTheAnswerAndItsEvidence) {
   }
   EXPECT_EQ(html.find("<room>"), std::string::npos) << "names are escaped";
   EXPECT_EQ(html.find("src=\"http"), std::string::npos);
-  EXPECT_EQ(html.find("<script"), std::string::npos);
+  EXPECT_NE(html.find("default-src 'none'"), std::string::npos);
+}
+
+TEST_F(ReportCommand, PointsDecideHowMuchOfTheMapIsInThePage) {
+  ASSERT_EQ(run("simulate room-3 -o r.bag --duration-s 4").exit_code, 0);
+  ASSERT_EQ(run("report r.bag -o out --points 0").exit_code, 0);
+  EXPECT_EQ(page().find("<script"), std::string::npos);
+  EXPECT_NE(page().find("data:image/png;base64,"), std::string::npos);
+  const std::size_t without = page().size();
+  ASSERT_EQ(run("report r.bag -o out --points 50000").exit_code, 0);
+  EXPECT_NE(page().find("50,000 of "), std::string::npos);
+  EXPECT_NEAR(double(page().size() - without), 50'000 * 17.3, 100'000);
+  EXPECT_EQ(run("report r.bag -o out --points 500001").exit_code, 2);
+  EXPECT_EQ(run("report r.bag -o out --points -1").exit_code, 2);
 }
 
 TEST_F(ReportCommand, IsTheSameToTheByteEachTime) {

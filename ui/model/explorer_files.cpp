@@ -274,7 +274,7 @@ Result<void> Explorer::export_report(const std::string& folder) {
   start_export(
       "Writing a report",
       [loaded = loaded_, assume = options_.assume, folder, command](const Job& job) -> Result<void> {
-        auto content = gather_report(loaded->prepared, assume, nullptr, job);
+        auto content = gather_report(loaded->prepared, {.assume = assume}, nullptr, job);
         if (!content) return tl::unexpected(content.error());
         content->command = command;
         job.report("drawing", 0);

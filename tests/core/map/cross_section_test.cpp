@@ -217,6 +217,28 @@ TEST(BestSection, IsTheSameForAnyNumberOfThreads) {
   EXPECT_EQ(many->widths_mm, single->widths_mm);
 }
 
+// A face of 0.5 m: a column has points along its whole width, but no plane.
+TEST(BestSection, IsNotARoundColumn) {
+  const auto found_on = [](double radius_m) {
+    NoisySurfaces map;
+    std::vector<StampedPose> path(2);
+    path[1].time_s = 30;
+    simulation::Random random(4, 9, 0);
+    for (int i = 0; i < 200000; ++i) {
+      const auto sweep = static_cast<std::uint32_t>(60.0 * i / 200000);
+      const double along_m = random.uniform() - 0.5;
+      const double bend_m = radius_m - std::sqrt(radius_m * radius_m - along_m * along_m);
+      Vector3d p_m(along_m, 2 + bend_m, 1 + 2 * random.uniform());
+      map.add(p_m + 0.006 * Vector3d(random.normal(), random.normal(), random.normal()), sweep);
+      map.cloud.back().time_s = 30.0 * i / 200000;
+    }
+    const MapOnPath on_path{&map.cloud, path};
+    return best_section({&on_path, 1}).has_value();
+  };
+  EXPECT_TRUE(found_on(1000));
+  EXPECT_FALSE(found_on(0.8));
+}
+
 TEST(BestSection, NothingInSightIsNothing) {
   EXPECT_FALSE(best_section({}));
   const MapCloud empty;

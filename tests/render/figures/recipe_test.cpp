@@ -62,6 +62,23 @@ TEST_F(RecipeTest, ReadsAFigureOfTheOffsetOverTime) {
   EXPECT_EQ(refusal(kData + "figures: {a: {kind: over-time}}\n"), "3:14: figure a needs an estimate");
 }
 
+TEST_F(RecipeTest, ReadsAPageThatIsInteractive) {
+  const std::string maps = "maps: [{recording: room, offset_ms: 2}, {recording: room, offset_ms: 7}]";
+  const auto recipe = read(kData + "figures: {a: {kind: interactive, " + maps + ", points: 5000}}\n");
+  ASSERT_TRUE(recipe) << recipe.error().message;
+  const auto& page = std::get<InteractiveFigure>(recipe->figures.at(0).what);
+  EXPECT_EQ(page.points, 5000U);
+  EXPECT_EQ(page.maps.size(), 2U);
+  EXPECT_TRUE(recipe->figures[0].formats.empty());
+  const auto refused = [&](const std::string& keys) {
+    return refusal(kData + "figures: {a: {kind: interactive, " + keys + "}}\n");
+  };
+  EXPECT_NE(refused("maps: {recording: room, offset_ms: 7}").find("needs two maps of one recording"),
+            std::string::npos);
+  EXPECT_NE(refused(maps + ", formats: [png]").find("is a page: it has no formats"), std::string::npos);
+  EXPECT_NE(refused(maps + ", points: 10").find("points"), std::string::npos);
+}
+
 TEST_F(RecipeTest, FilesAreRelativeToTheRecipe) {
   const auto recipe = read(
       "recordings: {walk: {file: bags/walk.bag, rig: rig.yaml, stamps: receive, window_s: [1, 2]}}\n"
@@ -78,7 +95,7 @@ TEST_F(RecipeTest, RefusalsSayLineColumnAndWhatIsWrong) {
       refusal(kData + "figure: {}\n"),
       "3:1: unknown key \"figure\" in the recipe; known are: estimates, figures, look, recordings, tables");
   EXPECT_EQ(refusal(kData + "figures: {a: {kind: pie}}\n"),
-            "3:21: figure a: kind must be one of: curves, maps, over-time, profile, scan, trend");
+            "3:21: figure a: kind must be one of: curves, interactive, maps, over-time, profile, scan, trend");
   EXPECT_EQ(refusal(kData + "figures: {a: {kind: curves, estimates: hall}}\n"),
             "3:40: there is no estimate \"hall\"; there are: room");
   EXPECT_EQ(refusal("recordings: {r: {simulate: moon}}\n").substr(0, 36),

@@ -10,7 +10,7 @@ TEST(GatherReport, InterruptedAtAnyLookItGivesNothing) {
   const PreparedRecording prepared =
       prepare(test::simulated("room-1", 0.024, 2.5).recording, FeatureOptions(), Job()).value();
   test::expect_interrupted_at_every_look(5, [&](const Job& job) -> std::optional<std::string> {
-    const auto content = gather_report(prepared, std::nullopt, nullptr, job);
+    const auto content = gather_report(prepared, {}, nullptr, job);
     if (content) return report_html(*content).value();
     EXPECT_EQ(content.error().code, ExitCode::kInterrupted);
     return std::nullopt;
@@ -21,7 +21,7 @@ TEST(GatherReport, InterruptedAtAnyLookItGivesNothing) {
 TEST(GatherReport, ItsAnswerIsThatOfAnEstimateAndTheCriteriaStandBesideIt) {
   const PreparedRecording prepared =
       prepare(test::simulated("room-1", 0.024, 4.5).recording, FeatureOptions(), Job()).value();
-  const ReportContent content = gather_report(prepared, std::nullopt, nullptr, Job()).value();
+  const ReportContent content = gather_report(prepared, {}, nullptr, Job()).value();
   const Estimate found = estimate(prepared, {}, {}, Job()).value();
   EXPECT_EQ(content.estimate.method, Method::kDirect);
   EXPECT_EQ(content.estimate.offset_s, found.offset_s);

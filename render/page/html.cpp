@@ -1,4 +1,4 @@
-#include "render/report/html.hpp"
+#include "render/page/html.hpp"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,6 @@
 #include "core/io/printable_text.hpp"
 
 namespace sweepscope::html {
-namespace {
-
 std::string base64(std::string_view bytes) {
   using Digits = boost::archive::iterators::base64_from_binary<
       boost::archive::iterators::transform_width<std::string_view::const_iterator, 6, 8>>;
@@ -18,14 +16,21 @@ std::string base64(std::string_view bytes) {
   return text;
 }
 
-}  // namespace
-
 std::string escape(std::string_view text) {
   return markup_escaped(printable_line(text));
 }
 
 std::string element(std::string_view name, std::string_view inside) {
   return fmt::format("<{0}>{1}</{0}>\n", name, inside);
+}
+
+std::string json_block(std::string_view id, std::string json) {
+  for (std::size_t at = 0; (at = json.find('<', at)) != std::string::npos;) json.replace(at, 1, "\\u003c");
+  return fmt::format("<script type=\"application/json\" id=\"{}\">{}</script>\n", id, json);
+}
+
+std::string data_block(std::string_view id, std::string_view bytes) {
+  return fmt::format("<script type=\"text/plain\" id=\"{}\">{}</script>\n", id, base64(bytes));
 }
 
 std::string png_image(std::string_view png, std::string_view alternative) {
