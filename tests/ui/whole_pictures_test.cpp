@@ -34,7 +34,7 @@ struct Strip {
 class WholePictures : public testing::Test {
  protected:
   void SetUp() override {
-    run("sample room-1\nheights all\nfit-view\ntrajectory off\nwait solved\n");
+    run("sample room-1\nclose-up off\nheights all\nfit-view\ntrajectory off\nwait solved\n");
     ASSERT_TRUE(ui_.shows_all_points());
     ASSERT_GT(ui_.explorer().pane(Side::kA).full->points->size(), 90000u);  // several slices
   }

@@ -146,6 +146,8 @@ Result<void> Explorer::act(const Call& call) {
        }},
       {"estimate", [](Explorer& self, const Call&) { return self.start_estimate(); }},
       {"take-found", [](Explorer& self, const Call&) { return self.take_found(); }},
+      {"next-place", [](Explorer& self, const Call& c) { return self.next_place(c.text(0) == "back"); }},
+      {"look-at-place", [](Explorer& self, const Call&) { return self.look_at_place(); }},
       {"save-session", [](Explorer& self, const Call& c) { return self.save_session(c.text(0)); }},
       {"export-cloud",
        [](Explorer& self, const Call& c) {
@@ -216,7 +218,8 @@ Settings Explorer::with_fitted_view() const {
   const SolvedMap* map = panes_[0].request ? panes_[0].request->placement.map.get() : provisional_.get();
   if (map == nullptr) return next;
   const Box box{{map->x_m.from, map->y_m.from, map->z_m.from}, {map->x_m.to, map->y_m.to, map->z_m.to}};
-  for (ViewPoint* view : {&next.camera_a, &next.camera_b}) *view = fitted(*view, box, pane_aspect_);
+  const PictureShape shape = place() ? picture_shape_ : PictureShape{picture_shape_.aspect, 0, 0};
+  for (ViewPoint* view : {&next.camera_a, &next.camera_b}) *view = fitted(*view, box, shape);
   return next;
 }
 
@@ -224,10 +227,14 @@ void Explorer::fit_view() {
   change_settings(with_fitted_view(), {});
 }
 
-void Explorer::set_pane_aspect(double aspect) {
-  if (aspect == pane_aspect_) return;
-  pane_aspect_ = aspect;
+void Explorer::refit_view() {
   if (loaded_ && !view_moved_) settings_ = with_fitted_view();  // nothing that undo would take back
+}
+
+void Explorer::set_picture_shape(const PictureShape& shape) {
+  if (shape == picture_shape_) return;
+  picture_shape_ = shape;
+  refit_view();
 }
 
 }  // namespace sweepscope::ui

@@ -15,6 +15,8 @@
 #include "core/offset/estimate.hpp"
 #include "ui/model/background.hpp"
 #include "ui/model/placed_cloud.hpp"
+#include "ui/model/places.hpp"
+#include "ui/model/view_camera.hpp"
 #include "ui/state/commands.hpp"
 #include "ui/state/history.hpp"
 
@@ -51,6 +53,11 @@ struct Pane {
   std::optional<MapThickness> thickness;    // of the map, with slow values that are its blur
   std::string problem;                      // why the map could not be solved
   bool lost = false;
+  /// A close-up of the place that is looked at; null without one. Placed with what `request` asks for.
+  PlacedCloudPtr close_up;
+  PlacePtr close_up_place;
+  std::optional<CloudRequest> close_up_request;
+  BeamValuesPtr close_up_slow;
 };
 
 /// All points of a pane, and what came with them.
@@ -108,8 +115,13 @@ class Explorer {
   Result<void> perform(std::string_view line, const std::string& gesture = {});
   std::function<Result<void>(const Call&)> at_window;
 
-  /// Width over height of a map's picture. A view that nobody moved is fitted to it again.
-  void set_pane_aspect(double aspect);
+  /// The shape of a map's picture. A view that nobody moved is fitted to it again.
+  void set_picture_shape(const PictureShape& shape);
+
+  /// Where the maps differ most, best first; empty until both are solved, and where they do not differ.
+  const std::vector<PlacePtr>& places() const { return places_; }
+  /// The one that the close-ups show; null without one.
+  PlacePtr place() const;
 
   /// The offsets that map A and map B can have. With a recording: as far as a search may go about 0, about
   /// the candidates that are set, and about the offset that was found.
@@ -199,6 +211,13 @@ class Explorer {
   Placement placement_of(Side side) const;
   CloudLook wanted_look(const SolvedMap* a, const SolvedMap* b);
   void update_panes(double seconds_since_last);
+  void update_places();
+  void start_places(const Placement& a, const Placement& b);
+  void take(std::vector<PlacePtr> places);
+  void place_close_up(Side side);
+  Result<void> next_place(bool back);
+  Result<void> look_at_place();
+  void refit_view();
   void show(Side side, CloudRequest request);
   void start_full();
   void take(std::span<const Side> sides, std::span<const CloudRequest> requests,
@@ -229,7 +248,10 @@ class Explorer {
   Side changed_side_ = Side::kB;  // whose offset was changed last
   bool b_was_set_ = false;        // by a person, since the recording was opened
   bool view_moved_ = false;       // by a person: no longer fitted when the pane changes its shape
-  double pane_aspect_ = 1;
+  PictureShape picture_shape_;
+  std::vector<PlacePtr> places_;
+  std::optional<std::pair<Placement, Placement>> places_of_;  // the maps that they are of
+  bool fitted_beside_ = false;                                // whether the view leaves room for close-ups
   std::optional<Error> export_failure_, load_failure_;
   std::vector<std::filesystem::path> input_files_;  // that were opened, or named before
   std::filesystem::path session_file_;              // opened or saved last: saving it again is no harm

@@ -146,6 +146,8 @@ void Explorer::close() {
   provisional_ = nullptr;
   span_maps_ = {nullptr, nullptr};
   panes_ = {};
+  places_.clear();
+  places_of_.reset();
   b_was_set_ = false;
   view_moved_ = false;
 }

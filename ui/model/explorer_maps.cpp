@@ -95,6 +95,7 @@ void Explorer::update(double seconds_since_last) {
     return;
   }
   update_panes(seconds_since_last);
+  update_places();
   update_solving();
 }
 

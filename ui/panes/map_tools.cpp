@@ -7,6 +7,7 @@
 #include "render/charts/ticks.hpp"
 #include "ui/host/paint.hpp"
 #include "ui/model/picking.hpp"
+#include "ui/panes/close_ups.hpp"
 #include "ui/panes/widgets.hpp"
 
 namespace sweepscope::ui {
@@ -227,6 +228,7 @@ void draw_overlays(const PaneContext& context, Side side, const PixelRect& pictu
                     {static_cast<float>(picture.right()), static_cast<float>(picture.bottom())}, true);
   const Projection projection = projection_of(context.settings(), side, picture);
   draw_path(context, side, projection);
+  draw_place_mark(context, projection);
   draw_profile(context, projection, view_of(context.settings(), side).centre_m.z());
   draw_measure(context, projection);
   draw_picked(context, side, projection);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "render/charts/curve_charts.hpp"
+#include "ui/panes/close_ups.hpp"
 #include "ui/panes/map_tools.hpp"
 #include "ui/panes/number_box.hpp"
 #include "ui/panes/widgets.hpp"
@@ -20,25 +21,13 @@ ImVec2 far_corner(const PixelRect& rect) {
   return {static_cast<float>(rect.right()), static_cast<float>(rect.bottom())};
 }
 
-Colour backdrop(const PaneContext& context) {
-  switch (context.settings().backdrop) {
-    case Backdrop::kBlack:
-      return {0, 0, 0};
-    case Backdrop::kWhite:
-      return {255, 255, 255};
-    case Backdrop::kTheme:
-      break;
-  }
-  return context.style.map_panel;
-}
-
 /// Draws the map, as far as the frame's time allows.
 void render(const PaneContext& context, Side side, const PixelRect& picture) {
   LiveView& view = *context.views[static_cast<std::size_t>(side)];
   const Pane& pane = context.explorer.pane(side);
   const auto points = [](const PlacedCloudPtr& cloud) { return cloud ? cloud->points : nullptr; };
   view.resize(std::max(16, static_cast<int>(picture.width)), std::max(16, static_cast<int>(picture.height)));
-  view.set_background(backdrop(context));
+  view.set_background(backdrop_of(context));
   view.set_point_size(std::round(context.settings().point_size_px * context.scale));
   view.set_camera(camera_of(view_of(context.settings(), side), context.settings().perspective));
   view.show(points(pane.coarse), points(pane.full));
@@ -193,6 +182,7 @@ void take_mouse(const PaneContext& context, Side side, const PixelRect& picture)
 void draw_map(const PaneContext& context, Side side, const PixelRect& picture) {
   show_texture(context, side, picture);
   draw_overlays(context, side, picture);
+  draw_close_up(context, side, picture);
   draw_frame(context, picture);
 }
 
@@ -236,10 +226,23 @@ void draw_swipe(const PaneContext& context, const PixelRect& picture) {
   show_texture(context, Side::kB, picture, share, 1);
   draw_overlays(context, Side::kB, picture);
   divider(context, picture);
+  for (const Side side : kBothSides) draw_close_up(context, side, picture);
   draw_frame(context, picture);
 }
 
 }  // namespace
+
+Colour backdrop_of(const PaneContext& context) {
+  switch (context.settings().backdrop) {
+    case Backdrop::kBlack:
+      return {0, 0, 0};
+    case Backdrop::kWhite:
+      return {255, 255, 255};
+    case Backdrop::kTheme:
+      break;
+  }
+  return context.style.map_panel;
+}
 
 std::vector<Side> sides_of(Layout layout) {
   if (layout == Layout::kOnlyA) return {Side::kA};

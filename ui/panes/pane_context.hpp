@@ -68,7 +68,7 @@ struct PaneContext {
   const Fonts& fonts;
   const Style& style;
   double scale;
-  std::array<LiveView*, 2> views;
+  std::array<LiveView*, 2> views, close_ups;
   double draw_budget_s;  // of each pane and frame; a slice of points may go beyond it
   /// Names of positions that scripts can click: "button estimate", "handle a", "map b", ...
   std::map<std::string, PixelRect>& anchors;
@@ -85,6 +85,9 @@ struct PaneContext {
   /// The last widget's place.
   void anchor_last(const std::string& name) const;
 };
+
+/// The colour behind the points.
+Colour backdrop_of(const PaneContext& context);
 
 /// The maps whose pictures the layout shows.
 std::vector<Side> sides_of(Layout layout);

@@ -269,6 +269,14 @@ void add_fields_of_tools(std::vector<Command>& all) {
                        &Settings::scan_view));
   all.push_back(number({"scan", "Scan", "The scan that the scan view shows, counted from 0."},
                        &Settings::scan, number_of("NUMBER", "", 0, 1e7, 1)));
+  all.push_back(toggle({"close-up", "Close-up",
+                        "A place where the maps differ most, from above, in a corner of each map. A blurred "
+                        "surface fills more cells of 5 cm than a sharp one."},
+                       &Settings::close_up));
+  all.push_back(number({"place", "Place",
+                        "Which place the close-up shows: 1 is where the maps differ most. Long walls come "
+                        "after compact objects, which differ in all directions."},
+                       &Settings::place, number_of("NUMBER", "", 1, 12, 1)));
   all.push_back(choice(
       {"search", "Search", "Automatic: coarse to fine about 0 ms. Range: the candidates that you specify."},
       &Settings::search, {"automatic", "range"}));
@@ -350,6 +358,11 @@ void add_actions(std::vector<Command>& all) {
               {.name = "SECONDS", .unit = "s", .least = 1, .greatest = 300, .optional = true}}));
   all.push_back(action({"close", "Close the recording", "Back to the start page."}));
   all.push_back(action({"fit-view", "Fit the view", "Shows the whole map."}));
+  all.push_back(action({"next-place", "Next place",
+                        "The close-up goes to the next place of the list; \"back\": to the one before."},
+                       {{.name = "WAY", .kind = Kind::kChoice, .choices = {"back"}, .optional = true}}));
+  all.push_back(
+      action({"look-at-place", "Look at the place", "Moves both cameras to the close-up's place."}));
   all.push_back(action({"estimate", "Estimate the offset", "Searches for the offset in the background."}));
   all.push_back(action({"cancel", "Cancel", "Stops everything that runs in the background."}));
   all.push_back(action({"solve", "Solve the maps", "Resumes what was cancelled."}));
@@ -404,6 +417,7 @@ Need need_of(const std::string& name) {
       {"estimate", Need::kRecording},       {"solve", Need::kRecording},
       {"save-session", Need::kRecording},   {"copy-command", Need::kRecording},
       {"export-picture", Need::kRecording}, {"export-report", Need::kRecording},
+      {"next-place", Need::kPlaces},        {"look-at-place", Need::kPlaces},
       {"take-found", Need::kEstimate},      {"export-curve", Need::kEstimate},
       {"export-cloud", Need::kPoints}};
   const auto need = kNeeds.find(name);

@@ -52,6 +52,9 @@ struct Settings {
   bool scan_view = false;
   double scan = 0;  // the scan of the scan view
 
+  bool close_up = true;  // of the place where the maps differ most, in a corner of each
+  double place = 1;      // the number of that place in their list, best first
+
   Search search = Search::kAutomatic;
   double search_from_ms = 19, search_to_ms = 29, search_step_ms = 1;
   std::string method = "automatic",
