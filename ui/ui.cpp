@@ -11,8 +11,10 @@
 #include "render/gl/default_framebuffer.hpp"
 #include "ui/host/imgui_host.hpp"
 #include "ui/host/input_queue.hpp"
+#include "ui/panes/file_dialog.hpp"
 #include "ui/panes/number_box.hpp"
 #include "ui/panes/pane_context.hpp"
+#include "ui/preferences.hpp"
 #include "ui/recent.hpp"
 
 namespace sweepscope::ui {
@@ -44,7 +46,13 @@ struct Ui::Parts {
         close_up_a(gl_context),
         close_up_b(gl_context) {
     transient.recent = read_recent(options.recent_list);
+    explorer.begin_with(read_preferences(options.preferences).look);
     explorer.at_window = [this](const Call& call) { return act(call); };
+  }
+
+  ~Parts() {
+    write_preferences(options.preferences,
+                      {look_of(explorer.settings()), context.width_px(), context.height_px()});
   }
 
   double scale() const {
@@ -127,9 +135,11 @@ void Ui::Parts::open_front(const std::string& name, const Call& call) {
   if (name == "ask") transient.asks_for = Transient::Asked{call.text(0), call.text(1)};
   transient.palette_query.clear();
   transient.palette_choice = 0;
-  transient.asked_text = transient.asks_for
-                             ? explorer.suggested_file(transient.asks_for->command, transient.asks_for->what)
-                             : "";
+  transient.browsing = {};
+  transient.asked_text =
+      transient.asks_for && transient.asks_for->command == "open" ? first_path(transient.recent)
+      : transient.asks_for ? explorer.suggested_file(transient.asks_for->command, transient.asks_for->what)
+                           : "";
   transient.just_opened = true;
 }
 

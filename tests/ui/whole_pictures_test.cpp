@@ -57,7 +57,8 @@ class WholePictures : public testing::Test {
   }
 
   std::unique_ptr<gl::Context> context_ = *gl::make_offscreen_context(1200, 800);
-  Ui ui_{*context_, {.explorer = {}, .display_scale = 1, .recent_list = {}, .draw_budget_s = 0}};
+  Ui ui_{*context_,
+         {.explorer = {}, .display_scale = 1, .recent_list = {}, .preferences = {}, .draw_budget_s = 0}};
 };
 
 TEST_F(WholePictures, AnotherOffsetGivesTheOldTheThinnedAndTheNewOneAndNothingBetween) {

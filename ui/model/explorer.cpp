@@ -188,13 +188,16 @@ Result<void> Explorer::start_estimate() {
   if (!loaded_) return not_now("There is no recording to estimate from.");
   background_.cancel("estimate");
   const EstimateOptions options = estimate_options(settings_, options_.assume);
+  growing_ = std::make_shared<GrowingCurve>();
   background_.start(
       "estimate", "estimate", "Estimating the offset",
-      [this, options, loaded = loaded_](const Job& job) -> Background::Finish {
+      [this, options, loaded = loaded_, growing = growing_](const Job& job) -> Background::Finish {
         EstimateOptions along = options;
         along.walk = loaded->walk->get();
-        auto found =
-            std::make_shared<Result<Estimate>>(sweepscope::estimate(loaded->prepared, along, {}, job));
+        const KeptCandidates candidates{
+            nullptr, {}, [growing](const CurvePoint& point) { growing->add(point); }};
+        auto found = std::make_shared<Result<Estimate>>(
+            sweepscope::estimate(loaded->prepared, along, candidates, job));
         if (*found && (*found)->walk) loaded->walk->keep((*found)->walk);
         return [this, found] {
           if (*found) return take(std::move(**found));
@@ -203,6 +206,17 @@ Result<void> Explorer::start_estimate() {
       },
       steps_of_estimating());
   return {};
+}
+
+void Explorer::update_growing_curve() {
+  if (!background_.has("estimate")) growing_.reset();
+  if (!growing_) so_far_.reset();
+  if (!growing_ || growing_->size() < 2) return;
+  if (!so_far_ || so_far_->curve.size() != growing_->size()) so_far_ = growing_->so_far();
+}
+
+const Estimate* Explorer::charted() const {
+  return so_far_ ? &*so_far_ : estimate();
 }
 
 void Explorer::take(Estimate estimate) {

@@ -14,6 +14,7 @@
 
 #include "core/offset/estimate.hpp"
 #include "ui/model/background.hpp"
+#include "ui/model/growing_curve.hpp"
 #include "ui/model/placed_cloud.hpp"
 #include "ui/model/places.hpp"
 #include "ui/model/view_camera.hpp"
@@ -95,10 +96,15 @@ class Explorer {
   explicit Explorer(Options options);
 
   const Settings& settings() const { return settings_; }
+  /// Before anything is done: settings that undo does not go behind.
+  void begin_with(const Settings& settings) { settings_ = settings; }
   const Loaded* loaded() const { return loaded_.get(); }
   /// Edge and plane points of the recording; null until they were requested and found.
   const FeatureSet* features() const { return loaded_ ? loaded_->prepared.features.get() : nullptr; }
   const Estimate* estimate() const { return estimate_ ? &*estimate_ : nullptr; }
+  /// What the charts show: the candidates of an estimate while it is computed, or the estimate; null without
+  /// either.
+  const Estimate* charted() const;
   const Pane& pane(Side side) const { return panes_[static_cast<std::size_t>(side)]; }
   const std::optional<Message>& message() const { return message_; }
   bool is_loading() const { return background_.has("load"); }
@@ -126,6 +132,8 @@ class Explorer {
   /// The offsets that map A and map B can have. With a recording: as far as a search may go about 0, about
   /// the candidates that are set, and about the offset that was found.
   std::pair<double, double> offset_window_ms() const;
+  /// The map whose offset was changed last.
+  Side changed_side() const { return changed_side_; }
   /// What the command "copy" copies, and in what words.
   struct Copied {
     std::string text, what;
@@ -212,6 +220,7 @@ class Explorer {
   CloudLook wanted_look(const SolvedMap* a, const SolvedMap* b);
   void update_panes(double seconds_since_last);
   void update_places();
+  void update_growing_curve();
   void start_places(const Placement& a, const Placement& b);
   void take(std::vector<PlacePtr> places);
   void place_close_up(Side side);
@@ -230,6 +239,8 @@ class Explorer {
   History history_;
   LoadedPtr loaded_;
   std::optional<Estimate> estimate_;
+  std::shared_ptr<GrowingCurve> growing_;
+  std::optional<Estimate> so_far_;  // of what grows; empty before its second candidate
   std::optional<Message> message_;
   std::map<std::int64_t, SolvedMapPtr> solved_;  // by the offset in nanoseconds
   std::map<std::int64_t, std::string> unsolvable_;

@@ -138,6 +138,8 @@ void Explorer::close() {
   background_.cancel_all("");
   loaded_ = nullptr;
   estimate_.reset();
+  growing_.reset();
+  so_far_.reset();
   message_.reset();
   solved_.clear();
   solved_order_.clear();

@@ -89,6 +89,7 @@ std::vector<std::pair<std::string, std::string>> Explorer::observables() {
           {"places", "at how many places the maps differ, as far as they are listed"},
           {"place-at", "x and y of the place that the close-up shows; empty without one"},
           {"estimate", "none, found or refused"},
+          {"candidates", "how many candidates the charts show"},
           {"found-ms", "the offset found"},
           {"message", "the message in front; empty without one"},
           {"status", "the status line"},
@@ -117,6 +118,7 @@ std::optional<std::string> Explorer::observe(std::string_view name) const {
               : "";
   }
   if (name == "estimate") return estimate_word(estimate());
+  if (name == "candidates") return std::to_string(charted() != nullptr ? charted()->curve.size() : 0);
   if (name == "found-ms")
     return estimate_ && estimate_->offset_s ? fmt::format("{:.4f}", *estimate_->offset_s * 1e3) : "";
   if (name == "message") return message_ ? message_->text : "";

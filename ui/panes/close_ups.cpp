@@ -69,9 +69,8 @@ void sign_button(const PaneContext& context, const std::string& line, const Pixe
   const float r = context.pxf(3.5);
   std::array<ImVec2, 3> points{};
   for (std::size_t i = 0; i < points.size(); ++i) points[i] = {x + r * stroke[i].x, y + r * stroke[i].y};
-  ImGui::GetWindowDrawList()->AddPolyline(points.data(), 3,
-                                          to_imgui(hovered ? context.style.text : context.style.faint_text),
-                                          0, context.pxf(1.5));
+  ImGui::GetWindowDrawList()->AddPolyline(points.data(), 3, to_imgui(ink_of(context), hovered ? 1 : 0.6), 0,
+                                          context.pxf(1.5));
 }
 
 /// "1 of 8", with what steps and closes.
@@ -86,7 +85,7 @@ void draw_bar(const PaneContext& context, Side side, const PixelRect& bar) {
   const ImVec2 size = ImGui::CalcTextSize(words.c_str());
   const float middle = static_cast<float>(bar.top + bar.height / 2);
   ImGui::GetWindowDrawList()->AddText({static_cast<float>(left.right()), middle - size.y / 2},
-                                      to_imgui(context.style.faint_text), words.c_str());
+                                      to_imgui(ink_of(context), 0.6), words.c_str());
   ImGui::PopFont();
   left.left += left.width + static_cast<double>(size.x);
   sign_button(context, "next-place", left, {{{-0.5f, -1}, {0.5f, 0}, {-0.5f, 1}}});
@@ -136,7 +135,8 @@ void draw_place_mark(const PaneContext& context, const Projection& projection) {
     corners.push_back({static_cast<float>(at->x), static_cast<float>(at->y)});
   }
   ImGui::GetWindowDrawList()->AddPolyline(corners.data(), static_cast<int>(corners.size()),
-                                          IM_COL32(255, 255, 255, 190), ImDrawFlags_Closed, context.pxf(1));
+                                          to_imgui(ink_of(context), 0.75), ImDrawFlags_Closed,
+                                          context.pxf(1));
 }
 
 void place_field(const PaneContext& context) {

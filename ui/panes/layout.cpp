@@ -64,7 +64,8 @@ std::vector<PixelRect> close_up_places(const PixelRect& picture, double scale, L
   const bool both = layout == Layout::kSwipe;
   const double gap = kGap * scale, share = both ? 0.3 : 0.44;
   const double width =
-      std::min({share * picture.width, 0.42 * picture.height * PlaceToLook::kAspect, kMaxWidth * scale});
+      std::min({share * picture.width, (both ? 0.32 : 0.42) * picture.height * PlaceToLook::kAspect,
+                kMaxWidth * scale});
   if (width < kMinWidth * scale) return {};
   const double height = width / PlaceToLook::kAspect;
   std::vector<PixelRect> places;

@@ -135,7 +135,7 @@ void draw_header(const PaneContext& context, Side side, const PixelRect& place) 
   ImGui::SameLine(0, context.pxf(10));
   ImGui::SetCursorScreenPos({ImGui::GetCursorScreenPos().x, middle - ImGui::GetFrameHeight() / 2});
   const double offset_ms = a ? context.settings().offset_a_ms : context.settings().offset_b_ms;
-  ImGui::SetNextItemWidth(context.pxf(104));
+  ImGui::SetNextItemWidth(context.pxf(place.width < context.px(300) ? 84 : 104));
   const int decimals = std::abs(offset_ms * 10 - std::round(offset_ms * 10)) < 1e-6 ? 1 : 3;
   const auto [from_ms, to_ms] = context.explorer.offset_window_ms();
   number_box(context, {.id = std::string(command) + "0",
@@ -151,7 +151,9 @@ void draw_header(const PaneContext& context, Side side, const PixelRect& place) 
   tooltip(context, find_command(command)->help + "  Drag, or click to type.");
   if (context.settings().layout == Layout::kSideBySide)
     draw_link(context, side, static_cast<double>(ImGui::GetItemRectMax().x) + context.px(8), middle);
-  const std::string state = state_in_words(context, side);
+  // Behind what stands before it, or cut: the last line says it whole.
+  const double room = place.right() - static_cast<double>(ImGui::GetItemRectMax().x) - context.px(12);
+  const std::string state = fit_text(state_in_words(context, side), context.px(11), std::max(room, 0.0));
   ImGui::PushFont(context.fonts.small);
   const ImVec2 size = ImGui::CalcTextSize(state.c_str());
   list.AddText({static_cast<float>(place.right()) - size.x, middle - size.y / 2},
@@ -241,7 +243,12 @@ Colour backdrop_of(const PaneContext& context) {
     case Backdrop::kTheme:
       break;
   }
-  return context.style.map_panel;
+  return context.settings().theme == Theme::kLight ? context.style.panel : context.style.map_panel;
+}
+
+Colour ink_of(const PaneContext& context) {
+  const bool dark = backdrop_of(context).green < 128;
+  return dark ? Colour{255, 255, 255} : Colour{20, 23, 28};
 }
 
 std::vector<Side> sides_of(Layout layout) {

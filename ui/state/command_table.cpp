@@ -249,6 +249,12 @@ void add_fields_of_display(std::vector<Command>& all) {
       toggle({"panels", "Side panels", "The panels to the left and right of the maps."}, &Settings::panels));
   all.push_back(
       toggle({"criteria", "Criteria", "The criteria over the offset, below the maps."}, &Settings::criteria));
+  all.push_back(
+      numbers({"chart-range", "Offsets shown",
+               "The part of the offset axis that the charts show, in milliseconds. Both 0: all. The "
+               "wheel zooms, a drag beside the handles moves it, and a double click shows all."},
+              &Settings::chart_from_ms, &Settings::chart_to_ms, number_of("FROM", "ms", -10000, 10000, 1),
+              number_of("TO", "ms", -10000, 10000, 1)));
   all.push_back(number({"ui-scale", "Interface size", "1 is 100 %, 2 is 200 %; 0: the display's scale."},
                        &Settings::ui_scale, number_of("SCALE", "", 0, 4, 0.25)));
 }

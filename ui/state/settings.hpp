@@ -63,7 +63,8 @@ struct Settings {
   Theme theme = Theme::kDark;
   bool panels = true;  // to the left and right of the maps
   bool criteria = true;
-  double ui_scale = 0;  // 0: the display's scale
+  double chart_from_ms = 0, chart_to_ms = 0;  // the offsets that the charts show; both the same: all
+  double ui_scale = 0;                        // 0: the display's scale
 
   bool operator==(const Settings&) const = default;
 };
