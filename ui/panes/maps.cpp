@@ -202,14 +202,15 @@ void divider(const PaneContext& context, const PixelRect& picture) {
                     context.transient.gesture);
   }
   ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ImU32 ink = to_imgui(ink_of(context));
   const auto fx = static_cast<float>(x), middle = static_cast<float>(picture.top + picture.height / 2);
-  list.AddLine({fx, static_cast<float>(picture.top)}, {fx, static_cast<float>(picture.bottom())},
-               IM_COL32_WHITE, context.pxf(1.5));
-  list.AddCircleFilled({fx, middle}, context.pxf(11), IM_COL32_WHITE);
+  list.AddLine({fx, static_cast<float>(picture.top)}, {fx, static_cast<float>(picture.bottom())}, ink,
+               context.pxf(1.5));
+  list.AddCircleFilled({fx, middle}, context.pxf(11), ink);
   const float r = context.pxf(4), gap = context.pxf(2.5);
   for (const float way : {-1.0f, 1.0f})
     list.AddTriangleFilled({fx + way * gap, middle - r}, {fx + way * gap, middle + r},
-                           {fx + way * (gap + r), middle}, IM_COL32(20, 23, 28, 255));
+                           {fx + way * (gap + r), middle}, to_imgui(backdrop_of(context)));
   for (const auto& [letter, way, colour] : {std::tuple{"A", -1.0f, colour_of_a(context.style)},
                                             std::tuple{"B", 1.0f, colour_of_b(context.style)}}) {
     const ImVec2 size = ImGui::CalcTextSize(letter);
@@ -217,7 +218,7 @@ void divider(const PaneContext& context, const PixelRect& picture) {
                     static_cast<float>(picture.top) + context.pxf(10)};
     list.AddRectFilled({at.x - context.pxf(6), at.y - context.pxf(3)},
                        {at.x + size.x + context.pxf(6), at.y + size.y + context.pxf(3)},
-                       IM_COL32(10, 12, 15, 190), context.pxf(3));
+                       to_imgui(backdrop_of(context), 0.75), context.pxf(3));
     list.AddText(at, to_imgui(colour), letter);
   }
 }
