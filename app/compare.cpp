@@ -20,7 +20,7 @@
 #include "core/recording/formats/read_raw_recording.hpp"
 #include "core/results/estimate_json.hpp"
 #include "render/charts/curve_charts.hpp"
-#include "render/comparison/comparison.hpp"
+#include "render/comparison/comparison_json.hpp"
 #include "render/vector/vector_file.hpp"
 
 namespace sweepscope::app {
@@ -29,7 +29,7 @@ namespace {
 struct CompareOptions {
   RecordingOptions recording;
   std::vector<std::string> inputs;  // a recording, or two to four maps
-  std::string output, curve;
+  std::string output, curve, json;
   std::vector<double> offsets_ms;
   double path_height_m = 0;
   std::string poses;
@@ -161,7 +161,7 @@ Result<void> check_files(const CompareOptions& options) {
   if (options.recording.rig) inputs.push_back(*options.recording.rig);
   for (const std::string& file : {options.curve, options.poses})
     if (!file.empty()) inputs.emplace_back(file);
-  return check_outputs({options.output, kept_candidates(options)}, std::move(inputs));
+  return check_outputs({options.output, kept_candidates(options), options.json}, std::move(inputs));
 }
 
 Result<void> measure(std::vector<ComparedMap>& maps) {
@@ -178,6 +178,19 @@ void say_thickness(const ComparedMap& map) {
       map.label.empty() ? fmt::format("offset {} ms", offset_label_ms(*map.offset_s)) : map.label;
   const bool measured = map.thickness && map.thickness->map;
   print("{}: {}\n", name, measured ? in_words(*map.thickness->map) : "no surface has a thickness");
+}
+
+/// With the JSON on stdout, it alone is there.
+Result<void> write_facts(const Compared& compared, const CompareOptions& options,
+                         const ComparisonOptions& picture) {
+  if (options.json != "-")
+    for (const ComparedMap& map : compared.maps) say_thickness(map);
+  if (options.json.empty()) return {};
+  const Estimate* curve = compared.estimate ? &*compared.estimate : nullptr;
+  return differing_places(compared.maps, curve, picture)
+      .and_then([&](const std::vector<DifferingPlace>& places) {
+        return write_text(options.json, comparison_json(compared.maps, places));
+      });
 }
 
 Result<void> compare(const CompareOptions& options) {
@@ -206,9 +219,9 @@ Result<void> compare(const CompareOptions& options) {
       .and_then([&](const Picture& drawn) {
         return write_picture(options.output, drawn, comparison_texts(compared->maps, *picture), **canvas);
       })
-      .map([&] {
+      .and_then([&] {
         if (compared->kept) compared->kept->remove();
-        for (const ComparedMap& map : compared->maps) say_thickness(map);
+        return write_facts(*compared, options, *picture);
       });
 }
 
@@ -219,6 +232,10 @@ void declare(CLI::App& command, CompareOptions& options) {
       ->required()
       ->expected(-1);
   command.add_option("-o,--output", options.output, "The picture to write: .png, .svg or .pdf")->required();
+  command
+      .add_option("--json", options.json,
+                  "Write the maps' thickness, and the places where they differ most, as JSON; - for stdout")
+      ->type_name("F");
   command
       .add_option("--offsets-ms", options.offsets_ms,
                   "Offsets in milliseconds to map a recording at, such as 19,24; with maps: the offsets that "

@@ -12,6 +12,7 @@
 #include "app/recording_options.hpp"
 #include "core/io/atomic_file.hpp"
 #include "core/io/printable_text.hpp"
+#include "ui/preferences.hpp"
 #include "ui/script/script.hpp"
 #include "ui/window_loop.hpp"
 
@@ -22,7 +23,7 @@ struct ViewOptions {
   RecordingOptions reading;
   std::string recording;  // or a session
   std::string poses;
-  bool headless = false;
+  bool headless = false, size_given = false;
   std::string size = "1600x1000", script, run;
   double scale = 0;
 };
@@ -31,6 +32,8 @@ struct Size {
   int width_px = 0, height_px = 0;
 };
 
+constexpr int kMinSide_px = 320, kMaxSide_px = 8000;
+
 Result<Size> parse_size(const std::string& text) {
   Size size;
   const char *begin = text.data(), *end = begin + text.size();
@@ -38,12 +41,11 @@ Result<Size> parse_size(const std::string& text) {
   const bool separated = first == std::errc() && x != end && *x == 'x';
   const auto [after, second] =
       separated ? std::from_chars(x + 1, end, size.height_px) : std::from_chars_result{x, first};
-  constexpr int kMin = 320, kMax = 8000;
-  if (!separated || second != std::errc() || after != end || size.width_px < kMin || size.height_px < kMin ||
-      size.width_px > kMax || size.height_px > kMax)
+  if (!separated || second != std::errc() || after != end || size.width_px < kMinSide_px ||
+      size.height_px < kMinSide_px || size.width_px > kMaxSide_px || size.height_px > kMaxSide_px)
     return failure(ExitCode::kWrongUsage,
                    fmt::format("--size {}: WxH is needed, such as 1600x1000, with sides of {} to {} pixels",
-                               text, kMin, kMax));
+                               text, kMinSide_px, kMaxSide_px));
   return size;
 }
 
@@ -101,7 +103,7 @@ void return_memory() {
 
 Result<void> view(const ViewOptions& options) {
   return_memory();
-  const auto size = parse_size(options.size);
+  auto size = parse_size(options.size);
   if (!size) return tl::unexpected(size.error());
   const auto scripts = scripts_of(options);
   if (!scripts) return tl::unexpected(scripts.error());
@@ -109,6 +111,10 @@ Result<void> view(const ViewOptions& options) {
   if (!with) return tl::unexpected(with.error());
   std::string first = options.recording.empty() ? "" : "open " + ui::quoted(options.recording);
   if (!options.poses.empty()) first += " " + ui::quoted(options.poses);
+  const ui::Preferences before = ui::read_preferences(ui::preferences_path());
+  if (!options.headless && !options.size_given && before.width_px >= kMinSide_px &&
+      before.height_px >= kMinSide_px)
+    size = Size{before.width_px, before.height_px};
   if (!options.headless)
     return ui::run_in_window(std::move(*with), size->width_px, size->height_px, first, *scripts);
   if (scripts->empty()) return failure(ExitCode::kWrongUsage, "--headless needs --script F or --run 'LINES'");
@@ -128,7 +134,10 @@ void declare(CLI::App& command, ViewOptions& options) {
       ->type_name("F")
       ->needs(recording);
   command.add_flag("--headless", options.headless, "Run a script on the same interface without a display");
-  command.add_option("--size", options.size, "Window size in pixels")->capture_default_str();
+  command
+      .add_option("--size", options.size,
+                  "Window size in pixels; a window without it has the size that the last one had")
+      ->capture_default_str();
   command.add_option("--scale", options.scale, "1 is 100 %, 2 is 200 % (default: the display's)")
       ->check(finite_number())
       ->check(CLI::Range(0.5, 4.0));
@@ -145,8 +154,9 @@ void add_view(CLI::App& app, ExitCode& exit_code) {
       app.add_subcommand("view", "Open the explorer: change the offset and watch the map come into focus");
   auto options = std::make_shared<ViewOptions>();
   declare(*command, *options);
-  command->callback([options, &exit_code] {
+  command->callback([options, command, &exit_code] {
     const auto threads = options->reading.limit_threads();
+    options->size_given = command->count("--size") > 0;
     end_at_first_interrupt();
     if (const auto done = view(*options); !done) exit_code = fail(done.error());
   });

@@ -11,8 +11,10 @@
 #include "render/gl/default_framebuffer.hpp"
 #include "ui/host/imgui_host.hpp"
 #include "ui/host/input_queue.hpp"
+#include "ui/panes/file_dialog.hpp"
 #include "ui/panes/number_box.hpp"
 #include "ui/panes/pane_context.hpp"
+#include "ui/preferences.hpp"
 #include "ui/recent.hpp"
 
 namespace sweepscope::ui {
@@ -40,9 +42,17 @@ struct Ui::Parts {
         explorer(options.explorer),
         host(gl_context),
         view_a(gl_context),
-        view_b(gl_context) {
+        view_b(gl_context),
+        close_up_a(gl_context),
+        close_up_b(gl_context) {
     transient.recent = read_recent(options.recent_list);
+    explorer.begin_with(read_preferences(options.preferences).look);
     explorer.at_window = [this](const Call& call) { return act(call); };
+  }
+
+  ~Parts() {
+    write_preferences(options.preferences,
+                      {look_of(explorer.settings()), context.width_px(), context.height_px()});
   }
 
   double scale() const {
@@ -70,7 +80,7 @@ struct Ui::Parts {
   void frame(std::span<const InputEvent> all_events, double seconds_since_last);
   void draw(const PaneContext& panes);
   void let_go();
-  double pane_aspect() const;
+  PictureShape picture_shape() const;
   void remember_opened();
   bool shows_all_points() const;
   bool picture_is_whole() const { return explorer.loaded() == nullptr || shows_all_points(); }
@@ -82,7 +92,7 @@ struct Ui::Parts {
   Explorer explorer;
   ImGuiHost host;
   InputQueue input;
-  LiveView view_a, view_b;
+  LiveView view_a, view_b, close_up_a, close_up_b;
   bool holds_recording = false;  // or what is left of one that was closed
   Transient transient;
   std::map<std::string, PixelRect> anchors;
@@ -125,9 +135,11 @@ void Ui::Parts::open_front(const std::string& name, const Call& call) {
   if (name == "ask") transient.asks_for = Transient::Asked{call.text(0), call.text(1)};
   transient.palette_query.clear();
   transient.palette_choice = 0;
-  transient.asked_text = transient.asks_for
-                             ? explorer.suggested_file(transient.asks_for->command, transient.asks_for->what)
-                             : "";
+  transient.browsing = {};
+  transient.asked_text =
+      transient.asks_for && transient.asks_for->command == "open" ? first_path(transient.recent)
+      : transient.asks_for ? explorer.suggested_file(transient.asks_for->command, transient.asks_for->what)
+                           : "";
   transient.just_opened = true;
 }
 
@@ -242,19 +254,24 @@ void Ui::Parts::draw(const PaneContext& panes) {
 /// too.
 void Ui::Parts::let_go() {
   if (explorer.loaded() != nullptr || !holds_recording || !explorer.background().status().empty()) return;
-  for (LiveView* view : {&view_a, &view_b}) view->show(nullptr, nullptr);
+  for (LiveView* view : {&view_a, &view_b, &close_up_a, &close_up_b}) view->show(nullptr, nullptr);
   transient.profiles = {};
   malloc_trim(0);
   holds_recording = false;
 }
 
 /// Of a map's picture, once a recording is open.
-double Ui::Parts::pane_aspect() const {
+PictureShape Ui::Parts::picture_shape() const {
   const Settings& settings = explorer.settings();
   const PixelRect maps = lay_out(context.width_px(), context.height_px(), scale(), settings, true, 0).maps;
   const MapPlaces places = lay_out_maps(maps, scale(), settings.layout);
   const PixelRect& picture = places.picture_b.width > 0 ? places.picture_b : places.picture_a;
-  return picture.width / std::max(picture.height, 1.0);
+  PictureShape shape{picture.width / std::max(picture.height, 1.0), 0, 0};
+  const auto close_ups = close_up_places(picture, scale(), settings.layout);
+  if (close_ups.empty()) return shape;
+  shape.covered_width = (picture.right() - close_ups.front().left) / picture.width;
+  shape.covered_height = (picture.bottom() - close_ups.front().top) / picture.height;
+  return shape;
 }
 
 void Ui::Parts::remember_opened() {
@@ -307,7 +324,7 @@ void Ui::Parts::frame(std::span<const InputEvent> all_events, double seconds_sin
   use_keys(events);
   use_drops(events);
   transient.camera_moved_s += seconds_since_last;
-  explorer.set_pane_aspect(pane_aspect());
+  explorer.set_picture_shape(picture_shape());
   explorer.update(seconds_since_last);
   remember_opened();
   let_go();
@@ -316,8 +333,15 @@ void Ui::Parts::frame(std::span<const InputEvent> all_events, double seconds_sin
   host.begin_frame(events, seconds_since_last);
   anchors.clear();
   begin_number_boxes(transient);
-  const PaneContext panes{explorer, transient,          host.fonts(),          style(),
-                          scale(),  {&view_a, &view_b}, options.draw_budget_s, anchors};
+  const PaneContext panes{explorer,
+                          transient,
+                          host.fonts(),
+                          style(),
+                          scale(),
+                          {&view_a, &view_b},
+                          {&close_up_a, &close_up_b},
+                          options.draw_budget_s,
+                          anchors};
   draw(panes);
   host.end_frame(style().page);
   // A software renderer would let frames pile up, hundreds of megabytes of them, until one must wait for all.

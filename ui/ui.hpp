@@ -22,6 +22,7 @@ class Ui {
     Explorer::Options explorer;
     double display_scale = 1;           // 1 at 100 %
     std::filesystem::path recent_list;  // empty: none is kept
+    std::filesystem::path preferences;  // the same
     double draw_budget_s = 0.012;       // of each map and frame, for points beyond the coarse ones
   };
   /// The context must outlive it.

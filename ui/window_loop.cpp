@@ -6,8 +6,10 @@
 #include <chrono>
 #include <utility>
 
+#include "core/io/printable_text.hpp"
 #include "render/gl/window.hpp"
 #include "ui/host/imgui_host.hpp"
+#include "ui/preferences.hpp"
 #include "ui/recent.hpp"
 
 namespace sweepscope::ui {
@@ -74,6 +76,14 @@ void use_cursor(gl::Window& window) {
   }
 }
 
+/// Names the recording.
+void use_title(gl::Window& window, const Ui& ui, std::string& shown) {
+  const Loaded* loaded = ui.explorer().loaded();
+  const std::string title =
+      loaded != nullptr ? printable_line(loaded->recording.name) + " - sweepscope" : "sweepscope";
+  if (title != shown) window.set_title(shown = title);
+}
+
 /// What is copied goes to the system's clipboard. What that holds is asked for when it is to be pasted: its
 /// owner may take long to answer.
 class ClipboardLink {
@@ -106,6 +116,7 @@ void loop(gl::Window& window, Ui& ui) {
   constexpr double kIdle_s = 1;
   EventQueue queue(window);
   ClipboardLink clipboard;
+  std::string title;
   auto last = Clock::now(), last_event = last;
   int frames_due = kFramesAfterEvent;
   while ((!window.should_close() || ui.is_exporting()) && !ui.wants_quit()) {
@@ -132,6 +143,7 @@ void loop(gl::Window& window, Ui& ui) {
     clipboard.after(window, ui);
     window.present();
     use_cursor(window);
+    use_title(window, ui, title);
     frames_due = std::max(0, frames_due - 1);
   }
 }
@@ -148,6 +160,7 @@ Result<void> run_in_window(Ui::Options options, int width_px, int height_px, con
                        "`sweepscope report` and `sweepscope compare` need none.");
   (*window)->make_current();
   options.recent_list = recent_list_path();
+  options.preferences = preferences_path();
   const double wanted_scale = options.display_scale;
   if (wanted_scale == 1) options.display_scale = (*window)->scale();
   Ui ui(**window, std::move(options));

@@ -24,14 +24,15 @@ std::vector<double> every_second(const std::vector<double>& offsets_s) {
 }  // namespace
 
 CoarseSearch search_coarsely(const OffsetProblem& problem, double from_s, double to_s,
-                             const SearchScale& scale, const Job& job) {
+                             const SearchScale& scale, const Job& job,
+                             const std::function<void(const CurvePoint&)>& finished) {
   const double middle_s = (from_s + to_s) / 2;
   const OffsetProblem part = problem.motor.one_way() ? beginnings_of_sides(problem, middle_s, kMaxSweeps / 2)
                                                      : beginning_of(problem, middle_s, kMaxSweeps);
   const StillGrid grid = still_grid(part);
   CoarseSearch search;
   const auto compute = [&](const std::vector<double>& offsets_s) {
-    search.curve = united(std::move(search.curve), stationary_coarse_curve(grid, offsets_s, job));
+    search.curve = united(std::move(search.curve), stationary_coarse_curve(grid, offsets_s, job, finished));
     const std::size_t best = index_of_min(search.curve, &CurvePoint::capped_cost_m);
     if (best < search.curve.size()) search.best = best;
   };

@@ -2,6 +2,7 @@
 
 // The mathematics: docs/algorithms.md, section 7.
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -13,7 +14,8 @@ namespace sweepscope {
 
 /// The capped cost over a window of candidates, in steps of a unit: the ranges of neighbouring sweeps
 /// compared at equal motor angle and beam, as if nothing had moved. On a walk motion blurs the valley, but
-/// leaves it where it is. From the first 40 sweeps of the recording, each candidate computed once.
+/// leaves it where it is. From the first 40 sweeps of the recording, each candidate computed once. `finished`
+/// is called from any thread for each.
 struct CoarseSearch {
   std::vector<CurvePoint> curve;  // ascending; capped_cost_m
   std::optional<std::size_t> best;
@@ -22,6 +24,7 @@ struct CoarseSearch {
   double offset_or(double other_s) const { return best ? offset_s() : other_s; }
 };
 CoarseSearch search_coarsely(const OffsetProblem& problem, double from_s, double to_s,
-                             const SearchScale& scale, const Job& job);
+                             const SearchScale& scale, const Job& job,
+                             const std::function<void(const CurvePoint&)>& finished = {});
 
 }  // namespace sweepscope

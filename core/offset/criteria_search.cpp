@@ -95,8 +95,11 @@ Result<Answer> answer_by_criteria(const OffsetSearch& search, const KeptCandidat
     if (const auto lost = lost_warning(answer.lost)) answer.warnings.push_back(*lost);
   }
   Curve curve([&](double offset_s, const Job& part) {
-    return kept.store == nullptr ? computed(search, *shared, offset_s, part)
+    const CurvePoint point = kept.store == nullptr
+                                 ? computed(search, *shared, offset_s, part)
                                  : kept_or_computed(search, *shared, *kept.store, offset_s, part);
+    if (kept.finished && !part.cancelled()) kept.finished(point);
+    return point;
   });
   const bool finished =
       search.window.by_default

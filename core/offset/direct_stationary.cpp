@@ -313,13 +313,15 @@ PatchDistance distance_to_patch(const StillPatch& patch, const Eigen::Vector3d& 
 }
 
 std::vector<CurvePoint> stationary_coarse_curve(const StillGrid& grid, const std::vector<double>& offsets_s,
-                                                const Job& job) {
+                                                const Job& job,
+                                                const std::function<void(const CurvePoint&)>& finished) {
   const StillPatchOptions patches = still_patch_options(*grid.problem);
   std::vector<CurvePoint> curve(offsets_s.size());
   std::atomic<std::size_t> done{0};
   for_each_index(offsets_s.size(), [&](std::size_t i) {
     curve[i].offset_s = offsets_s[i];
     if (!job.cancelled()) curve[i].capped_cost_m = coarse_cost_m(grid, patches, offsets_s[i]);
+    if (finished && curve[i].capped_cost_m) finished(curve[i]);
     job.report("searching", double(++done) / double(offsets_s.size()));
   });
   return curve;

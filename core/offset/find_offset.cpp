@@ -196,7 +196,8 @@ Result<Estimate> find_offset(const PreparedRecording& prepared, const EstimateOp
   if (!result.reasons.empty()) return result;
 
   const StillGrid grid = still_grid(problem);
-  const CoarseSearch coarse = search_coarsely(problem, window->from_s(), window->to_s(), scale, job);
+  const CoarseSearch coarse =
+      search_coarsely(problem, window->from_s(), window->to_s(), scale, job, kept.finished);
   if (job.cancelled()) return result;
   const OffsetOverTime groups = groups_of(sampled, prepared, coarse, options, job);
   if (job.cancelled()) return result;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -35,6 +36,9 @@ struct Shard {
 struct KeptCandidates {
   CandidateStore* store = nullptr;  // null: every candidate is computed
   std::optional<Shard> shard;       // of the candidates, with a store; nothing is concluded
+  /// Called from any thread for each candidate that is finished: first those of the coarse search, then those
+  /// of the method.
+  std::function<void(const CurvePoint&)> finished = {};
 };
 
 }  // namespace sweepscope

@@ -18,6 +18,7 @@ struct Canvas {
   const ChartLayout& layout;
   double scale;
 
+  bool shows(double x) const { return layout.x.contains(x); }
   PixelPoint px(double x, double y) const { return {layout.x_px(x), layout.y_px(y)}; }
 };
 
@@ -111,6 +112,7 @@ void add_shapes(const Canvas& c, const ChartSeries& series, const std::vector<Pi
   const auto gap_px = [&](std::size_t i) { return std::abs(stretch[i].x - stretch[i - 1].x); };
   PixelPoint last{-std::numeric_limits<double>::max(), 0};
   for (std::size_t i = 0; i < stretch.size(); ++i) {
+    if (stretch[i].x < c.layout.plot.left - 0.5 || stretch[i].x > c.layout.plot.right() + 0.5) continue;
     double fitting = radius;
     if (beside_others && series.joined) {
       if (std::hypot(stretch[i].x - last.x, stretch[i].y - last.y) < 4 * radius) continue;
@@ -126,7 +128,7 @@ void add_shapes(const Canvas& c, const ChartSeries& series, const std::vector<Pi
 void add_bars(const Canvas& c, const ChartSeries& series) {
   const double half_cap = 3 * c.scale;
   for (std::size_t i = 0; i < std::min(series.x.size(), series.half_bars.size()); ++i) {
-    if (!series.y[i]) continue;
+    if (!series.y[i] || !c.shows(series.x[i])) continue;
     const PixelPoint low = c.px(series.x[i], *series.y[i] - series.half_bars[i]),
                      high = c.px(series.x[i], *series.y[i] + series.half_bars[i]);
     c.drawing.line(low, high, 1.5 * c.scale, series.colour);
@@ -135,18 +137,36 @@ void add_bars(const Canvas& c, const ChartSeries& series) {
   }
 }
 
+/// The parts of a stretch that lie in the plot: of all of it, unless only a part of the axis is shown.
+std::vector<std::vector<PixelPoint>> shown_parts(const Canvas& c, std::vector<PixelPoint> stretch) {
+  if (!c.chart.x_range) return {std::move(stretch)};
+  std::vector<std::vector<PixelPoint>> parts;
+  bool goes_on = false;
+  for (std::size_t i = 1; i < stretch.size(); ++i) {
+    const auto inside = clip(stretch[i - 1], stretch[i], c.layout.plot);
+    if (inside && !goes_on) parts.push_back({inside->first});
+    if (inside) parts.back().push_back(inside->second);
+    goes_on = inside && inside->second.x == stretch[i].x && inside->second.y == stretch[i].y;
+  }
+  return parts;
+}
+
 void add_series(const Canvas& c, const ChartSeries& series, bool beside_others) {
   for (auto& stretch : stretches_of(c, series)) {
     if (series.marker != MarkerShape::kNone) add_shapes(c, series, stretch, beside_others);
-    LineMark line = line_of(c, series);
-    line.points = std::move(stretch);
-    if (series.joined && line.points.size() > 1) c.drawing.add(std::move(line));
+    if (!series.joined) continue;
+    for (auto& part : shown_parts(c, std::move(stretch))) {
+      LineMark line = line_of(c, series);
+      line.points = std::move(part);
+      if (line.points.size() > 1) c.drawing.add(std::move(line));
+    }
   }
   add_bars(c, series);
   const double bottom = c.layout.plot.bottom();
   for (std::size_t i = 0; i < series.x.size(); ++i) {
     const double x = c.layout.x_px(series.x[i]);
-    if (!series.y[i]) c.drawing.line({x, bottom - 7 * c.scale}, {x, bottom}, 2 * c.scale, series.colour);
+    if (!series.y[i] && c.shows(series.x[i]))
+      c.drawing.line({x, bottom - 7 * c.scale}, {x, bottom}, 2 * c.scale, series.colour);
   }
 }
 
@@ -159,6 +179,7 @@ void add_all_series(const Canvas& c) {
 void add_verticals(const Canvas& c) {
   const PixelRect& plot = c.layout.plot;
   for (const ChartVertical& vertical : c.chart.verticals) {
+    if (!c.shows(vertical.x)) continue;
     const double x = c.layout.x_px(vertical.x);
     if (vertical.dashed) {
       c.drawing.dashed({x, plot.top}, {x, plot.bottom()}, 5 * c.scale, 1.5 * c.scale, vertical.colour);
@@ -277,6 +298,7 @@ void add_spans(const Canvas& c) {
 
 void add_markers(const Canvas& c) {
   for (const ChartMarker& marker : c.chart.markers) {
+    if (!c.shows(marker.x)) continue;
     const PixelPoint at = c.px(marker.x, marker.y);
     c.drawing.add(marker_of(marker.shape, at, 6.2 * c.scale, c.style.panel));
     c.drawing.add(marker_of(marker.shape, at, 5 * c.scale, marker.colour));
@@ -284,6 +306,25 @@ void add_markers(const Canvas& c) {
 }
 
 }  // namespace
+
+std::vector<ChartReading> read_chart(const Chart& chart, double x) {
+  std::vector<ChartReading> readings;
+  const auto nearest_to = [&](const ChartSeries& series, double wanted) -> std::optional<ChartReading> {
+    std::optional<ChartReading> best;
+    for (std::size_t i = 0; i < series.x.size(); ++i) {
+      if (!series.y[i] || (chart.x_range && !chart.x_range->contains(series.x[i]))) continue;
+      if (!best || std::abs(series.x[i] - wanted) < std::abs(best->x - wanted))
+        best = ChartReading{&series, series.x[i], *series.y[i]};
+    }
+    return best;
+  };
+  for (const ChartSeries& series : chart.series) {
+    if (series.marker == MarkerShape::kNone) continue;
+    const auto reading = nearest_to(series, readings.empty() ? x : readings.front().x);
+    if (reading && (readings.empty() || reading->x == readings.front().x)) readings.push_back(*reading);
+  }
+  return readings;
+}
 
 void add_chart(Drawing& drawing, const PixelRect& place, const Chart& chart, const Style& style,
                double scale) {

@@ -26,6 +26,7 @@ class Extent {
 };
 
 AxisRange range_of_x(const Chart& chart) {
+  if (chart.x_range) return *chart.x_range;
   Extent extent;
   for (const ChartSeries& series : chart.series) {
     for (const double x : series.x) {
@@ -37,19 +38,35 @@ AxisRange range_of_x(const Chart& chart) {
   return extent.padded(0.04, false);
 }
 
-AxisRange range_of_y(const Chart& chart) {
+/// Where the line from a point to the next one meets the ends of what is shown.
+void include_crossings(Extent& extent, const ChartSeries& series, std::size_t i, const AxisRange& shown) {
+  if (i + 1 >= series.y.size() || !series.y[i] || !series.y[i + 1]) return;
+  const double from = series.x[i], to = series.x[i + 1];
+  for (const double end : {shown.from, shown.to}) {
+    if ((end - from) * (end - to) >= 0) continue;
+    extent.include(*series.y[i] + (end - from) / (to - from) * (*series.y[i + 1] - *series.y[i]));
+  }
+}
+
+void include_shown(Extent& extent, const ChartSeries& series, const AxisRange& shown) {
+  for (std::size_t i = 0; i < series.y.size(); ++i) {
+    if (series.joined) include_crossings(extent, series, i, shown);
+    if (!series.y[i] || !shown.contains(series.x[i])) continue;
+    const double half = i < series.half_bars.size() ? series.half_bars[i] : 0;
+    extent.include(*series.y[i] - half);
+    extent.include(*series.y[i] + half);
+  }
+}
+
+AxisRange range_of_y(const Chart& chart, const AxisRange& shown) {
   Extent extent;
   bool with_zero = chart.with_zero;
   for (const ChartSeries& series : chart.series) {
-    for (std::size_t i = 0; i < series.y.size(); ++i) {
-      if (!series.y[i]) continue;
-      const double half = i < series.half_bars.size() ? series.half_bars[i] : 0;
-      extent.include(*series.y[i] - half);
-      extent.include(*series.y[i] + half);
-    }
+    include_shown(extent, series, shown);
     with_zero |= series.filled;
   }
-  for (const ChartMarker& marker : chart.markers) extent.include(marker.y);
+  for (const ChartMarker& marker : chart.markers)
+    if (shown.contains(marker.x)) extent.include(marker.y);
   for (const ChartSpan& span : chart.spans) extent.include(span.y);
   for (const ChartBand& band : chart.y_bands) {
     extent.include(band.from);
@@ -128,7 +145,7 @@ double place_heading(const Chart& chart, const PixelRect& place, ChartLayout& la
 std::vector<VerticalLabel> labels_of(const Chart& chart, const ChartLayout& layout, double room_px) {
   std::vector<VerticalLabel> labels;
   for (const ChartVertical& vertical : chart.verticals) {
-    if (vertical.label.empty()) continue;
+    if (vertical.label.empty() || !layout.x.contains(vertical.x)) continue;
     const std::string text = fit_text(vertical.label, layout.label_size_px(), room_px, true);
     const double width = text_width_px(text, layout.label_size_px(), true);
     labels.push_back({&vertical, text, {0, 0, width, 14 * layout.scale}});
@@ -178,7 +195,7 @@ ChartLayout lay_out_chart(const Chart& chart, const PixelRect& place, double sca
   ChartLayout layout;
   layout.scale = scale;
   layout.x = range_of_x(chart);
-  layout.y = range_of_y(chart);
+  layout.y = range_of_y(chart, layout.x);
   const double size = layout.text_size_px(), below = 46 * scale, label_row = 16 * scale;
   const double labels_top = place_heading(chart, place, layout) + 8 * scale;
   layout.labels = labels_of(chart, layout, 0.8 * place.width);

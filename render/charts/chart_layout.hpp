@@ -8,10 +8,6 @@
 
 namespace sweepscope {
 
-struct AxisRange {
-  double from = 0, to = 1;
-};
-
 /// A series' symbol and name, or those of absent values.
 struct LegendEntry {
   const ChartSeries* series = nullptr;  // none: absent values

@@ -64,6 +64,7 @@ ChartSeries series_of(const Estimate& estimate, const Quantity& quantity, Colour
     const auto& y = point.*quantity.value;
     series.y.push_back(y ? std::optional(*y * quantity.factor) : std::nullopt);
   }
+  series.unit = quantity.unit == std::string_view("1") ? "" : quantity.unit;
   return series;
 }
 

@@ -76,41 +76,99 @@ TileGrid fill_tiles(const SlabPoints& map, const Bounds& x, const Bounds& y) {
   return grid;
 }
 
-}  // namespace
+/// The maps in tiles of one grid, and the window that is moved over it.
+struct Tiled {
+  std::vector<TileGrid> grids;  // of each map
+  std::size_t side = 1;         // of the window, in tiles
+};
 
-Region find_close_up(std::span<const SlabPoints> maps, double height_m, double width_m) {
-  const Bounds x = bounds_of(maps, 0, 0.002), y = bounds_of(maps, 1, 0.002);
-  std::vector<TileGrid> grids;
-  for (const SlabPoints& map : maps) grids.push_back(fill_tiles(map, x, y));
-  // Looked for in squares of half the close-up's smaller side, so that the find lies well inside, and
-  // preferably with nothing around it: a pillar tells more than a piece of a wall.
-  const auto side =
-      static_cast<std::size_t>(std::max(2.0, std::floor(0.5 * std::min(height_m, width_m) / kTile_m)));
-  const std::size_t rim = side / 2;
-  Region best{{x.middle(), y.middle()}, height_m};
-  double best_score = 0;
-  for (std::size_t row = 0; row + side <= grids[0].rows; ++row) {
-    for (std::size_t column = 0; column + side <= grids[0].columns; ++column) {
-      std::size_t sharpest = 0;
-      double least = 0, most = 0;
-      for (std::size_t m = 0; m < grids.size(); ++m) {
-        const double count = grids[m].window(column, row, side, side).count;
-        if (m == 0 || count < least) least = count, sharpest = m;
-        most = std::max(most, count);
-      }
-      if (least < 30) continue;
-      const TileGrid& grid = grids[sharpest];
-      const Filled object = grid.window(column, row, side, side);
-      const Filled around = grid.window(column - std::min(column, rim), row - std::min(row, rim),
-                                        side + 2 * rim, side + 2 * rim);
-      const double alone = object.count / around.count;
-      const double score = (1 - least / most) * std::sqrt(least) * object.roundness() * alone * alone;
-      if (score <= best_score) continue;
-      best_score = score;
-      best.centre_m = {x.from + object.x / object.count, y.from + object.y / object.count};
+Tiled tile(std::span<const SlabPoints> maps, const Bounds& x, const Bounds& y, double smaller_side_m) {
+  Tiled tiled;
+  for (const SlabPoints& map : maps) tiled.grids.push_back(fill_tiles(map, x, y));
+  // Looked for in squares of half the close-up's smaller side, so that the find lies well inside.
+  tiled.side = static_cast<std::size_t>(std::max(2.0, std::floor(0.5 * smaller_side_m / kTile_m)));
+  return tiled;
+}
+
+struct Candidate {
+  double score = 0;
+  DifferingPlace place;
+};
+
+/// Of what a window shows. A score of 0: nothing that tells.
+Candidate candidate_at(const Tiled& tiled, std::size_t column, std::size_t row) {
+  constexpr double kMinCells = 30;
+  const std::size_t side = tiled.side, rim = side / 2;
+  Candidate found;
+  for (const TileGrid& grid : tiled.grids)
+    found.place.cells.push_back(static_cast<std::size_t>(grid.window(column, row, side, side).count));
+  const auto least = static_cast<double>(found.place.cells[found.place.sharpest()]),
+             most = static_cast<double>(found.place.cells[found.place.most_blurred()]);
+  if (least < kMinCells) return found;
+  const TileGrid& grid = tiled.grids[found.place.sharpest()];
+  const Filled object = grid.window(column, row, side, side);
+  const Filled around =
+      grid.window(column - std::min(column, rim), row - std::min(row, rim), side + 2 * rim, side + 2 * rim);
+  // Preferably with nothing around it: a pillar tells more than a piece of a wall.
+  const double alone = object.count / around.count;
+  found.score = (1 - least / most) * std::sqrt(least) * object.roundness() * alone * alone;
+  found.place.region.centre_m = {grid.x.from + object.x / object.count,
+                                 grid.y.from + object.y / object.count};
+  return found;
+}
+
+/// Best first; where they are equal, in the order of rows and columns.
+std::vector<Candidate> all_candidates(const Tiled& tiled) {
+  std::vector<Candidate> all;
+  const TileGrid& first = tiled.grids.front();
+  for (std::size_t row = 0; row + tiled.side <= first.rows; ++row) {
+    for (std::size_t column = 0; column + tiled.side <= first.columns; ++column) {
+      Candidate candidate = candidate_at(tiled, column, row);
+      if (candidate.score > 0) all.push_back(std::move(candidate));
     }
   }
+  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.score > b.score; });
+  return all;
+}
+
+}  // namespace
+
+std::size_t DifferingPlace::sharpest() const {
+  return static_cast<std::size_t>(std::min_element(cells.begin(), cells.end()) - cells.begin());
+}
+
+std::size_t DifferingPlace::most_blurred() const {
+  return static_cast<std::size_t>(std::max_element(cells.begin(), cells.end()) - cells.begin());
+}
+
+double DifferingPlace::ratio() const {
+  return static_cast<double>(cells[most_blurred()]) / static_cast<double>(cells[sharpest()]);
+}
+
+std::vector<DifferingPlace> differing_places(std::span<const SlabPoints> maps, double height_m,
+                                             double width_m, std::size_t max_count) {
+  if (maps.empty()) return {};
+  const Bounds x = bounds_of(maps, 0, 0.002), y = bounds_of(maps, 1, 0.002);
+  const double larger_m = std::max(height_m, width_m);  // a close-up may be turned
+  std::vector<DifferingPlace> best;
+  for (Candidate& candidate : all_candidates(tile(maps, x, y, std::min(height_m, width_m)))) {
+    if (best.size() == max_count) break;
+    const Eigen::Vector2d& here_m = candidate.place.region.centre_m;
+    const bool shown = std::any_of(best.begin(), best.end(), [&](const DifferingPlace& other) {
+      const Eigen::Vector2d apart_m = (other.region.centre_m - here_m).cwiseAbs();
+      return apart_m.maxCoeff() < larger_m;
+    });
+    if (shown) continue;
+    candidate.place.region.height_m = height_m;
+    best.push_back(std::move(candidate.place));
+  }
   return best;
+}
+
+Region find_close_up(std::span<const SlabPoints> maps, double height_m, double width_m) {
+  const auto best = differing_places(maps, height_m, width_m, 1);
+  if (!best.empty()) return best.front().region;
+  return {{bounds_of(maps, 0, 0.002).middle(), bounds_of(maps, 1, 0.002).middle()}, height_m};
 }
 
 }  // namespace sweepscope

@@ -96,12 +96,17 @@ std::vector<View> overviews_of(const Prepared& prepared, const ComparisonLayout&
   return views;
 }
 
+/// A close-up's height by the extent of what the overview shows.
+double close_up_height_m(const View& overview) {
+  const double overview_m = Projection(overview.scene.camera, overview.place).metres_per_px() *
+                            std::max(overview.place.width, overview.place.height);
+  return std::clamp(overview_m / 24, 2.0, 6.0);
+}
+
 Region close_up_region(const Prepared& prepared, const View& overview, double aspect,
                        const ComparisonOptions& options) {
   if (options.close_up) return *options.close_up;
-  const double overview_m = Projection(overview.scene.camera, overview.place).metres_per_px() *
-                            std::max(overview.place.width, overview.place.height);
-  const double height_m = std::clamp(overview_m / 24, 2.0, 6.0);
+  const double height_m = close_up_height_m(overview);
   return find_close_up(prepared.maps, height_m, height_m * aspect);
 }
 
@@ -241,6 +246,11 @@ void add_charts(Picture& picture, std::span<const Chart> charts, const Estimate&
   }
 }
 
+/// Where there is an estimate without curves, a text takes a chart's place.
+std::size_t places_of_charts(const Estimate* estimate, std::size_t charts) {
+  return estimate == nullptr ? 0 : std::max<std::size_t>(1, charts);
+}
+
 std::string seen_from(const ComparisonOptions& options) {
   const std::string how = options.perspective ? " in perspective" : "";
   if (options.camera) return "Seen from a given camera" + how;
@@ -281,8 +291,7 @@ Result<Picture> comparison_picture(std::span<const ComparedMap> given, const Est
     if (maps[m].offset_s) marked.push_back({*maps[m].offset_s, style.maps[m]});
   }
   const auto charts = estimate != nullptr ? curve_charts(*estimate, marked, style) : std::vector<Chart>{};
-  const std::size_t chart_places = estimate == nullptr ? 0 : std::max<std::size_t>(1, charts.size());
-  const ComparisonLayout layout = lay_out(options, maps.size(), chart_places);
+  const ComparisonLayout layout = lay_out(options, maps.size(), places_of_charts(estimate, charts.size()));
   const auto prepared = prepare(maps, layout, options);
   if (!prepared) return tl::unexpected(prepared.error());
 
@@ -296,6 +305,27 @@ Result<Picture> comparison_picture(std::span<const ComparedMap> given, const Est
   if (estimate != nullptr) add_charts(picture, charts, *estimate, layout, style);
   add_footer(picture.marks, layout, options.width_px, style);
   return picture;
+}
+
+Result<std::vector<DifferingPlace>> differing_places(std::span<const ComparedMap> maps,
+                                                     const Estimate* estimate,
+                                                     const ComparisonOptions& options) {
+  constexpr std::size_t kMaxPlaces = 12;
+  if (auto usable = check(maps, options); !usable) return tl::unexpected(usable.error());
+  ComparisonOptions with_close_up = options;
+  with_close_up.with_close_up = true;
+  const std::size_t charts =
+      estimate != nullptr ? curve_charts(*estimate, {}, style_of(options.background)).size() : 0;
+  const ComparisonLayout layout = lay_out(with_close_up, maps.size(), places_of_charts(estimate, charts));
+  Prepared prepared;
+  prepared.slabs = choose_slabs(maps, options);
+  for (const ComparedMap& map : maps) {
+    const std::vector<float> no_values(map.size());
+    prepared.maps.push_back(points_in_slabs(map, no_values, prepared.slabs, options.box));
+  }
+  const double height_m = close_up_height_m(overviews_of(prepared, layout, options).front());
+  const PixelRect& place = layout.close_ups.front();
+  return differing_places(prepared.maps, height_m, height_m * place.width / place.height, kMaxPlaces);
 }
 
 std::vector<PngText> comparison_texts(std::span<const ComparedMap> maps, const ComparisonOptions& options) {

@@ -28,6 +28,16 @@ struct Region {
   double height_m = 4;             // of the close-up; its width follows from the picture's
 };
 
+/// A place where maps differ in sharpness: a blurred surface fills more cells.
+struct DifferingPlace {
+  Region region;                   // what a close-up of it shows
+  std::vector<std::size_t> cells;  // of 5 cm, above the sensor's path, that each map fills there
+
+  std::size_t sharpest() const;      // the map that fills the fewest
+  std::size_t most_blurred() const;  // and the most
+  double ratio() const;              // of their cells, at least 1
+};
+
 struct ComparisonOptions {
   int width_px = 1920, height_px = 1200;
   Background background = Background::kDark;
@@ -60,6 +70,13 @@ Result<void> check_size(const ComparisonOptions& options);
 /// no charts.
 Result<Picture> comparison_picture(std::span<const ComparedMap> maps, const Estimate* estimate,
                                    const ComparisonOptions& options = {});
+
+/// The places where the maps differ most, best first and at most 12: the first is what the picture's
+/// close-ups show unless the options say otherwise. Without a difference, none. Errors are those of the
+/// picture.
+Result<std::vector<DifferingPlace>> differing_places(std::span<const ComparedMap> maps,
+                                                     const Estimate* estimate,
+                                                     const ComparisonOptions& options = {});
 
 /// The metadata of that picture's file: the program's version, the equation, the maps and offsets, and how
 /// they are shown.

@@ -38,9 +38,13 @@ struct Bounds {
 /// points: 0 to 1.
 Bounds bounds_of(std::span<const SlabPoints> maps, std::size_t axis, double outermost_fraction);
 
-/// The position where the maps differ most in the number of small cells that their points fill: a blurred
-/// surface fills more. Compact objects (a pillar) are preferred over long walls, which look the same along
-/// their length.
+/// The places where the maps differ most in the number of small cells that their points fill, best first: a
+/// blurred surface fills more. Compact objects (a pillar) are preferred over long walls, which look the same
+/// along their length. Close-ups of that size show each place once. Maps that are equal differ nowhere.
+std::vector<DifferingPlace> differing_places(std::span<const SlabPoints> maps, double height_m,
+                                             double width_m, std::size_t max_count);
+
+/// The first of them, or the middle of the maps.
 Region find_close_up(std::span<const SlabPoints> maps, double height_m, double width_m);
 
 }  // namespace sweepscope

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "core/io/cloud_file.hpp"
@@ -40,6 +41,19 @@ TEST_F(CompareTest, DrawsTheSameBytesWithNoDisplayAndWithAWrongOne) {
   const std::string none = test::contents_of(folder_ / "none.png");
   EXPECT_GT(none.size(), 10'000U);
   EXPECT_EQ(none, test::contents_of(folder_ / "wrong.png"));
+}
+
+TEST_F(CompareTest, WritesThePlacesWhereTheMapsDifferMost) {
+  ASSERT_EQ(run("-u DISPLAY", std::string(kArguments) + " -o out.png --json places.json"), 0) << said_;
+  const auto json = nlohmann::json::parse(test::contents_of(folder_ / "places.json"));
+  EXPECT_EQ(json["schema"], "sweepscope.compare/1");
+  EXPECT_EQ(json["maps"].size(), 2u);
+  ASSERT_FALSE(json["places"].empty());
+  EXPECT_EQ(json["places"][0]["most_blurred"], 0);  // wrong.pcd
+  EXPECT_EQ(json["places"][0]["cells"].size(), 2u);
+  const Outcome alone = ProgramTest::run(std::string("compare ") + kArguments + " -o out.png --json -");
+  EXPECT_EQ(alone.exit_code, 0);
+  EXPECT_EQ(alone.out, test::contents_of(folder_ / "places.json"));  // stdout holds the JSON alone
 }
 
 TEST_F(CompareTest, DrawsTheSameBytesInAWindow) {

@@ -275,7 +275,7 @@ TEST_F(InARoom, AnEstimateFromAFileIsShownAsIfItHadBeenMadeHere) {
 
 TEST_F(InARoom, FittingShowsAllThatThereIsFromWhereverItIsLookedAt) {
   const PixelRect pane{0, 0, 300, 450};
-  explorer_.set_pane_aspect(pane.width / pane.height);
+  explorer_.set_picture_shape({pane.width / pane.height, 0, 0});
   for (const char* line : {"look top", "look front", "look isometric"}) {
     perform(explorer_, line);
     perform(explorer_, "fit-view");

@@ -10,6 +10,7 @@
 #include "render/images/image_difference.hpp"
 #include "tests/program.hpp"
 #include "ui/host/imgui_host.hpp"
+#include "ui/model/view_camera.hpp"
 #include "ui/window_loop.hpp"
 
 namespace sweepscope::ui {
@@ -115,6 +116,37 @@ TEST_F(Headless, TheMouseTurnsMovesAndZoomsTheView) {
   EXPECT_NE(ui_.explorer().settings().camera_a.centre_m, turned.centre_m) << "linked";
   expect_runs("mouse move \"map a\"\nwheel 3");
   EXPECT_LT(ui_.explorer().settings().camera_a.height_m, turned.height_m);
+}
+
+TEST_F(Headless, ADoubleClickCentresOnThePointThereAndTheViewTurnsAboutIt) {
+  expect_runs(kRoom);
+  const PixelRect pane = *ui_.anchor("map a");
+  const Settings before = ui_.explorer().settings();
+  const PixelPoint clicked{std::round(pane.left + 0.6 * pane.width),
+                           std::round(pane.top + 0.4 * pane.height)};
+  expect_runs("double-click \"map a\" at 0.6 0.4");
+  const ViewPoint view = ui_.explorer().settings().camera_a;
+  const PixelPoint was = *projection_of(before.camera_a, false, pane)(view.centre_m);
+  EXPECT_LT(std::hypot(was.x - clicked.x, was.y - clicked.y), 13) << "a point near the mouse";
+  EXPECT_EQ(view.height_m, before.camera_a.height_m);
+  expect_runs("drag \"map a\" at 0.2 0.2 by 60 -30");
+  const ViewPoint& turned = ui_.explorer().settings().camera_a;
+  const PixelPoint middle = *projection_of(turned, false, pane)(view.centre_m);
+  EXPECT_NEAR(middle.x, pane.left + pane.width / 2, 1);
+  EXPECT_NEAR(middle.y, pane.top + pane.height / 2, 1);
+}
+
+TEST_F(Headless, TheLightThemeHasLightPanes) {
+  expect_runs(kRoom);
+  const PixelRect pane = *ui_.anchor("map a");
+  const auto corner = [&] {
+    return ui_.screenshot().pixel(static_cast<int>(pane.left) + 4, static_cast<int>(pane.top) + 4)[1];
+  };
+  EXPECT_LT(corner(), 40);
+  expect_runs("theme light\nwait solved");
+  EXPECT_GT(corner(), 200);
+  expect_runs("backdrop black\nwait solved");
+  EXPECT_LT(corner(), 40);
 }
 
 TEST_F(Headless, TheSwipesDividerFollowsTheMouse) {

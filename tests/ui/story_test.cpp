@@ -90,7 +90,7 @@ click "menu tool pick"
 click "map a" at 0.45 0.5
 click "menu Tools"
 click "menu tool profile"
-drag "map a" at 0.4 0.7 to "map a" at 0.45 0.75
+drag "map a" at 0.2 0.7 to "map a" at 0.25 0.75
 click "menu Tools"
 click "menu tool look"
 click "menu View"

@@ -34,5 +34,35 @@ TEST(ViewCamera, MovingTakesThePlaceAlongWithTheMouse) {
   EXPECT_LT((before - after).norm(), 1e-9);
 }
 
+/// Where the corners of a box are in a picture, as fractions of its width and height.
+std::pair<Eigen::Array2d, Eigen::Array2d> extent_of(const Box& box, const ViewPoint& view, double aspect) {
+  const Projection projection = projection_of(view, false, {0, 0, aspect, 1});
+  Eigen::Array2d from(1e9, 1e9), to(-1e9, -1e9);
+  for (int corner = 0; corner < 8; ++corner) {
+    const Eigen::Vector3d p{((corner & 1) != 0 ? box.to_m : box.from_m).x(),
+                            ((corner & 2) != 0 ? box.to_m : box.from_m).y(),
+                            ((corner & 4) != 0 ? box.to_m : box.from_m).z()};
+    const PixelPoint at = *projection(p);
+    from = from.min(Eigen::Array2d(at.x / aspect, at.y));
+    to = to.max(Eigen::Array2d(at.x / aspect, at.y));
+  }
+  return {from, to};
+}
+
+TEST(ViewCamera, AFittedViewShowsAllOfTheBoxAboveOrBesideWhatIsCovered) {
+  const Box wide{{-30, -5, 0}, {30, 9, 4}}, high{{2, -40, 0}, {8, 40, 4}};
+  for (const double aspect : {0.6, 1.0, 2.5}) {
+    for (const double elevation_deg : {90.0, 35.0}) {
+      for (const Box& box : {wide, high}) {
+        const ViewPoint view = fitted({{0, 0, 0}, 1, 20, elevation_deg}, box, {aspect, 0.4, 0.3});
+        const auto [from, to] = extent_of(box, view, aspect);
+        EXPECT_GE(from.minCoeff(), 0);
+        EXPECT_LE(to.maxCoeff(), 1);
+        EXPECT_TRUE(to.x() <= 0.6 || to.y() <= 0.7) << to.transpose();
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace sweepscope::ui

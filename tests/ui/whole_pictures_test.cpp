@@ -34,7 +34,7 @@ struct Strip {
 class WholePictures : public testing::Test {
  protected:
   void SetUp() override {
-    run("sample room-1\nheights all\nfit-view\ntrajectory off\nwait solved\n");
+    run("sample room-1\nclose-up off\nheights all\nfit-view\ntrajectory off\nwait solved\n");
     ASSERT_TRUE(ui_.shows_all_points());
     ASSERT_GT(ui_.explorer().pane(Side::kA).full->points->size(), 90000u);  // several slices
   }
@@ -57,7 +57,8 @@ class WholePictures : public testing::Test {
   }
 
   std::unique_ptr<gl::Context> context_ = *gl::make_offscreen_context(1200, 800);
-  Ui ui_{*context_, {.explorer = {}, .display_scale = 1, .recent_list = {}, .draw_budget_s = 0}};
+  Ui ui_{*context_,
+         {.explorer = {}, .display_scale = 1, .recent_list = {}, .preferences = {}, .draw_budget_s = 0}};
 };
 
 TEST_F(WholePictures, AnotherOffsetGivesTheOldTheThinnedAndTheNewOneAndNothingBetween) {

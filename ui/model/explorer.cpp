@@ -146,6 +146,8 @@ Result<void> Explorer::act(const Call& call) {
        }},
       {"estimate", [](Explorer& self, const Call&) { return self.start_estimate(); }},
       {"take-found", [](Explorer& self, const Call&) { return self.take_found(); }},
+      {"next-place", [](Explorer& self, const Call& c) { return self.next_place(c.text(0) == "back"); }},
+      {"look-at-place", [](Explorer& self, const Call&) { return self.look_at_place(); }},
       {"save-session", [](Explorer& self, const Call& c) { return self.save_session(c.text(0)); }},
       {"export-cloud",
        [](Explorer& self, const Call& c) {
@@ -186,13 +188,16 @@ Result<void> Explorer::start_estimate() {
   if (!loaded_) return not_now("There is no recording to estimate from.");
   background_.cancel("estimate");
   const EstimateOptions options = estimate_options(settings_, options_.assume);
+  growing_ = std::make_shared<GrowingCurve>();
   background_.start(
       "estimate", "estimate", "Estimating the offset",
-      [this, options, loaded = loaded_](const Job& job) -> Background::Finish {
+      [this, options, loaded = loaded_, growing = growing_](const Job& job) -> Background::Finish {
         EstimateOptions along = options;
         along.walk = loaded->walk->get();
-        auto found =
-            std::make_shared<Result<Estimate>>(sweepscope::estimate(loaded->prepared, along, {}, job));
+        const KeptCandidates candidates{
+            nullptr, {}, [growing](const CurvePoint& point) { growing->add(point); }};
+        auto found = std::make_shared<Result<Estimate>>(
+            sweepscope::estimate(loaded->prepared, along, candidates, job));
         if (*found && (*found)->walk) loaded->walk->keep((*found)->walk);
         return [this, found] {
           if (*found) return take(std::move(**found));
@@ -201,6 +206,17 @@ Result<void> Explorer::start_estimate() {
       },
       steps_of_estimating());
   return {};
+}
+
+void Explorer::update_growing_curve() {
+  if (!background_.has("estimate")) growing_.reset();
+  if (!growing_) so_far_.reset();
+  if (!growing_ || growing_->size() < 2) return;
+  if (!so_far_ || so_far_->curve.size() != growing_->size()) so_far_ = growing_->so_far();
+}
+
+const Estimate* Explorer::charted() const {
+  return so_far_ ? &*so_far_ : estimate();
 }
 
 void Explorer::take(Estimate estimate) {
@@ -216,7 +232,8 @@ Settings Explorer::with_fitted_view() const {
   const SolvedMap* map = panes_[0].request ? panes_[0].request->placement.map.get() : provisional_.get();
   if (map == nullptr) return next;
   const Box box{{map->x_m.from, map->y_m.from, map->z_m.from}, {map->x_m.to, map->y_m.to, map->z_m.to}};
-  for (ViewPoint* view : {&next.camera_a, &next.camera_b}) *view = fitted(*view, box, pane_aspect_);
+  const PictureShape shape = place() ? picture_shape_ : PictureShape{picture_shape_.aspect, 0, 0};
+  for (ViewPoint* view : {&next.camera_a, &next.camera_b}) *view = fitted(*view, box, shape);
   return next;
 }
 
@@ -224,10 +241,14 @@ void Explorer::fit_view() {
   change_settings(with_fitted_view(), {});
 }
 
-void Explorer::set_pane_aspect(double aspect) {
-  if (aspect == pane_aspect_) return;
-  pane_aspect_ = aspect;
+void Explorer::refit_view() {
   if (loaded_ && !view_moved_) settings_ = with_fitted_view();  // nothing that undo would take back
+}
+
+void Explorer::set_picture_shape(const PictureShape& shape) {
+  if (shape == picture_shape_) return;
+  picture_shape_ = shape;
+  refit_view();
 }
 
 }  // namespace sweepscope::ui

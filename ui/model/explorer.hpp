@@ -14,7 +14,10 @@
 
 #include "core/offset/estimate.hpp"
 #include "ui/model/background.hpp"
+#include "ui/model/growing_curve.hpp"
 #include "ui/model/placed_cloud.hpp"
+#include "ui/model/places.hpp"
+#include "ui/model/view_camera.hpp"
 #include "ui/state/commands.hpp"
 #include "ui/state/history.hpp"
 
@@ -51,6 +54,11 @@ struct Pane {
   std::optional<MapThickness> thickness;    // of the map, with slow values that are its blur
   std::string problem;                      // why the map could not be solved
   bool lost = false;
+  /// A close-up of the place that is looked at; null without one. Placed with what `request` asks for.
+  PlacedCloudPtr close_up;
+  PlacePtr close_up_place;
+  std::optional<CloudRequest> close_up_request;
+  BeamValuesPtr close_up_slow;
 };
 
 /// All points of a pane, and what came with them.
@@ -88,10 +96,15 @@ class Explorer {
   explicit Explorer(Options options);
 
   const Settings& settings() const { return settings_; }
+  /// Before anything is done: settings that undo does not go behind.
+  void begin_with(const Settings& settings) { settings_ = settings; }
   const Loaded* loaded() const { return loaded_.get(); }
   /// Edge and plane points of the recording; null until they were requested and found.
   const FeatureSet* features() const { return loaded_ ? loaded_->prepared.features.get() : nullptr; }
   const Estimate* estimate() const { return estimate_ ? &*estimate_ : nullptr; }
+  /// What the charts show: the candidates of an estimate while it is computed, or the estimate; null without
+  /// either.
+  const Estimate* charted() const;
   const Pane& pane(Side side) const { return panes_[static_cast<std::size_t>(side)]; }
   const std::optional<Message>& message() const { return message_; }
   bool is_loading() const { return background_.has("load"); }
@@ -108,12 +121,19 @@ class Explorer {
   Result<void> perform(std::string_view line, const std::string& gesture = {});
   std::function<Result<void>(const Call&)> at_window;
 
-  /// Width over height of a map's picture. A view that nobody moved is fitted to it again.
-  void set_pane_aspect(double aspect);
+  /// The shape of a map's picture. A view that nobody moved is fitted to it again.
+  void set_picture_shape(const PictureShape& shape);
+
+  /// Where the maps differ most, best first; empty until both are solved, and where they do not differ.
+  const std::vector<PlacePtr>& places() const { return places_; }
+  /// The one that the close-ups show; null without one.
+  PlacePtr place() const;
 
   /// The offsets that map A and map B can have. With a recording: as far as a search may go about 0, about
   /// the candidates that are set, and about the offset that was found.
   std::pair<double, double> offset_window_ms() const;
+  /// The map whose offset was changed last.
+  Side changed_side() const { return changed_side_; }
   /// What the command "copy" copies, and in what words.
   struct Copied {
     std::string text, what;
@@ -199,6 +219,14 @@ class Explorer {
   Placement placement_of(Side side) const;
   CloudLook wanted_look(const SolvedMap* a, const SolvedMap* b);
   void update_panes(double seconds_since_last);
+  void update_places();
+  void update_growing_curve();
+  void start_places(const Placement& a, const Placement& b);
+  void take(std::vector<PlacePtr> places);
+  void place_close_up(Side side);
+  Result<void> next_place(bool back);
+  Result<void> look_at_place();
+  void refit_view();
   void show(Side side, CloudRequest request);
   void start_full();
   void take(std::span<const Side> sides, std::span<const CloudRequest> requests,
@@ -211,6 +239,8 @@ class Explorer {
   History history_;
   LoadedPtr loaded_;
   std::optional<Estimate> estimate_;
+  std::shared_ptr<GrowingCurve> growing_;
+  std::optional<Estimate> so_far_;  // of what grows; empty before its second candidate
   std::optional<Message> message_;
   std::map<std::int64_t, SolvedMapPtr> solved_;  // by the offset in nanoseconds
   std::map<std::int64_t, std::string> unsolvable_;
@@ -229,7 +259,10 @@ class Explorer {
   Side changed_side_ = Side::kB;  // whose offset was changed last
   bool b_was_set_ = false;        // by a person, since the recording was opened
   bool view_moved_ = false;       // by a person: no longer fitted when the pane changes its shape
-  double pane_aspect_ = 1;
+  PictureShape picture_shape_;
+  std::vector<PlacePtr> places_;
+  std::optional<std::pair<Placement, Placement>> places_of_;  // the maps that they are of
+  bool fitted_beside_ = false;                                // whether the view leaves room for close-ups
   std::optional<Error> export_failure_, load_failure_;
   std::vector<std::filesystem::path> input_files_;  // that were opened, or named before
   std::filesystem::path session_file_;              // opened or saved last: saving it again is no harm

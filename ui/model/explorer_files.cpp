@@ -138,6 +138,8 @@ void Explorer::close() {
   background_.cancel_all("");
   loaded_ = nullptr;
   estimate_.reset();
+  growing_.reset();
+  so_far_.reset();
   message_.reset();
   solved_.clear();
   solved_order_.clear();
@@ -146,6 +148,8 @@ void Explorer::close() {
   provisional_ = nullptr;
   span_maps_ = {nullptr, nullptr};
   panes_ = {};
+  places_.clear();
+  places_of_.reset();
   b_was_set_ = false;
   view_moved_ = false;
 }

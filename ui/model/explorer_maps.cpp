@@ -90,11 +90,13 @@ void Explorer::update(double seconds_since_last) {
   if (message_ && !message_held_ && (message_->shown_s += seconds_since_last) > message_->lasts_s())
     message_.reset();
   background_.take_finished();
+  update_growing_curve();
   if (!loaded_) {
     panes_ = {};
     return;
   }
   update_panes(seconds_since_last);
+  update_places();
   update_solving();
 }
 

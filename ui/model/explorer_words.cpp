@@ -86,7 +86,10 @@ std::vector<std::pair<std::string, std::string>> Explorer::observables() {
           {"state-a, state-b", "empty, provisional, preview or solved"},
           {"points-a, points-b", "how many points the pane shows"},
           {"thickness-a, thickness-b", "how thick the map's surfaces are; empty unless blur colours it"},
+          {"places", "at how many places the maps differ, as far as they are listed"},
+          {"place-at", "x and y of the place that the close-up shows; empty without one"},
           {"estimate", "none, found or refused"},
+          {"candidates", "how many candidates the charts show"},
           {"found-ms", "the offset found"},
           {"message", "the message in front; empty without one"},
           {"status", "the status line"},
@@ -108,7 +111,14 @@ std::optional<std::string> Explorer::observe(std::string_view name) const {
   if (name == "points-b") return points(Side::kB);
   if (name == "thickness-a") return thickness_words(pane(Side::kA));
   if (name == "thickness-b") return thickness_words(pane(Side::kB));
+  if (name == "places") return std::to_string(places_.size());
+  if (name == "place-at") {
+    const PlacePtr at = place();
+    return at ? fmt::format("{:.2f} {:.2f}", at->found.region.centre_m.x(), at->found.region.centre_m.y())
+              : "";
+  }
   if (name == "estimate") return estimate_word(estimate());
+  if (name == "candidates") return std::to_string(charted() != nullptr ? charted()->curve.size() : 0);
   if (name == "found-ms")
     return estimate_ && estimate_->offset_s ? fmt::format("{:.4f}", *estimate_->offset_s * 1e3) : "";
   if (name == "message") return message_ ? message_->text : "";

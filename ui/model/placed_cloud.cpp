@@ -225,10 +225,12 @@ double difference_span_mm(const Placement& placement, const Placement& other) {
   return std::max(quantile(distances_mm, 0.95), 1.0);
 }
 
-PlacedCloud place_cloud(const Placement& placement, const CloudLook& look, bool coarse,
-                        const Placement* other, const BeamValues* slow) {
-  const DrawOrder& order = placement.map->order;
-  const auto* chosen = coarse ? &order.chosen : nullptr;
+namespace {
+
+/// `slots`: numbers of beams, or of those chosen, in the order of drawing.
+PlacedCloud place_in_order(const Placement& placement, const CloudLook& look,
+                           const std::vector<std::uint32_t>* chosen, const std::vector<std::uint32_t>& slots,
+                           const Placement* other, const BeamValues* slow) {
   const Places places = place_beams(placement, chosen);
   const Places other_places = other != nullptr ? place_beams(*other, chosen) : Places();
   const std::vector<int> direction =
@@ -252,8 +254,7 @@ PlacedCloud place_cloud(const Placement& placement, const CloudLook& look, bool 
   };
   const ColourScale scale{colour_table(look.table).value_or(ColourTable()), look.from, look.to};
   const Filter filter(placement, look);
-  const std::vector<std::uint32_t>& slots = coarse ? order.chosen_order : order.all;
-  const auto beam_of = [&](std::uint32_t slot) { return coarse ? order.chosen[slot] : slot; };
+  const auto beam_of = [&](std::uint32_t slot) { return chosen != nullptr ? (*chosen)[slot] : slot; };
   const Shown shown(slots, [&](std::uint32_t slot) { return filter.shows(beam_of(slot), places[slot]); });
   PlacedCloud cloud;
   auto points = std::make_shared<LivePoints>();
@@ -269,6 +270,23 @@ PlacedCloud place_cloud(const Placement& placement, const CloudLook& look, bool 
   });
   cloud.points = std::move(points);
   return cloud;
+}
+
+}  // namespace
+
+PlacedCloud place_cloud(const Placement& placement, const CloudLook& look, bool coarse,
+                        const Placement* other, const BeamValues* slow) {
+  const DrawOrder& order = placement.map->order;
+  if (coarse) return place_in_order(placement, look, &order.chosen, order.chosen_order, other, slow);
+  return place_in_order(placement, look, nullptr, order.all, other, slow);
+}
+
+PlacedCloud place_chosen(const Placement& placement, const CloudLook& look,
+                         const std::vector<std::uint32_t>& beams, const Placement* other,
+                         const BeamValues* slow) {
+  std::vector<std::uint32_t> slots(beams.size());
+  std::iota(slots.begin(), slots.end(), 0);
+  return place_in_order(placement, look, &beams, slots, other, slow);
 }
 
 }  // namespace sweepscope::ui

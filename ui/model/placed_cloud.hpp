@@ -67,6 +67,11 @@ SlowValues slow_values(const Placement& placement, ColourBy by, const FeatureSet
 PlacedCloud place_cloud(const Placement& placement, const CloudLook& look, bool coarse,
                         const Placement* other = nullptr, const BeamValues* slow = nullptr);
 
+/// The same for the given beams alone, in ascending order.
+PlacedCloud place_chosen(const Placement& placement, const CloudLook& look,
+                         const std::vector<std::uint32_t>& beams, const Placement* other = nullptr,
+                         const BeamValues* slow = nullptr);
+
 /// The range that nearly all distances between two placements of the chosen points lie in, from 0, in
 /// millimetres.
 double difference_span_mm(const Placement& placement, const Placement& other);

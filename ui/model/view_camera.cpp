@@ -59,14 +59,23 @@ Eigen::Vector3d place_under(PixelPoint pixel, const ViewPoint& view, const Pixel
       .centre_m;
 }
 
-ViewPoint fitted(ViewPoint view, const Box& box, double aspect) {
+ViewPoint fitted(ViewPoint view, const Box& box, const PictureShape& shape) {
   constexpr double kRoom = 1.08;
   const Axes axes = axes_of(view);
-  view.centre_m = box.middle_m();
   const Eigen::Vector3d half_m = (box.to_m - box.from_m) / 2;
   const double half_width_m = half_m.dot(axes.right.cwiseAbs()),
                half_height_m = half_m.dot(axes.up.cwiseAbs());
-  view.height_m = std::max(2 * kRoom * std::max(half_height_m, half_width_m / aspect), 0.5);
+  // Fractions of the picture that are free: all of its width above the close-up, or all of its height
+  // beside it.
+  const auto height_for = [&](double free_width, double free_height) {
+    return 2 * kRoom * std::max(half_height_m / free_height, half_width_m / (shape.aspect * free_width));
+  };
+  const double above_m = height_for(1, 1 - shape.covered_height),
+               beside_m = height_for(1 - shape.covered_width, 1);
+  view.height_m = std::max(std::min(above_m, beside_m), 0.5);
+  const double right_m = beside_m < above_m ? shape.covered_width / 2 * view.height_m * shape.aspect : 0,
+               down_m = beside_m < above_m ? 0 : shape.covered_height / 2 * view.height_m;
+  view.centre_m = box.middle_m() + right_m * axes.right - down_m * axes.up;
   for (double* metre : {&view.centre_m.x(), &view.centre_m.y(), &view.centre_m.z(), &view.height_m})
     *metre = std::round(*metre * 100) / 100;
   return view;

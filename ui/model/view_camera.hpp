@@ -16,9 +16,17 @@ Projection projection_of(const ViewPoint& view, bool perspective, const PixelRec
 /// The inverse: the position under a pixel at the depth of the view's centre.
 Eigen::Vector3d place_under(PixelPoint pixel, const ViewPoint& view, const PixelRect& pane);
 
-/// The view from the same direction that shows the whole box with a small margin, in a pane of that aspect
-/// (width over height). In whole centimetres.
-ViewPoint fitted(ViewPoint view, const Box& box, double aspect);
+/// The shape of a map's picture, and what a close-up covers of its lower right corner.
+struct PictureShape {
+  double aspect = 1;                             // width over height
+  double covered_width = 0, covered_height = 0;  // fractions of the picture's; 0: nothing
+
+  bool operator==(const PictureShape&) const = default;
+};
+
+/// The view from the same direction that shows the whole box with a small margin, above or beside what is
+/// covered. In whole centimetres.
+ViewPoint fitted(ViewPoint view, const Box& box, const PictureShape& shape);
 
 /// The view after dragging by a number of pixels: turned, or moved with the mouse.
 ViewPoint turned(ViewPoint view, double right_px, double down_px);

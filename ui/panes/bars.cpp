@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <utility>
 
 #include "core/io/printable_text.hpp"
@@ -64,6 +65,24 @@ bool chosen_by_key(bool makes_sense) {
   return true;
 }
 
+/// Recordings that were open before, each with its folder.
+void recent_items(const PaneContext& context) {
+  const std::vector<std::string> recent = context.transient.recent;
+  if (recent.empty()) return;
+  ImGui::Separator();
+  for (const std::string& path : recent) {
+    const std::filesystem::path file(path);
+    const std::string title = printable_line(file.filename().string()),
+                      folder = fit_text(printable_line(file.parent_path().string()), context.px(13),
+                                        context.px(320));
+    const bool clicked = ImGui::MenuItem(fmt::format("{}##{}", title, path).c_str(), folder.c_str());
+    if (clicked || chosen_by_key(true)) context.perform("open " + ui::quoted(path));
+    context.anchor_last("menu recent " + path);
+    tooltip(context, path);
+  }
+  ImGui::Separator();
+}
+
 void menu(const PaneContext& context, const std::string& name) {
   if (!ImGui::BeginMenu(name.c_str())) {
     context.anchor_last("menu " + name);
@@ -82,6 +101,7 @@ void menu(const PaneContext& context, const std::string& name) {
         ImGui::MenuItem(item.title.c_str(), chord.c_str(), holds(context.settings(), item.line), enabled);
     if (clicked || chosen_by_key(enabled)) context.perform(item.line);
     context.anchor_last("menu " + item.line);
+    if (item.line == "ask open") recent_items(context);
   }
   ImGui::EndMenu();
 }

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "core/offset/search_window.hpp"
-#include "render/charts/chart_layout.hpp"
 #include "render/charts/curve_charts.hpp"
 #include "ui/host/paint.hpp"
+#include "ui/panes/chart_mouse.hpp"
 #include "ui/panes/closer.hpp"
 #include "ui/panes/widgets.hpp"
 
@@ -15,10 +15,6 @@ namespace sweepscope::ui {
 namespace {
 
 constexpr Colour kUnseen{0, 0, 0, 0};
-
-double offset_ms(const Settings& settings, Side side) {
-  return side == Side::kA ? settings.offset_a_ms : settings.offset_b_ms;
-}
 
 Colour colour_of(const PaneContext& context, Side side) {
   return side == Side::kA ? colour_of_a(context.style) : colour_of_b(context.style);
@@ -39,20 +35,30 @@ Chart empty_chart(const PaneContext& context) {
   return chart;
 }
 
-std::vector<Chart> charts_of(const PaneContext& context) {
-  const Estimate* estimate = context.explorer.estimate();
-  const std::array marked{
-      MarkedOffset{offset_ms(context.settings(), Side::kA) * 1e-3, colour_of_a(context.style)},
-      MarkedOffset{offset_ms(context.settings(), Side::kB) * 1e-3, colour_of_b(context.style)}};
-  std::vector<Chart> charts;
-  if (estimate != nullptr) charts = curve_charts(*estimate, marked, context.style);
-  if (charts.empty()) charts.push_back(empty_chart(context));
+/// The offsets of both maps; the line on top, which a drag moves, comes last.
+std::array<MarkedOffset, 2> marked_offsets(const PaneContext& context) {
+  const auto marked = [&](Side side) {
+    return MarkedOffset{offset_ms(context.settings(), side) * 1e-3, colour_of(context, side)};
+  };
+  const Side top = context.explorer.changed_side();
+  return {marked(other_side(top)), marked(top)};
+}
+
+/// The part of the axis that is shown: while a handle is dragged as it was when the drag began, or the handle
+/// would run away from the mouse.
+std::optional<AxisRange> range_shown(const PaneContext& context) {
   const auto& handle = context.transient.handle;
-  for (Chart& chart : charts) {
-    if (!handle) continue;
-    // The axis stays as it was when the drag began, or the handle would run away from the mouse.
-    for (const double end : {handle->from_ms, handle->to_ms}) chart.verticals.push_back({end, "", kUnseen});
-  }
+  if (handle) return AxisRange{handle->from_ms, handle->to_ms};
+  const Settings& settings = context.settings();
+  if (settings.chart_to_ms <= settings.chart_from_ms) return std::nullopt;
+  return AxisRange{settings.chart_from_ms, settings.chart_to_ms};
+}
+
+std::vector<Chart> charts_of(const PaneContext& context) {
+  const Estimate* estimate = context.explorer.charted();
+  std::vector<Chart> charts;
+  if (estimate != nullptr) charts = curve_charts(*estimate, marked_offsets(context), context.style);
+  if (charts.empty()) charts.push_back(empty_chart(context));
   return charts;
 }
 
@@ -78,58 +84,26 @@ std::string meaning(const std::string& title) {
   return "Estimate the offset to see the criteria over the candidates here.";
 }
 
-/// The offset at a pixel.
-double value_at(const ChartLayout& layout, double px) {
-  return layout.x.from + (px - layout.plot.left) / layout.plot.width * (layout.x.to - layout.x.from);
-}
-
-void begin_handle(const PaneContext& context, const ChartLayout& layout) {
-  const double x = value_at(layout, static_cast<double>(ImGui::GetIO().MousePos.x));
-  const double to_a = std::abs(x - context.settings().offset_a_ms);
-  const double to_b = std::abs(x - context.settings().offset_b_ms);
-  // Where both are one, the side that the mouse is on says which.
-  const bool a = to_a != to_b ? to_a < to_b : x < context.settings().offset_a_ms;
-  context.transient.handle = Transient::HandleDrag{a ? Side::kA : Side::kB, layout.plot.left,
-                                                   layout.plot.width, layout.x.from, layout.x.to};
-  context.begin_gesture();
-}
-
-void drag_handle(const PaneContext& context) {
-  const Transient::HandleDrag& handle = *context.transient.handle;
-  const double share =
-      (static_cast<double>(ImGui::GetIO().MousePos.x) - handle.plot_left) / handle.plot_width;
-  const double at_ms = handle.from_ms + std::clamp(share, 0.0, 1.0) * (handle.to_ms - handle.from_ms);
-  const double step_ms = handle.to_ms - handle.from_ms > 20 ? 0.1 : 0.01;
-  const char* command = handle.side == Side::kA ? "offset-a" : "offset-b";
-  const auto [least_ms, greatest_ms] = context.explorer.offset_window_ms();
-  const double stepped_ms = std::round(std::round(at_ms / step_ms) * step_ms * 1e4) / 1e4;
-  context.perform(Call{find_command(command), {std::clamp(stepped_ms, least_ms, greatest_ms)}},
-                  context.transient.gesture);
-}
-
-/// Grips at the feet of the two lines.
+/// Grips at the feet of the two lines, the one that a drag moves on top.
 void draw_grips(const PaneContext& context, const ChartLayout& layout) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  for (const Side side : kBothSides) {
+  const Side top = context.explorer.changed_side();
+  for (const Side side : {other_side(top), top}) {
     const double at = offset_ms(context.settings(), side);
-    if (at < layout.x.from || at > layout.x.to) continue;
-    const auto x = static_cast<float>(layout.x_px(at)), y = static_cast<float>(layout.plot.bottom());
-    const float w = context.pxf(7), h = context.pxf(9);
-    const ImVec2 points[5] = {{x, y - h * 1.4f},
-                              {x + w, y - h * 0.7f},
-                              {x + w, y + h * 0.5f},
-                              {x - w, y + h * 0.5f},
-                              {x - w, y - h * 0.7f}};
+    if (!layout.x.contains(at)) continue;
+    const PixelRect grip = grip_of(layout, at, context.scale);
+    const auto x = static_cast<float>(grip.left + grip.width / 2), w = static_cast<float>(grip.width / 2);
+    const auto from = static_cast<float>(grip.top), to = static_cast<float>(grip.bottom());
+    const float shoulder = from + 0.37f * (to - from);
+    const ImVec2 points[5] = {{x, from}, {x + w, shoulder}, {x + w, to}, {x - w, to}, {x - w, shoulder}};
     list.AddConvexPolyFilled(points, 5, to_imgui(colour_of(context, side)));
     ImGui::PushFont(context.fonts.small);
     const char* letter = side == Side::kA ? "A" : "B";
     const ImVec2 size = ImGui::CalcTextSize(letter);
-    list.AddText({std::round(x - size.x / 2), std::round(y - h * 0.15f - size.y / 2)},
+    list.AddText({std::round(x - size.x / 2), std::round(from + 0.66f * (to - from) - size.y / 2)},
                  to_imgui(context.style.page), letter);
     ImGui::PopFont();
-    context.anchor(side == Side::kA ? "handle a" : "handle b",
-                   {static_cast<double>(x - w), static_cast<double>(y - h), static_cast<double>(2 * w),
-                    static_cast<double>(1.5f * h)});
+    context.anchor(side == Side::kA ? "handle a" : "handle b", grip);
   }
 }
 
@@ -158,23 +132,16 @@ void draw_hint(const PaneContext& context, const PixelRect& plot) {
                context.fonts);
 }
 
-void draw_one(const PaneContext& context, const Chart& chart, const PixelRect& place, std::size_t number) {
+void draw_one(const PaneContext& context, Chart chart, const PixelRect& place, std::size_t number) {
   const double scale = context.scale * 0.86;
+  const AxisRange all = lay_out_chart(chart, place, scale).x;
+  chart.x_range = range_shown(context);
   Drawing drawing;
   add_chart(drawing, place, chart, context.style, scale);
   paint(*ImGui::GetWindowDrawList(), drawing, context.fonts);
   const ChartLayout layout = lay_out_chart(chart, place, scale);
-  if (context.explorer.estimate() == nullptr) draw_hint(context, layout.plot);
-  const double reach = context.px(12);
-  ImGui::SetCursorScreenPos(
-      {static_cast<float>(layout.plot.left - reach), static_cast<float>(layout.plot.top - reach)});
-  ImGui::InvisibleButton(fmt::format("chart {}", number).c_str(),
-                         {static_cast<float>(layout.plot.width + 2 * reach),
-                          static_cast<float>(layout.plot.height + 2 * reach)});
-  context.anchor(fmt::format("chart {}", number), layout.plot);
-  if (ImGui::IsItemActivated()) begin_handle(context, layout);
-  if (ImGui::IsItemActive() && context.transient.handle) drag_handle(context);
-  if (ImGui::IsItemHovered() || ImGui::IsItemActive()) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+  if (context.explorer.charted() == nullptr) draw_hint(context, layout.plot);
+  use_chart_mouse(context, chart, layout, all, number);
   if (number == 0) draw_grips(context, layout);
   ImGui::SetCursorScreenPos({static_cast<float>(place.left), static_cast<float>(place.top)});
   ImGui::InvisibleButton(fmt::format("chart title {}", number).c_str(),

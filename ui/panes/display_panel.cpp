@@ -5,6 +5,7 @@
 
 #include "render/charts/ticks.hpp"
 #include "ui/host/paint.hpp"
+#include "ui/panes/close_ups.hpp"
 #include "ui/panes/widgets.hpp"
 
 namespace sweepscope::ui {
@@ -176,6 +177,8 @@ void draw_display_panel(const PaneContext& context, const PixelRect& place) {
   heading(context, "Inspect");
   field(context, "tool");
   field(context, "scan-view");
+  field(context, "close-up");
+  place_field(context);
   end_panel();
 }
 

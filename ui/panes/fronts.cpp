@@ -8,40 +8,12 @@
 
 #include "core/io/printable_text.hpp"
 #include "ui/host/input.hpp"
+#include "ui/panes/file_dialog.hpp"
+#include "ui/panes/fronts.hpp"
 #include "ui/panes/widgets.hpp"
 
 namespace sweepscope::ui {
 namespace {
-
-/// A window in front of everything, with a veil over the rest.
-void begin_front(const PaneContext& context, const char* name, const PixelRect& whole, double width,
-                 double height, double from_top = 0.16) {
-  const double w = std::min(context.px(width), whole.width - context.px(24));
-  const double h = std::min(context.px(height), whole.height - context.px(24));
-  const double top =
-      std::max(context.px(12), std::min(whole.height * from_top, whole.height - h - context.px(12)));
-  ImGui::SetNextWindowPos({0, 0});
-  ImGui::SetNextWindowSize({static_cast<float>(whole.width), static_cast<float>(whole.height)});
-  ImGui::PushStyleColor(ImGuiCol_WindowBg, IM_COL32(0, 0, 0, 110));
-  ImGui::Begin((std::string(name) + " veil").c_str(), nullptr,
-               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
-                   ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
-  if (ImGui::IsWindowHovered() && ImGui::IsMouseClicked(0)) context.perform("dismiss");
-  ImGui::End();
-  ImGui::PopStyleColor();
-  ImGui::SetNextWindowPos(
-      {static_cast<float>(std::round((whole.width - w) / 2)), static_cast<float>(std::round(top))});
-  ImGui::SetNextWindowSize({static_cast<float>(w), static_cast<float>(h)});
-  ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyleColorVec4(ImGuiCol_PopupBg));
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(context.pxf(18), context.pxf(16)));
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, context.pxf(6));
-  if (context.transient.just_opened) ImGui::SetNextWindowFocus();
-  ImGui::Begin(name, nullptr,
-               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
-  ImGui::PopStyleVar(3);
-  ImGui::PopStyleColor();
-}
 
 void end_front() {
   ImGui::End();
@@ -70,8 +42,11 @@ struct Entry {
   bool takes_words = false;  // the line is completed in the palette before it is run
 };
 
-std::vector<Entry> all_entries() {
+std::vector<Entry> all_entries(const std::vector<std::string>& recent) {
   std::vector<Entry> entries;
+  for (const std::string& path : recent)
+    entries.push_back({"Open " + printable_line(std::filesystem::path(path).filename().string()),
+                       "open " + ui::quoted(path), "", false});
   for (const MenuItem& item : menu_items()) {
     if (!item.line.empty()) entries.push_back({item.title, item.line, chord_of(item.line), false});
   }
@@ -160,13 +135,42 @@ void palette_list(const PaneContext& context, const std::vector<Entry>& found) {
 
 }  // namespace
 
+void begin_front(const PaneContext& context, const char* name, const PixelRect& whole, double width,
+                 double height, double from_top) {
+  const double w = std::min(context.px(width), whole.width - context.px(24));
+  const double h = std::min(context.px(height), whole.height - context.px(24));
+  const double top =
+      std::max(context.px(12), std::min(whole.height * from_top, whole.height - h - context.px(12)));
+  ImGui::SetNextWindowPos({0, 0});
+  ImGui::SetNextWindowSize({static_cast<float>(whole.width), static_cast<float>(whole.height)});
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, IM_COL32(0, 0, 0, 110));
+  ImGui::Begin((std::string(name) + " veil").c_str(), nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                   ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
+  if (ImGui::IsWindowHovered() && ImGui::IsMouseClicked(0)) context.perform("dismiss");
+  ImGui::End();
+  ImGui::PopStyleColor();
+  ImGui::SetNextWindowPos(
+      {static_cast<float>(std::round((whole.width - w) / 2)), static_cast<float>(std::round(top))});
+  ImGui::SetNextWindowSize({static_cast<float>(w), static_cast<float>(h)});
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyleColorVec4(ImGuiCol_PopupBg));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(context.pxf(18), context.pxf(16)));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, context.pxf(6));
+  if (context.transient.just_opened) ImGui::SetNextWindowFocus();
+  ImGui::Begin(name, nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
+  ImGui::PopStyleVar(3);
+  ImGui::PopStyleColor();
+}
+
 void draw_palette(const PaneContext& context, const PixelRect& whole) {
   Transient& transient = context.transient;
   if (!transient.palette) return;
   begin_front(context, "palette", whole, 660, 420, 0.1);
   std::vector<Entry> found;
   const std::string before = transient.palette_query;
-  for (const Entry& entry : all_entries()) {
+  for (const Entry& entry : all_entries(transient.recent)) {
     if (matches(entry, before)) found.push_back(entry);
   }
   const int last = std::max(0, static_cast<int>(found.size()) - 1);
@@ -225,7 +229,7 @@ namespace {
 
 /// The line that does what was asked for.
 std::string line_of_asking(const Transient::Asked& asked, const std::string& text) {
-  const std::string file = ui::quoted(text);
+  const std::string file = ui::quoted(without_tilde(text, home_folder()));
   if (asked.command == "export-cloud")
     return fmt::format("export-cloud {} {}", asked.what == "a" ? "a" : "b", file);
   if (asked.command == "export-picture" && !asked.what.empty())
@@ -240,16 +244,16 @@ bool ask_for_file(const PaneContext& context, const Transient::Asked& asked) {
   if (transient.just_opened) ImGui::SetKeyboardFocusHere();
   ImGui::SetNextItemWidth(-1e-3f);
   const std::string before = transient.asked_text;
-  const bool entered = ImGui::InputTextWithHint(
-      "##file", folder ? "A folder" : "A file, or drop one here", &transient.asked_text,
-      ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+  const bool entered =
+      ImGui::InputTextWithHint("##file", folder ? "A folder" : "A file", &transient.asked_text,
+                               ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
   context.anchor_last("ask file");
   if (transient.asked_text != before) transient.replaces.clear();
-  if (asked.command != "open" && !transient.asked_text.empty()) {
+  if (!transient.asked_text.empty()) {
     ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(transient.replaces.empty() ? context.style.faint_text
                                                                              : colour_of_a(context.style)));
     const std::string says = transient.replaces.empty()
-                                 ? whole_path(transient.asked_text)
+                                 ? whole_path(without_tilde(transient.asked_text, home_folder()))
                                  : transient.replaces + " exists. Replace it? Enter or Replace does.";
     ImGui::TextWrapped("%s", printable_line(says).c_str());
     ImGui::PopStyleColor();
@@ -267,6 +271,7 @@ void draw_ask(const PaneContext& context, const PixelRect& whole) {
   Transient& transient = context.transient;
   if (!transient.asks_for) return;
   const Transient::Asked asked = *transient.asks_for;
+  if (asked.command == "open") return draw_open_dialog(context, whole);
   begin_front(context, "ask", whole, 560, 206, 0.22);
   ImGui::PushFont(context.fonts.heading);
   ImGui::TextUnformatted(title_of_asking(asked).c_str());

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ui/model/places.hpp"
+
 namespace sweepscope::ui {
 namespace {
 
@@ -54,6 +56,22 @@ MapPlaces lay_out_maps(const PixelRect& maps, double scale, Layout layout) {
     pane(inner.left + width + margin, places.header_b, places.picture_b);
   else if (layout != Layout::kOnlyA)
     pane(inner.left, places.header_b, places.picture_b);
+  return places;
+}
+
+std::vector<PixelRect> close_up_places(const PixelRect& picture, double scale, Layout layout) {
+  constexpr double kMinWidth = 100, kMaxWidth = 420, kGap = 8;  // at 100 %
+  const bool both = layout == Layout::kSwipe;
+  const double gap = kGap * scale, share = both ? 0.3 : 0.44;
+  const double width =
+      std::min({share * picture.width, (both ? 0.32 : 0.42) * picture.height * PlaceToLook::kAspect,
+                kMaxWidth * scale});
+  if (width < kMinWidth * scale) return {};
+  const double height = width / PlaceToLook::kAspect;
+  std::vector<PixelRect> places;
+  for (int i = both ? 1 : 0; i >= 0; --i)
+    places.push_back(
+        snapped({picture.right() - (i + 1) * (width + gap), picture.bottom() - height - gap, width, height}));
   return places;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "render/drawing/drawing.hpp"
 #include "ui/state/settings.hpp"
 
@@ -20,5 +22,9 @@ struct MapPlaces {
   PixelRect header_a, picture_a, header_b, picture_b;
 };
 MapPlaces lay_out_maps(const PixelRect& maps, double scale, Layout layout);
+
+/// The close-ups inside a map's picture, at its lower right: one, or in a swipe that of A and that of B.
+/// Empty where a picture is too small for them.
+std::vector<PixelRect> close_up_places(const PixelRect& picture, double scale, Layout layout);
 
 }  // namespace sweepscope::ui

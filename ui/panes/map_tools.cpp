@@ -7,6 +7,7 @@
 #include "render/charts/ticks.hpp"
 #include "ui/host/paint.hpp"
 #include "ui/model/picking.hpp"
+#include "ui/panes/close_ups.hpp"
 #include "ui/panes/widgets.hpp"
 
 namespace sweepscope::ui {
@@ -89,6 +90,24 @@ void pick(const PaneContext& context, Side side, const PixelRect& picture) {
   measure_to(context, {p[0], p[1], p[2]});
 }
 
+/// A double click looks at the point there: the view turns about it from now on.
+void centre_on_point(const PaneContext& context, Side side, const PixelRect& picture) {
+  if (!ImGui::IsItemHovered() || !ImGui::IsMouseDoubleClicked(0)) return;
+  ViewPoint view = view_of(context.settings(), side);
+  const PlacedCloud* cloud = shown_cloud(context, side);
+  const auto found = cloud != nullptr ? pick_point(*cloud, projection_of(context.settings(), side, picture),
+                                                   mouse(), context.px(12))
+                                      : std::nullopt;
+  if (found) {
+    const auto& p = cloud->points->xyz_m[*found];
+    view.centre_m = {p[0], p[1], p[2]};
+  } else {
+    view.centre_m = place_under(mouse(), view, picture);
+  }
+  context.begin_gesture();
+  set_view(context, side, view);
+}
+
 void draw_profile_line(const PaneContext& context, Side side, const PixelRect& picture) {
   Transient& transient = context.transient;
   const Eigen::Vector2d here = place_under(mouse(), view_of(context.settings(), side), picture).head<2>();
@@ -128,7 +147,7 @@ void draw_path(const PaneContext& context, Side side, const Projection& projecti
   }
   if (points.size() < 2) return;
   ImGui::GetWindowDrawList()->AddPolyline(points.data(), static_cast<int>(points.size()),
-                                          IM_COL32(255, 255, 255, 190), 0, context.pxf(1.2));
+                                          to_imgui(ink_of(context), 0.75), 0, context.pxf(1.2));
 }
 
 /// Bottom left: a round length. Only where all of the picture has one scale.
@@ -216,6 +235,7 @@ void use_mouse(const PaneContext& context, Side side, const PixelRect& picture) 
   drag_camera(context, side, picture);
   zoom(context, side, picture);
   const Tool tool = context.settings().tool;
+  if (tool == Tool::kLook) centre_on_point(context, side, picture);
   if (tool == Tool::kPick || tool == Tool::kMeasure) pick(context, side, picture);
   if (tool == Tool::kProfile) draw_profile_line(context, side, picture);
   if (tool != Tool::kLook && ImGui::IsItemHovered()) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
@@ -227,6 +247,7 @@ void draw_overlays(const PaneContext& context, Side side, const PixelRect& pictu
                     {static_cast<float>(picture.right()), static_cast<float>(picture.bottom())}, true);
   const Projection projection = projection_of(context.settings(), side, picture);
   draw_path(context, side, projection);
+  draw_place_mark(context, projection);
   draw_profile(context, projection, view_of(context.settings(), side).centre_m.z());
   draw_measure(context, projection);
   draw_picked(context, side, projection);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "render/charts/curve_charts.hpp"
+#include "ui/panes/close_ups.hpp"
 #include "ui/panes/map_tools.hpp"
 #include "ui/panes/number_box.hpp"
 #include "ui/panes/widgets.hpp"
@@ -20,25 +21,13 @@ ImVec2 far_corner(const PixelRect& rect) {
   return {static_cast<float>(rect.right()), static_cast<float>(rect.bottom())};
 }
 
-Colour backdrop(const PaneContext& context) {
-  switch (context.settings().backdrop) {
-    case Backdrop::kBlack:
-      return {0, 0, 0};
-    case Backdrop::kWhite:
-      return {255, 255, 255};
-    case Backdrop::kTheme:
-      break;
-  }
-  return context.style.map_panel;
-}
-
 /// Draws the map, as far as the frame's time allows.
 void render(const PaneContext& context, Side side, const PixelRect& picture) {
   LiveView& view = *context.views[static_cast<std::size_t>(side)];
   const Pane& pane = context.explorer.pane(side);
   const auto points = [](const PlacedCloudPtr& cloud) { return cloud ? cloud->points : nullptr; };
   view.resize(std::max(16, static_cast<int>(picture.width)), std::max(16, static_cast<int>(picture.height)));
-  view.set_background(backdrop(context));
+  view.set_background(backdrop_of(context));
   view.set_point_size(std::round(context.settings().point_size_px * context.scale));
   view.set_camera(camera_of(view_of(context.settings(), side), context.settings().perspective));
   view.show(points(pane.coarse), points(pane.full));
@@ -146,7 +135,7 @@ void draw_header(const PaneContext& context, Side side, const PixelRect& place) 
   ImGui::SameLine(0, context.pxf(10));
   ImGui::SetCursorScreenPos({ImGui::GetCursorScreenPos().x, middle - ImGui::GetFrameHeight() / 2});
   const double offset_ms = a ? context.settings().offset_a_ms : context.settings().offset_b_ms;
-  ImGui::SetNextItemWidth(context.pxf(104));
+  ImGui::SetNextItemWidth(context.pxf(place.width < context.px(300) ? 84 : 104));
   const int decimals = std::abs(offset_ms * 10 - std::round(offset_ms * 10)) < 1e-6 ? 1 : 3;
   const auto [from_ms, to_ms] = context.explorer.offset_window_ms();
   number_box(context, {.id = std::string(command) + "0",
@@ -162,7 +151,9 @@ void draw_header(const PaneContext& context, Side side, const PixelRect& place) 
   tooltip(context, find_command(command)->help + "  Drag, or click to type.");
   if (context.settings().layout == Layout::kSideBySide)
     draw_link(context, side, static_cast<double>(ImGui::GetItemRectMax().x) + context.px(8), middle);
-  const std::string state = state_in_words(context, side);
+  // Behind what stands before it, or cut: the last line says it whole.
+  const double room = place.right() - static_cast<double>(ImGui::GetItemRectMax().x) - context.px(12);
+  const std::string state = fit_text(state_in_words(context, side), context.px(11), std::max(room, 0.0));
   ImGui::PushFont(context.fonts.small);
   const ImVec2 size = ImGui::CalcTextSize(state.c_str());
   list.AddText({static_cast<float>(place.right()) - size.x, middle - size.y / 2},
@@ -193,6 +184,7 @@ void take_mouse(const PaneContext& context, Side side, const PixelRect& picture)
 void draw_map(const PaneContext& context, Side side, const PixelRect& picture) {
   show_texture(context, side, picture);
   draw_overlays(context, side, picture);
+  draw_close_up(context, side, picture);
   draw_frame(context, picture);
 }
 
@@ -210,14 +202,15 @@ void divider(const PaneContext& context, const PixelRect& picture) {
                     context.transient.gesture);
   }
   ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ImU32 ink = to_imgui(ink_of(context));
   const auto fx = static_cast<float>(x), middle = static_cast<float>(picture.top + picture.height / 2);
-  list.AddLine({fx, static_cast<float>(picture.top)}, {fx, static_cast<float>(picture.bottom())},
-               IM_COL32_WHITE, context.pxf(1.5));
-  list.AddCircleFilled({fx, middle}, context.pxf(11), IM_COL32_WHITE);
+  list.AddLine({fx, static_cast<float>(picture.top)}, {fx, static_cast<float>(picture.bottom())}, ink,
+               context.pxf(1.5));
+  list.AddCircleFilled({fx, middle}, context.pxf(11), ink);
   const float r = context.pxf(4), gap = context.pxf(2.5);
   for (const float way : {-1.0f, 1.0f})
     list.AddTriangleFilled({fx + way * gap, middle - r}, {fx + way * gap, middle + r},
-                           {fx + way * (gap + r), middle}, IM_COL32(20, 23, 28, 255));
+                           {fx + way * (gap + r), middle}, to_imgui(backdrop_of(context)));
   for (const auto& [letter, way, colour] : {std::tuple{"A", -1.0f, colour_of_a(context.style)},
                                             std::tuple{"B", 1.0f, colour_of_b(context.style)}}) {
     const ImVec2 size = ImGui::CalcTextSize(letter);
@@ -225,7 +218,7 @@ void divider(const PaneContext& context, const PixelRect& picture) {
                     static_cast<float>(picture.top) + context.pxf(10)};
     list.AddRectFilled({at.x - context.pxf(6), at.y - context.pxf(3)},
                        {at.x + size.x + context.pxf(6), at.y + size.y + context.pxf(3)},
-                       IM_COL32(10, 12, 15, 190), context.pxf(3));
+                       to_imgui(backdrop_of(context), 0.75), context.pxf(3));
     list.AddText(at, to_imgui(colour), letter);
   }
 }
@@ -236,10 +229,28 @@ void draw_swipe(const PaneContext& context, const PixelRect& picture) {
   show_texture(context, Side::kB, picture, share, 1);
   draw_overlays(context, Side::kB, picture);
   divider(context, picture);
+  for (const Side side : kBothSides) draw_close_up(context, side, picture);
   draw_frame(context, picture);
 }
 
 }  // namespace
+
+Colour backdrop_of(const PaneContext& context) {
+  switch (context.settings().backdrop) {
+    case Backdrop::kBlack:
+      return {0, 0, 0};
+    case Backdrop::kWhite:
+      return {255, 255, 255};
+    case Backdrop::kTheme:
+      break;
+  }
+  return context.settings().theme == Theme::kLight ? context.style.panel : context.style.map_panel;
+}
+
+Colour ink_of(const PaneContext& context) {
+  const bool dark = backdrop_of(context).green < 128;
+  return dark ? Colour{255, 255, 255} : Colour{20, 23, 28};
+}
 
 std::vector<Side> sides_of(Layout layout) {
   if (layout == Layout::kOnlyA) return {Side::kA};

@@ -12,6 +12,7 @@
 #include "render/pictures/live_view.hpp"
 #include "ui/host/theme.hpp"
 #include "ui/model/explorer.hpp"
+#include "ui/model/file_list.hpp"
 #include "ui/panes/layout.hpp"
 
 namespace sweepscope::ui {
@@ -26,6 +27,13 @@ struct Transient {
   };
   std::optional<Asked> asks_for;  // the command whose file is asked for, and what of it
   std::string asked_text;
+  struct Browsing {
+    std::string folder;  // whose entries are known
+    std::vector<FileEntry> entries;
+    bool known = false, all = false, to_end = false;
+    int choice = -1;  // among the entries that match what is typed; below 0: none
+  };
+  Browsing browsing;         // of the dialog that opens
   std::string replaces;      // what exists, and is to be replaced if it is confirmed once more
   bool just_opened = false;  // the window in front takes the keyboard
   std::optional<Eigen::Vector3d> measure_from_m;  // the first end, until there is a second
@@ -35,8 +43,15 @@ struct Transient {
   struct HandleDrag {
     Side side = Side::kA;
     double plot_left = 0, plot_width = 1, from_ms = 0, to_ms = 1;  // the axis as it was at the start
+    double grab_ms = 0;                                            // of the mouse, from the offset
+    bool moved = false;
   };
   std::optional<HandleDrag> handle;
+  struct ChartPan {
+    double plot_width = 1, from_ms = 0, to_ms = 1, mouse_px = 0;  // as they were at the start
+    std::size_t chart = 0;
+  };
+  std::optional<ChartPan> chart_pan;
   struct Typing {
     std::string box;  // NumberBox::id
     std::string text;
@@ -68,7 +83,7 @@ struct PaneContext {
   const Fonts& fonts;
   const Style& style;
   double scale;
-  std::array<LiveView*, 2> views;
+  std::array<LiveView*, 2> views, close_ups;
   double draw_budget_s;  // of each pane and frame; a slice of points may go beyond it
   /// Names of positions that scripts can click: "button estimate", "handle a", "map b", ...
   std::map<std::string, PixelRect>& anchors;
@@ -85,6 +100,11 @@ struct PaneContext {
   /// The last widget's place.
   void anchor_last(const std::string& name) const;
 };
+
+/// The colour behind the points.
+Colour backdrop_of(const PaneContext& context);
+/// Of lines and letters over it.
+Colour ink_of(const PaneContext& context);
 
 /// The maps whose pictures the layout shows.
 std::vector<Side> sides_of(Layout layout);

@@ -35,18 +35,8 @@ std::string format_of(const Parameter& parameter) {
   return fmt::format("%.{}f{}", decimals_for(parameter.step), unit);
 }
 
-/// Where the widget begins: after the column of titles.
-void begin_row(const PaneContext& context, const Command& command) {
-  ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted(command.title.c_str());
-  tooltip(context, command.help);
-  const float column = ImGui::GetWindowContentRegionMin().x + ImGui::GetWindowContentRegionWidth() * 0.46f;
-  ImGui::SameLine(column);
-  ImGui::SetNextItemWidth(-1e-3f);
-}
-
 void choice_field(const PaneContext& context, const Command& command) {
-  begin_row(context, command);
+  begin_field(context, command);
   const std::string now = to_word(command.get(context.settings())[0]);
   if (ImGui::BeginCombo(("##" + command.name).c_str(), capital(now).c_str())) {
     for (const std::string& choice : command.parameters[0].choices) {
@@ -59,7 +49,7 @@ void choice_field(const PaneContext& context, const Command& command) {
 }
 
 void switch_field(const PaneContext& context, const Command& command) {
-  begin_row(context, command);
+  begin_field(context, command);
   bool on = std::get<bool>(command.get(context.settings())[0]);
   if (ImGui::Checkbox(("##" + command.name).c_str(), &on))
     context.perform(command.name + (on ? " on" : " off"));
@@ -67,7 +57,7 @@ void switch_field(const PaneContext& context, const Command& command) {
 
 /// One slider, or drag boxes side by side where there are several numbers.
 void number_field(const PaneContext& context, const Command& command) {
-  begin_row(context, command);
+  begin_field(context, command);
   const std::vector<Value> values = command.get(context.settings());
   const auto count = static_cast<float>(values.size());
   const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
@@ -150,6 +140,15 @@ void row(const PaneContext& context, const char* name, const std::string& value)
   ImGui::TextUnformatted(printable_line(value).c_str());
   ImGui::PopTextWrapPos();
   ImGui::PopStyleVar();
+}
+
+void begin_field(const PaneContext& context, const Command& command) {
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(command.title.c_str());
+  tooltip(context, command.help);
+  const float column = ImGui::GetWindowContentRegionMin().x + ImGui::GetWindowContentRegionWidth() * 0.46f;
+  ImGui::SameLine(column);
+  ImGui::SetNextItemWidth(-1e-3f);
 }
 
 void field(const PaneContext& context, const char* name) {

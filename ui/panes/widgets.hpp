@@ -21,6 +21,9 @@ void row(const PaneContext& context, const char* name, const std::string& value)
 /// change by the person is performed as that command.
 void field(const PaneContext& context, const char* command);
 
+/// The field's title; the widget that comes next stands beside it, to the panel's edge.
+void begin_field(const PaneContext& context, const Command& command);
+
 /// A button that performs a line; wide as the panel unless `width_px` is given. Its anchor is "button LINE".
 bool button(const PaneContext& context, const char* title, const std::string& line, double width_px = 0,
             bool primary = false);

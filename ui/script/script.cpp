@@ -130,6 +130,8 @@ class Runner {
     if (const auto& why = explorer.load_failure()) return tl::unexpected(*why);
     if (need == Need::kEstimate && explorer.background().has("estimate"))
       return wait_until([&] { return !explorer.background().has("estimate"); }, "the estimate", max_s_);
+    if (need == Need::kPlaces && explorer.loaded() != nullptr)
+      return wait_until([&] { return explorer.at_rest(); }, "both maps", max_s_);
     if (need == Need::kPoints && explorer.loaded() != nullptr)
       return wait_until([&] { return explorer.has_all_points(); }, "all points of the maps", max_s_);
     return {};

@@ -249,6 +249,12 @@ void add_fields_of_display(std::vector<Command>& all) {
       toggle({"panels", "Side panels", "The panels to the left and right of the maps."}, &Settings::panels));
   all.push_back(
       toggle({"criteria", "Criteria", "The criteria over the offset, below the maps."}, &Settings::criteria));
+  all.push_back(
+      numbers({"chart-range", "Offsets shown",
+               "The part of the offset axis that the charts show, in milliseconds. Both 0: all. The "
+               "wheel zooms, a drag beside the handles moves it, and a double click shows all."},
+              &Settings::chart_from_ms, &Settings::chart_to_ms, number_of("FROM", "ms", -10000, 10000, 1),
+              number_of("TO", "ms", -10000, 10000, 1)));
   all.push_back(number({"ui-scale", "Interface size", "1 is 100 %, 2 is 200 %; 0: the display's scale."},
                        &Settings::ui_scale, number_of("SCALE", "", 0, 4, 0.25)));
 }
@@ -269,6 +275,14 @@ void add_fields_of_tools(std::vector<Command>& all) {
                        &Settings::scan_view));
   all.push_back(number({"scan", "Scan", "The scan that the scan view shows, counted from 0."},
                        &Settings::scan, number_of("NUMBER", "", 0, 1e7, 1)));
+  all.push_back(toggle({"close-up", "Close-up",
+                        "A place where the maps differ most, from above, in a corner of each map. A blurred "
+                        "surface fills more cells of 5 cm than a sharp one."},
+                       &Settings::close_up));
+  all.push_back(number({"place", "Place",
+                        "Which place the close-up shows: 1 is where the maps differ most. Long walls come "
+                        "after compact objects, which differ in all directions."},
+                       &Settings::place, number_of("NUMBER", "", 1, 12, 1)));
   all.push_back(choice(
       {"search", "Search", "Automatic: coarse to fine about 0 ms. Range: the candidates that you specify."},
       &Settings::search, {"automatic", "range"}));
@@ -350,6 +364,11 @@ void add_actions(std::vector<Command>& all) {
               {.name = "SECONDS", .unit = "s", .least = 1, .greatest = 300, .optional = true}}));
   all.push_back(action({"close", "Close the recording", "Back to the start page."}));
   all.push_back(action({"fit-view", "Fit the view", "Shows the whole map."}));
+  all.push_back(action({"next-place", "Next place",
+                        "The close-up goes to the next place of the list; \"back\": to the one before."},
+                       {{.name = "WAY", .kind = Kind::kChoice, .choices = {"back"}, .optional = true}}));
+  all.push_back(
+      action({"look-at-place", "Look at the place", "Moves both cameras to the close-up's place."}));
   all.push_back(action({"estimate", "Estimate the offset", "Searches for the offset in the background."}));
   all.push_back(action({"cancel", "Cancel", "Stops everything that runs in the background."}));
   all.push_back(action({"solve", "Solve the maps", "Resumes what was cancelled."}));
@@ -404,6 +423,7 @@ Need need_of(const std::string& name) {
       {"estimate", Need::kRecording},       {"solve", Need::kRecording},
       {"save-session", Need::kRecording},   {"copy-command", Need::kRecording},
       {"export-picture", Need::kRecording}, {"export-report", Need::kRecording},
+      {"next-place", Need::kPlaces},        {"look-at-place", Need::kPlaces},
       {"take-found", Need::kEstimate},      {"export-curve", Need::kEstimate},
       {"export-cloud", Need::kPoints}};
   const auto need = kNeeds.find(name);

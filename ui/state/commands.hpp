@@ -13,7 +13,7 @@
 namespace sweepscope::ui {
 
 /// What must be there before a command makes sense. A script waits for it where it is under way.
-enum class Need { kNothing, kRecording, kEstimate, kPoints };
+enum class Need { kNothing, kRecording, kEstimate, kPoints, kPlaces };
 
 /// A command of the explorer, for clicks, keys, the palette and scripts. Declared once.
 ///  - A field command (`get` and `set`) holds one part of the settings. Without arguments a switch

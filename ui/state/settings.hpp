@@ -52,6 +52,9 @@ struct Settings {
   bool scan_view = false;
   double scan = 0;  // the scan of the scan view
 
+  bool close_up = true;  // of the place where the maps differ most, in a corner of each
+  double place = 1;      // the number of that place in their list, best first
+
   Search search = Search::kAutomatic;
   double search_from_ms = 19, search_to_ms = 29, search_step_ms = 1;
   std::string method = "automatic",
@@ -60,7 +63,8 @@ struct Settings {
   Theme theme = Theme::kDark;
   bool panels = true;  // to the left and right of the maps
   bool criteria = true;
-  double ui_scale = 0;  // 0: the display's scale
+  double chart_from_ms = 0, chart_to_ms = 0;  // the offsets that the charts show; both the same: all
+  double ui_scale = 0;                        // 0: the display's scale
 
   bool operator==(const Settings&) const = default;
 };

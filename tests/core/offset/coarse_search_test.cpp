@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 
 #include "tests/core/engine_fixtures.hpp"
 
@@ -51,6 +52,22 @@ TEST(CoarseSearch, ComputesEverySecondUnitAndThoseBesideTheBest) {
     EXPECT_TRUE(std::any_of(offsets_ms.begin(), offsets_ms.end(), [&](double ms) {
       return std::abs(ms - beside_ms) < 1e-6;
     })) << beside_ms;
+}
+
+TEST(CoarseSearch, SaysEachCandidateWhenItIsFinished) {
+  const OffsetProblem problem = test::problem_of(test::room(0.024));
+  std::mutex mutex;
+  std::vector<double> said_s;
+  const CoarseSearch found =
+      search_coarsely(problem, 0, 60 * kMs, search_scale(problem.motor), Job(), [&](const CurvePoint& point) {
+        const std::lock_guard lock(mutex);
+        EXPECT_TRUE(point.capped_cost_m);
+        said_s.push_back(point.offset_s);
+      });
+  std::sort(said_s.begin(), said_s.end());
+  said_s.erase(std::unique(said_s.begin(), said_s.end()), said_s.end());
+  ASSERT_EQ(said_s.size(), found.curve.size());
+  for (std::size_t i = 0; i < said_s.size(); ++i) EXPECT_EQ(said_s[i], found.curve[i].offset_s);
 }
 
 TEST(CoarseSearch, ACancelledOneHasNoBest) {

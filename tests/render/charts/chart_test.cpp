@@ -98,6 +98,43 @@ TEST(ChartLayout, TickLabelsDoNotTouchEachOther) {
   }
 }
 
+TEST(ChartLayout, APartOfTheAxisIsShownExactlyAndTheOtherAxisFitsWhatIsSeen) {
+  Chart chart;
+  chart.series.push_back({"e", {0, 10, 20, 30}, {100, 4, 6, 100}, {1, 2, 3}});
+  for (const double x : {5.0, 15.0}) chart.verticals.push_back({x, "label", {}});
+  chart.x_range = AxisRange{8, 21};
+  const ChartLayout layout = lay_out_chart(chart, {0, 0, 500, 300}, 1);
+  EXPECT_EQ(layout.x.from, 8);
+  EXPECT_EQ(layout.x.to, 21);
+  EXPECT_LT(layout.y.to, 30) << "the ends are cut off";
+  EXPECT_GT(layout.y.to, 15.4) << "but the curve as far as it is shown is not";
+  ASSERT_EQ(layout.labels.size(), 1u);
+  Drawing drawing;
+  add_chart(drawing, {0, 0, 500, 300}, chart, kDarkStyle, 1);
+  for (const auto& mark : drawing.marks()) {
+    const auto* line = std::get_if<LineMark>(&mark);
+    if (line == nullptr || !(line->colour == Colour{1, 2, 3})) continue;
+    for (const PixelPoint& point : line->points) {
+      EXPECT_GE(point.x, layout.plot.left - 1e-6);
+      EXPECT_LE(point.x, layout.plot.right() + 1e-6);
+    }
+  }
+}
+
+TEST(Chart, IsReadAtTheShownPointNearestToAnX) {
+  Chart chart;
+  chart.series.push_back({"d", {0, 10, 20}, {3, std::nullopt, 5}, {1, 2, 3}});
+  chart.series.push_back({"θ", {0, 10, 20}, {7, 8, 9}, {1, 2, 3}, MarkerShape::kSquare});
+  chart.series.push_back({"fit", {0, 20}, {1, 1}, {1, 2, 3}, MarkerShape::kNone, true});
+  const auto readings = read_chart(chart, 11);
+  ASSERT_EQ(readings.size(), 2u);
+  EXPECT_EQ(readings[0].x, 20) << "10 has no d";
+  EXPECT_EQ(readings[1].y, 9);
+  chart.x_range = AxisRange{-1, 12};
+  EXPECT_EQ(read_chart(chart, 11)[0].y, 3);
+  EXPECT_TRUE(read_chart(Chart(), 1).empty());
+}
+
 TEST(ChartLayout, AFilledSeriesStandsOnZero) {
   Chart chart;
   chart.series = {{"", {1, 2}, {5, 6}, {}}};

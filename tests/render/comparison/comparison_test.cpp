@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
+#include "render/comparison/comparison_json.hpp"
 #include "render/comparison/comparison_layout.hpp"
 #include "render/comparison/comparison_points.hpp"
 #include "render/gl/context.hpp"
@@ -208,6 +211,59 @@ TEST(CloseUp, FindsThePillarByItself) {
 TEST(CloseUp, OfNothingIsInTheMiddleOfNothing) {
   const std::vector<SlabPoints> nothing(2);
   EXPECT_EQ(find_close_up(nothing, 4, 8).height_m, 4);
+}
+
+TEST(Places, AreThoseWhereTheMapsDifferMostBestFirstAndEachOnce) {
+  const auto maps = hall_maps(300'000);
+  std::vector<SlabPoints> points;
+  for (const auto& map : maps)
+    points.push_back(points_in_slabs(map, heights_of(map), choose_slabs(maps, {})));
+  const auto places = differing_places(points, 4, 8, 12);
+  ASSERT_GT(places.size(), 2u);
+  EXPECT_LE(places.size(), 12u);
+  const DifferingPlace& best = places.front();
+  EXPECT_EQ(best.region.centre_m, find_close_up(points, 4, 8).centre_m);
+  EXPECT_LT(best.region.centre_m.norm(), 0.7);  // the pillar
+  EXPECT_EQ(best.most_blurred(), 0u);
+  EXPECT_EQ(best.sharpest(), 1u);
+  EXPECT_GT(best.ratio(), 1.2);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j)
+      EXPECT_GE((places[i].region.centre_m - places[j].region.centre_m).cwiseAbs().maxCoeff(), 8);
+  }
+  EXPECT_EQ(differing_places(points, 4, 8, 2).size(), 2u);
+}
+
+TEST(Places, OfAComparisonAreThoseOfItsCloseUps) {
+  const auto maps = hall_maps(300'000);
+  const auto places = differing_places(maps, nullptr, small_options());
+  ASSERT_TRUE(places) << places.error().message;
+  ASSERT_FALSE(places->empty());
+  const Picture picture = *comparison_picture(maps, nullptr, small_options());
+  const Eigen::Vector2d centre_m = places->front().region.centre_m;
+  EXPECT_TRUE(std::any_of(picture.views.begin(), picture.views.end(), [&](const View& view) {
+    return (view.scene.camera.looks_at_m.head<2>() - centre_m).norm() < 1e-9;
+  }));
+}
+
+TEST(Places, OfEqualMapsOrOneMapAreNone) {
+  const auto maps = hall_maps(50'000);
+  const std::vector<ComparedMap> twice{maps[1], maps[1]};
+  EXPECT_TRUE(differing_places(twice, nullptr, small_options())->empty());
+  EXPECT_TRUE(differing_places(std::span(maps).first(1), nullptr, small_options())->empty());
+}
+
+TEST(Places, AreWrittenAsJsonWithTheMapsThatTheyCompare) {
+  std::vector<ComparedMap> maps(2);
+  maps[0].offset_s = 0.019;
+  maps[1].label = "B";
+  const std::vector<DifferingPlace> places{{{{1.25, -2}, 4}, {90, 60}}};
+  EXPECT_EQ(nlohmann::json::parse(comparison_json(maps, places)), nlohmann::json::parse(R"({
+      "schema": "sweepscope.compare/1",
+      "maps": [{"label": "", "offset_ms": 19.0, "thickness": null},
+               {"label": "B", "offset_ms": null, "thickness": null}],
+      "places": [{"x_m": 1.25, "y_m": -2.0, "height_m": 4.0, "cells": [90, 60],
+                  "sharpest": 1, "most_blurred": 0, "ratio": 1.5}]})"));
 }
 
 using PngTest = test::FolderTest;

@@ -1,0 +1,134 @@
+// The charts by mouse: handles, zoom, pan, values, and the curve that grows.
+#include "ui/panes/chart_mouse.hpp"
+
+#include <gtest/gtest.h>
+
+#include "render/charts/curve_charts.hpp"
+#include "ui/model/growing_curve.hpp"
+#include "ui/script/script.hpp"
+
+namespace sweepscope::ui {
+namespace {
+
+ChartLayout layout_of(double from_ms, double to_ms) {
+  ChartLayout layout;
+  layout.plot = {100, 50, 400, 200};
+  layout.x = {from_ms, to_ms};
+  return layout;
+}
+
+TEST(Handles, TheOneOnTopIsTakenWhereBothCoincide) {
+  Settings settings;
+  settings.offset_a_ms = settings.offset_b_ms = 20;
+  const ChartLayout layout = layout_of(0, 40);
+  for (const Side top : kBothSides) {
+    EXPECT_EQ(handle_under(layout, settings, top, {303, 248}, 1), top) << "on the grips";
+    EXPECT_EQ(handle_under(layout, settings, top, {298, 100}, 1), top) << "on the lines";
+  }
+}
+
+TEST(Handles, TheNearerOneIsTakenAndNoneBesideThem) {
+  Settings settings;
+  settings.offset_a_ms = 10;
+  settings.offset_b_ms = 30;
+  const ChartLayout layout = layout_of(0, 40);
+  EXPECT_EQ(handle_under(layout, settings, Side::kB, {202, 100}, 1), Side::kA);
+  EXPECT_EQ(handle_under(layout, settings, Side::kA, {397, 100}, 1), Side::kB);
+  EXPECT_FALSE(handle_under(layout, settings, Side::kA, {300, 100}, 1));
+}
+
+TEST(ZoomedRange, KeepsTheOffsetUnderTheMouseAndStaysWithinAllThereIs) {
+  const AxisRange all{-60, 60};
+  const auto closer = zoomed_range(all, 2, 30, all);
+  ASSERT_TRUE(closer);
+  EXPECT_DOUBLE_EQ(closer->length(), 60);
+  EXPECT_DOUBLE_EQ((30 - closer->from) / closer->length(), (30 - all.from) / all.length());
+  EXPECT_FALSE(zoomed_range(*closer, 0.4, 30, all)) << "all of it again";
+  const auto at_the_end = zoomed_range({40, 60}, 0.5, 60, all);
+  EXPECT_DOUBLE_EQ(at_the_end->to, 60);
+  EXPECT_DOUBLE_EQ(at_the_end->from, 20);
+  EXPECT_GE(zoomed_range({1, 1.1}, 1000, 1, all)->length(), 0.1);
+}
+
+TEST(GrowingCurve, HasTheCoarseSearchFirstAndThenTheMethodsCandidatesAscending) {
+  GrowingCurve curve;
+  CurvePoint point;
+  for (const double offset_s : {0.02, -0.01, 0.02}) {
+    point.offset_s = offset_s;
+    point.capped_cost_m = 0.1;
+    curve.add(point);
+  }
+  EXPECT_EQ(curve.so_far().method, Method::kDirect);
+  ASSERT_EQ(curve.so_far().curve.size(), 2u);
+  EXPECT_EQ(curve.so_far().curve.front().offset_s, -0.01);
+  point.offset_s = 0.024;
+  point.capped_cost_m.reset();
+  point.e_m = 0.02;
+  curve.add(point);
+  EXPECT_EQ(curve.so_far().curve.size(), 1u) << "no gaps where the coarse search has no e";
+  EXPECT_FALSE(curve.so_far().offset_s);
+}
+
+class Charts : public testing::Test {
+ protected:
+  void SetUp() override {
+    run("sample room-1\noffset-a 10\noffset-b 24\nestimate\nwait estimated\nwait solved\n");
+  }
+  void run(const std::string& lines) {
+    const auto done = run_script(ui_, *parse_script(lines, "test"), 300);
+    ASSERT_TRUE(done) << done.error().message;
+  }
+  const Settings& settings() { return ui_.explorer().settings(); }
+  std::unique_ptr<gl::Context> context_ = *gl::make_offscreen_context(1200, 800);
+  Ui ui_{*context_, Ui::Options()};
+};
+
+TEST_F(Charts, TheWheelZoomsADragPansAndADoubleClickShowsAll) {
+  run("mouse move \"chart 0\" at 0.8 0.3\nwheel 4");
+  const double from_ms = settings().chart_from_ms, to_ms = settings().chart_to_ms;
+  ASSERT_LT(from_ms, to_ms);
+  EXPECT_LT(to_ms - from_ms, 70);
+  run("drag \"chart 0\" at 0.1 0.2 to \"chart 0\" at 0.3 0.2");
+  EXPECT_LT(settings().chart_from_ms, from_ms);
+  EXPECT_NEAR(settings().chart_to_ms - settings().chart_from_ms, to_ms - from_ms, 0.01);
+  EXPECT_EQ(settings().offset_a_ms, 10) << "a drag beside the handles moves none";
+  run("double-click \"chart 0\" at 0.1 0.2");
+  EXPECT_EQ(settings().chart_to_ms, settings().chart_from_ms);
+  run("chart-range 20 28\nexpect chart-range is \"20 28\"\nundo\nexpect chart-range is \"0 0\"");
+}
+
+TEST_F(Charts, AClickOnAHandleChangesNothingAndADragMovesItByWhatTheMouseMoves) {
+  const double b_ms = settings().offset_b_ms;
+  run("click \"handle a\" at 0.9 0.8\nexpect offset-a is 10");
+  run("offset-a 24\nmouse move \"handle b\" at 0.5 0.7\nmouse down\nmouse move \"chart 0\" at 0.3 0.9\nmouse up");
+  EXPECT_EQ(settings().offset_b_ms, b_ms) << "A was set last: it is on top";
+  EXPECT_LT(settings().offset_a_ms, 24);
+}
+
+TEST_F(Charts, TheAxisStaysWhileAHandleIsDragged) {
+  const PixelRect a = *ui_.anchor("handle a"), b = *ui_.anchor("handle b");
+  run("mouse move \"handle a\"\nmouse down\nmouse move \"chart 0\" at 0.05 0.9");
+  EXPECT_LT(ui_.anchor("handle a")->left, a.left - 50);
+  EXPECT_EQ(ui_.anchor("handle b")->left, b.left);
+  run("mouse up");
+}
+
+TEST_F(Charts, TheValueUnderTheMouseIsShownAtTheNearestCandidate) {
+  run("mouse move \"chart 0\" at 0.2 0.3");
+  ASSERT_TRUE(ui_.anchor("chart value 0"));
+  const PixelRect plot = *ui_.anchor("chart 0");
+  EXPECT_NEAR(ui_.anchor("chart value 0")->left, plot.left + 0.2 * plot.width, 10);
+  run("mouse move \"map a\"");
+  EXPECT_FALSE(ui_.anchor("chart value 0"));
+}
+
+TEST_F(Charts, TheCurveOfTheDirectMethodIsItsCappedCostWithoutAFailure) {
+  EXPECT_EQ(ui_.explorer().charted(), ui_.explorer().estimate());
+  EXPECT_GT(ui_.explorer().estimate()->curve.size(), 30u);
+  const auto charts = curve_charts(*ui_.explorer().estimate(), {}, kDarkStyle);
+  ASSERT_EQ(charts.size(), 1u);
+  for (const auto& y : charts[0].series[0].y) EXPECT_TRUE(y);
+}
+
+}  // namespace
+}  // namespace sweepscope::ui

@@ -1,0 +1,160 @@
+// Where to look: the places where the maps differ, and their close-ups in a corner of each map.
+#include <gtest/gtest.h>
+
+#include "ui/panes/layout.hpp"
+#include "ui/script/script.hpp"
+
+namespace sweepscope::ui {
+namespace {
+
+Image part_of(const Image& image, const PixelRect& place) {
+  Image part(static_cast<int>(place.width), static_cast<int>(place.height));
+  for (int y = 0; y < part.height_px; ++y)
+    std::copy_n(image.pixel(static_cast<int>(place.left), static_cast<int>(place.top) + y),
+                Image::kChannels * static_cast<std::size_t>(part.width_px), part.pixel(0, y));
+  return part;
+}
+
+bool contains(const PixelRect& outer, const PixelRect& inner) {
+  return inner.left >= outer.left && inner.right() <= outer.right() && inner.top >= outer.top &&
+         inner.bottom() <= outer.bottom();
+}
+
+class Places : public testing::Test {
+ protected:
+  void SetUp() override { run("sample room-1\noffset-a 14\noffset-b 24\nwait solved\n"); }
+  void run(const std::string& lines) {
+    const auto done = run_script(ui_, *parse_script(lines, "test"), 300);
+    ASSERT_TRUE(done) << done.error().message;
+  }
+  std::string now(const std::string& name) { return *ui_.explorer().observe(name); }
+  const ViewPoint& camera() { return ui_.explorer().settings().camera_a; }
+
+  std::unique_ptr<gl::Context> context_ = *gl::make_offscreen_context(1200, 800);
+  Ui ui_{*context_, Ui::Options()};
+};
+
+TEST_F(Places, TheFirstPictureShowsTheBestOneInACornerOfBothMaps) {
+  ASSERT_GT(ui_.explorer().places().size(), 1u);
+  const PlaceToLook& best = *ui_.explorer().place();
+  EXPECT_EQ(ui_.explorer().places().front().get(), &best);
+  EXPECT_EQ(best.found.most_blurred(), 0u) << "map A is 10 ms off";
+  const auto a = ui_.anchor("close-up a"), b = ui_.anchor("close-up b");
+  ASSERT_TRUE(a && b);
+  EXPECT_TRUE(contains(*ui_.anchor("map a"), *a));
+  EXPECT_TRUE(contains(*ui_.anchor("map b"), *b));
+  const Image picture = ui_.screenshot();
+  EXPECT_NE(part_of(picture, *a), part_of(picture, *b));
+}
+
+TEST_F(Places, TheMapIsFittedBesideTheCloseUp) {
+  const PixelRect pane = *ui_.anchor("map b"), close_up = *ui_.anchor("close-up b");
+  const Projection projection = projection_of(camera(), false, pane);
+  const auto& points = ui_.explorer().pane(Side::kB).full->points->xyz_m;
+  std::size_t hidden = 0, outside = 0;
+  for (const auto& p : points) {
+    const auto at = projection({p[0], p[1], p[2]});
+    hidden += at && close_up.contains(*at) ? 1 : 0;
+    outside += at && pane.contains(*at) ? 0 : 1;
+  }
+  EXPECT_LT(hidden, points.size() / 200);
+  EXPECT_LT(outside, points.size() / 20);
+}
+
+TEST_F(Places, KeysButtonsAndTheListStepThroughThemAndRoundAtTheEnds) {
+  const std::string first = now("place-at"), count = now("places");
+  run("key N\nexpect place is 2");
+  EXPECT_NE(now("place-at"), first);
+  run("key Shift+N\nexpect place is 1\nkey Shift+N\nexpect place is " + count);
+  run("click \"button next-place\"\nexpect place is 1\nclick \"button next-place back\"\nexpect place is " +
+      count);
+  run("click place\nclick \"place 2\"\nexpect place is 2\nkey Ctrl+P\ntype \"place 1\"\nkey Enter");
+  EXPECT_EQ(now("place-at"), first);
+}
+
+TEST_F(Places, AreSwitchedOffByAKeyAndTheMapHasAllOfItsPane) {
+  const Eigen::Vector3d centre_m = camera().centre_m;
+  run("key Y\nexpect close-up is off\nwait solved");
+  EXPECT_FALSE(ui_.anchor("close-up a"));
+  EXPECT_GT(camera().centre_m.y(), centre_m.y()) << "the map had been moved up";
+  run("key N\nexpect close-up is on\nwait solved\nclick \"button close-up\"\nexpect close-up is off");
+}
+
+TEST_F(Places, ADoubleClickLooksAtThePlace) {
+  run("double-click \"close-up a\" at 0.5 0.7");
+  const PlaceToLook& place = *ui_.explorer().place();
+  EXPECT_LT((camera().centre_m.head<2>() - place.found.region.centre_m).norm(), 0.01);
+  EXPECT_NEAR(camera().height_m, 1.5 * place.height_m(), 0.01);
+}
+
+TEST_F(Places, OfEqualOffsetsAreNone) {
+  run("offset-a 24\nwait solved\nexpect places is 0\nexpect place-at is \"\"");
+  EXPECT_FALSE(ui_.anchor("close-up a"));
+  const auto done = run_script(ui_, *parse_script("look-at-place", "test"), 300);
+  ASSERT_FALSE(done);
+  EXPECT_NE(done.error().message.find("do not differ"), std::string::npos);
+}
+
+TEST_F(Places, TheCloseUpFollowsAHandleWhileItIsDragged) {
+  const PlacedCloudPtr before = ui_.explorer().pane(Side::kA).close_up;
+  const std::string place = now("place-at");
+  ASSERT_GT(before->points->size(), 1000u);
+  run("mouse move \"handle a\"\nmouse down\nmouse move \"chart 0\" at 0.3 0.9\nmouse move \"chart 0\" at 0.35 0.9");
+  const PlacedCloudPtr dragged = ui_.explorer().pane(Side::kA).close_up;
+  EXPECT_NE(dragged, before);
+  EXPECT_NE(dragged->points->xyz_m, before->points->xyz_m);
+  EXPECT_EQ(now("place-at"), place) << "the place stays until the handle rests";
+  run("mouse up");
+}
+
+TEST_F(Places, ACloseUpHasTheMapsOwnPoints) {
+  run("heights all\nwait solved");
+  const PlaceToLook& place = *ui_.explorer().place();
+  const Pane& pane = ui_.explorer().pane(Side::kB);
+  std::map<std::uint32_t, std::array<float, 3>> of_map;
+  for (std::size_t i = 0; i < pane.full->beams.size(); ++i)
+    of_map[pane.full->beams[i]] = pane.full->points->xyz_m[i];
+  for (std::size_t i = 0; i < pane.close_up->beams.size(); ++i)
+    ASSERT_EQ(pane.close_up->points->xyz_m[i], of_map.at(pane.close_up->beams[i]));
+  EXPECT_TRUE(std::is_sorted(place.beams.begin(), place.beams.end()));
+}
+
+TEST_F(Places, BothCloseUpsChangeInTheSameFrame) {
+  run("offset-b 20");
+  for (int frame = 0; frame < 400 && !ui_.explorer().at_rest(); ++frame) {
+    ui_.frame({}, 1.0 / 60);
+    EXPECT_EQ(ui_.explorer().pane(Side::kA).close_up_place, ui_.explorer().pane(Side::kB).close_up_place);
+  }
+}
+
+TEST_F(Places, EveryLayoutShowsTheCloseUpsOfTheMapsThatItShows) {
+  for (const auto& [layout, a, b] :
+       {std::tuple{"side-by-side", true, true}, std::tuple{"swipe", true, true}, std::tuple{"a", true, false},
+        std::tuple{"b", false, true}, std::tuple{"difference", false, true}}) {
+    run(std::string("layout ") + layout + "\nwait solved");
+    EXPECT_EQ(ui_.anchor("close-up a").has_value(), a) << layout;
+    EXPECT_EQ(ui_.anchor("close-up b").has_value(), b) << layout;
+  }
+}
+
+TEST(CloseUpPlaces, LieInThePictureBesideEachOtherAndLeaveMostOfIt) {
+  for (const Layout layout : {Layout::kSideBySide, Layout::kSwipe}) {
+    for (const auto& [width, height] : {std::pair{230.0, 340.0}, std::pair{320.0, 450.0},
+                                        std::pair{1500.0, 1400.0}, std::pair{1600.0, 500.0}}) {
+      const PixelRect picture{10, 20, width, height};
+      const auto places = close_up_places(picture, 1, layout);
+      double area = 0;
+      for (std::size_t i = 0; i < places.size(); ++i) {
+        EXPECT_TRUE(contains(picture, places[i]));
+        area += places[i].width * places[i].height;
+        EXPECT_TRUE(i == 0 || places[i - 1].right() <= places[i].left);
+      }
+      EXPECT_LT(area, 0.25 * width * height);
+    }
+  }
+  EXPECT_TRUE(close_up_places({0, 0, 150, 400}, 1, Layout::kSideBySide).empty())
+      << "too small to show anything";
+}
+
+}  // namespace
+}  // namespace sweepscope::ui
