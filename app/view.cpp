@@ -11,6 +11,7 @@
 #include "app/interrupt.hpp"
 #include "app/recording_options.hpp"
 #include "core/io/atomic_file.hpp"
+#include "core/io/output_check.hpp"
 #include "core/io/printable_text.hpp"
 #include "ui/preferences.hpp"
 #include "ui/script/script.hpp"
@@ -24,7 +25,7 @@ struct ViewOptions {
   std::string recording;  // or a session
   std::string poses;
   bool headless = false, size_given = false;
-  std::string size = "1600x1000", script, run;
+  std::string size = "1600x1000", script, run, record;
   double scale = 0;
 };
 
@@ -94,6 +95,16 @@ Result<std::vector<ui::Script>> scripts_of(const ViewOptions& options) {
   return scripts;
 }
 
+/// The script that is written must not replace what is read.
+Result<void> check_record(const ViewOptions& options) {
+  if (options.record.empty()) return {};
+  std::vector<std::filesystem::path> inputs;
+  for (const std::string& input : {options.recording, options.poses, options.script})
+    if (!input.empty()) inputs.emplace_back(input);
+  if (options.reading.rig) inputs.push_back(*options.reading.rig);
+  return check_run_files({inputs, {options.record}, {}});
+}
+
 /// Clouds come and go by the hundred megabytes: what is let go goes back to the system at once.
 void return_memory() {
   constexpr int kKept_bytes = 1 << 20, kMaxArenas = 4;
@@ -107,6 +118,7 @@ Result<void> view(const ViewOptions& options) {
   if (!size) return tl::unexpected(size.error());
   const auto scripts = scripts_of(options);
   if (!scripts) return tl::unexpected(scripts.error());
+  if (const auto checked = check_record(options); !checked) return checked;
   auto with = ui_options(options);
   if (!with) return tl::unexpected(with.error());
   std::string first = options.recording.empty() ? "" : "open " + ui::quoted(options.recording);
@@ -116,7 +128,8 @@ Result<void> view(const ViewOptions& options) {
       before.height_px >= kMinSide_px)
     size = Size{before.width_px, before.height_px};
   if (!options.headless)
-    return ui::run_in_window(std::move(*with), size->width_px, size->height_px, first, *scripts);
+    return ui::run_in_window(std::move(*with), {size->width_px, size->height_px, options.record}, first,
+                             *scripts);
   if (scripts->empty()) return failure(ExitCode::kWrongUsage, "--headless needs --script F or --run 'LINES'");
   auto context = gl::make_offscreen_context(size->width_px, size->height_px);
   if (!context) return tl::unexpected(context.error());
@@ -133,7 +146,8 @@ void declare(CLI::App& command, ViewOptions& options) {
                   "Trajectory of the rig (TUM), used instead of solving for it; the maps are in its frame")
       ->type_name("F")
       ->needs(recording);
-  command.add_flag("--headless", options.headless, "Run a script on the same interface without a display");
+  CLI::Option* headless = command.add_flag("--headless", options.headless,
+                                           "Run a script on the same interface without a display");
   command
       .add_option("--size", options.size,
                   "Window size in pixels; a window without it has the size that the last one had")
@@ -144,6 +158,11 @@ void declare(CLI::App& command, ViewOptions& options) {
   command.add_option("--script", options.script, "Script to run: see below")->type_name("F");
   command.add_option("--run", options.run, "Script lines, separated by ;, run after those of --script")
       ->type_name("LINES");
+  command
+      .add_option("--record", options.record,
+                  "Write what is done in the window to a script, line by line as it happens")
+      ->type_name("F")
+      ->excludes(headless);
   command.footer([] { return "\n" + ui::script_help(); });
 }
 

@@ -11,6 +11,7 @@
 #include "ui/host/imgui_host.hpp"
 #include "ui/preferences.hpp"
 #include "ui/recent.hpp"
+#include "ui/script/recorder.hpp"
 
 namespace sweepscope::ui {
 namespace {
@@ -102,13 +103,18 @@ class ClipboardLink {
   std::string last_;
 };
 
+/// Nothing more is computed, drawn or taken in.
+bool at_rest(const Ui& ui) {
+  return ui.explorer().at_rest() && ui.pictures_done() && !ui.has_input();
+}
+
 using Clock = std::chrono::steady_clock;
 
 double seconds_between(Clock::time_point from, Clock::time_point to) {
   return std::chrono::duration<double>(to - from).count();
 }
 
-void loop(gl::Window& window, Ui& ui) {
+void loop(gl::Window& window, Ui& ui, ScriptRecorder* recorder) {
   constexpr int kFramesAfterEvent = 4;  // ImGui settles within them
   constexpr double kTooltip_s = 0.7;    // a tooltip comes while the mouse rests
   constexpr double kFrame_s = 1.0 / 60;
@@ -142,6 +148,7 @@ void loop(gl::Window& window, Ui& ui) {
     ui.frame(events, std::clamp(seconds, 1e-3, 0.25));
     clipboard.after(window, ui);
     window.present();
+    if (recorder != nullptr) recorder->add_frame(events, at_rest(ui));
     use_cursor(window);
     use_title(window, ui, title);
     frames_due = std::max(0, frames_due - 1);
@@ -150,9 +157,9 @@ void loop(gl::Window& window, Ui& ui) {
 
 }  // namespace
 
-Result<void> run_in_window(Ui::Options options, int width_px, int height_px, const std::string& first_line,
+Result<void> run_in_window(Ui::Options options, const WindowOptions& wanted, const std::string& first_line,
                            std::span<const Script> scripts) {
-  auto window = gl::make_window(width_px, height_px, "sweepscope");
+  auto window = gl::make_window(wanted.width_px, wanted.height_px, "sweepscope");
   if (!window)
     return failure(window.error().code,
                    window.error().message +
@@ -173,8 +180,14 @@ Result<void> run_in_window(Ui::Options options, int width_px, int height_px, con
   for (const Script& script : scripts) {
     if (auto done = run_script(ui, script); !done) return done;
   }
-  loop(**window, ui);
-  return {};
+  if (wanted.record.empty()) {
+    loop(**window, ui, nullptr);
+    return {};
+  }
+  return ScriptRecorder::create(wanted.record).and_then([&](ScriptRecorder recorder) {
+    loop(**window, ui, &recorder);
+    return recorder.end();
+  });
 }
 
 Result<void> run_headless(gl::Context& context, Ui::Options options, const std::string& first_line,

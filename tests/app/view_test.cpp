@@ -1,6 +1,7 @@
 // The explorer's command line, through the shipped executable.
 #include <gtest/gtest.h>
 
+#include "core/io/atomic_file.hpp"
 #include "tests/program.hpp"
 
 namespace sweepscope {
@@ -40,6 +41,14 @@ TEST_F(View, ACommandForARecordingThatCannotBeReadGivesItsReason) {
   EXPECT_NE(failed.err.find("missing.bag"), std::string::npos) << failed.err;
   const Outcome none = run("view --headless --run 'estimate'");
   EXPECT_EQ(none.exit_code, 2) << none.err;
+}
+
+TEST_F(View, WhatIsRecordedReplacesNoInput) {
+  const std::string before = read_file(folder_ / "room.bag").value();
+  const Outcome recorded = run("view room.bag --record room.bag");
+  EXPECT_EQ(recorded.exit_code, 2);
+  EXPECT_NE(recorded.err.find("room.bag"), std::string::npos) << recorded.err;
+  EXPECT_EQ(read_file(folder_ / "room.bag").value(), before);
 }
 
 TEST_F(View, WithoutADisplayTheOtherWaysAreNamed) {

@@ -1,0 +1,60 @@
+#include "ui/script/recorder.hpp"
+
+#include "core/io/atomic_file.hpp"
+#include "tests/folder_test.hpp"
+#include "ui/script/script.hpp"
+
+namespace sweepscope::ui {
+namespace {
+
+using RecorderTest = test::FolderTest;
+
+std::string recorded(const std::filesystem::path& file) {
+  return read_file(file).value();
+}
+
+TEST(RecordedLine, SaysWhatAPersonDid) {
+  EXPECT_EQ(script_line(InputEvent::move(380, 300.5)), "mouse move 380 300.5");
+  EXPECT_EQ(script_line(InputEvent::press(0, true)), "mouse down left");
+  EXPECT_EQ(script_line(InputEvent::press(2, false)), "mouse up middle");
+  EXPECT_EQ(script_line(InputEvent::scroll(-2)), "wheel -2");
+  EXPECT_EQ(script_line(InputEvent::stroke('Z', true, kCtrl | kShift)), "key Ctrl+Shift+Z");
+  EXPECT_EQ(script_line(InputEvent::words("a")), "type a");
+  EXPECT_EQ(script_line(InputEvent::drop("a walk.bag")), "drop \"a walk.bag\"");
+}
+
+TEST(RecordedLine, LeavesOutReleasesAndKeysThatScriptsDoNotKnow) {
+  constexpr Key kLeftShift = 340;
+  EXPECT_EQ(script_line(InputEvent::stroke('Z', false, 0)), "");
+  EXPECT_EQ(script_line(InputEvent::stroke(kLeftShift, true, kShift)), "");
+  EXPECT_EQ(script_line(InputEvent::press(7, true)), "");
+}
+
+TEST(RecordedLine, SaysWhereAKeyWasHeld) {
+  EXPECT_EQ(script_line(InputEvent::press(0, true, kShift)), "mouse down left  # with a key held");
+}
+
+TEST_F(RecorderTest, WaitsWhereThePersonHadTo) {
+  const auto file = folder_ / "done.script";
+  auto recorder = ScriptRecorder::create(file);
+  ASSERT_TRUE(recorder);
+  recorder->add_frame({}, true);
+  recorder->add_frame(std::vector{InputEvent::stroke('T', true, 0), InputEvent::words("t")}, false);
+  recorder->add_frame({}, false);
+  EXPECT_EQ(recorded(file), "key T\ntype t\n") << "each frame's lines are there at once";
+  recorder->add_frame({}, true);
+  recorder->add_frame(std::vector{InputEvent::move(1, 2)}, true);
+  EXPECT_TRUE(recorder->end());
+  EXPECT_EQ(recorded(file), "key T\ntype t\nwait solved\nmouse move 1 2\n");
+  EXPECT_EQ(parse_script(recorded(file), "done.script").value().lines.size(), 4u);
+}
+
+TEST_F(RecorderTest, SaysWhyItCannotWrite) {
+  const auto recorder = ScriptRecorder::create(folder_ / "no/such.script");
+  ASSERT_FALSE(recorder);
+  EXPECT_EQ(recorder.error().code, ExitCode::kWrongUsage);
+  EXPECT_NE(recorder.error().message.find("no/such.script: No such file"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace sweepscope::ui
