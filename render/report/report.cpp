@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string_view>
 
@@ -65,6 +66,12 @@ std::string meaning_of(std::string_view criterion) {
   return "";
 }
 
+// On a phone a name in one piece would be cut.
+std::string shown_name(std::string criterion) {
+  std::ranges::replace(criterion, '_', ' ');
+  return criterion;
+}
+
 std::string criteria_table(const ReportContent& content) {
   std::vector<CriterionOptimum> criteria = content.estimate.criteria;
   if (content.criteria)
@@ -79,7 +86,7 @@ std::string criteria_table(const ReportContent& content) {
                                                 : fmt::format("{:.2f} mm", one.value * 1e3);
     rows += fmt::format(
         "<tr><td>{}</td><td>{}</td><td class=\"number-cell\">{}</td><td class=\"number-cell\">{}</td></tr>\n",
-        html::escape(one.name), meaning_of(one.name),
+        html::escape(shown_name(one.name)), meaning_of(one.name),
         offset_text(one.offset_s, one.name == "direct" ? content.estimate.sigma_s : std::nullopt), value);
   }
   return in_table(rows, "table criteria");
