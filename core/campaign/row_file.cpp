@@ -70,7 +70,7 @@ Result<void> RowFile::take_up() {
     return unreadable(
         fmt::format("{}: is not a file of rows that estimate --table kept; move it away", path_.string()));
   std::size_t whole_bytes = header.size();
-  for (std::size_t end; (end = text->find('\n', whole_bytes)) != text->npos; whole_bytes = end + 1) {
+  for (std::size_t end = 0; (end = text->find('\n', whole_bytes)) != text->npos; whole_bytes = end + 1) {
     const std::string_view line(text->data() + whole_bytes, end - whole_bytes);
     if (!is_sound_line(line)) continue;
     try {

@@ -84,7 +84,8 @@ Result<std::string> program_content_hash() {
     const std::filesystem::path running = "/proc/self/exe";
     if (std::filesystem::exists(running, ignored)) return file_content_hash(running);
     // A bare chroot has no /proc: the path that the program was begun with.
-    return file_content_hash(reinterpret_cast<const char*>(getauxval(AT_EXECFN)));
+    return file_content_hash(
+        reinterpret_cast<const char*>(getauxval(AT_EXECFN)));  // NOLINT(performance-no-int-to-ptr)
   }();
   return hash;
 }

@@ -130,7 +130,7 @@ Result<void> check_header(std::string_view line, std::string_view name) {
 Result<Candidates> parse_candidates(std::string_view text, std::string_view name) {
   Candidates candidates;
   std::size_t number = 0;
-  for (std::size_t begin = 0, end; (end = text.find('\n', begin)) != text.npos; begin = end + 1) {
+  for (std::size_t begin = 0, end = 0; (end = text.find('\n', begin)) != text.npos; begin = end + 1) {
     const std::string_view line = text.substr(begin, end - begin);
     if (++number == 1) {
       if (auto checked = check_header(line, name); !checked) return tl::unexpected(checked.error());

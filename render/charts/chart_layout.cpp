@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <ranges>
 
 namespace sweepscope {
 namespace {
@@ -173,9 +174,9 @@ void place_row(const std::vector<VerticalLabel*>& row, const ChartLayout& layout
     least = label->place.right() + gap;
   }
   double most = layout.plot.right();
-  for (auto label = row.rbegin(); label != row.rend(); ++label) {
-    (*label)->place.left = std::min((*label)->place.left, most - (*label)->place.width);
-    most = (*label)->place.left - gap;
+  for (VerticalLabel* label : row | std::views::reverse) {
+    label->place.left = std::min(label->place.left, most - label->place.width);
+    most = label->place.left - gap;
   }
 }
 

@@ -231,7 +231,7 @@ void add_map(Picture& picture, const ComparedMap& map, std::size_t index, const 
 }
 
 Result<void> check(std::span<const ComparedMap> maps, const ComparisonOptions& options) {
-  if (maps.size() < 1 || maps.size() > kDarkStyle.maps.size()) {
+  if (maps.empty() || maps.size() > kDarkStyle.maps.size()) {
     return failure(ExitCode::kWrongUsage, fmt::format("A comparison shows 1 to {} maps, not {}",
                                                       kDarkStyle.maps.size(), maps.size()));
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <ranges>
 #include <utility>
 #include <vector>
 
@@ -137,9 +138,9 @@ void add_words(Drawing& drawing, const PixelRect& place, const std::string& head
 
 std::string describe_slabs(std::span<const HeightRange> slabs) {
   std::string text;
-  for (auto slab = slabs.rbegin(); slab != slabs.rend(); ++slab) {
+  for (const HeightRange& slab : slabs | std::views::reverse) {
     if (!text.empty()) text += ", ";
-    text += describe_slab(*slab);
+    text += describe_slab(slab);
   }
   constexpr std::string_view kPath = "the sensor's path";  // named once is enough
   const std::size_t first = text.find(kPath);

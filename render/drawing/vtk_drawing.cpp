@@ -29,7 +29,7 @@ void set_font(vtkTextProperty& property, double size_px, bool bold) {
 class DrawingItem final : public vtkContextItem {
  public:
   static DrawingItem* New();
-  vtkTypeMacro(DrawingItem, vtkContextItem)
+  vtkTypeMacro(DrawingItem, vtkContextItem)  // NOLINT(bugprone-derived-method-shadowing-base-method)
 
       void adopt(std::shared_ptr<const Drawing> drawing, double scale) {
     drawing_ = std::move(drawing);

@@ -8,7 +8,7 @@ namespace {
 std::string sealed(std::string_view text) {
   std::string whole;
   std::size_t begin = 0;
-  for (std::size_t end; (end = text.find('\n', begin)) != text.npos; begin = end + 1)
+  for (std::size_t end = 0; (end = text.find('\n', begin)) != text.npos; begin = end + 1)
     whole += end > begin ? sweepscope::sealed_line(text.substr(begin, end - begin)) : "\n";
   return whole.append(text.substr(begin));
 }

@@ -57,7 +57,7 @@ std::optional<Chord> parse_chord(std::string_view text) {
     }
   }
   if (text.size() == 1 && is_letter_or_digit(text[0])) {
-    chord.key = text[0];
+    chord.key = static_cast<unsigned char>(text[0]);
     return chord;
   }
   for (const Named& named : kNamed) {

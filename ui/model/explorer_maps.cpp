@@ -87,8 +87,10 @@ CloudLook Explorer::wanted_look(const SolvedMap* a, const SolvedMap* b) {
 }
 
 void Explorer::update(double seconds_since_last) {
-  if (message_ && !message_held_ && (message_->shown_s += seconds_since_last) > message_->lasts_s())
-    message_.reset();
+  if (message_ && !message_held_) {
+    message_->shown_s += seconds_since_last;
+    if (message_->shown_s > message_->lasts_s()) message_.reset();
+  }
   background_.take_finished();
   update_growing_curve();
   if (!loaded_) {

@@ -56,7 +56,7 @@ void legend(const PaneContext& context) {
     const float x = from.x + width * static_cast<float>(i) / kParts;
     const float next = from.x + width * static_cast<float>(i + 1) / kParts;
     list.AddRectFilled({x, from.y}, {next, from.y + height},
-                       to_imgui((*table)[static_cast<std::size_t>(2 * i)]));
+                       to_imgui((*table)[std::size_t{2} * static_cast<std::size_t>(i)]));
   }
   const ColourSpan span = context.explorer.shown_span();
   const double size = context.px(11);

@@ -80,8 +80,8 @@ class Cursor {
     constexpr std::uint32_t kAligned_bytes = 4;
     if (count == 0) return {};
     align(kAligned_bytes);
-    const std::uint64_t step = cdr_ ? (record_bytes + kAligned_bytes - 1) / kAligned_bytes * kAligned_bytes
-                                    : std::uint64_t{record_bytes};
+    const std::uint64_t bytes = record_bytes;
+    const std::uint64_t step = cdr_ ? (bytes + kAligned_bytes - 1) / kAligned_bytes * kAligned_bytes : bytes;
     return take(step * (count - 1) + record_bytes);
   }
   bool swapped() const { return swapped_; }

@@ -229,7 +229,8 @@ bool CloudReader::add(const std::optional<DecodedCloud>& cloud, std::int64_t rec
   if (!cloud) return problem_ = "it is malformed", false;
   if (!read_points(*cloud)) return false;
   if (points_.empty()) return true;
-  if (!has_ring_ && !(problem_ = no_line(points_)).empty()) return false;
+  if (!has_ring_) problem_ = no_line(points_);
+  if (!problem_.empty()) return false;
   if (!goes_round_) goes_round_ = has_ring_ && go_round(points_);
   if (laser.scans.empty()) laser.frame = cloud->frame;
   laser.has_intensities = laser.has_intensities && has_intensity_;

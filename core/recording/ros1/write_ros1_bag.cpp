@@ -121,7 +121,8 @@ class BagFile {
   BagFile(const BagFile&) = delete;
   BagFile& operator=(const BagFile&) = delete;
   ~BagFile() {
-    static auto* const never_destroyed = new std::vector<std::unique_ptr<rosbag::Bag>>;
+    static auto* const never_destroyed =
+        new std::vector<std::unique_ptr<rosbag::Bag>>;  // NOLINT(bugprone-unhandled-exception-at-new)
     if (bag_) never_destroyed->push_back(std::move(bag_));
   }
 

@@ -14,7 +14,7 @@ namespace sweepscope {
 
 /// A record of an MCAP file that holds no message: an attachment, metadata, or a private one.
 struct McapExtra {
-  McapOp op{};
+  McapOp op = McapOp::kHeader;
   std::uint64_t at = 0, bytes = 0;  // of its content
 };
 

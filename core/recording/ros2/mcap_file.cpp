@@ -18,7 +18,7 @@ constexpr std::size_t kMaxWarnings = 20;
 
 struct RecordHeader {
   std::uint64_t at = 0;
-  McapOp op{};
+  McapOp op = McapOp::kHeader;
   std::uint64_t content_bytes = 0;  // as claimed
 };
 
