@@ -45,6 +45,16 @@ TEST_F(Files, AreFoldersFirstAndWhatOpensIsToldByItsContent) {
   EXPECT_TRUE(list_folder(folder_ / "notes.txt").empty());
 }
 
+TEST_F(Files, OfJsonOpenSessionsAndEstimates) {
+  const auto folder = folder_ / "results";
+  fs::create_directories(folder);
+  for (const char* what : {"campaign", "estimate", "session"})
+    ASSERT_TRUE(write_file(folder / (std::string(what) + ".json"),
+                           "{\n  \"schema\": \"sweepscope." + std::string(what) + "/1\"}\n"));
+  EXPECT_EQ(names_of(matching(list_folder(folder), "", false)),
+            (std::vector<std::string>{"estimate.json", "session.json"}));
+}
+
 TEST_F(Files, AreFilteredByWhatIsTypedInAnyCaseAndByWhatOpens) {
   const auto entries = list_folder(folder_);
   EXPECT_EQ(names_of(matching(entries, "", false)),

@@ -23,15 +23,22 @@ bool begins_with(const std::string& text, const std::string& beginning) {
                                                        [](char a, char b) { return lower(a) == lower(b); });
 }
 
-/// As the readers tell formats apart: by content. JSON may be a session or an estimate.
+/// A session or an estimate: their first key is the schema.
+bool is_own_json(std::string_view begin) {
+  return begin.starts_with("{") && (begin.find("\"sweepscope.session/") != begin.npos ||
+                                    begin.find("\"sweepscope.estimate/") != begin.npos);
+}
+
+/// As the readers tell formats apart: by content.
 bool opens(const fs::path& file) {
   using namespace std::string_view_literals;
-  constexpr std::array kBeginnings{"#ROSBAG V2"sv, "\x89MCAP0"sv, "SQLite format 3"sv, "{"sv};
-  std::array<char, 16> bytes{};
+  constexpr std::array kBeginnings{"#ROSBAG V2"sv, "\x89MCAP0"sv, "SQLite format 3"sv};
+  std::array<char, 128> bytes{};
   std::ifstream in(file, std::ios::binary);
   in.read(bytes.data(), bytes.size());
   const std::string_view begin(bytes.data(), static_cast<std::size_t>(in.gcount()));
   if (begin.starts_with("\x28\xB5\x2F\xFD")) return file.stem().extension() == ".db3";
+  if (is_own_json(begin)) return true;
   return std::any_of(kBeginnings.begin(), kBeginnings.end(),
                      [&](std::string_view known) { return begin.starts_with(known); });
 }
