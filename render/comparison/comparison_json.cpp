@@ -13,25 +13,25 @@ using Json = nlohmann::ordered_json;
 Json thickness_json(const ComparedMap& map) {
   if (!map.thickness || !map.thickness->map) return nullptr;
   const MapThickness& thickness = *map.thickness->map;
-  return {{"median_mm", std::round(thickness.median_m * 1e4) * 0.1},
-          {"p90_mm", std::round(thickness.p90_m * 1e4) * 0.1},
-          {"flat_part", std::round(thickness.flat_part * 1e3) * 1e-3}};
+  return {{"median_mm", std::round(thickness.median_m * 1e4) / 10},
+          {"p90_mm", std::round(thickness.p90_m * 1e4) / 10},
+          {"flat_part", std::round(thickness.flat_part * 1e3) / 1e3}};
 }
 
 Json map_json(const ComparedMap& map) {
-  const Json offset_ms = map.offset_s ? Json(std::round(*map.offset_s * 1e12) * 1e-9) : Json(nullptr);
+  const Json offset_ms = map.offset_s ? Json(std::round(*map.offset_s * 1e12) / 1e9) : Json(nullptr);
   return {{"label", map.label}, {"offset_ms", offset_ms}, {"thickness", thickness_json(map)}};
 }
 
 Json place_json(const DifferingPlace& place) {
   const Region& region = place.region;
-  return {{"x_m", std::round(region.centre_m.x() * 1e3) * 1e-3},
-          {"y_m", std::round(region.centre_m.y() * 1e3) * 1e-3},
-          {"height_m", std::round(region.height_m * 1e3) * 1e-3},
+  return {{"x_m", std::round(region.centre_m.x() * 1e3) / 1e3},
+          {"y_m", std::round(region.centre_m.y() * 1e3) / 1e3},
+          {"height_m", std::round(region.height_m * 1e3) / 1e3},
           {"cells", place.cells},
           {"sharpest", place.sharpest()},
           {"most_blurred", place.most_blurred()},
-          {"ratio", std::round(place.ratio() * 1e3) * 1e-3}};
+          {"ratio", std::round(place.ratio() * 1e3) / 1e3}};
 }
 
 }  // namespace
