@@ -112,9 +112,9 @@ std::string report_json(const ReportContent& content) {
     if (!map.thickness || !map.thickness->map) continue;
     const MapThickness& thickness = *map.thickness->map;
     json["map_thickness"].push_back({{"offset_ms", std::round(*map.offset_s * 1e12) * 1e-9},
-                                     {"median_mm", std::round(thickness.median_m * 1e4) * 0.1},
-                                     {"p90_mm", std::round(thickness.p90_m * 1e4) * 0.1},
-                                     {"flat_part", std::round(thickness.flat_part * 1e3) * 1e-3}});
+                                     {"median_mm", std::round(thickness.median_m * 1e4) / 10},
+                                     {"p90_mm", std::round(thickness.p90_m * 1e4) / 10},
+                                     {"flat_part", std::round(thickness.flat_part * 1e3) / 1e3}});
   }
   return json_text(std::move(json));
 }
