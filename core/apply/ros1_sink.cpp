@@ -171,7 +171,8 @@ Result<void> Ros1Sink::end_chunk() {
   auto written = write_bytes(counted(header)).and_then([&] {
     return write_bytes(as_bytes(static_cast<std::uint32_t>(data.size())));
   });
-  if (!written || !(written = write_bytes(data))) return written;
+  if (written) written = write_bytes(data);
+  if (!written) return written;
   for (auto& [connection, entries] : index_) {
     std::ranges::stable_sort(entries, {}, &IndexEntry::ns);  // readers search in it
     const auto count = static_cast<std::uint32_t>(entries.size());

@@ -2,12 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/apply/added_topics.hpp"
+#include "core/apply/applied_records.hpp"
+#include "core/apply/message_stream.hpp"
 #include "core/io/atomic_folder.hpp"
 #include "core/io/cloud_file.hpp"
 #include "core/io/trajectory_file.hpp"
+#include "core/recording/formats/read_recording.hpp"
 
 namespace sweepscope {
 namespace {
@@ -52,6 +56,21 @@ Result<WrittenSweeps> write_sweeps(Recording recording, const AppliedOffset& off
     return tl::unexpected(done.error());
   if (auto done = output->commit(); !done) return tl::unexpected(done.error());
   return written;
+}
+
+Result<WrittenSweeps> write_applied_sweeps(const std::filesystem::path& path, const ApplyOptions& options,
+                                           const std::filesystem::path& folder, const std::string& extension,
+                                           const Job& job) {
+  auto recording = read_recording(path, {options.rig, options.stamps}, job);
+  if (!recording) return tl::unexpected(recording.error());
+  const auto stream = open_stream(path, job);
+  if (!options.again && stream) {
+    const auto& topics = recording->report.topics;
+    const bool has_record = std::ranges::find(topics, kAppliedTopic, &RecordedTopic::name) != topics.end();
+    if (const auto checked = check_not_applied(*stream, has_record); !checked)
+      return tl::unexpected(checked.error());
+  }
+  return write_sweeps(std::move(*recording), options.offset, options.add, folder, extension, job);
 }
 
 }  // namespace sweepscope

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/apply/added_topics.hpp"
+#include "core/apply/apply.hpp"
 #include "core/apply/provenance.hpp"
 #include "core/error.hpp"
 #include "core/job.hpp"
@@ -25,5 +26,11 @@ struct WrittenSweeps {
 Result<WrittenSweeps> write_sweeps(Recording recording, const AppliedOffset& offset,
                                    const AddOptions& options, const std::filesystem::path& folder,
                                    const std::string& extension, const Job& job);
+
+/// The same for a recording's file, with the options of apply_offset. Where an offset was applied before it
+/// is refused as there; tables hold no record of that, they are as they were recorded.
+Result<WrittenSweeps> write_applied_sweeps(const std::filesystem::path& recording,
+                                           const ApplyOptions& options, const std::filesystem::path& folder,
+                                           const std::string& extension, const Job& job);
 
 }  // namespace sweepscope

@@ -2,10 +2,7 @@
 
 #include <fmt/format.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
-#include <cerrno>
-#include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "core/campaign/campaign_json.hpp"
@@ -31,44 +28,22 @@ std::string line_of(const KeptRow& kept) {
 
 }  // namespace
 
-RowFile::RowFile(std::filesystem::path path, int descriptor)
-    : path_(std::move(path)), descriptor_(descriptor) {}
-
-RowFile::~RowFile() {
-  close(descriptor_);
-}
-
-Error RowFile::cannot_write() const {
-  return {ExitCode::kWrongUsage,
-          fmt::format("{}: cannot be written: {}", path_.string(), std::strerror(errno))};
-}
-
 Result<std::unique_ptr<RowFile>> RowFile::open(const std::filesystem::path& path) {
-  struct stat status {};
-  if (stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode))
-    return failure(ExitCode::kWrongUsage, fmt::format("{}: is not a regular file", path.string()));
-  const int descriptor = open_locked(path);
-  if (descriptor < 0) {
-    const std::string why = errno == EWOULDBLOCK ? "another run is writing it" : std::strerror(errno);
-    return failure(ExitCode::kWrongUsage, fmt::format("{}: cannot be opened: {}", path.string(), why));
-  }
-  std::unique_ptr<RowFile> file(new RowFile(path, descriptor));
+  auto opened = SealedFile::open(path);
+  if (!opened) return tl::unexpected(opened.error());
+  std::unique_ptr<RowFile> file(new RowFile(std::move(*opened)));
   if (auto taken = file->take_up(); !taken) return tl::unexpected(taken.error());
   return file;
 }
 
 Result<void> RowFile::take_up() {
-  const auto text = read_file(path_);
+  const auto text = file_.text();
   if (!text) return tl::unexpected(text.error());
   const std::string header = header_line();
-  if (text->size() < header.size() && header.starts_with(*text)) {  // new, or killed in its first line
-    if (ftruncate(descriptor_, 0) != 0 || !write_whole(descriptor_, header))
-      return tl::unexpected(cannot_write());
-    return {};
-  }
+  if (SealedFile::is_begun(*text, header)) return file_.begin(header);
   if (!text->starts_with(header))
-    return unreadable(
-        fmt::format("{}: is not a file of rows that estimate --table kept; move it away", path_.string()));
+    return unreadable(fmt::format("{}: is not a file of rows that estimate --table kept; move it away",
+                                  file_.path().string()));
   std::size_t whole_bytes = header.size();
   for (std::size_t end = 0; (end = text->find('\n', whole_bytes)) != text->npos; whole_bytes = end + 1) {
     const std::string_view line(text->data() + whole_bytes, end - whole_bytes);
@@ -80,9 +55,7 @@ Result<void> RowFile::take_up() {
       continue;  // of a later version: estimated again
     }
   }
-  // A last line that was not written to its end must not run into the next one.
-  if (ftruncate(descriptor_, static_cast<off_t>(whole_bytes)) != 0) return tl::unexpected(cannot_write());
-  return {};
+  return file_.cut(whole_bytes);
 }
 
 std::optional<CampaignRow> RowFile::find(const std::string& key) const {
@@ -94,13 +67,11 @@ std::optional<CampaignRow> RowFile::find(const std::string& key) const {
 void RowFile::keep(const KeptRow& kept) {
   const std::lock_guard lock(mutex_);
   if (failed_) return;
-  const off_t end = lseek(descriptor_, 0, SEEK_END);
-  if (write_whole(descriptor_, line_of(kept))) {
-    rows_[kept.key] = kept.row;
+  if (auto appended = file_.append(line_of(kept)); !appended) {
+    failed_ = appended.error();
     return;
   }
-  failed_ = cannot_write();
-  if (ftruncate(descriptor_, end) != 0) return;  // a broken last line is cut off by the next run
+  rows_[kept.key] = kept.row;
 }
 
 std::optional<Error> RowFile::failed() const {
@@ -112,7 +83,7 @@ Result<void> RowFile::replace(const std::vector<KeptRow>& rows) {
   const std::lock_guard lock(mutex_);
   std::string text = header_line();
   for (const KeptRow& kept : rows) text += line_of(kept);
-  return write_file(path_, text);
+  return write_file(file_.path(), text);
 }
 
 std::optional<std::string> recording_fingerprint(const std::filesystem::path& recording) {

@@ -10,6 +10,7 @@
 
 #include "core/campaign/campaign.hpp"
 #include "core/error.hpp"
+#include "core/results/sealed_file.hpp"
 
 namespace sweepscope {
 
@@ -19,7 +20,7 @@ struct KeptRow {
   CampaignRow row;
 };
 
-/// Finished rows, kept in a file beside the table ("sweepscope.rows/1": lines of JSON, see sealed_line.hpp),
+/// Finished rows, kept in a file beside the table ("sweepscope.rows/1": lines of JSON, see sealed_file.hpp),
 /// so that a run that is killed loses only the recordings that it was working on. The file is locked against
 /// a second run. Used from any thread.
 class RowFile {
@@ -27,9 +28,6 @@ class RowFile {
   /// Creates the file, or takes up the rows of an existing one; damaged lines are left out.
   /// ExitCode::kWrongUsage if it is in use or cannot be written; kUnreadableInput if it holds something else.
   static Result<std::unique_ptr<RowFile>> open(const std::filesystem::path& path);
-  ~RowFile();
-  RowFile(const RowFile&) = delete;
-  RowFile& operator=(const RowFile&) = delete;
 
   std::optional<CampaignRow> find(const std::string& key) const;
   void keep(const KeptRow& row);
@@ -40,12 +38,10 @@ class RowFile {
   Result<void> replace(const std::vector<KeptRow>& rows);
 
  private:
-  RowFile(std::filesystem::path path, int descriptor);
+  explicit RowFile(SealedFile file) : file_(std::move(file)) {}
   Result<void> take_up();
-  Error cannot_write() const;
 
-  std::filesystem::path path_;
-  int descriptor_;
+  SealedFile file_;
   mutable std::mutex mutex_;
   std::map<std::string, CampaignRow> rows_;
   std::optional<Error> failed_;

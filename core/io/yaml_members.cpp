@@ -72,8 +72,13 @@ Result<void> read_file(const std::filesystem::path& path, const std::string& kin
   }
   std::string text(file->size(), '\0');
   text.resize(file->read(std::as_writable_bytes(std::span(text))));
+  return read_document(text, path.string(), read);
+}
+
+Result<void> read_document(const std::string& text, const std::string& name,
+                           const std::function<void(const YAML::Node&)>& read) {
   const auto at = [&](const YAML::Mark& mark, const std::string& what) {
-    return unreadable(fmt::format("{}:{}:{}: {}", path.string(), mark.line + 1, mark.column + 1, what));
+    return unreadable(fmt::format("{}:{}:{}: {}", name, mark.line + 1, mark.column + 1, what));
   };
   try {
     read(YAML::Load(text));

@@ -54,5 +54,8 @@ T read_choice(const YAML::Node& node, const std::string& name, const std::map<st
 /// ExitCode::kUnreadableInput with a sentence that names the file, the line and the column.
 Result<void> read_file(const std::filesystem::path& path, const std::string& kind, std::uint64_t max_bytes,
                        const std::function<void(const YAML::Node&)>& read);
+/// The same for a text; `name` is that of the file in messages.
+Result<void> read_document(const std::string& text, const std::string& name,
+                           const std::function<void(const YAML::Node&)>& read);
 
 }  // namespace sweepscope::yaml

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 namespace sweepscope {
 namespace {
@@ -16,6 +17,12 @@ T little_endian(const std::byte* bytes) {
   T value{};
   std::memcpy(&value, bytes, sizeof value);  // the machine is little-endian, see messages.cpp
   return value;
+}
+
+/// The library would convert a fraction, and a number of any size.
+std::uint64_t id_of(const Json& json) {
+  if (!json.is_number_unsigned()) throw std::runtime_error("no id");
+  return json.get<std::uint64_t>();
 }
 
 bool is_port(std::string_view text) {
@@ -36,11 +43,12 @@ std::optional<FoxgloveNews> parse_foxglove_text(std::string_view text) {
     const auto op = json.at("op").get<std::string>();
     if (op == "advertise")
       for (const Json& channel : json.at("channels"))
-        news.advertised.push_back(
-            {channel.at("id").get<std::uint64_t>(), channel.at("topic").get<std::string>(),
-             channel.at("encoding").get<std::string>(), channel.at("schemaName").get<std::string>()});
-    if (op == "unadvertise") news.withdrawn = json.at("channelIds").get<std::vector<std::uint64_t>>();
-  } catch (const Json::exception&) {
+        news.advertised.push_back({id_of(channel.at("id")), channel.at("topic").get<std::string>(),
+                                   channel.at("encoding").get<std::string>(),
+                                   channel.at("schemaName").get<std::string>()});
+    if (op == "unadvertise")
+      for (const Json& id : json.at("channelIds")) news.withdrawn.push_back(id_of(id));
+  } catch (const std::exception&) {
     return std::nullopt;
   }
   return news;

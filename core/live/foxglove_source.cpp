@@ -7,8 +7,8 @@
 #include <thread>
 
 #include "core/live/foxglove_protocol.hpp"
+#include "core/live/heard_messages.hpp"
 #include "core/live/web_socket.hpp"
-#include "core/recording/messages/message_collector.hpp"
 
 namespace sweepscope {
 namespace {
@@ -36,9 +36,7 @@ class FoxgloveSource : public LiveSource {
  public:
   FoxgloveSource(FoxgloveAddress address, std::unique_ptr<WebSocket> socket, const std::string& url,
                  const Rig& rig)
-      : address_(std::move(address)), socket_(std::move(socket)), collector_(rig, raw_) {
-    raw_.file = raw_.name = url;
-  }
+      : address_(std::move(address)), socket_(std::move(socket)), messages_(url, rig) {}
 
   Result<bool> listen(std::chrono::milliseconds most) override {
     if (!socket_ && !reconnect(most)) return true;
@@ -53,16 +51,13 @@ class FoxgloveSource : public LiveSource {
     }
     return true;
   }
-  const RawRecording& so_far() const override { return raw_; }
+  const RawRecording& so_far() const override { return messages_.so_far(); }
   RawRecording heard() override {
-    const std::size_t warnings = raw_.warnings.size();
-    collector_.finish();
-    RawRecording heard = raw_;
-    raw_.warnings.resize(warnings);
+    RawRecording heard = messages_.with_warnings();
     if (lost_ > 0)
       heard.warnings.push_back(
           fmt::format("The connection to {} ended {} time{}; what was sent meanwhile may be missing.",
-                      raw_.file, lost_, lost_ == 1 ? "" : "s"));
+                      heard.file, lost_, lost_ == 1 ? "" : "s"));
     return heard;
   }
 
@@ -100,11 +95,7 @@ class FoxgloveSource : public LiveSource {
     const auto topic = subscribed_.find(data->subscription);
     if (topic == subscribed_.end()) return {};
     backoff_.reset();
-    ++messages_;
-    if (const auto error = collector_.add(topic->second, data->log_ns, data->bytes,
-                                          [&] { return fmt::format("message {} heard", messages_); }))
-      return tl::unexpected(*error);
-    return {};
+    return messages_.add(topic->second, data->log_ns, data->bytes);
   }
 
   /// Subscribes to what may be a laser or a motor.
@@ -113,8 +104,8 @@ class FoxgloveSource : public LiveSource {
     for (const FoxgloveChannel& channel : news.advertised) {
       const auto* const type = find_message_type(channel.type);
       const bool ros1 = channel.encoding == "ros1";
-      if (type == nullptr || is_motion(type->kind) || (!ros1 && channel.encoding != "cdr")) continue;
-      const std::size_t topic = collector_.number_of(
+      if (!may_be_laser_or_motor(type) || (!ros1 && channel.encoding != "cdr")) continue;
+      const std::size_t topic = messages_.number_of(
           {channel.topic, channel.type, ros1 ? Encoding::kRos1 : Encoding::kCdr, true, "*"});
       subscribed_[next_id_] = topic;
       wanted.push_back({next_id_++, channel.id});
@@ -124,12 +115,11 @@ class FoxgloveSource : public LiveSource {
 
   FoxgloveAddress address_;
   std::unique_ptr<WebSocket> socket_;  // null: not connected
-  RawRecording raw_;
-  MessageCollector collector_;
+  HeardMessages messages_;
   std::map<std::uint32_t, std::size_t> subscribed_;  // the topic of a subscription's id
   std::uint32_t next_id_ = 0;
   Backoff backoff_;
-  std::size_t messages_ = 0, lost_ = 0;
+  std::size_t lost_ = 0;
 };
 
 }  // namespace

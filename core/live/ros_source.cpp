@@ -6,12 +6,11 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdlib>
-#include <optional>
 #include <set>
 #include <span>
 
+#include "core/live/heard_messages.hpp"
 #include "core/live/ros_link.hpp"
-#include "core/recording/messages/message_collector.hpp"
 #endif
 
 namespace sweepscope {
@@ -22,9 +21,7 @@ namespace {
 
 class RosSource : public LiveSource {
  public:
-  RosSource(std::unique_ptr<RosLink> link, const Rig& rig) : link_(std::move(link)), collector_(rig, raw_) {
-    raw_.file = raw_.name = "ROS";
-  }
+  RosSource(std::unique_ptr<RosLink> link, const Rig& rig) : link_(std::move(link)), messages_("ROS", rig) {}
 
   Result<bool> listen(std::chrono::milliseconds most) override {
     constexpr std::chrono::milliseconds kBetweenLooks(500);
@@ -33,46 +30,33 @@ class RosSource : public LiveSource {
       subscribe();
       looked_ = now;
     }
-    std::optional<Error> error;
+    Result<void> taken;
     link_->receive(most, [&](const RosMessage& message) {
-      const std::size_t topic = collector_.number_of({message.topic, message.type, Encoding::kRos1, true,
-                                                      message.md5sum.empty() ? "*" : message.md5sum});
+      const std::size_t topic = messages_.number_of({message.topic, message.type, Encoding::kRos1, true,
+                                                     message.md5sum.empty() ? "*" : message.md5sum});
       const auto bytes = std::as_bytes(std::span(message.bytes, message.size));
-      ++messages_;
-      if (error) return;
-      error = collector_.add(topic, message.receive_ns, bytes,
-                             [&] { return "message " + std::to_string(messages_) + " heard"; });
+      if (taken) taken = messages_.add(topic, message.receive_ns, bytes);
     });
-    if (error) return tl::unexpected(*error);
-    return true;
+    return taken.map([] { return true; });
   }
-  const RawRecording& so_far() const override { return raw_; }
-  RawRecording heard() override {
-    const std::size_t warnings = raw_.warnings.size();
-    collector_.finish();
-    RawRecording heard = raw_;
-    raw_.warnings.resize(warnings);
-    return heard;
-  }
+  const RawRecording& so_far() const override { return messages_.so_far(); }
+  RawRecording heard() override { return messages_.with_warnings(); }
 
  private:
   void subscribe() {
     constexpr std::uint32_t kClouds = 50, kOthers = 2000;  // clouds are of megabytes each
     for (const RosTopic& topic : link_->topics()) {
       const auto* const type = find_message_type(topic.type);
-      if (type == nullptr || type->kind == MessageKind::kImu || type->kind == MessageKind::kOdometry)
-        continue;
+      if (!may_be_laser_or_motor(type)) continue;
       if (subscribed_.insert(topic.name).second)
         link_->subscribe(topic.name, type->kind == MessageKind::kCloud ? kClouds : kOthers);
     }
   }
 
   std::unique_ptr<RosLink> link_;
-  RawRecording raw_;
-  MessageCollector collector_;
+  HeardMessages messages_;
   std::set<std::string> subscribed_;
   std::chrono::steady_clock::time_point looked_;
-  std::size_t messages_ = 0;
 };
 
 /// Whether it is http://HOST:PORT: roscpp ends the whole program at any other address.

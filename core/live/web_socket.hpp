@@ -18,7 +18,7 @@ struct WebSocketMessage {
   std::vector<std::byte> bytes;
 };
 
-/// The client's side of a WebSocket, used by one thread. The only code that uses Boost.Beast.
+/// The client's side of a WebSocket, used by one thread. The only code of core that uses Boost.Beast.
 class WebSocket {
  public:
   /// Connects within 5 s, and offers these subprotocols, of which the server must select one. Errors are

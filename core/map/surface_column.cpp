@@ -287,11 +287,11 @@ bool SurfaceColumn::seen_both_ways() const {
 // The scan lines of a few sweeps, all nearly in one plane, do not fill a disc in it.
 bool SurfaceColumn::is_filled() const {
   const auto bin = [&](float value_m) {
-    return std::clamp(static_cast<int>(std::floor((value_m / radius_m_ + 1) * kSide / 2)), 0, kSide - 1);
+    return static_cast<std::size_t>(
+        std::clamp(static_cast<int>(std::floor((value_m / radius_m_ + 1) * kSide / 2)), 0, kSide - 1));
   };
-  std::bitset<kSide * kSide> filled;
-  for (std::size_t i = 0; i < x_m_.size(); ++i)
-    filled.set(static_cast<std::size_t>(bin(x_m_[i]) + kSide * bin(y_m_[i])));
+  std::bitset<std::size_t{kSide} * kSide> filled;
+  for (std::size_t i = 0; i < x_m_.size(); ++i) filled.set(bin(x_m_[i]) + kSide * bin(y_m_[i]));
   return filled.count() >= kMinFilled;
 }
 
@@ -378,8 +378,7 @@ double SurfaceColumn::thickness_m(double within_m) {
 double SurfaceColumn::width_m() {
   constexpr double kTail = 0.1195;
   const auto at = [&](double fraction) {
-    const auto place =
-        z_m_.begin() + static_cast<std::ptrdiff_t>(fraction * static_cast<double>(z_m_.size() - 1) + 0.5);
+    const auto place = z_m_.begin() + std::lround(fraction * static_cast<double>(z_m_.size() - 1));
     std::nth_element(z_m_.begin(), place, z_m_.end());
     return static_cast<double>(*place);
   };

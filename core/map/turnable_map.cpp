@@ -140,7 +140,7 @@ std::vector<std::uint32_t> evenly_in_space(std::span<const std::array<float, 3>>
   const std::vector<MortonKey> keys = along_curve(points_m);
   std::array<std::size_t, kMortonBits + 2> of_levels{};  // from -1 on
   const auto of_level = [&](int level) -> std::size_t& {
-    return of_levels[static_cast<std::size_t>(level + 1)];
+    return of_levels[static_cast<std::size_t>(level) + 1];
   };
   for (std::size_t k = 0; k < keys.size(); ++k) ++of_level(first_of_level(keys, k));
   int whole = kMortonBits;  // all points of this level and above are kept

@@ -41,8 +41,13 @@ CoarseSearch search_coarsely(const OffsetProblem& problem, double from_s, double
   if (!search.best) return search;
   const double best_s = search.offset_s();
   std::vector<double> beside_s;
+  const auto is_computed = [&](double offset_s) {
+    return std::any_of(search.curve.begin(), search.curve.end(),
+                       [&](const CurvePoint& point) { return point.offset_s == offset_s; });
+  };
   for (const double offset_s : all_s)
-    if (std::abs(offset_s - best_s) < 1.5 * scale.unit_s) beside_s.push_back(offset_s);
+    if (std::abs(offset_s - best_s) < 1.5 * scale.unit_s && !is_computed(offset_s))
+      beside_s.push_back(offset_s);
   compute(beside_s);
   return search;
 }

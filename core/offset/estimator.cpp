@@ -28,10 +28,10 @@ Estimate interrupted(Estimate result) {
 }
 
 Result<Estimate> estimate_by(const Recording& sample, const Sampled& sampled, const EstimateOptions& options,
-                             const Job& job) {
+                             const KeptCandidates& kept, const Job& job) {
   const auto prepared = prepare(sample, options.features, job);
   if (!prepared) return tl::unexpected(prepared.error());
-  auto result = find_offset(*prepared, options, {}, job, &sampled);
+  auto result = find_offset(*prepared, options, kept, job, &sampled);
   if (!result || sampled.sweeps == nullptr) return result;
   if (!options.over_time_s) result->sample = sampled.sweeps->counts;
   if (!result->over_time) return result;
@@ -57,9 +57,9 @@ std::optional<Result<Estimate>> estimate_in_parts(const Recording& recording, co
   const auto sweeps = deciding_sweeps(recording, options);
   const bool over_time = options.over_time_s && method_of(options, kUnknownKind) == Method::kDirect;
   if (!sweeps && !over_time) return std::nullopt;
-  if (!sweeps) return estimate_by(recording, {recording, nullptr}, options, job);
+  if (!sweeps) return estimate_by(recording, {recording, nullptr}, options, kept, job);
   auto result =
-      estimate_by(parts_of(recording, sweeps->groups), {recording, &*sweeps, parts_only}, options, job);
+      estimate_by(parts_of(recording, sweeps->groups), {recording, &*sweeps, parts_only}, options, kept, job);
   const bool moved = result && result->kind == RigKind::kMoving;
   if (moved && (parts_only || !over_time) && !job.cancelled()) return std::nullopt;
   return result;

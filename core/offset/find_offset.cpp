@@ -18,7 +18,7 @@ void append(std::vector<std::string>& to, const std::vector<std::string>& more) 
   to.insert(to.end(), more.begin(), more.end());
 }
 
-Estimate refused(Estimate result, std::vector<std::string> reasons) {
+Estimate refused(Estimate result, const std::vector<std::string>& reasons) {
   append(result.reasons, reasons);
   return result;
 }

@@ -21,8 +21,9 @@ constexpr std::size_t kMinSweeps = 8;
 void cut(const Sweeps& run, double part_s, std::vector<Sweeps>& parts) {
   if (run.size() < kMinSweeps) return;
   const double duration_s = run.back().end_s - run.front().begin_s;
-  const std::size_t count = std::clamp<std::size_t>(std::size_t(duration_s / part_s + 0.5), 1,
-                                                    std::max<std::size_t>(1, run.size() / kMinSweeps));
+  const auto wanted = static_cast<std::size_t>(std::lround(duration_s / part_s));
+  const std::size_t count =
+      std::clamp<std::size_t>(wanted, 1, std::max<std::size_t>(1, run.size() / kMinSweeps));
   const std::size_t first = parts.size();
   parts.resize(first + count);
   for (std::size_t k = 0; k < run.size(); ++k) parts[first + k * count / run.size()].push_back(run[k]);

@@ -37,7 +37,8 @@ struct KeptCandidates {
   CandidateStore* store = nullptr;  // null: every candidate is computed
   std::optional<Shard> shard;       // of the candidates, with a store; nothing is concluded
   /// Called from any thread for each candidate that is finished: first those of the coarse search, then those
-  /// of the method.
+  /// of the method. The candidates of a long recording are first those of a sample of its sweeps; if the rig
+  /// moved they are computed again, of all of it.
   std::function<void(const CurvePoint&)> finished = {};
 };
 

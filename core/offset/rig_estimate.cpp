@@ -32,7 +32,7 @@ std::optional<double> offset_seen_s(const Estimate& found) {
 }
 
 // On a walk, a wrong mount looks like a body that sways with the motor, and the trajectory absorbs it.
-Estimate refused_as_moving(Estimate found) {
+Estimate refused_as_moving(const Estimate& found) {
   Estimate result;
   result.recording = found.recording;
   result.method = found.method;

@@ -3,6 +3,7 @@
 // The mathematics: docs/algorithms.md, section 9.
 
 #include <cstddef>
+#include <vector>
 
 #include "core/offset/prepared.hpp"
 
@@ -27,5 +28,17 @@ struct MotionTest {
 
 /// Compares up to 16 pairs spread over the recording, and up to 4 of its ends.
 MotionTest test_motion(const PreparedRecording& prepared);
+
+/// A part of a recording in which the rig moved, or was stationary, from one sweep to the next of the same
+/// direction. Seconds since the first scan.
+struct MotionPart {
+  double begin_s = 0, end_s = 0;
+  bool moved = false;
+};
+
+/// The whole recording in such parts, from its first scan to its last, alternating: up to 64 pairs of sweeps
+/// are compared as in the motion test, and each stands for the time until the next. A rig that moves very
+/// slowly may seem stationary. Empty where no two sweeps of one direction are whole.
+std::vector<MotionPart> motion_over_time(const PreparedRecording& prepared);
 
 }  // namespace sweepscope

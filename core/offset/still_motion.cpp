@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include "core/numbers.hpp"
@@ -12,7 +13,7 @@ namespace sweepscope {
 namespace {
 
 // They bound the cost: beyond, a recording's length adds nothing to it.
-constexpr std::size_t kMaxPairs = 16, kMaxFarPairs = 4;
+constexpr std::size_t kMaxPairs = 16, kMaxFarPairs = 4, kMaxPairsOverTime = 64;
 
 using SweepPair = std::pair<std::size_t, std::size_t>;
 
@@ -82,7 +83,8 @@ std::vector<std::size_t> whole_sweeps(const StillGrid& grid, const std::vector<s
 }
 
 // Of the same direction, one after the other, spread over the recording.
-std::vector<SweepPair> near_pairs(const MotorMotion& motor, const std::vector<std::size_t>& whole) {
+std::vector<SweepPair> near_pairs(const MotorMotion& motor, const std::vector<std::size_t>& whole,
+                                  std::size_t max_pairs = kMaxPairs) {
   std::vector<SweepPair> all, chosen;
   const bool one_way = motor.one_way();
   for (const std::size_t sweep : whole) {
@@ -91,7 +93,7 @@ std::vector<SweepPair> near_pairs(const MotorMotion& motor, const std::vector<st
     if (one_way && motor.sweeps[sweep].side != motor.sweeps[sweep + 2].side) continue;
     all.push_back({sweep, sweep + 2});
   }
-  const std::size_t stride = std::max<std::size_t>(1, all.size() / kMaxPairs);
+  const std::size_t stride = std::max<std::size_t>(1, all.size() / max_pairs);
   for (std::size_t i = 0; i < all.size(); i += stride) chosen.push_back(all[i]);
   return chosen;
 }
@@ -143,6 +145,12 @@ bool same_long_shift(const SweepShift& one, const SweepShift& next) {
          (one.far_translation_m - next.far_translation_m).norm() < kMaxDifference * std::max(one_m, next_m);
 }
 
+// Whether a pair shows the same long shift as the one before it, or as the one after it.
+bool is_long_shift(const std::vector<SweepShift>& shifts, std::size_t i) {
+  const bool as_before = i > 0 && same_long_shift(shifts[i - 1], shifts[i]);
+  return as_before || (i + 1 < shifts.size() && same_long_shift(shifts[i], shifts[i + 1]));
+}
+
 // The shifts of the pairs; those with too few matches are left out.
 class Shifts {
  public:
@@ -154,10 +162,12 @@ class Shifts {
 
   std::vector<SweepShift> of(const std::vector<SweepPair>& pairs) const {
     std::vector<SweepShift> shifts;
-    for (const auto& [target, source] : pairs)
-      if (const auto shift = shift_between(points_, pools_[target], pools_[source], part_))
-        shifts.push_back(*shift);
+    for (const SweepPair& pair : pairs)
+      if (const auto shift = of(pair)) shifts.push_back(*shift);
     return shifts;
+  }
+  std::optional<SweepShift> of(const SweepPair& pair) const {
+    return shift_between(points_, pools_[pair.first], pools_[pair.second], part_);
   }
 
  private:
@@ -187,9 +197,7 @@ MotionTest test_motion(const StillGrid& grid, double offset_s) {
   const std::vector<SweepShift> of_near = shifts.of(near), of_far = shifts.of(far);
   std::vector<double> translations_m, rotations_rad, apart_m;
   for (std::size_t i = 0; i < of_near.size(); ++i) {
-    const bool as_before = i > 0 && same_long_shift(of_near[i - 1], of_near[i]);
-    const bool as_after = i + 1 < of_near.size() && same_long_shift(of_near[i], of_near[i + 1]);
-    const bool long_shift = as_before || as_after;
+    const bool long_shift = is_long_shift(of_near, i);
     if (long_shift || moved(of_near[i])) ++test.moved;
     const SweepShift& shift = of_near[i];
     translations_m.push_back((long_shift ? shift.far_translation_m : shift.translation_m).norm());
@@ -203,6 +211,33 @@ MotionTest test_motion(const StillGrid& grid, double offset_s) {
   test.median_rotation_rad = median(rotations_rad);
   test.median_apart_m = median(apart_m);
   return test;
+}
+
+std::vector<MotionPart> motion_over_time(const StillGrid& grid, double offset_s) {
+  const std::vector<std::size_t> sweep_of = sweep_of_lines(grid, offset_s);
+  const MotorMotion& motor = grid.problem->motor;
+  const std::vector<SweepPair> pairs = near_pairs(motor, whole_sweeps(grid, sweep_of), kMaxPairsOverTime);
+  const Shifts all(grid, sweep_of, pairs, {}, offset_s);
+  std::vector<SweepShift> shifts;
+  std::vector<double> begins_s;  // of the pairs that overlap enough to be compared
+  const auto& scans = grid.problem->recording->scans;
+  for (const SweepPair& pair : pairs) {
+    const auto shift = all.of(pair);
+    if (!shift) continue;
+    shifts.push_back(*shift);
+    begins_s.push_back(motor.sweeps[pair.first].begin_s - scans.front().first_beam_s);
+  }
+  std::vector<MotionPart> parts;
+  for (std::size_t i = 0; i < shifts.size(); ++i) {
+    const bool has_moved = is_long_shift(shifts, i) || moved(shifts[i]);
+    const double begin_s = parts.empty() ? 0 : std::max(begins_s[i], parts.back().begin_s);
+    if (parts.empty() || parts.back().moved != has_moved) {
+      if (!parts.empty()) parts.back().end_s = begin_s;
+      parts.push_back({begin_s, begin_s, has_moved});
+    }
+  }
+  if (!parts.empty()) parts.back().end_s = scans.back().first_beam_s - scans.front().first_beam_s;
+  return parts;
 }
 
 }  // namespace sweepscope

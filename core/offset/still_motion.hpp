@@ -2,6 +2,8 @@
 
 // The mathematics: docs/algorithms.md, section 9.
 
+#include <vector>
+
 #include "core/offset/rig_motion.hpp"
 #include "core/offset/still_points.hpp"
 
@@ -13,5 +15,8 @@ namespace sweepscope {
 /// rest. A long shift between sweeps that overlap too little for that counts where the next pair shows the
 /// same one.
 MotionTest test_motion(const StillGrid& grid, double offset_s);
+
+/// The same evidence, pair by pair.
+std::vector<MotionPart> motion_over_time(const StillGrid& grid, double offset_s);
 
 }  // namespace sweepscope

@@ -10,6 +10,8 @@ namespace sweepscope {
 /// A part of a recording, in seconds since its first scan.
 struct TimeWindow {
   double from_s = 0, to_s = 0;
+
+  bool operator==(const TimeWindow&) const = default;
 };
 
 /// The part of a recording that lies in the window (see `window`). Fails if no scan lies in it

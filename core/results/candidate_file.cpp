@@ -1,14 +1,10 @@
 #include "core/results/candidate_file.hpp"
 
 #include <fmt/format.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
 #include <cstdlib>
-#include <cstring>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -177,19 +173,6 @@ std::string difference(const CandidateSearch& held, const CandidateSearch& wante
   return {};
 }
 
-CandidateFile::CandidateFile(std::filesystem::path path, const CandidateSearch& search, int descriptor)
-    : path_(std::move(path)), search_(search), descriptor_(descriptor) {}
-
-CandidateFile::~CandidateFile() {
-  close(descriptor_);
-}
-
-Error CandidateFile::cannot_write() const {
-  return {ExitCode::kWrongUsage,
-          fmt::format("{}: cannot be written: {}; {} finished candidates are kept there", path_.string(),
-                      std::strerror(errno), points_.size())};
-}
-
 Result<std::unique_ptr<CandidateFile>> CandidateFile::open(const std::filesystem::path& path,
                                                            const CandidateSearch& search) {
   return open(path, search, Unusable::kRefused);
@@ -202,47 +185,34 @@ Result<std::unique_ptr<CandidateFile>> CandidateFile::open_while_working(const s
 
 Result<std::unique_ptr<CandidateFile>> CandidateFile::open(const std::filesystem::path& path,
                                                            const CandidateSearch& search, Unusable unusable) {
-  struct stat status {};
-  if (stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode))
-    return failure(ExitCode::kWrongUsage, fmt::format("{}: is not a regular file", path.string()));
-  const int descriptor = open_locked(path);
-  if (descriptor < 0) {
-    const std::string why = errno == EWOULDBLOCK ? "another run is writing it" : std::strerror(errno);
-    return failure(ExitCode::kWrongUsage, fmt::format("{}: cannot be opened: {}", path.string(), why));
-  }
-  std::unique_ptr<CandidateFile> file(new CandidateFile(path, search, descriptor));
+  auto opened = SealedFile::open(path);
+  if (!opened) return tl::unexpected(opened.error());
+  std::unique_ptr<CandidateFile> file(new CandidateFile(std::move(*opened), search));
   if (auto taken = file->take_up(unusable); !taken) return tl::unexpected(taken.error());
   return file;
 }
 
-Result<void> CandidateFile::begin() {
-  if (ftruncate(descriptor_, 0) != 0 || !write_whole(descriptor_, header_line(search_)))
-    return tl::unexpected(cannot_write());
-  return {};
-}
-
 Result<Candidates> CandidateFile::parse_own(std::string_view text) const {
-  auto there = parse_candidates(text, path_.string());
+  auto there = parse_candidates(text, file_.path().string());
   if (!there) return there;
   std::string differs = difference(there->search, search_);
   if (differs.empty() && shard_text(there->search.shard) != shard_text(search_.shard))
     differs = fmt::format("it holds {}, and this is {}", shard_text(there->search.shard),
                           shard_text(search_.shard));
-  if (!differs.empty()) return failure(ExitCode::kWrongUsage, fmt::format("{}: {}", path_.string(), differs));
+  if (!differs.empty())
+    return failure(ExitCode::kWrongUsage, fmt::format("{}: {}", file_.path().string(), differs));
   return there;
 }
 
 Result<void> CandidateFile::take_up(Unusable unusable) {
-  const auto text = read_file(path_);
+  const auto text = file_.text();
   if (!text) return tl::unexpected(text.error());
   const std::string header = header_line(search_);
-  if (text->size() < header.size() && header.starts_with(*text))  // new, or killed in its first line
-    return begin();
+  if (SealedFile::is_begun(*text, header)) return file_.begin(header);
   auto there = parse_own(*text);
-  if (!there && unusable == Unusable::kBegunAnew && is_ours(*text)) return begin();
+  if (!there && unusable == Unusable::kBegunAnew && is_ours(*text)) return file_.begin(header);
   if (!there) return tl::unexpected(there.error());
-  if (ftruncate(descriptor_, static_cast<off_t>(there->whole_bytes)) != 0)
-    return tl::unexpected(cannot_write());
+  if (auto cut = file_.cut(there->whole_bytes); !cut) return cut;
   points_ = std::move(there->points);
   taken_up_ = points_.size();
   return {};
@@ -256,13 +226,12 @@ std::optional<CurvePoint> CandidateFile::find(double offset_s) {
 void CandidateFile::keep(const CurvePoint& point) {
   const std::lock_guard lock(mutex_);
   if (failed_) return;
-  const off_t end = lseek(descriptor_, 0, SEEK_END);
-  if (write_whole(descriptor_, point_line(point))) {
-    points_.push_back(point);
+  if (auto appended = file_.append(point_line(point)); !appended) {
+    failed_ = appended.error();
+    failed_->message += fmt::format("; {} finished candidates are kept there", points_.size());
     return;
   }
-  failed_ = cannot_write();
-  if (ftruncate(descriptor_, end) != 0) return;  // a broken last line is cut off by the next run
+  points_.push_back(point);
 }
 
 std::optional<Error> CandidateFile::failed() const {
@@ -277,18 +246,18 @@ std::size_t CandidateFile::held() const {
 
 std::string CandidateFile::interrupted_in_words() const {
   return fmt::format("interrupted; {} finished candidates are in {}; the same command continues from there",
-                     held(), path_.string());
+                     held(), file_.path().string());
 }
 
 void CandidateFile::remove() {
   std::error_code ignored;
-  std::filesystem::remove(path_, ignored);
+  std::filesystem::remove(file_.path(), ignored);
 }
 
 Result<void> CandidateFile::put_in_order() {
   const std::lock_guard lock(mutex_);
   std::sort(points_.begin(), points_.end(), ascends);
-  return write_file(path_, candidates_text(search_, points_));
+  return write_file(file_.path(), candidates_text(search_, points_));
 }
 
 MergedCandidates::MergedCandidates(MergedCandidates&& other) noexcept

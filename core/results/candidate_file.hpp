@@ -10,7 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/offset/kept_candidates.hpp"
-#include "core/results/sealed_line.hpp"
+#include "core/results/sealed_file.hpp"
 
 namespace sweepscope {
 
@@ -55,7 +55,6 @@ class CandidateFile final : public CandidateStore {
   /// or version, or a damaged one, is started again. A file that is not a candidate file is refused.
   static Result<std::unique_ptr<CandidateFile>> open_while_working(const std::filesystem::path& path,
                                                                    const CandidateSearch& search);
-  ~CandidateFile() override;
 
   std::optional<CurvePoint> find(double offset_s) override;
   void keep(const CurvePoint& point) override;
@@ -74,18 +73,15 @@ class CandidateFile final : public CandidateStore {
  private:
   enum class Unusable { kRefused, kBegunAnew };
 
-  CandidateFile(std::filesystem::path path, const CandidateSearch& search, int descriptor);
+  CandidateFile(SealedFile file, const CandidateSearch& search) : file_(std::move(file)), search_(search) {}
   static Result<std::unique_ptr<CandidateFile>> open(const std::filesystem::path& path,
                                                      const CandidateSearch& search, Unusable unusable);
   Result<void> take_up(Unusable unusable);
-  Result<void> begin();
   /// What a text holds that is to be of this search and shard.
   Result<Candidates> parse_own(std::string_view text) const;
-  Error cannot_write() const;
 
-  std::filesystem::path path_;
+  SealedFile file_;
   CandidateSearch search_;
-  int descriptor_;
   std::size_t taken_up_ = 0;
   mutable std::mutex mutex_;
   std::vector<CurvePoint> points_;

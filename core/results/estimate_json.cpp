@@ -23,11 +23,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kSchema = "sweepscope.estimate/1";
 
-/// To 1e-9 ms, so that 0.0239 s is written 23.9 and not 23.900000000000002.
-double to_ms(double seconds) {
-  return std::round(seconds * 1e12) / 1e9;
-}
-
 // Of an instant in a recording.
 double to_millisecond(double time_s) {
   return std::round(time_s * 1e3) / 1e3;
@@ -44,14 +39,14 @@ Json number_or_null(const std::optional<double>& value) {
 }
 
 Json milliseconds_or_null(const std::optional<double>& seconds) {
-  return seconds ? Json(to_ms(*seconds)) : Json(nullptr);
+  return seconds ? Json(written_ms(*seconds)) : Json(nullptr);
 }
 
 Json curve_to_json(const std::vector<CurvePoint>& curve) {
   Json points = Json::array();
   for (const CurvePoint& point : curve) {
     Json object;
-    object["offset_ms"] = to_ms(point.offset_s);
+    object["offset_ms"] = written_ms(point.offset_s);
     for (const CurveColumn& column : kCurveColumns) object[column.key] = number_or_null(point.*column.value);
     points.push_back(std::move(object));
   }
@@ -143,15 +138,16 @@ Json seconds_or_null(const std::optional<double>& seconds) {
 
 Json sigma_parts_to_json(const Estimate& estimate) {
   Json parts;
-  for (const SigmaPart& part : estimate.sigma_parts) parts[part.name + "_ms"] = to_ms(part.sigma_s);
+  for (const SigmaPart& part : estimate.sigma_parts) parts[part.name + "_ms"] = written_ms(part.sigma_s);
   return parts;
 }
 
 /// What play and a tilted mount would add, per degree.
 Json rig_effects_to_json(const RigEffects& effects) {
-  return {{"play_ms_per_deg", to_ms(effects.play_s_rad * kRadPerDeg)},
-          {"mount_tilt_ms_per_deg",
-           effects.mount_tilt_s_rad ? Json(to_ms(*effects.mount_tilt_s_rad * kRadPerDeg)) : Json(nullptr)}};
+  return {
+      {"play_ms_per_deg", written_ms(effects.play_s_rad * kRadPerDeg)},
+      {"mount_tilt_ms_per_deg",
+       effects.mount_tilt_s_rad ? Json(written_ms(*effects.mount_tilt_s_rad * kRadPerDeg)) : Json(nullptr)}};
 }
 
 /// The windows of an offset over time; a gap has null, and why.
@@ -185,8 +181,8 @@ void write_over_time(const OffsetOverTime& over_time, Json& document) {
   for (const OffsetJump& jump : course->jumps)
     document["jumps"].push_back({{"from_s", to_millisecond(jump.begin_s)},
                                  {"to_s", to_millisecond(jump.end_s)},
-                                 {"jump_ms", to_ms(jump.size_s)},
-                                 {"sigma_ms", to_ms(jump.sigma_s)}});
+                                 {"jump_ms", written_ms(jump.size_s)},
+                                 {"sigma_ms", written_ms(jump.sigma_s)}});
 }
 
 std::vector<OffsetWindow> windows_from_json(const Json& list) {
@@ -396,7 +392,7 @@ std::string estimate_to_json(const Estimate& estimate, Timing timing) {
   document["reasons"] = estimate.reasons;
   document["criteria"] = Json::object();
   for (const CriterionOptimum& optimum : estimate.criteria) {
-    document["criteria"][optimum.name] = {{"offset_ms", to_ms(optimum.offset_s)},
+    document["criteria"][optimum.name] = {{"offset_ms", written_ms(optimum.offset_s)},
                                           {"value", number(optimum.value)}};
   }
   if (estimate.fit) document["fit"] = fit_to_json(*estimate.fit);
@@ -436,7 +432,7 @@ Result<Estimate> read_estimate_json(const std::filesystem::path& path) {
 std::string curve_to_csv(const Estimate& estimate) {
   std::string text = "offset_ms,d,translation_m,rotation_rad,signed_rotation_rad,n,e_m,capped_cost_m\n";
   for (const CurvePoint& point : estimate.curve) {
-    text += fmt::format("{}", to_ms(point.offset_s));
+    text += fmt::format("{}", written_ms(point.offset_s));
     for (const CurveColumn& column : kCurveColumns) {
       const auto& value = point.*column.value;
       text += value ? fmt::format(",{}", *value) : ",";
@@ -450,7 +446,7 @@ std::string over_time_to_csv(const OffsetOverTime& over_time) {
   std::string text = "t_s,offset_ms,sigma_ms,from_s,to_s,fit_ms\n";
   for (const OffsetWindow& window : over_time.windows) {
     const auto ms = [](const std::optional<double>& seconds) {
-      return seconds ? fmt::format("{}", to_ms(*seconds)) : std::string();
+      return seconds ? fmt::format("{}", written_ms(*seconds)) : std::string();
     };
     const auto fit_s =
         over_time.course ? std::optional(over_time.course->offset_at_s(window.time_s)) : std::nullopt;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -23,6 +24,12 @@ inline constexpr std::array<CurveColumn, 7> kCurveColumns{
      {"n", &CurvePoint::n},
      {"e_m", &CurvePoint::e_m},
      {"capped_cost_m", &CurvePoint::capped_cost_m}}};
+
+/// An offset as it is written, in milliseconds: to 1e-9 ms, so that 0.0239 s is 23.9 and
+/// not 23.900000000000002.
+inline double written_ms(double seconds) {
+  return std::round(seconds * 1e12) / 1e9;
+}
 
 /// A JSON value as a whole number from `least` to `greatest`; absent for anything else. The library would
 /// convert other numbers of any size to the requested type.

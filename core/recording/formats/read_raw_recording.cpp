@@ -81,4 +81,12 @@ std::vector<fs::path> recording_files(const fs::path& recording) {
   return files;
 }
 
+std::uint64_t recording_size_bytes(const fs::path& recording) {
+  std::uint64_t bytes = 0;
+  std::error_code unknown;
+  for (const fs::path& file : recording_files(recording))
+    if (const std::uintmax_t size = fs::file_size(file, unknown); !unknown) bytes += size;
+  return bytes;
+}
+
 }  // namespace sweepscope

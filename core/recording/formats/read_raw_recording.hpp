@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <vector>
 
@@ -20,5 +21,8 @@ Result<RawRecording> read_raw_recording(const std::filesystem::path& path, const
 /// file that is stored as one. Files that do not exist are not listed; only the first bytes of the files are
 /// read.
 std::vector<std::filesystem::path> recording_files(const std::filesystem::path& recording);
+
+/// The size of these files together.
+std::uint64_t recording_size_bytes(const std::filesystem::path& recording);
 
 }  // namespace sweepscope

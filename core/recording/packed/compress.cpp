@@ -1,8 +1,8 @@
 #include "core/recording/packed/compress.hpp"
 
 #include <bzlib.h>
+#include <libdeflate.h>
 #include <lz4frame.h>
-#include <zlib.h>
 #include <zstd.h>
 
 #include <new>
@@ -62,8 +62,7 @@ std::string compressed(Compression compression, std::string_view bytes) {
 }
 
 std::uint32_t crc32_of(std::span<const std::byte> bytes) {
-  const auto* first = reinterpret_cast<const Bytef*>(bytes.data());
-  return static_cast<std::uint32_t>(crc32_z(0, first, bytes.size()));
+  return libdeflate_crc32(0, bytes.data(), bytes.size());  // several times as fast as zlib's
 }
 
 }  // namespace sweepscope

@@ -139,8 +139,8 @@ Result<Evidence> evidence_of(const RawRecording& raw, const Rig& rig) {
   Evidence evidence;
   const RawLaser& scans = raw.lasers[*laser];
   evidence.laser_frame = scans.frame;
-  for (auto scan = scans.scans.rbegin(); scan != scans.scans.rend(); ++scan)
-    if (scan->beams > 0) evidence.first_scan = *scan;
+  const auto with_beams = std::ranges::find_if(scans.scans, [](const auto& scan) { return scan.beams > 0; });
+  if (with_beams != scans.scans.end()) evidence.first_scan = *with_beams;
   evidence.mount = mount_from_frames(raw.frames, scans.frame);
   return evidence;
 }

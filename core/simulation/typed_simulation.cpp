@@ -1,0 +1,154 @@
+#include "core/simulation/typed_simulation.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include "core/io/text_cursor.hpp"
+
+namespace sweepscope {
+namespace {
+
+using Group = SimulationOption::Group;
+
+/// "1,-2,0.5"; none for another text.
+std::optional<Eigen::Vector3d> triple(std::string_view text) {
+  Eigen::Vector3d values;
+  for (int i = 0; i < 3; ++i) {
+    const std::size_t end = std::min(text.find(','), text.size());
+    if ((i < 2) == (end == text.size())) return std::nullopt;
+    TextCursor words(text.substr(0, end));
+    const auto number = words.next_number();
+    if (!number || words.next_word() || !std::isfinite(*number)) return std::nullopt;
+    values[i] = *number;
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return values;
+}
+
+tl::unexpected<Error> not_a_triple(const char* option, const std::string& text) {
+  return failure(ExitCode::kWrongUsage,
+                 fmt::format("{} needs three numbers separated by commas, not '{}'", option, text));
+}
+
+std::vector<SimulationOption> recording_options(TypedSimulation& typed) {
+  SimulationOptions& options = typed.options;
+  return {{"offset-ms", &typed.offset_ms, "t_motor = t_laser + offset"},
+          {"seed", &options.seed, "Random seed; the same seed gives the same file"},
+          {"duration-s", &options.duration_s,
+           "Length of the recording (default: the whole walk, 4.5 s in a room)", "", "", false},
+          {"noise-mm", &typed.noise_mm, "Standard deviation of the range noise"},
+          {"dropout", &options.dropout, "Fraction of beams without a return"},
+          {"sweep-s", &options.sweep_s, "Duration of one half turn of the motor"},
+          {"motor", &typed.motor, "triangle, trapezoid, sine, one-way or stuck"},
+          {"speeds-dps", &options.speeds_dps,
+           "Speeds of a motor that turns one way (deg/s), each for an equal part of the recording", "A,B,...",
+           "", false},
+          {"speed-ramp", &options.speed_ramp,
+           "Turn evenly faster or slower from one of --speeds-dps to the next"},
+          {"encoder-step-deg", &options.encoder_step_deg, "The encoder's resolution"},
+          {"encoder-hz", &options.encoder_hz, "Motor samples per second"},
+          {"encoder-jitter-ms", &typed.encoder_jitter_ms, "Standard deviation of the sampling instants"},
+          {"imu", &options.imu, "Also record a gyroscope on the base, as sensor_msgs/Imu on /imu"},
+          {"imu-shift-ms", &typed.imu_shift_ms, "t_laser = t_imu + time shift", "", "imu"}};
+}
+
+std::vector<SimulationOption> own_scene_options(TypedSimulation& typed) {
+  OwnScene& own = typed.options.own;
+  return {
+      {"mesh", &own.mesh, "A triangle mesh (PLY or OBJ) instead of SCENE, in metres, z up", "M.ply", "",
+       false},
+      {"trajectory", &own.trajectory,
+       "The rig's motion, smoothed by a spline; without it the rig is stationary at --trajectory-at", "T.tum",
+       "mesh", false},
+      {"trajectory-at", &typed.at_m, "Move the mean of its positions to this point (default: not moved)",
+       "X,Y,Z", "mesh", false},
+      {"trajectory-yaw-deg", &own.placement.yaw_deg, "Rotate it about the vertical through that point", "",
+       "mesh"},
+      {"trajectory-scale", &own.placement.scale, "Scale its positions about their mean", "", "trajectory"},
+      {"trajectory-upright", &own.placement.upright,
+       "Mount the rig so that it is level on average, whatever frame was recorded", "", "trajectory"},
+      {"trajectory-from-s", &own.from_s, "Skip its first seconds", "", "trajectory"},
+      {"trajectory-smoothing-ms", &typed.smoothing_ms, "Time between the knots of the spline", "",
+       "trajectory"}};
+}
+
+std::vector<SimulationOption> faults(TypedSimulation& typed) {
+  SimulationOptions& options = typed.options;
+  return {
+      {"mixed-pixels", &options.mixed_pixels, "Fraction of beams at an edge that return a range in between"},
+      {"grazing-bias-mm", &typed.grazing_bias_mm,
+       "Range bias at grazing incidence; none at perpendicular incidence"},
+      {"stamp-jitter-ms", &typed.stamp_jitter_ms, "Standard deviation added to every header stamp"},
+      {"backlash-deg", &options.backlash_deg, "Play between the encoder and the laser"},
+      {"clock-drift-ppm", &options.clock_drift_ppm, "How much faster the motor's clock runs"},
+      {"jump-ms", &typed.jump_ms, "By how much the motor's clock jumps forward at --jump-at-s"},
+      {"jump-at-s", &options.jump_at_s, "When it does, in seconds since the first scan"},
+      {"nudge-mm", &typed.nudge_mm, "Push the rig sideways, one second after the start"},
+      {"noise-per-m-mm", &typed.noise_per_m_mm, "Added to the noise for every metre of range"},
+      {"grazing-dropout", &options.grazing_dropout,
+       "Fraction of beams lost at grazing incidence and on dark surfaces"},
+      {"mount-error-deg", &typed.mount_error_deg,
+       "Rotation error of the laser on the motor: roll, pitch, yaw", "R,P,Y"},
+      {"mount-error-mm", &typed.mount_error_mm, "Translation error of the laser on the motor", "X,Y,Z"},
+      {"eccentricity-deg", &options.eccentricity_deg,
+       "Amplitude A of the encoder's eccentricity: it shows angle + A sin(angle + phase)"},
+      {"eccentricity-phase-deg", &options.eccentricity_phase_deg, "Phase of the eccentricity"},
+      {"uneven-motor", &options.uneven_motor, "Maximum fraction by which the motor's speed varies"},
+      {"people", &options.people, "Number of people who walk through the scene"},
+      {"glass", &options.glass, "Fraction of the upright surfaces that are glass"}};
+}
+
+}  // namespace
+
+Result<SimulationOptions> simulation_of(const TypedSimulation& typed) {
+  SimulationOptions options = typed.options;
+  if (typed.scene.empty() && options.own.mesh.empty())
+    return failure(ExitCode::kWrongUsage, "name a SCENE, or give one of your own with --mesh");
+  if (!typed.scene.empty()) options.scene = typed.scene;
+  const auto motor = simulation::motor_kind(typed.motor);
+  if (!motor)
+    return failure(ExitCode::kWrongUsage,
+                   fmt::format("there is no motor '{}'; the motors are {}", typed.motor,
+                               fmt::join(simulation::motor_names(), ", ")));
+  options.motor = *motor;
+  options.offset_s = typed.offset_ms / 1e3;
+  options.noise_m = typed.noise_mm / 1e3;
+  options.encoder_jitter_s = typed.encoder_jitter_ms / 1e3;
+  options.grazing_bias_m = typed.grazing_bias_mm / 1e3;
+  options.stamp_jitter_s = typed.stamp_jitter_ms / 1e3;
+  options.nudge_m = typed.nudge_mm / 1e3;
+  options.jump_s = typed.jump_ms / 1e3;
+  options.noise_per_m = typed.noise_per_m_mm / 1e3;
+  options.imu_shift_s = typed.imu_shift_ms / 1e3;
+  options.own.placement.smoothing_s = typed.smoothing_ms / 1e3;
+  const auto error_deg = triple(typed.mount_error_deg), error_mm = triple(typed.mount_error_mm);
+  if (!error_deg) return not_a_triple("--mount-error-deg", typed.mount_error_deg);
+  if (!error_mm) return not_a_triple("--mount-error-mm", typed.mount_error_mm);
+  options.mount_error_deg = *error_deg;
+  options.mount_error_m = *error_mm / 1e3;
+  if (!typed.at_m.empty()) {
+    options.own.placement.at_m = triple(typed.at_m);
+    if (!options.own.placement.at_m) return not_a_triple("--trajectory-at", typed.at_m);
+  }
+  return options;
+}
+
+std::vector<SimulationOption> simulation_options(TypedSimulation& typed) {
+  std::vector<SimulationOption> all = recording_options(typed);
+  const auto add = [&all](std::vector<SimulationOption>&& more, Group group) {
+    for (SimulationOption& option : more) {
+      option.group = group;
+      all.push_back(std::move(option));
+    }
+  };
+  add(own_scene_options(typed), Group::kOwnScene);
+  add(faults(typed), Group::kFaults);
+  return all;
+}
+
+}  // namespace sweepscope
