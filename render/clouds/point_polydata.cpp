@@ -28,7 +28,8 @@ vtkSmartPointer<Array> triples(std::span<const std::array<Number, 3>> values) {
 }  // namespace
 
 vtkSmartPointer<vtkPolyData> to_polydata(std::span<const std::array<float, 3>> xyz_m,
-                                         std::span<const std::array<std::uint8_t, 3>> rgb) {
+                                         std::span<const std::array<std::uint8_t, 3>> rgb,
+                                         std::span<const float> spacing_m) {
   const auto count = static_cast<vtkIdType>(xyz_m.size());
   vtkNew<vtkTypeInt64Array> offsets, connectivity;
   offsets->InsertNextValue(0);
@@ -43,6 +44,13 @@ vtkSmartPointer<vtkPolyData> to_polydata(std::span<const std::array<float, 3>> x
   data->SetPoints(places);
   data->SetVerts(cells);
   data->GetPointData()->SetScalars(triples<vtkUnsignedCharArray>(rgb));
+  if (!spacing_m.empty()) {
+    vtkNew<vtkFloatArray> spacing;
+    spacing->SetName(kSpacingArray);
+    spacing->SetNumberOfValues(static_cast<vtkIdType>(spacing_m.size()));
+    std::copy(spacing_m.begin(), spacing_m.end(), spacing->GetPointer(0));
+    data->GetPointData()->AddArray(spacing);
+  }
   return data;
 }
 

@@ -165,6 +165,10 @@ std::vector<DifferingPlace> differing_places(std::span<const SlabPoints> maps, d
   return best;
 }
 
+double close_up_height_m(double extent_m) {
+  return std::clamp(extent_m / 24, 2.0, 6.0);
+}
+
 Region find_close_up(std::span<const SlabPoints> maps, double height_m, double width_m) {
   const auto best = differing_places(maps, height_m, width_m, 1);
   if (!best.empty()) return best.front().region;

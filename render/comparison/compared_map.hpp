@@ -9,6 +9,7 @@
 #include "core/geometry/pose.hpp"
 #include "core/map/feature_points.hpp"
 #include "core/map/surface_thickness.hpp"
+#include "render/pictures/scanner_mark.hpp"
 
 namespace sweepscope {
 
@@ -19,6 +20,7 @@ struct ComparedMap {
   MapCloud::ConstPtr cloud;                // in the map frame, z up
   std::vector<StampedPose> path;           // the sensor's path, which heights refer to; may be empty
   double path_height_m = 0;                // the sensor's height if `path` is empty
+  std::optional<ScannerPose> scanner;      // at the end of the path; absent if not known
   std::vector<FeatureKind> feature_kinds;  // of each point; empty if not known
 
   std::shared_ptr<const SurfaceThickness> thickness;  // of the cloud; null if it was not measured

@@ -11,6 +11,7 @@
 #include "render/comparison/comparison_layout.hpp"
 #include "render/comparison/comparison_marks.hpp"
 #include "render/comparison/comparison_points.hpp"
+#include "render/comparison/scene_depth.hpp"
 
 namespace sweepscope {
 namespace {
@@ -96,17 +97,16 @@ std::vector<View> overviews_of(const Prepared& prepared, const ComparisonLayout&
   return views;
 }
 
-/// A close-up's height by the extent of what the overview shows.
-double close_up_height_m(const View& overview) {
-  const double overview_m = Projection(overview.scene.camera, overview.place).metres_per_px() *
-                            std::max(overview.place.width, overview.place.height);
-  return std::clamp(overview_m / 24, 2.0, 6.0);
+/// The extent of what a view shows.
+double extent_m(const View& view) {
+  return Projection(view.scene.camera, view.place).metres_per_px() *
+         std::max(view.place.width, view.place.height);
 }
 
 Region close_up_region(const Prepared& prepared, const View& overview, double aspect,
                        const ComparisonOptions& options) {
   if (options.close_up) return *options.close_up;
-  const double height_m = close_up_height_m(overview);
+  const double height_m = close_up_height_m(extent_m(overview));
   return find_close_up(prepared.maps, height_m, height_m * aspect);
 }
 
@@ -174,6 +174,10 @@ View with_points(View view, const Panel& panel, const SlabPoints& map, float min
   return view;
 }
 
+Box box_shown(const Panel& panel) {
+  return panel.options.box ? *panel.options.box : box_of(panel.prepared.maps);
+}
+
 ScenePath sensor_path(std::span<const StampedPose> poses, const Panel& panel) {
   ScenePath path{{}, 1.2 * panel.layout.scale, panel.style.map_highlight};
   path.colour.alpha = 120;
@@ -218,6 +222,7 @@ void add_map(Picture& picture, const ComparedMap& map, std::size_t index, const 
   }
   View overview = with_points(prepared.overviews[index], panel, points, kNoLimit_m, 1);
   overview.scene.paths.push_back(sensor_path(map.path, panel));
+  overview = with_depth(std::move(overview), {options.cues, box_shown(panel), map.scanner, scale}, style);
   const Projection projection(overview.scene.camera, overview.place);
   add_overview_marks(picture.marks, projection, overview.scene.camera, style, scale);
   if (!prepared.close_ups.empty()) {
@@ -323,7 +328,7 @@ Result<std::vector<DifferingPlace>> differing_places(std::span<const ComparedMap
     const std::vector<float> no_values(map.size());
     prepared.maps.push_back(points_in_slabs(map, no_values, prepared.slabs, options.box));
   }
-  const double height_m = close_up_height_m(overviews_of(prepared, layout, options).front());
+  const double height_m = close_up_height_m(extent_m(overviews_of(prepared, layout, options).front()));
   const PixelRect& place = layout.close_ups.front();
   return differing_places(prepared.maps, height_m, height_m * place.width / place.height, kMaxPlaces);
 }

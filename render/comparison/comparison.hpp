@@ -13,6 +13,7 @@
 #include "render/comparison/compared_map.hpp"
 #include "render/drawing/style.hpp"
 #include "render/pictures/camera.hpp"
+#include "render/pictures/depth_cues.hpp"
 #include "render/pictures/picture.hpp"
 
 namespace sweepscope {
@@ -49,6 +50,7 @@ struct ComparisonOptions {
   Viewpoint viewpoint = Viewpoint::kTop;
   bool perspective = false;
   std::optional<Camera> camera;  // instead of the viewpoint
+  DepthCues cues;                // of the overviews; the close-ups are plans
   std::optional<Box> box;        // only what is inside, fitted to the view
   /// The heights shown. A roll error moves points in proportion to their height above or below the sensor, so
   /// it is not visible near the sensor's own height, and a ceiling hides everything below it. Empty: from

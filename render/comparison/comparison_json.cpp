@@ -10,17 +10,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json thickness_json(const ComparedMap& map) {
-  if (!map.thickness || !map.thickness->map) return nullptr;
-  const MapThickness& thickness = *map.thickness->map;
-  return {{"median_mm", std::round(thickness.median_m * 1e4) / 10},
-          {"p90_mm", std::round(thickness.p90_m * 1e4) / 10},
-          {"flat_part", std::round(thickness.flat_part * 1e3) / 1e3}};
-}
-
 Json map_json(const ComparedMap& map) {
   const Json offset_ms = map.offset_s ? Json(std::round(*map.offset_s * 1e12) / 1e9) : Json(nullptr);
-  return {{"label", map.label}, {"offset_ms", offset_ms}, {"thickness", thickness_json(map)}};
+  const bool measured = map.thickness && map.thickness->map;
+  const Json thickness = measured ? thickness_json(*map.thickness->map) : Json(nullptr);
+  return {{"label", map.label}, {"offset_ms", offset_ms}, {"thickness", thickness}};
 }
 
 Json place_json(const DifferingPlace& place) {
@@ -35,6 +29,12 @@ Json place_json(const DifferingPlace& place) {
 }
 
 }  // namespace
+
+Json thickness_json(const MapThickness& thickness) {
+  return {{"median_mm", std::round(thickness.median_m * 1e4) / 10},
+          {"p90_mm", std::round(thickness.p90_m * 1e4) / 10},
+          {"flat_part", std::round(thickness.flat_part * 1e3) / 1e3}};
+}
 
 std::string comparison_json(std::span<const ComparedMap> maps, std::span<const DifferingPlace> places) {
   Json json{{"schema", "sweepscope.compare/1"}, {"maps", Json::array()}, {"places", Json::array()}};

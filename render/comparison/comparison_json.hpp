@@ -1,11 +1,15 @@
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
 
 #include "render/comparison/comparison.hpp"
 
 namespace sweepscope {
+
+/// How thick a map's surfaces are: median_mm, p90_mm, and flat_part of all cubes that hold points.
+nlohmann::ordered_json thickness_json(const MapThickness& thickness);
 
 /// A comparison as a JSON object (schema "sweepscope.compare/1"), with a line end. "maps": each map's label,
 /// offset_ms and thickness (null where there is none). "places": where they differ most, best first: x_m and

@@ -14,7 +14,7 @@
 namespace sweepscope {
 namespace {
 
-constexpr double kBodyPx = 14;
+constexpr double kBodyPx = 14, kAxisArmPx = 26, kAxisLetterPx = 12;
 
 struct ScaleBar {
   double length_px = 0;
@@ -64,39 +64,14 @@ void add_scale_bar_inside(Drawing& drawing, const Projection& projection, const 
   drawing.add(TextMark{{left_end.x + bar.length_px + pad, left_end.y}, bar.label, size, style.map_highlight});
 }
 
-/// Which way x, y and z go, at the view's lower left. An axis that points at the camera is left out.
-void add_axes(Drawing& drawing, const Projection& projection, const Camera& camera, const Style& style,
-              double scale) {
-  const double arm_px = 26 * scale, size = 12 * scale, pad = 10 * scale, side = 1.3 * arm_px + 2.4 * size;
+void add_axes_inside(Drawing& drawing, const Projection& projection, const Camera& camera, const Style& style,
+                     double scale) {
+  const double pad = 10 * scale, side = axes_side_px(scale);
   const PixelRect& place = projection.place();
   if (place.width < 2 * side || place.height < 1.4 * side) return;
   const PixelRect ground{place.left + pad, place.bottom() - pad - side, side, side};
   drawing.fill(ground, veil_of(style));
-  const Eigen::Vector3d forward = (camera.looks_at_m - camera.position_m).normalized();
-  const Eigen::Vector3d right = forward.cross(camera.up).normalized(), up = right.cross(forward);
-  const PixelPoint middle{ground.left + side / 2, ground.top + side / 2};
-  constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
-  Eigen::Vector2d sum(0, 0);  // the origin sits opposite to where the arms go, so that all fits
-  std::vector<std::pair<const char*, Eigen::Vector2d>> arms;
-  for (int axis = 0; axis < 3; ++axis) {
-    const Eigen::Vector2d arm(right[axis], -up[axis]);
-    if (arm.norm() < 0.2) continue;
-    arms.emplace_back(kAxes[static_cast<std::size_t>(axis)], arm);
-    sum += arm;
-  }
-  const Eigen::Vector2d origin(middle.x - 0.5 * arm_px * sum.x(), middle.y - 0.5 * arm_px * sum.y());
-  for (const auto& [name, arm] : arms) {
-    const Eigen::Vector2d tip = origin + arm_px * arm, letter = tip + 0.75 * size * arm.normalized();
-    const Eigen::Vector2d back = tip - 6 * scale * arm.normalized();
-    const Eigen::Vector2d aside = 3.2 * scale * Eigen::Vector2d(-arm.y(), arm.x()).normalized();
-    drawing.line({origin.x(), origin.y()}, {back.x(), back.y()}, 1.5 * scale, style.map_highlight);
-    drawing.add(PolygonMark{{{tip.x(), tip.y()},
-                             {back.x() + aside.x(), back.y() + aside.y()},
-                             {back.x() - aside.x(), back.y() - aside.y()}},
-                            style.map_highlight});
-    drawing.add(TextMark{
-        {letter.x(), letter.y()}, name, size, style.map_highlight, AlignX::kCentre, AlignY::kMiddle});
-  }
+  add_axes(drawing, ground, camera, style.map_highlight, scale);
 }
 
 std::string describe_side(double near_m, double far_m, const char* side) {
@@ -135,6 +110,38 @@ void add_words(Drawing& drawing, const PixelRect& place, const std::string& head
 }
 
 }  // namespace
+
+double axes_side_px(double scale) {
+  return 1.3 * kAxisArmPx * scale + 2.4 * kAxisLetterPx * scale;
+}
+
+void add_axes(Drawing& drawing, const PixelRect& ground, const Camera& camera, Colour colour, double scale) {
+  const double arm_px = kAxisArmPx * scale, size = kAxisLetterPx * scale, side = ground.width;
+  const Eigen::Vector3d forward = (camera.looks_at_m - camera.position_m).normalized();
+  const Eigen::Vector3d right = forward.cross(camera.up).normalized(), up = right.cross(forward);
+  const PixelPoint middle{ground.left + side / 2, ground.top + side / 2};
+  constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
+  Eigen::Vector2d sum(0, 0);  // the origin sits opposite to where the arms go, so that all fits
+  std::vector<std::pair<const char*, Eigen::Vector2d>> arms;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Eigen::Vector2d arm(right[axis], -up[axis]);
+    if (arm.norm() < 0.2) continue;
+    arms.emplace_back(kAxes[static_cast<std::size_t>(axis)], arm);
+    sum += arm;
+  }
+  const Eigen::Vector2d origin(middle.x - 0.5 * arm_px * sum.x(), middle.y - 0.5 * arm_px * sum.y());
+  for (const auto& [name, arm] : arms) {
+    const Eigen::Vector2d tip = origin + arm_px * arm, letter = tip + 0.75 * size * arm.normalized();
+    const Eigen::Vector2d back = tip - 6 * scale * arm.normalized();
+    const Eigen::Vector2d aside = 3.2 * scale * Eigen::Vector2d(-arm.y(), arm.x()).normalized();
+    drawing.line({origin.x(), origin.y()}, {back.x(), back.y()}, 1.5 * scale, colour);
+    drawing.add(PolygonMark{{{tip.x(), tip.y()},
+                             {back.x() + aside.x(), back.y() + aside.y()},
+                             {back.x() - aside.x(), back.y() - aside.y()}},
+                            colour});
+    drawing.add(TextMark{{letter.x(), letter.y()}, name, size, colour, AlignX::kCentre, AlignY::kMiddle});
+  }
+}
 
 std::string describe_slabs(std::span<const HeightRange> slabs) {
   std::string text;
@@ -177,7 +184,7 @@ void add_label(Drawing& drawing, PixelPoint baseline, double width_px, const std
 void add_overview_marks(Drawing& drawing, const Projection& projection, const Camera& camera,
                         const Style& style, double scale) {
   if (camera.orthographic) add_scale_bar_above(drawing, projection, style, scale);
-  add_axes(drawing, projection, camera, style, scale);
+  add_axes_inside(drawing, projection, camera, style, scale);
   drawing.frame(projection.place(), scale, style.frame);
 }
 

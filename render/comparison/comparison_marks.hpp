@@ -18,6 +18,9 @@ void add_label(Drawing& drawing, PixelPoint baseline, double width_px, const std
 /// A scale bar if the scale is the same everywhere, the directions of the axes, a frame.
 void add_overview_marks(Drawing& drawing, const Projection& projection, const Camera& camera,
                         const Style& style, double scale);
+/// Which way x, y and z go, in a square. An axis that points at the camera is left out.
+void add_axes(Drawing& drawing, const PixelRect& ground, const Camera& camera, Colour colour, double scale);
+double axes_side_px(double scale);
 void add_close_up_marks(Drawing& drawing, const Projection& projection, const Style& style, double scale);
 /// The bar of colours with its numbers, or the list of classes.
 void add_legend(Drawing& drawing, const ComparisonLayout& layout, const Colouring& colouring,

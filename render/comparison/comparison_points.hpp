@@ -44,6 +44,9 @@ Bounds bounds_of(std::span<const SlabPoints> maps, std::size_t axis, double oute
 std::vector<DifferingPlace> differing_places(std::span<const SlabPoints> maps, double height_m,
                                              double width_m, std::size_t max_count);
 
+/// The height of a close-up that suits maps of that extent.
+double close_up_height_m(double extent_m);
+
 /// The first of them, or the middle of the maps.
 Region find_close_up(std::span<const SlabPoints> maps, double height_m, double width_m);
 

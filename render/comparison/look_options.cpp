@@ -139,7 +139,7 @@ Result<void> assign(T& to, Result<T> value) {
 
 std::vector<LookOption> declare() {
   using Options = ComparisonOptions;
-  return {
+  std::vector<LookOption> options{
       {"size", "WxH", "Size of the picture in pixels (default: 1920x1200)", false, set_size},
       {"title", "TEXT", "Title above the maps (default: the recording's name)", false,
        [](Options& o, const std::string& text) { return o.title = text, Result<void>(); }},
@@ -175,6 +175,12 @@ std::vector<LookOption> declare() {
        "maps differ most in sharpness)",
        false, set_close_up},
   };
+  for (const DepthCueOption& option : depth_cue_options())
+    options.push_back({option.name, "WHEN", option.help + " (default: auto)", false,
+                       [cue = option.cue](Options& o, const std::string& text) {
+                         return assign(o.cues.*cue, switch_named(text));
+                       }});
+  return options;
 }
 
 }  // namespace

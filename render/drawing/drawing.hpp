@@ -67,6 +67,9 @@ class Drawing {
   using Mark = std::variant<TextMark, LineMark, PolygonMark, AreaMark>;
 
   void add(Mark mark);
+  void add_all(const Drawing& other) {
+    marks_.insert(marks_.end(), other.marks_.begin(), other.marks_.end());
+  }
   void line(PixelPoint from, PixelPoint to, double width_px, Colour colour) {
     add(LineMark{{from, to}, width_px, colour});
   }

@@ -29,7 +29,8 @@ void set_font(vtkTextProperty& property, double size_px, bool bold) {
 class DrawingItem final : public vtkContextItem {
  public:
   static DrawingItem* New();
-  vtkTypeMacro(DrawingItem, vtkContextItem)  // NOLINT(bugprone-derived-method-shadowing-base-method)
+  // NOLINTNEXTLINE(bugprone-derived-method-shadowing-base-method): as every class of VTK does.
+  vtkTypeMacro(DrawingItem, vtkContextItem)
 
       void adopt(std::shared_ptr<const Drawing> drawing, double scale) {
     drawing_ = std::move(drawing);

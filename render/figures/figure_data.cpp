@@ -1,4 +1,5 @@
 #include "render/figures/figure_data.hpp"
+#include "render/comparison/scanner_pose.hpp"
 
 #include <fmt/format.h>
 
@@ -201,6 +202,7 @@ Result<void> FigureData::build(const std::string& name, bool true_poses, bool wi
     map.label = specs[indices[k]].label;
     map.offset_s = offsets_s[k];
     map.cloud = (*built)[k].cloud;
+    map.scanner = scanner_pose((*data)->recording, (*built)[k].trajectory, offsets_s[k]);
     map.path = std::move((*built)[k].trajectory);
     const bool features_only = specs[indices[k]].features_only;
     if (!with_features && !features_only) continue;

@@ -119,7 +119,8 @@ Picture profile_picture(std::span<const ComparedMap> maps, const CrossSection& s
                                     0.42 * page.room.width / columns));
   for (std::size_t i = 0; i < maps.size(); ++i) {
     const auto line = static_cast<std::size_t>(upright ? columns : rows);
-    const double across = static_cast<double>(i % line), along = static_cast<double>(i / line);
+    const std::size_t line_number = i / line;
+    const double across = static_cast<double>(i % line), along = static_cast<double>(line_number);
     const double row = upright ? along : across, column = upright ? across : along;
     const PixelRect place{page.room.left + column * (side + gap),
                           page.room.top + label_room + row * (side + label_room + gap), side, side};

@@ -496,4 +496,11 @@ Result<Recipe> read_recipe(const std::filesystem::path& path) {
       .map([&] { return std::move(recipe); });
 }
 
+Result<Recipe> parse_recipe(const std::string& text, const std::string& name) {
+  Recipe recipe;
+  return yaml::read_document(text, name,
+                             [&](const Node& document) { recipe = RecipeReader(name).read(document); })
+      .map([&] { return std::move(recipe); });
+}
+
 }  // namespace sweepscope

@@ -129,5 +129,8 @@ struct Recipe {
 /// Reads a recipe (YAML; see assets/figures). Files that it names are relative to its folder. Unknown keys,
 /// unknown names and invalid values are errors with line and column.
 Result<Recipe> read_recipe(const std::filesystem::path& path);
+/// The same for a recipe that is not in a file: files are relative to the current folder. `name` stands for
+/// the file in messages; it names no folder.
+Result<Recipe> parse_recipe(const std::string& text, const std::string& name);
 
 }  // namespace sweepscope

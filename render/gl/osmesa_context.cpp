@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "render/gl/context.hpp"
+#include "render/gl/offscreen_context.hpp"
 
 namespace sweepscope::gl {
 namespace {
@@ -100,11 +100,11 @@ const Result<Libraries*>& libraries_once() {
 
 thread_local const Context* current_context = nullptr;
 
-class OsmesaContext final : public Context {
+class OsmesaContext final : public OffscreenContext {
  public:
   OsmesaContext(const Libraries& libraries, void* context, int width_px, int height_px)
-      : libraries_(libraries), context_(context), width_px_(width_px), height_px_(height_px) {
-    pixels_.resize(std::size_t{4} * static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px));
+      : libraries_(libraries), context_(context) {
+    resize(width_px, height_px);
   }
 
   ~OsmesaContext() override {
@@ -118,6 +118,13 @@ class OsmesaContext final : public Context {
     libraries_.make_current(context_, pixels_.data(), kGlUnsignedByte, width_px_, height_px_);
     libraries_.dispatch_make_current(&thread_state_, libraries_.table, libraries_.vendor_id, nullptr);
     current_context = this;
+  }
+
+  void resize(int width_px, int height_px) override {
+    release();  // it draws into the pixels until then
+    width_px_ = width_px;
+    height_px_ = height_px;
+    pixels_.resize(std::size_t{4} * static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px));
   }
 
   void release() override {
@@ -142,7 +149,7 @@ class OsmesaContext final : public Context {
  private:
   const Libraries& libraries_;
   void* context_;
-  int width_px_, height_px_;
+  int width_px_ = 0, height_px_ = 0;
   std::vector<std::uint8_t> pixels_;
   DispatchThreadState thread_state_;
 };
@@ -154,27 +161,34 @@ Result<void> check_offscreen() {
 }
 
 Result<std::unique_ptr<Context>> make_offscreen_context(int width_px, int height_px) {
-  return libraries_once().and_then([&](const Libraries* libraries) -> Result<std::unique_ptr<Context>> {
-    // A compatibility profile would give other pixels than a window's core profile.
-    const std::array<int, 13> attributes{kOsmesaFormat,
-                                         kGlRgba,
-                                         kOsmesaDepthBits,
-                                         24,
-                                         kOsmesaStencilBits,
-                                         8,
-                                         kOsmesaProfile,
-                                         kOsmesaCoreProfile,
-                                         kOsmesaMajor,
-                                         3,
-                                         kOsmesaMinor,
-                                         3,
-                                         0};
-    void* context = libraries->create_context(attributes.data(), nullptr);
-    if (context == nullptr) {
-      return cannot_draw("libOSMesa.so.8 gives no OpenGL 3.3 core context; install Mesa 17 or later");
-    }
-    return std::make_unique<OsmesaContext>(*libraries, context, width_px, height_px);
+  return make_resizable_context(width_px, height_px).map([](std::unique_ptr<OffscreenContext>&& context) {
+    return std::unique_ptr<Context>(std::move(context));
   });
+}
+
+Result<std::unique_ptr<OffscreenContext>> make_resizable_context(int width_px, int height_px) {
+  return libraries_once().and_then(
+      [&](const Libraries* libraries) -> Result<std::unique_ptr<OffscreenContext>> {
+        // A compatibility profile would give other pixels than a window's core profile.
+        const std::array<int, 13> attributes{kOsmesaFormat,
+                                             kGlRgba,
+                                             kOsmesaDepthBits,
+                                             24,
+                                             kOsmesaStencilBits,
+                                             8,
+                                             kOsmesaProfile,
+                                             kOsmesaCoreProfile,
+                                             kOsmesaMajor,
+                                             3,
+                                             kOsmesaMinor,
+                                             3,
+                                             0};
+        void* context = libraries->create_context(attributes.data(), nullptr);
+        if (context == nullptr) {
+          return cannot_draw("libOSMesa.so.8 gives no OpenGL 3.3 core context; install Mesa 17 or later");
+        }
+        return std::make_unique<OsmesaContext>(*libraries, context, width_px, height_px);
+      });
 }
 
 }  // namespace sweepscope::gl

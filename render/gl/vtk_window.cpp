@@ -17,6 +17,7 @@ namespace {
 class ContextWindow final : public vtkGenericOpenGLRenderWindow {
  public:
   static ContextWindow* New();
+  // NOLINTNEXTLINE(bugprone-derived-method-shadowing-base-method): as every class of VTK
   vtkTypeMacro(ContextWindow, vtkGenericOpenGLRenderWindow)
 
       void adopt(Context& context) {
@@ -62,6 +63,7 @@ std::string without_place(std::string text) {
 class Messages final : public vtkOutputWindow {
  public:
   static Messages* New();
+  // NOLINTNEXTLINE(bugprone-derived-method-shadowing-base-method): as every class of VTK
   vtkTypeMacro(Messages, vtkOutputWindow)
 
       void DisplayText(const char*) override {}

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -73,28 +74,28 @@ Result<Json> colourings_json(const LiveMap& live, const std::vector<HeightRange>
   return list;
 }
 
-/// The space that the maps fill at these heights, without stray points.
-Json box_json(const LiveMap& live, const std::vector<HeightRange>& slabs) {
-  constexpr double kOutermost = 0.001;
+std::vector<SlabPoints> shown_in(const std::vector<HeightRange>& slabs, const LiveMap& live) {
   std::vector<SlabPoints> shown;
   for (const ComparedMap& map : live.still)
     shown.push_back(points_in_slabs(map, std::vector<float>(map.size()), slabs));
-  Json from = Json::array(), to = Json::array();
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const Bounds bounds = bounds_of(shown, axis, kOutermost);
-    from.push_back(bounds.from);
-    to.push_back(bounds.to);
-  }
-  return {from, to};
+  return shown;
+}
+
+/// The space that points fill, without stray ones.
+std::array<Bounds, 3> box_of(const std::vector<SlabPoints>& shown) {
+  constexpr double kOutermost = 0.001;
+  return {bounds_of(shown, 0, kOutermost), bounds_of(shown, 1, kOutermost), bounds_of(shown, 2, kOutermost)};
+}
+
+Json json_of(const std::array<Bounds, 3>& box) {
+  const auto& [x_m, y_m, z_m] = box;
+  return {{x_m.from, y_m.from, z_m.from}, {x_m.to, y_m.to, z_m.to}};
 }
 
 /// Where the two maps differ most, seen from above.
-Region close_up(const LiveMap& live, const std::vector<HeightRange>& slabs) {
-  constexpr double kHeight_m = 4;
-  std::vector<SlabPoints> shown;
-  for (const ComparedMap& map : live.still)
-    shown.push_back(points_in_slabs(map, std::vector<float>(map.size()), slabs));
-  return find_close_up(shown, kHeight_m, kHeight_m);
+Region close_up(const std::vector<SlabPoints>& shown, const std::array<Bounds, 3>& box) {
+  const double height_m = close_up_height_m(std::max(box[0].to - box[0].from, box[1].to - box[1].from));
+  return find_close_up(shown, height_m, height_m);
 }
 
 Json json_of(const Chart& chart) {
@@ -196,8 +197,10 @@ Result<std::string> live_map_data(const LiveMap& live) {
   head["offset_ms"] = {in_ms(live.offset_s[0]), in_ms(live.offset_s[1])};
   head["span_ms"] = {in_ms(live.span.from_s), in_ms(live.span.to_s)};
   head["slabs_m"] = {{"top", json_of(top_slabs)}, {"other", json_of(all_slabs)}};
-  head["box_m"] = {{"top", box_json(live, top_slabs)}, {"other", box_json(live, all_slabs)}};
-  const Region differs = close_up(live, top_slabs);
+  const std::vector<SlabPoints> top_points = shown_in(top_slabs, live);
+  const auto top_box = box_of(top_points);
+  head["box_m"] = {{"top", json_of(top_box)}, {"other", json_of(box_of(shown_in(all_slabs, live)))}};
+  const Region differs = close_up(top_points, top_box);
   head["close_up"] = {{"centre_m", {differs.centre_m.x(), differs.centre_m.y()}},
                       {"height_m", differs.height_m}};
   head["colourings"] = std::move(*colourings);

@@ -93,6 +93,11 @@ Projection::Projection(const Camera& camera, const PixelRect& place)
                                  : (camera.looks_at_m - camera.position_m).norm() / pixels_per_slope_;
 }
 
+double Projection::metres_per_px_at(const Eigen::Vector3d& point_m) const {
+  if (orthographic_) return metres_per_px_;
+  return std::max((point_m - origin_m_).dot(forward_), 1e-6) / pixels_per_slope_;
+}
+
 std::optional<PixelPoint> Projection::operator()(const Eigen::Vector3d& point_m) const {
   const Eigen::Vector3d p = point_m - origin_m_;
   double px_per_m = 1 / metres_per_px_;

@@ -52,6 +52,8 @@ class Projection {
   std::optional<PixelPoint> operator()(const Eigen::Vector3d& point_m) const;
   /// At the depth of what the camera looks at.
   double metres_per_px() const { return metres_per_px_; }
+  /// At the depth of a point, which is before the camera.
+  double metres_per_px_at(const Eigen::Vector3d& point_m) const;
   const PixelRect& place() const { return place_; }
 
  private:

@@ -1,5 +1,7 @@
 #include "render/pictures/live_view.hpp"
 
+#include <vtk_glew.h>
+
 #include <vtkActor.h>
 #include <vtkCamera.h>
 #include <vtkGenericOpenGLRenderWindow.h>
@@ -17,7 +19,10 @@
 #include <chrono>
 
 #include "render/clouds/point_polydata.hpp"
+#include "render/clouds/splats.hpp"
+#include "render/gl/read_framebuffer.hpp"
 #include "render/gl/vtk_window.hpp"
+#include "render/pictures/depth_scale.hpp"
 
 namespace sweepscope {
 namespace {
@@ -28,29 +33,37 @@ constexpr std::size_t kSlicePoints = 32768;
 struct Slices {
   LivePointsPtr points;
   std::vector<vtkSmartPointer<vtkActor>> actors;
+  bool wants_splats = false, splats = false;  // splats: the points have what it takes
+
+  void forget(vtkRenderer& renderer) { reset(points, renderer); }
 
   void reset(LivePointsPtr next, vtkRenderer& renderer) {
     for (const auto& actor : actors) {
       if (actor) renderer.RemoveActor(actor);
     }
+    splats = wants_splats && next && next->spacing_m.size() == next->size();
     points = std::move(next);
     actors.assign(points ? (points->size() + kSlicePoints - 1) / kSlicePoints : 0, nullptr);
   }
   /// Stays in the renderer, unseen between drawings: VTK uploads an actor's points anew once it was away.
-  vtkActor* at(std::size_t slice, double point_size_px, vtkRenderer& renderer) {
+  vtkActor* at(std::size_t slice, const SplatSizes& sizes, vtkRenderer& renderer) {
     if (!actors[slice]) {
       const std::size_t from = slice * kSlicePoints, count = std::min(kSlicePoints, points->size() - from);
       vtkNew<vtkPolyDataMapper> mapper;
+      const std::span<const float> spacing_m =
+          splats ? std::span(points->spacing_m).subspan(from, count) : std::span<const float>();
       mapper->SetInputData(to_polydata(std::span(points->xyz_m).subspan(from, count),
-                                       std::span(points->rgb).subspan(from, count)));
+                                       std::span(points->rgb).subspan(from, count), spacing_m));
       mapper->SetColorModeToDirectScalars();
       mapper->StaticOn();
       actors[slice] = vtkSmartPointer<vtkActor>::New();
       actors[slice]->SetMapper(mapper);
+      if (splats) add_splats(*actors[slice], *mapper);
       actors[slice]->GetProperty()->LightingOff();
       renderer.AddActor(actors[slice]);
     }
-    actors[slice]->GetProperty()->SetPointSize(static_cast<float>(point_size_px));
+    actors[slice]->GetProperty()->SetPointSize(static_cast<float>(sizes.min_px));
+    if (splats) set_splat_sizes(*actors[slice], sizes);
     return actors[slice];
   }
 };
@@ -58,13 +71,11 @@ struct Slices {
 /// A copy of a finished picture: what is shown while the next one is collected.
 class KeptPicture {
  public:
+  /// The window's picture as it is.
   void keep(vtkGenericOpenGLRenderWindow& window) {
     const int* size_px = window.GetSize();
     const auto width_px = static_cast<unsigned>(size_px[0]), height_px = static_cast<unsigned>(size_px[1]);
-    if (!texture_) {
-      texture_ = vtkSmartPointer<vtkTextureObject>::New();
-      texture_->SetContext(&window);
-    }
+    make_texture(window);
     if (texture_->GetWidth() != width_px || texture_->GetHeight() != height_px)
       texture_->Allocate2D(width_px, height_px, Image::kChannels, VTK_UNSIGNED_CHAR);
     vtkOpenGLFramebufferObject& drawn = *window.GetDisplayFramebuffer();
@@ -74,6 +85,14 @@ class KeptPicture {
     texture_->CopyFromFrameBuffer(0, 0, 0, 0, size_px[0], size_px[1]);
     texture_->Deactivate();
     window.GetState()->PopReadFramebufferBinding();
+    valid_ = true;
+  }
+  /// A picture with its rows from the bottom.
+  void keep(vtkGenericOpenGLRenderWindow& window, Image& rows) {
+    make_texture(window);
+    texture_->Create2DFromRaw(static_cast<unsigned>(rows.width_px), static_cast<unsigned>(rows.height_px),
+                              Image::kChannels, VTK_UNSIGNED_CHAR, rows.rgba.data());
+    texture_->Deactivate();
     valid_ = true;
   }
   void forget() { valid_ = false; }
@@ -100,6 +119,12 @@ class KeptPicture {
   }
 
  private:
+  void make_texture(vtkGenericOpenGLRenderWindow& window) {
+    if (texture_) return;
+    texture_ = vtkSmartPointer<vtkTextureObject>::New();
+    texture_->SetContext(&window);
+  }
+
   vtkSmartPointer<vtkTextureObject> texture_;
   bool valid_ = false;
 };
@@ -128,8 +153,24 @@ struct LiveView::Parts {
     if (actor != nullptr) actor->VisibilityOn();
     renderer->SetErase(clear);
     apply_camera();
+    const SplatsOn splats_on(coarse.splats || full.splats);
+    const bool wants_depth = lighting || transparent, had_depth = glIsEnabled(GL_DEPTH_TEST) == GL_TRUE;
+    if (wants_depth) use_depth(true);
     window->Render();
+    if (wants_depth && !had_depth) use_depth(false);
     if (actor != nullptr) actor->VisibilityOff();
+  }
+
+  /// Windows of one context, and the interface, keep accounts of its state that do not match.
+  void use_depth(bool on) {
+    vtkOpenGLState& state = *window->GetState();
+    state.ResetEnumState(GL_DEPTH_TEST);
+    state.ResetGLDepthMaskState();
+    if (on)
+      state.vtkglEnable(GL_DEPTH_TEST);
+    else
+      state.vtkglDisable(GL_DEPTH_TEST);
+    state.vtkglDepthMask(GL_TRUE);
   }
 
   void apply_camera() {
@@ -168,13 +209,32 @@ struct LiveView::Parts {
   void draw_next() {
     const std::size_t slice = drawn++;
     if (slice == 0) return render(nullptr, true);
-    if (slice <= coarse.actors.size()) return render(coarse.at(slice - 1, point_size_px, *renderer), false);
-    render(full.at(slice - coarse_steps(), point_size_px, *renderer), false);
+    if (slice <= coarse.actors.size()) return render(coarse.at(slice - 1, splat_sizes(), *renderer), false);
+    render(full.at(slice - coarse_steps(), splat_sizes(), *renderer), false);
   }
   void keep_what_is_whole() {
-    if (drawn == coarse_steps() && !coarse_picture.valid()) coarse_picture.keep(*window);
+    if (drawn == coarse_steps() && !coarse_picture.valid()) keep(coarse_picture);
     if (full.points && drawn == coarse_steps() + full.actors.size() && !full_picture.valid())
-      full_picture.keep(*window);
+      keep(full_picture);
+  }
+  void keep(KeptPicture& picture) {
+    if (!lighting && !transparent) return picture.keep(*window);
+    colours = gl::read_colours(*window, std::move(colours));
+    depths = gl::read_depths(*window, std::move(depths));
+    if (lighting)
+      colours = with_lighting(std::move(colours), depths,
+                              depth_scale(*renderer, camera, window->GetSize()[1]), *lighting);
+    if (transparent) colours = without_gaps(std::move(colours), depths);
+    picture.keep(*window, colours);
+  }
+  SplatSizes splat_sizes() const {
+    return {pixels_per_metre(camera, window->GetSize()[1]), point_size_px, kMaxSplatGrowth * point_size_px};
+  }
+  void use_splats(bool on) {
+    for (Slices* slices : {&coarse, &full}) {
+      slices->wants_splats = on;
+      slices->forget(*renderer);
+    }
   }
 
   gl::Context& context;
@@ -188,6 +248,10 @@ struct LiveView::Parts {
   std::array<double, 6> bounds{1, -1, 1, -1, 1, -1};
   std::size_t drawn = 0;  // of the empty picture, the coarse slices and the full ones
   KeptPicture coarse_picture, full_picture;
+  std::optional<Lighting> lighting;
+  bool splats = false, transparent = false;
+  Image colours;      // read back, to be lit
+  DepthImage depths;  // kept for their memory
 };
 
 LiveView::LiveView(gl::Context& context) : parts_(std::make_unique<Parts>(context)) {}
@@ -229,6 +293,25 @@ void LiveView::set_background(Colour colour) {
   parts_->background = colour;
   parts_->renderer->SetBackgroundAlpha(1);
   parts_->renderer->SetBackground(colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0);
+  parts_->begin_again();
+}
+
+void LiveView::set_lighting(const std::optional<Lighting>& lighting) {
+  if (lighting == parts_->lighting) return;
+  parts_->lighting = lighting;
+  parts_->begin_again();
+}
+
+void LiveView::set_splats(bool on) {
+  if (on == parts_->splats) return;
+  parts_->splats = on;
+  parts_->use_splats(on);
+  parts_->begin_again();
+}
+
+void LiveView::set_transparent(bool on) {
+  if (on == parts_->transparent) return;
+  parts_->transparent = on;
   parts_->begin_again();
 }
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "render/gl/context.hpp"
@@ -15,6 +16,7 @@ namespace sweepscope {
 struct LivePoints {
   std::vector<std::array<float, 3>> xyz_m;
   std::vector<std::array<std::uint8_t, 3>> rgb;
+  std::vector<float> spacing_m;  // of each point, for splats (spacing_of); empty: all are of one size
 
   std::size_t size() const { return xyz_m.size(); }
 };
@@ -40,6 +42,12 @@ class LiveView {
   void set_camera(const Camera& camera);
   void set_point_size(double size_px);
   void set_background(Colour colour);
+  /// How points are lit; without lighting they keep their colours.
+  void set_lighting(const std::optional<Lighting>& lighting);
+  /// Points that have a spacing grow where they are sparse.
+  void set_splats(bool on);
+  /// The textures have alpha 0 where no point is, for what is drawn below them.
+  void set_transparent(bool on);
   /// Coarse points only.
   void set_moving(bool moving);
 

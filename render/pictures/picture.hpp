@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,8 +10,11 @@
 #include "render/clouds/points.hpp"
 #include "render/drawing/drawing.hpp"
 #include "render/images/colour_table.hpp"
+#include "render/images/eye_dome.hpp"
 #include "render/images/image.hpp"
 #include "render/pictures/camera.hpp"
+#include "render/pictures/ground_grid.hpp"
+#include "render/pictures/scanner_mark.hpp"
 
 class vtkRenderWindow;
 
@@ -20,6 +24,7 @@ namespace sweepscope {
 struct CloudLayer {
   std::shared_ptr<const ColouredPoints> points;
   double point_size_px = 1;
+  bool splats = false;  // points grow where they are sparse
 };
 
 /// A line through positions of the map frame, drawn above the points.
@@ -42,6 +47,9 @@ struct Scene {
   ColourScale colours;
   std::vector<ScenePath> paths;
   std::vector<SceneLabel> labels;
+  std::optional<ScannerMark> scanner;
+  std::optional<GroundGrid> grid;    // below the points
+  std::optional<Lighting> lighting;  // its sizes in pixels of the picture
   Camera camera;
   Colour background{0, 0, 0};
 };

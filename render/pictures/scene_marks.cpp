@@ -38,6 +38,7 @@ Drawing flat_marks(const Picture& picture) {
   for (const View& view : picture.views) {
     const Projection projection(view.scene.camera, view.place);
     for (const ScenePath& path : view.scene.paths) add_path(drawing, projection, path);
+    if (view.scene.scanner) drawing.add_all(scanner_marks(*view.scene.scanner, projection));
     for (const SceneLabel& label : view.scene.labels) {
       const auto at = projection(label.at_m);
       if (!at || !view.place.contains(*at)) continue;

@@ -14,6 +14,7 @@
 #include "core/offset/walk.hpp"
 #include "core/recording/inspect.hpp"
 #include "core/results/estimate_json.hpp"
+#include "render/comparison/comparison_json.hpp"
 
 namespace sweepscope {
 namespace {
@@ -110,11 +111,9 @@ std::string report_json(const ReportContent& content) {
   auto json = nlohmann::ordered_json::parse(estimate);
   for (const ComparedMap& map : content.maps) {
     if (!map.thickness || !map.thickness->map) continue;
-    const MapThickness& thickness = *map.thickness->map;
-    json["map_thickness"].push_back({{"offset_ms", std::round(*map.offset_s * 1e12) * 1e-9},
-                                     {"median_mm", std::round(thickness.median_m * 1e4) / 10},
-                                     {"p90_mm", std::round(thickness.p90_m * 1e4) / 10},
-                                     {"flat_part", std::round(thickness.flat_part * 1e3) / 1e3}});
+    nlohmann::ordered_json thickness{{"offset_ms", std::round(*map.offset_s * 1e12) / 1e9}};
+    thickness.update(thickness_json(*map.thickness->map));
+    json["map_thickness"].push_back(std::move(thickness));
   }
   return json_text(std::move(json));
 }

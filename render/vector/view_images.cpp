@@ -44,7 +44,16 @@ Picture scenes_of(const Picture& picture, int factor) {
     const PixelRect& place = view.place;
     view.place = {factor * place.left, factor * place.top, factor * place.width, factor * place.height};
     for (CloudLayer& cloud : view.scene.clouds) cloud.point_size_px *= factor;
+    if (view.scene.lighting) {
+      view.scene.lighting->radius_px *= factor;
+      view.scene.lighting->splat_px *= factor;
+    }
+    if (view.scene.grid) {
+      view.scene.grid->line_px *= factor;
+      view.scene.grid->text_px *= factor;
+    }
     view.scene.paths.clear();  // flat_marks has them
+    view.scene.scanner.reset();
     view.scene.labels.clear();
   }
   return scenes;
