@@ -8,9 +8,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/comparison/look_options.hpp"
 #include "render/gl/default_framebuffer.hpp"
 #include "ui/host/imgui_host.hpp"
 #include "ui/host/input_queue.hpp"
+#include "ui/model/maps_picture.hpp"
 #include "ui/panes/file_dialog.hpp"
 #include "ui/panes/number_box.hpp"
 #include "ui/panes/pane_context.hpp"
@@ -24,6 +26,14 @@ namespace {
 /// Whether a tool left something on the maps.
 bool marked(const Settings& s) {
   return s.asked_scan >= 0 || s.measure_from_m != s.measure_to_m || s.profile_from_m != s.profile_to_m;
+}
+
+/// Of a picture that is exported at a size of its own.
+Result<ComparisonOptions> size_of(const Call& call) {
+  ComparisonOptions options;
+  return set_look(options, *find_look_option("size"), call.text(2))
+      .and_then([&] { return check_size(options); })
+      .map([&] { return options; });
 }
 
 /// A key that was pressed, or a "?", which is on another key of every keyboard.
@@ -71,6 +81,7 @@ struct Ui::Parts {
 
   Result<void> act(const Call& call);
   void open_front(const std::string& name, const Call& call);
+  std::string first_text(const Transient::Asked& asked);
   void dismiss();
   void perform(const std::string& line, const std::string& gesture);
   bool is_command_now(const Chord& chord) const;
@@ -83,8 +94,10 @@ struct Ui::Parts {
   PictureShape picture_shape() const;
   void remember_opened();
   bool shows_all_points() const;
-  bool picture_is_whole() const { return explorer.loaded() == nullptr || shows_all_points(); }
+  bool picture_is_whole() const { return !maps_are_shown() || shows_all_points(); }
+  bool maps_are_shown() const { return explorer.loaded() != nullptr && explorer.choosing() == nullptr; }
   void write_picture();
+  void export_maps(const Call& call);
 
   tbb::task_arena alone{1};
   Options options;
@@ -118,11 +131,32 @@ Result<void> Ui::Parts::act(const Call& call) {
     host.clipboard = explorer.command_line(context.width_px(), context.height_px());
     explorer.say(Message::Kind::kNote, "Copied: " + host.clipboard);
   }
+  if (name == "export-picture" && !call.text(2).empty()) {
+    if (call.text(1) != "maps")
+      return failure(ExitCode::kWrongUsage,
+                     "A size is for the maps alone: export-picture FILE maps 3840x2400");
+    if (auto size = size_of(call); !size) return tl::unexpected(size.error());
+  }
   if (name == "export-picture") {
     picture_asked = call;
     frames_until_picture = 2;
   }
   return {};
+}
+
+/// At a size of its own: drawn in the background, with a context of its own.
+void Ui::Parts::export_maps(const Call& call) {
+  const ComparisonOptions size = *size_of(call);
+  auto picture = maps_picture(explorer, size.width_px, size.height_px, picture_shape().aspect);
+  if (!picture) return explorer.say(Message::Kind::kError, picture.error().message);
+  const std::string path = call.text(0);
+  explorer.start_export({.title = "Writing " + path,
+                         .done = "The picture is saved in " + whole_path(path) + ".",
+                         .file = path,
+                         .write = [picture = std::move(*picture), path](const Job&) {
+                           return sweepscope::draw(picture).and_then(
+                               [&](const Image& image) { return write_png(image, path); });
+                         }});
 }
 
 void Ui::Parts::open_front(const std::string& name, const Call& call) {
@@ -136,11 +170,16 @@ void Ui::Parts::open_front(const std::string& name, const Call& call) {
   transient.palette_query.clear();
   transient.palette_choice = 0;
   transient.browsing = {};
-  transient.asked_text =
-      transient.asks_for && transient.asks_for->command == "open" ? first_path(transient.recent)
-      : transient.asks_for ? explorer.suggested_file(transient.asks_for->command, transient.asks_for->what)
-                           : "";
+  transient.asked_text = transient.asks_for ? first_text(*transient.asks_for) : "";
   transient.just_opened = true;
+}
+
+/// What stands in the field of a dialog at first.
+std::string Ui::Parts::first_text(const Transient::Asked& asked) {
+  if (asked.command == "open" || asked.command == "choose") return first_path(transient.recent);
+  if (!is_opening(asked.command)) return explorer.suggested_file(asked.command, asked.what);
+  transient.browsing.all = true;
+  return explorer.choosing() != nullptr ? first_path({explorer.choosing()->choices.file}) : "";
 }
 
 void Ui::Parts::dismiss() {
@@ -149,6 +188,8 @@ void Ui::Parts::dismiss() {
     transient.asks_for.reset();
   } else if (explorer.message()) {
     explorer.dismiss_message();
+  } else if (explorer.choosing() != nullptr) {
+    explorer.stop_choosing();
   } else if (explorer.settings().tool != Tool::kLook || marked(explorer.settings())) {
     transient.measure_from_m.reset();
     const std::string gesture = "dismiss " + std::to_string(++transient.gestures);
@@ -167,14 +208,17 @@ bool Ui::Parts::is_command_now(const Chord& chord) const {
     return escape || tab || (ctrl && (chord.key == 'P' || chord.key == 'Q'));
   }
   if (menu_is_open()) return ctrl;
+  // On the page of choices, arrows and Space go through its widgets, and letters mean maps that are not seen.
+  if (explorer.choosing() != nullptr && !ctrl)
+    return escape || chord.key == keys::kF1 || chord.key == keys::kF10;
   return ctrl || escape || chord.key == keys::kF1 || !something_in_front();
 }
 
 /// The start page by keyboard: arrows and Tab choose, Enter does it. Whether the key was its own.
 bool Ui::Parts::use_start_page(const Chord& chord) {
   const auto count = static_cast<int>(transient.start_lines.size());
-  if (explorer.loaded() != nullptr || explorer.is_loading() || something_in_front() || menu_is_open() ||
-      count == 0)
+  if (explorer.loaded() != nullptr || explorer.is_loading() || explorer.choosing() != nullptr ||
+      something_in_front() || menu_is_open() || count == 0)
     return false;
   const bool tab = chord.key == keys::kTab, back = tab && (chord.modifiers & kShift) != 0;
   int& choice = transient.start_choice;
@@ -218,23 +262,29 @@ void Ui::Parts::use_drops(std::span<const InputEvent> events) {
 
 void Ui::Parts::draw(const PaneContext& panes) {
   const double width = context.width_px(), height = context.height_px();
-  const bool open = explorer.loaded() != nullptr;
+  const bool choosing = explorer.choosing() != nullptr;
+  const bool open = explorer.loaded() != nullptr && !choosing;
   const double message_px = message_height(panes, width);
   const Places places = lay_out(width, height, panes.scale, explorer.settings(), open, message_px);
   const PixelRect whole{0, 0, width, height};
   maps_place = places.maps;
-  if (open) {
-    holds_recording = true;
+  if (explorer.loaded() != nullptr) holds_recording = true;
+  if (choosing) {
+    draw_choices_page(panes, places.maps);
+  } else if (open) {
     draw_recording_panel(panes, places.left);
     draw_maps(panes, places.maps);
     draw_criteria(panes, places.criteria);
     draw_display_panel(panes, places.right);
     draw_cards(panes, places.maps);
+    draw_playback(panes, places.playback);
+    if (!something_in_front()) draw_splitters(panes, places, whole);
   } else if (explorer.is_loading()) {
     draw_loading_page(panes, places.maps);
   } else {
     draw_start_page(panes, places.maps);
   }
+  transient.on_choices_page = choosing;
   explorer.hold_message(false);
   draw_message(panes, places.message);
   draw_status_bar(panes, places.status);
@@ -264,7 +314,7 @@ void Ui::Parts::let_go() {
 PictureShape Ui::Parts::picture_shape() const {
   const Settings& settings = explorer.settings();
   const PixelRect maps = lay_out(context.width_px(), context.height_px(), scale(), settings, true, 0).maps;
-  const MapPlaces places = lay_out_maps(maps, scale(), settings.layout);
+  const MapPlaces places = lay_out_maps(maps, scale(), settings.layout, settings.map_share);
   const PixelRect& picture = places.picture_b.width > 0 ? places.picture_b : places.picture_a;
   PictureShape shape{picture.width / std::max(picture.height, 1.0), 0, 0};
   const auto close_ups = close_up_places(picture, scale(), settings.layout);
@@ -286,8 +336,9 @@ void Ui::Parts::remember_opened() {
 void Ui::Parts::write_picture() {
   const Call asked = *picture_asked;
   picture_asked.reset();
+  if (!asked.text(2).empty() && explorer.loaded() != nullptr) return export_maps(asked);
   Image image = gl::read_default_framebuffer(context);
-  if (asked.text(1) == "maps" && explorer.loaded() != nullptr) {
+  if (asked.text(1) == "maps" && maps_are_shown()) {
     Image part(static_cast<int>(maps_place.width), static_cast<int>(maps_place.height));
     for (int y = 0; y < part.height_px; ++y)
       std::copy_n(image.pixel(static_cast<int>(maps_place.left), static_cast<int>(maps_place.top) + y),
@@ -296,8 +347,10 @@ void Ui::Parts::write_picture() {
   }
   const std::string path = asked.text(0);
   explorer.start_export(
-      "Writing " + path, [image = std::move(image), path](const Job&) { return write_png(image, path); },
-      "The picture is saved in " + whole_path(path) + ".");
+      {.title = "Writing " + path,
+       .done = "The picture is saved in " + whole_path(path) + ".",
+       .file = path,
+       .write = [image = std::move(image), path](const Job&) { return write_png(image, path); }});
 }
 
 Ui::Ui(gl::Context& context, Options options)
@@ -328,8 +381,8 @@ void Ui::Parts::frame(std::span<const InputEvent> all_events, double seconds_sin
   explorer.update(seconds_since_last);
   remember_opened();
   let_go();
-  // The keyboard is ImGui's in its menus alone: elsewhere arrows move the view.
-  host.navigate_by_keys(menu_is_open());
+  // The keyboard is ImGui's in its menus and on the page of choices: elsewhere arrows move the view.
+  host.navigate_by_keys(menu_is_open() || (explorer.choosing() != nullptr && !something_in_front()));
   host.begin_frame(events, seconds_since_last);
   anchors.clear();
   begin_number_boxes(transient);
@@ -361,7 +414,7 @@ bool Ui::pictures_done() const {
   const Parts& p = *parts_;
   if (p.picture_asked) return false;
   if (p.transient.camera_moved_s < 0.5) return false;
-  if (p.explorer.loaded() == nullptr) return true;
+  if (!p.maps_are_shown()) return true;
   const auto sides = sides_of(p.explorer.settings().layout);
   const auto done = [&](Side side) { return (side == Side::kA ? p.view_a : p.view_b).done(); };
   return std::all_of(sides.begin(), sides.end(), done);
@@ -388,7 +441,8 @@ bool Ui::is_exporting() const {
 
 bool Ui::animates() const {
   const Parts& p = *parts_;
-  return !pictures_done() || has_input() || p.transient.just_opened || p.explorer.waits_to_place();
+  return !pictures_done() || has_input() || p.transient.just_opened || p.explorer.waits_to_place() ||
+         p.explorer.is_playing();
 }
 
 std::optional<PixelRect> Ui::anchor(const std::string& name) const {

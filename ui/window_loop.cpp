@@ -90,10 +90,13 @@ void use_title(gl::Window& window, const Ui& ui, std::string& shown) {
 class ClipboardLink {
  public:
   void before(gl::Window& window, Ui& ui, std::span<const InputEvent> events) {
-    const auto pastes = [](const InputEvent& event) {
-      return event.what == InputEvent::What::kKey && event.key == 'V' && (event.modifiers & kCtrl) != 0;
+    const auto has = [&](Key key) {
+      return std::any_of(events.begin(), events.end(), [&](const InputEvent& event) {
+        return event.what == InputEvent::What::kKey && event.key == key && (event.modifiers & kCtrl) != 0;
+      });
     };
-    if (std::any_of(events.begin(), events.end(), pastes)) ui.clipboard() = last_ = window.clipboard();
+    if (has('V')) ui.clipboard() = last_ = window.clipboard();
+    if (has('C')) last_.clear();  // the same text may be copied again, over what the system has by now
   }
   void after(gl::Window& window, Ui& ui) {
     if (ui.clipboard() != last_) window.set_clipboard(last_ = ui.clipboard());
@@ -163,15 +166,24 @@ Result<void> run_in_window(Ui::Options options, const WindowOptions& wanted, con
   if (!window)
     return failure(window.error().code,
                    window.error().message +
-                       ". Without a display: --headless, with --script or --run, draws this interface; "
-                       "`sweepscope report` and `sweepscope compare` need none.");
-  (*window)->make_current();
+                       ". Without a display: --serve shows this interface in a browser, also over ssh; "
+                       "--headless, with --script or --run, draws it; `sweepscope report` and `sweepscope "
+                       "compare` need none.");
   options.recent_list = recent_list_path();
   options.preferences = preferences_path();
+  return run_explorer(**window, std::move(options), wanted.record, {gl::wake_window, {}}, first_line,
+                      scripts);
+}
+
+Result<void> run_explorer(gl::Window& window, Ui::Options options, const std::filesystem::path& record,
+                          const WindowHooks& hooks, const std::string& first_line,
+                          std::span<const Script> scripts) {
+  window.make_current();
   const double wanted_scale = options.display_scale;
-  if (wanted_scale == 1) options.display_scale = (*window)->scale();
-  Ui ui(**window, std::move(options));
-  ui.explorer().background().on_progress(gl::wake_window);
+  if (wanted_scale == 1) options.display_scale = window.scale();
+  Ui ui(window, std::move(options));
+  if (hooks.started) hooks.started(ui);
+  ui.explorer().background().on_progress(hooks.wake);
   ui.explorer().background().come_after_the_interface();
   if (!first_line.empty()) {
     if (const auto done = ui.explorer().perform(first_line); !done)
@@ -180,15 +192,32 @@ Result<void> run_in_window(Ui::Options options, const WindowOptions& wanted, con
   for (const Script& script : scripts) {
     if (auto done = run_script(ui, script); !done) return done;
   }
-  if (wanted.record.empty()) {
-    loop(**window, ui, nullptr);
+  if (record.empty()) {
+    loop(window, ui, nullptr);
     return {};
   }
-  return ScriptRecorder::create(wanted.record).and_then([&](ScriptRecorder recorder) {
-    loop(**window, ui, &recorder);
+  return ScriptRecorder::create(record).and_then([&](ScriptRecorder recorder) {
+    loop(window, ui, &recorder);
     return recorder.end();
   });
 }
+
+namespace {
+
+/// Whether a script goes on from the page that a recording with something to choose gives, rather than from
+/// its maps.
+bool uses_page(std::span<const Script> scripts) {
+  const auto begins = [](const Script& script) {
+    return std::any_of(script.lines.begin(), script.lines.end(), [](const Script::Line& line) {
+      return line.words[0] == "open-chosen" || line.words[0].starts_with("choose") ||
+             line.text.find("chosen-") != std::string::npos ||
+             line.text.find("button open-chosen") != std::string::npos;
+    });
+  };
+  return std::any_of(scripts.begin(), scripts.end(), begins);
+}
+
+}  // namespace
 
 Result<void> run_headless(gl::Context& context, Ui::Options options, const std::string& first_line,
                           std::span<const Script> scripts) {
@@ -197,8 +226,9 @@ Result<void> run_headless(gl::Context& context, Ui::Options options, const std::
     if (auto done = ui.explorer().perform(first_line); !done) return done;
     const Script wait{"REC", {{1, {"wait", "loaded"}, "wait loaded"}}};
     if (auto done = run_script(ui, wait); !done) return done;
-    if (const auto& why = ui.explorer().load_failure()) return tl::unexpected(*why);
-    if (ui.explorer().loaded() == nullptr && ui.explorer().message())
+    const auto& why = ui.explorer().load_failure();
+    if (why && !(ui.explorer().choosing() != nullptr && uses_page(scripts))) return tl::unexpected(*why);
+    if (!why && ui.explorer().loaded() == nullptr && ui.explorer().message())
       return unreadable(ui.explorer().message()->text);
   }
   for (const Script& script : scripts) {

@@ -54,7 +54,9 @@ Result<void> Explorer::perform(const Call& call, const std::string& gesture) {
   if (moves_view(call.command->name)) view_moved_ = true;
   if (next.offset_a_ms != settings_.offset_a_ms) changed_side_ = Side::kA;
   if (next.offset_b_ms != settings_.offset_b_ms) changed_side_ = Side::kB;
+  const bool clipped = next.box_from_m != settings_.box_from_m || next.box_to_m != settings_.box_to_m;
   change_settings(std::move(next), gesture);
+  if (clipped) refit_view();
   return {};
 }
 
@@ -131,6 +133,14 @@ Result<void> Explorer::act(const Call& call) {
              [=, scene = c.text(0)](const Job& job) { return load_sample(scene, seconds, job); });
        })},
       {"close", always([](Explorer& self, const Call&) { self.close(); })},
+      {"choose", [](Explorer& self, const Call& c) { return self.start_choosing(c.text(0)); }},
+      {"choose-laser", [](Explorer& self, const Call& c) { return self.choose(c); }},
+      {"choose-motor", [](Explorer& self, const Call& c) { return self.choose(c); }},
+      {"choose-stamps", [](Explorer& self, const Call& c) { return self.choose(c); }},
+      {"choose-rig", [](Explorer& self, const Call& c) { return self.choose(c); }},
+      {"choose-poses", [](Explorer& self, const Call& c) { return self.choose(c); }},
+      {"choose-part", [](Explorer& self, const Call& c) { return self.choose(c); }},
+      {"open-chosen", [](Explorer& self, const Call&) { return self.open_chosen(); }},
       {"cancel", always([](Explorer& self, const Call&) { self.cancel(); })},
       {"solve", always([](Explorer& self, const Call&) { self.solve(); })},
       {"undo",
@@ -144,6 +154,7 @@ Result<void> Explorer::act(const Call& call) {
          self.fit_view();
          return {};
        }},
+      {"play", [](Explorer& self, const Call& c) { return self.play(c); }},
       {"estimate", [](Explorer& self, const Call&) { return self.start_estimate(); }},
       {"take-found", [](Explorer& self, const Call&) { return self.take_found(); }},
       {"next-place", [](Explorer& self, const Call& c) { return self.next_place(c.text(0) == "back"); }},
@@ -155,6 +166,7 @@ Result<void> Explorer::act(const Call& call) {
        }},
       {"export-curve", [](Explorer& self, const Call& c) { return self.export_curve(c.text(0)); }},
       {"export-report", [](Explorer& self, const Call& c) { return self.export_report(c.text(0)); }}};
+  if (auto inside = check_roots(call); !inside) return inside;
   if (auto checked = check_outputs_of(call); !checked) return checked;
   const auto action = kActions.find(call.command->name);
   if (action != kActions.end()) return action->second(*this, call);
@@ -231,7 +243,8 @@ Settings Explorer::with_fitted_view() const {
   Settings next = settings_;
   const SolvedMap* map = panes_[0].request ? panes_[0].request->placement.map.get() : provisional_.get();
   if (map == nullptr) return next;
-  const Box box{{map->x_m.from, map->y_m.from, map->z_m.from}, {map->x_m.to, map->y_m.to, map->z_m.to}};
+  Box box{{map->x_m.from, map->y_m.from, map->z_m.from}, {map->x_m.to, map->y_m.to, map->z_m.to}};
+  if (next.has_box()) box = {next.box_from_m, next.box_to_m};
   const PictureShape shape = place() ? picture_shape_ : PictureShape{picture_shape_.aspect, 0, 0};
   for (ViewPoint* view : {&next.camera_a, &next.camera_b}) *view = fitted(*view, box, shape);
   return next;

@@ -14,9 +14,11 @@
 
 #include "core/offset/estimate.hpp"
 #include "ui/model/background.hpp"
+#include "ui/model/file_roots.hpp"
 #include "ui/model/growing_curve.hpp"
 #include "ui/model/placed_cloud.hpp"
 #include "ui/model/places.hpp"
+#include "ui/model/reading_choices.hpp"
 #include "ui/model/view_camera.hpp"
 #include "ui/state/commands.hpp"
 #include "ui/state/history.hpp"
@@ -85,12 +87,10 @@ std::string whole_path(const std::filesystem::path& path);
 class Explorer {
  public:
   struct Options {
-    ReadOptions reading;
-    std::optional<TimeWindow> window;  // the part of a recording file that is used
+    ReadingChoices reading;  // of every file that is opened, but for what is chosen on the page
     std::optional<RigKind> assume;
-    std::string shell_options;   // " --rig F ...", repeated in command lines that are copied
-    std::string report_options;  // the same as reports quote them: files without their folders
     std::vector<std::filesystem::path> input_files;  // read before anything is opened: rig file, scripts
+    FileRoots roots;                                 // what is opened and written lies below
   };
   Explorer() : Explorer(Options()) {}
   explicit Explorer(Options options);
@@ -108,10 +108,23 @@ class Explorer {
   const Pane& pane(Side side) const { return panes_[static_cast<std::size_t>(side)]; }
   const std::optional<Message>& message() const { return message_; }
   bool is_loading() const { return background_.has("load"); }
+
+  /// The page that is shown before a recording is opened: what can be chosen, and what is chosen.
+  struct Choosing {
+    ReadingChoices choices;
+    std::optional<ReadingSurvey> survey;  // of these choices, or of the ones before while it is being made
+    std::string problem;                  // why it could not be opened as it was asked for
+  };
+  const Choosing* choosing() const { return choosing_ ? &*choosing_ : nullptr; }
+  bool is_surveying() const { return background_.has(kSurvey); }
+  /// Leaves the page as if it had not been opened.
+  void stop_choosing();
   bool can_undo() const { return history_.can_undo(); }
   bool can_redo() const { return history_.can_redo(); }
   Background& background() { return background_; }
   const Background& background() const { return background_; }
+  /// Whether the recording is being played.
+  bool is_playing() const { return playing_; }
   ColourSpan shown_span() const { return {look_.from, look_.to}; }
 
   /// Executes a command; opening and exporting continue in the background, and a failure gives a message.
@@ -120,6 +133,9 @@ class Explorer {
   Result<void> perform(const Call& call, const std::string& gesture = {});
   Result<void> perform(std::string_view line, const std::string& gesture = {});
   std::function<Result<void>(const Call&)> at_window;
+  /// Called with each file that a command wrote.
+  std::function<void(const std::filesystem::path&)> wrote;
+  const FileRoots& roots() const { return options_.roots; }
 
   /// The shape of a map's picture. A view that nobody moved is fitted to it again.
   void set_picture_shape(const PictureShape& shape);
@@ -149,12 +165,17 @@ class Explorer {
   Result<void> check_outputs(std::vector<std::filesystem::path> outputs) const;
 
   /// Writes a file in the background; a message reports when it is written.
-  void start_export(const std::string& title, std::function<Result<void>(const Job&)> write,
-                    const std::string& done, std::vector<TaskStep> steps = {});
+  struct Export {
+    std::string title, done;
+    std::filesystem::path file;
+    std::function<Result<void>(const Job&)> write;
+    std::vector<TaskStep> steps = {};
+  };
+  void start_export(Export wanted);
   bool is_exporting() const { return background_.has(kExport); }
-  /// The error of the last export; returned once.
   /// Why the last recording could not be opened; empty if it was opened or is still being opened.
   const std::optional<Error>& load_failure() const { return load_failure_; }
+  /// The error of the last export; returned once.
   std::optional<Error> take_export_failure() { return std::exchange(export_failure_, std::nullopt); }
 
   /// Once per frame: takes finished results, and starts the work that the settings require.
@@ -187,13 +208,27 @@ class Explorer {
   Result<void> act(const Call& call);
   Result<void> check_offsets(const Settings& next) const;
   Result<void> check_outputs_of(const Call& call) const;
+  Result<void> play(const Call& call);
+  void update_playback(double seconds_since_last);
+  Result<void> choose(const Call& call);
+  Result<void> start_choosing(const std::string& file);
+  Result<void> open_chosen();
+  void start_survey();
+  void take(ReadingSurvey survey);
+  std::optional<std::string> observe_choices(std::string_view name) const;
+  Result<void> check_roots(const Call& call) const;
+  Result<void> check_recording_roots(const ReadingChoices& choices) const;
+  void tell_written(const std::filesystem::path& file) const;
   void open(const std::string& path, const std::string& poses);
   Result<void> open_json(const std::string& path);
   Result<void> open_session(const std::string& text, const std::string& path);
   Result<void> open_estimate(const std::string& text, const std::string& path);
-  void load(const std::string& path, const std::string& poses);
+  void load(const ReadingChoices& choices);
+  /// `file`: what is read, for the page that is shown if it needs choosing; null for a sample.
   void start_loading(const std::string& title, std::vector<TaskStep> steps,
-                     std::function<Result<LoadedPtr>(const Job&)> load);
+                     std::function<Result<LoadedPtr>(const Job&)> load,
+                     const std::optional<ReadingChoices>& file = std::nullopt);
+  void give_up_loading(const Error& why);
   void take(LoadedPtr loaded, SolvedMapPtr first_map);
   void close();
   void cancel();
@@ -209,7 +244,7 @@ class Explorer {
   Settings with_fitted_view() const;
   void fit_view();
 
-  static constexpr const char* kExport = "export";
+  static constexpr const char *kExport = "export", *kSurvey = "survey";
   static bool stands(const Loaded& loaded, const std::optional<RigKind>& assume);
   bool without_solving() const;
   double offset_s(Side side) const;
@@ -255,7 +290,7 @@ class Explorer {
   double rest_s_ = 0;    // since the coarse points of a pane changed
   std::string placing_;  // key of the job that places all points
   std::size_t placings_ = 0;
-  bool handle_held_ = false, message_held_ = false;
+  bool handle_held_ = false, message_held_ = false, playing_ = false;
   Side changed_side_ = Side::kB;  // whose offset was changed last
   bool b_was_set_ = false;        // by a person, since the recording was opened
   bool view_moved_ = false;       // by a person: no longer fitted when the pane changes its shape
@@ -264,11 +299,16 @@ class Explorer {
   std::optional<std::pair<Placement, Placement>> places_of_;  // the maps that they are of
   bool fitted_beside_ = false;                                // whether the view leaves room for close-ups
   std::optional<Error> export_failure_, load_failure_;
+  std::optional<Choosing> choosing_;
   std::vector<std::filesystem::path> input_files_;  // that were opened, or named before
   std::filesystem::path session_file_;              // opened or saved last: saving it again is no harm
   std::optional<Settings> session_settings_;        // to apply once the recording is open
   std::optional<Estimate> session_estimate_;
   Background background_;  // last member: its threads end before the data that they use
 };
+
+/// Why it cannot be opened with the choices at hand, as far as it is known: sentences. A missing laser or
+/// motor goes before anything that follows from it.
+std::vector<std::string> problems_of(const Explorer::Choosing& choosing);
 
 }  // namespace sweepscope::ui

@@ -45,27 +45,71 @@ MapCloud cloud_of(const CloudRequest& request, const PlacedCloud& placed) {
 }
 
 /// A path in a session is that of the working folder, or lies beside the session.
-std::string found_beside(const std::string& path, const std::filesystem::path& session) {
+std::string found_beside(const std::string& path, const std::filesystem::path& session,
+                         const FileRoots& roots) {
   std::error_code ignored;
-  if (path.empty() || std::filesystem::exists(path, ignored)) return path;
+  if (path.empty() || (roots.can_read(path) && std::filesystem::exists(path, ignored))) return path;
   const std::filesystem::path beside = session.parent_path() / path;
   return std::filesystem::exists(beside, ignored) ? beside.string() : path;
 }
 
-}  // namespace
-
-void Explorer::open(const std::string& path, const std::string& poses) {
-  if (!path.ends_with(".json")) return load(path, poses);
-  if (const auto done = open_json(path); !done) say(Message::Kind::kError, done.error().message);
+/// The options that a report quotes: files without their folders.
+std::string report_options(const Loaded& loaded, const std::optional<RigKind>& assume) {
+  std::string words = shell_options(loaded.choices, false);
+  if (assume) words += *assume == RigKind::kMoving ? " --assume moving" : " --assume stationary";
+  return words;
 }
 
-void Explorer::load(const std::string& path, const std::string& poses) {
-  for (const auto& file : recording_files(path)) input_files_.push_back(file);
-  if (!poses.empty()) input_files_.emplace_back(poses);
-  start_loading("Reading " + path, steps_of_loading(),
-                [=, reading = options_.reading, part = options_.window](const Job& job) {
-                  return load_file(path, poses, reading, part, job);
-                });
+/// How a session's recording is read: what the program was started with goes before what the session says.
+ReadingChoices reading_of(const Session& session, const Call& open, const std::filesystem::path& path,
+                          const ReadingChoices& given, const FileRoots& roots) {
+  ReadingChoices choices = session.reading;
+  choices.file = found_beside(open.text(0), path, roots);
+  choices.poses = found_beside(open.text(1), path, roots);
+  choices.rig_file = found_beside(choices.rig_file, path, roots);
+  return merged(choices, given);
+}
+
+}  // namespace
+
+/// A session that may be read can name a recording that may not, and a folder can hold links.
+Result<void> Explorer::check_recording_roots(const ReadingChoices& choices) const {
+  const FileRoots& roots = options_.roots;
+  if (!roots.limited()) return {};
+  std::vector<std::filesystem::path> files{choices.file};
+  // What the program was started with may lie anywhere.
+  const ReadingChoices& given = options_.reading;
+  if (!choices.poses.empty() && choices.poses != given.poses) files.emplace_back(choices.poses);
+  if (!choices.rig_file.empty() && choices.rig_file != given.rig_file) files.emplace_back(choices.rig_file);
+  for (const auto& file : files)
+    if (auto inside = roots.check_read(file); !inside) return inside;
+  for (const auto& file : recording_files(choices.file))
+    if (auto inside = roots.check_read(file); !inside) return inside;
+  return {};
+}
+
+void Explorer::open(const std::string& path, const std::string& poses) {
+  if (path.ends_with(".json")) {
+    if (const auto done = open_json(path); !done) say(Message::Kind::kError, done.error().message);
+    return;
+  }
+  ReadingChoices choices = options_.reading;
+  choices.file = path;
+  if (!poses.empty()) choices.poses = poses;
+  load(choices);
+}
+
+void Explorer::load(const ReadingChoices& choices) {
+  if (const auto inside = check_recording_roots(choices); !inside) {
+    load_failure_ = inside.error();
+    return say(Message::Kind::kError, inside.error().message);
+  }
+  for (const auto& file : recording_files(choices.file)) input_files_.push_back(file);
+  for (const std::string& file : {choices.poses, choices.rig_file})
+    if (!file.empty()) input_files_.emplace_back(file);
+  start_loading(
+      "Reading " + choices.file, steps_of_loading(),
+      [choices](const Job& job) { return load_file(choices, job); }, choices);
 }
 
 Result<void> Explorer::open_json(const std::string& path) {
@@ -99,7 +143,7 @@ Result<void> Explorer::open_session(const std::string& text, const std::string& 
   if (!opens && !(call && call->command->name == "sample"))
     return unreadable(fmt::format("{}: source: \"{}\" opens no recording", path, session->source));
   if (opens)
-    load(found_beside(call->text(0), path), found_beside(call->text(1), path));
+    load(reading_of(*session, *call, path, options_.reading, options_.roots));
   else if (auto done = perform(*call); !done)
     return done;
   session_settings_ = session->settings;
@@ -109,29 +153,40 @@ Result<void> Explorer::open_session(const std::string& text, const std::string& 
 }
 
 void Explorer::start_loading(const std::string& title, std::vector<TaskStep> steps,
-                             std::function<Result<LoadedPtr>(const Job&)> load) {
+                             std::function<Result<LoadedPtr>(const Job&)> load,
+                             const std::optional<ReadingChoices>& file) {
   background_.cancel("load");
+  stop_choosing();
   session_settings_.reset();
   session_estimate_.reset();
   message_.reset();
   load_failure_.reset();
-  const auto work = [this, load = std::move(load),
+  const auto work = [this, load = std::move(load), file,
                      assume = options_.assume](const Job& job) -> Background::Finish {
     auto loaded = load(job);
-    if (!loaded) {
-      return [this, why = loaded.error()] {
-        session_settings_.reset();
-        session_estimate_.reset();
-        load_failure_ = why;
-        say(Message::Kind::kError, why.message);
-      };
+    if (loaded) {
+      job.report("the first map", 0);
+      // At 0 ms whatever the settings are, so that the same lines always give the same picture.
+      auto first_map = map_without_solving(**loaded, stands(**loaded, assume), 0);
+      return [this, opened = *loaded, first_map] { take(opened, first_map); };
     }
-    job.report("the first map", 0);
-    // At 0 ms whatever the settings are, so that the same lines always give the same picture.
-    auto first_map = map_without_solving(**loaded, stands(**loaded, assume), 0);
-    return [this, opened = *loaded, first_map] { take(opened, first_map); };
+    // Where there is something to choose from, the page says what is missing; else a message does.
+    const auto survey = file && !job.cancelled() ? survey_file(*file, job) : unreadable("");
+    const bool page = survey && !(survey->streams.lasers.empty() && survey->streams.joints.empty());
+    if (!page) return [this, why = loaded.error()] { give_up_loading(why); };
+    return [this, why = loaded.error(), choices = *file, found = *survey] {
+      load_failure_ = why;
+      choosing_ = Choosing{choices, found, why.message};
+    };
   };
   background_.start("load", "load", title, work, std::move(steps));
+}
+
+void Explorer::give_up_loading(const Error& why) {
+  session_settings_.reset();
+  session_estimate_.reset();
+  load_failure_ = why;
+  say(Message::Kind::kError, why.message);
 }
 
 void Explorer::close() {
@@ -152,6 +207,7 @@ void Explorer::close() {
   places_of_.reset();
   b_was_set_ = false;
   view_moved_ = false;
+  playing_ = false;
 }
 
 void Explorer::take(LoadedPtr loaded, SolvedMapPtr first_map) {
@@ -165,6 +221,9 @@ void Explorer::take(LoadedPtr loaded, SolvedMapPtr first_map) {
   } else {
     Settings next = settings_;  // what was asked of the recording before means nothing here
     next.asked_scan = next.asked_beam = -1;
+    next.time_s = -1;
+    next.box_from_m = next.box_to_m = {0, 0, 0};
+    next.colour_from = next.colour_to = 0;
     next.profile_from_m = next.profile_to_m = {0, 0};
     next.measure_from_m = next.measure_to_m = {0, 0, 0};
     change_settings(next, {});
@@ -189,7 +248,7 @@ std::string Explorer::replaced_by(std::string_view line) const {
   if (name == "export-cloud") path = call->text(1);
   if (name == "export-report") path = std::filesystem::path(call->text(0)) / "report.html";
   std::error_code failed;
-  if (path.empty() || !std::filesystem::exists(path, failed)) return {};
+  if (path.empty() || !options_.roots.can_write(path) || !std::filesystem::exists(path, failed)) return {};
   if (name == "save-session" && std::filesystem::equivalent(path, session_file_, failed)) return {};
   return whole_path(path);
 }
@@ -207,7 +266,8 @@ std::string Explorer::suggested_file(const std::string& command, const std::stri
 }
 
 std::string Explorer::session_json() const {
-  return session_to_json({loaded_ ? loaded_->source : "", settings_, estimate_});
+  return session_to_json(
+      {loaded_ ? loaded_->source : "", loaded_ ? loaded_->choices : ReadingChoices(), settings_, estimate_});
 }
 
 Result<void> Explorer::check_outputs(std::vector<std::filesystem::path> outputs) const {
@@ -228,37 +288,69 @@ Result<void> Explorer::check_outputs_of(const Call& call) const {
   return {};
 }
 
+Result<void> Explorer::check_roots(const Call& call) const {
+  const FileRoots& roots = options_.roots;
+  const std::string& name = call.command->name;
+  if (!roots.limited()) return {};
+  if (name == "choose" || name == "choose-rig" || name == "choose-poses")
+    return call.text(0).empty() ? Result<void>() : roots.check_read(call.text(0));
+  if (name == "open") {
+    const auto inside = roots.check_read(call.text(0));
+    return inside && !call.text(1).empty() ? roots.check_read(call.text(1)) : inside;
+  }
+  if (name == "export-report") {
+    for (const auto& file : report_files(call.text(0)))
+      if (auto inside = roots.check_write(file); !inside) return inside;
+    return roots.check_write(call.text(0));
+  }
+  if (name == "save-session" || name == "export-curve" || name == "export-picture")
+    return roots.check_write(call.text(0));
+  if (name == "export-cloud") return roots.check_write(call.text(1));
+  return {};
+}
+
+void Explorer::tell_written(const std::filesystem::path& file) const {
+  if (wrote) wrote(file);
+}
+
 Result<void> Explorer::save_session(const std::string& path) {
   auto written = write_file(path, session_json());
-  if (written) session_file_ = path;
-  if (written) say(Message::Kind::kNote, fmt::format("The session is saved in {}.", whole_path(path)));
+  if (!written) return written;
+  session_file_ = path;
+  say(Message::Kind::kNote, fmt::format("The session is saved in {}.", whole_path(path)));
+  tell_written(path);
   return written;
 }
 
-void Explorer::start_export(const std::string& title, std::function<Result<void>(const Job&)> write,
-                            const std::string& done, std::vector<TaskStep> steps) {
+void Explorer::start_export(Export wanted) {
   background_.start(
-      "export", kExport, title,
-      [this, write = std::move(write), done](const Job& job) -> Background::Finish {
+      "export", kExport, wanted.title,
+      [this, write = std::move(wanted.write), done = std::move(wanted.done),
+       file = std::move(wanted.file)](const Job& job) -> Background::Finish {
         const auto written = write(job);
-        if (written) return [this, done] { say(Message::Kind::kNote, done); };
+        if (written) {
+          return [this, done, file] {
+            say(Message::Kind::kNote, done);
+            tell_written(file);
+          };
+        }
         return [this, why = written.error()] {
           export_failure_ = why;
           say(Message::Kind::kError, why.message);
         };
       },
-      std::move(steps));
+      std::move(wanted.steps));
 }
 
 Result<void> Explorer::export_cloud(Side side, const std::string& path) {
   const Pane& shown = pane(side);
   if (!shown.full || !shown.request) return not_now("The map's points are not all placed yet.");
-  start_export(
-      "Writing " + path,
-      [path, request = *shown.request, placed = shown.full](const Job&) {
-        return write_cloud(path, cloud_of(request, *placed));
-      },
-      fmt::format("{} points are saved in {}.", shown.full->beams.size(), whole_path(path)));
+  start_export({.title = "Writing " + path,
+                .done = fmt::format("{} points are saved in {}.", shown.full->beams.size(), whole_path(path)),
+                .file = path,
+                .write = [path, request = *shown.request, placed = shown.full](const Job&) {
+                  return write_cloud(path, cloud_of(request, *placed));
+                }});
   return {};
 }
 
@@ -268,24 +360,29 @@ Result<void> Explorer::export_curve(const std::string& path) {
     return not_now(fmt::format("{}: the criteria are written as .csv or .json", path));
   auto written = path.ends_with(".csv") ? write_curve_csv(path, *estimate_)
                                         : write_estimate_json(path, *estimate_, Timing::kNull);
-  if (written) say(Message::Kind::kNote, fmt::format("The criteria are saved in {}.", whole_path(path)));
+  if (!written) return written;
+  say(Message::Kind::kNote, fmt::format("The criteria are saved in {}.", whole_path(path)));
+  tell_written(path);
   return written;
 }
 
 Result<void> Explorer::export_report(const std::string& folder) {
   if (!loaded_) return not_now("There is no recording to report on.");
-  const std::string command = report_command(loaded_->recording.name, options_.report_options);
-  start_export(
-      "Writing a report",
-      [loaded = loaded_, assume = options_.assume, folder, command](const Job& job) -> Result<void> {
-        auto content = gather_report(loaded->prepared, {.assume = assume}, nullptr, job);
-        if (!content) return tl::unexpected(content.error());
-        content->command = command;
-        job.report("drawing", 0);
-        return write_report(*content, folder);
-      },
-      fmt::format("The report is saved in {}.", whole_path(std::filesystem::path(folder) / "report.html")),
-      steps_of_reporting());
+  const std::string command =
+      report_command(loaded_->recording.name, report_options(*loaded_, options_.assume));
+  const std::filesystem::path page = std::filesystem::path(folder) / "report.html";
+  start_export({.title = "Writing a report",
+                .done = fmt::format("The report is saved in {}.", whole_path(page)),
+                .file = page,
+                .write = [loaded = loaded_, assume = options_.assume, folder,
+                          command](const Job& job) -> Result<void> {
+                  auto content = gather_report(loaded->prepared, {.assume = assume}, nullptr, job);
+                  if (!content) return tl::unexpected(content.error());
+                  content->command = command;
+                  job.report("drawing", 0);
+                  return write_report(*content, folder);
+                },
+                .steps = steps_of_reporting()});
   return {};
 }
 

@@ -75,15 +75,21 @@ CloudLook Explorer::wanted_look(const SolvedMap* a, const SolvedMap* b) {
     span_maps_ = {a, b};
     span_colouring_ = s.colouring;
   }
+  const bool given = s.colour_to > s.colour_from;
+  const bool on_light =
+      s.backdrop == Backdrop::kWhite || (s.backdrop == Backdrop::kTheme && s.theme == Theme::kLight);
   return {.colouring = s.colouring,
           .table = s.table,
-          .from = span_.from,
-          .to = span_.to,
+          .from = given ? s.colour_from : span_.from,
+          .to = given ? s.colour_to : span_.to,
           .heights = s.heights,
           .slab_from_m = s.slab_from_m,
           .slab_to_m = s.slab_to_m,
           .time_from_s = s.time_from_s,
-          .time_to_s = s.time_to_s};
+          .time_to_s = s.time_to_s,
+          .box_from_m = s.box_from_m,
+          .box_to_m = s.box_to_m,
+          .on_light = on_light};
 }
 
 void Explorer::update(double seconds_since_last) {
@@ -100,6 +106,24 @@ void Explorer::update(double seconds_since_last) {
   update_panes(seconds_since_last);
   update_places();
   update_solving();
+  update_playback(seconds_since_last);
+}
+
+void Explorer::update_playback(double seconds_since_last) {
+  if (settings_.time_s < 0) playing_ = false;
+  if (!playing_) return;
+  settings_.time_s += seconds_since_last * settings_.play_speed;  // nothing that undo would take back
+  if (settings_.time_s < loaded_->duration_s()) return;
+  settings_.time_s = loaded_->duration_s();
+  playing_ = false;
+}
+
+Result<void> Explorer::play(const Call& call) {
+  if (!loaded_) return failure(ExitCode::kWrongUsage, "There is no recording to play.");
+  playing_ = call.values.empty() ? !playing_ : std::get<bool>(call.values[0]);
+  const bool from_start = settings_.time_s < 0 || settings_.time_s >= loaded_->duration_s();
+  if (playing_ && from_start) settings_.time_s = 0;
+  return {};
 }
 
 void Explorer::update_panes(double seconds_since_last) {
@@ -109,9 +133,15 @@ void Explorer::update_panes(double seconds_since_last) {
   if (settings_.layout == Layout::kDifference) {
     at_b.other = a;
     const auto& shown = pane(Side::kB).request;
-    const bool same = shown && shown->other && shown->placement == b && *shown->other == a;
-    at_b.look.from = 0;
-    at_b.look.to = same ? shown->look.to : difference_span_mm(b, a);
+    const auto& beside = pane(Side::kA).request;
+    // A given range holds for both maps, a found one of distances for B alone.
+    const bool was_given =
+        shown && beside && shown->look.from == beside->look.from && shown->look.to == beside->look.to;
+    const bool same = shown && shown->other && shown->placement == b && *shown->other == a && !was_given;
+    if (settings_.colour_to <= settings_.colour_from) {
+      at_b.look.from = 0;
+      at_b.look.to = same ? shown->look.to : difference_span_mm(b, a);
+    }
     look_ = at_b.look;
   }
   show(Side::kA, std::move(at_a));

@@ -71,6 +71,7 @@ std::string Explorer::status() const {
       text = "Distance of each point of B (" + shown(b) + ") from its place in A (" + shown(a) + ")";
       break;
     case Layout::kSideBySide:
+    case Layout::kStacked:
     case Layout::kSwipe:
       text = "A: " + shown(a) + ".  B: " + shown(b);
       break;
@@ -82,12 +83,18 @@ std::string Explorer::status() const {
 
 std::vector<std::pair<std::string, std::string>> Explorer::observables() {
   return {{"recording", "the name of the recording; empty without one"},
+          {"page", "start, loading, choices or maps"},
+          {"chosen-laser", "the topic on the page of choices, also where it is detected"},
+          {"chosen-motor", "the joint there"},
+          {"chosen-problem", "what is missing there; empty if it can be opened"},
+          {"chosen-parts", "in how many parts the rig stood or moved; 0: not known yet"},
           {"kind", "stationary, moving or unknown"},
           {"state-a, state-b", "empty, provisional, preview or solved"},
           {"points-a, points-b", "how many points the pane shows"},
           {"thickness-a, thickness-b", "how thick the map's surfaces are; empty unless blur colours it"},
           {"places", "at how many places the maps differ, as far as they are listed"},
           {"place-at", "x and y of the place that the close-up shows; empty without one"},
+          {"playing", "on or off"},
           {"estimate", "none, found or refused"},
           {"candidates", "how many candidates the charts show"},
           {"found-ms", "the offset found"},
@@ -117,6 +124,7 @@ std::optional<std::string> Explorer::observe(std::string_view name) const {
     return at ? fmt::format("{:.2f} {:.2f}", at->found.region.centre_m.x(), at->found.region.centre_m.y())
               : "";
   }
+  if (name == "playing") return playing_ ? "on" : "off";
   if (name == "estimate") return estimate_word(estimate());
   if (name == "candidates") return std::to_string(charted() != nullptr ? charted()->curve.size() : 0);
   if (name == "found-ms")
@@ -124,6 +132,7 @@ std::optional<std::string> Explorer::observe(std::string_view name) const {
   if (name == "message") return message_ ? message_->text : "";
   if (name == "status") return status();
   if (name == "jobs") return std::to_string(background_.status().size());
+  if (auto chosen = observe_choices(name)) return chosen;
   const Command* command = find_command(name);
   if (command == nullptr || !command->is_field()) return std::nullopt;
   std::string words;
@@ -134,15 +143,20 @@ std::optional<std::string> Explorer::observe(std::string_view name) const {
 
 std::string Explorer::command_line(int width_px, int height_px) const {
   std::string recording, lines;
-  if (loaded_ && loaded_->shell.empty())
+  if (loaded_ && loaded_->choices.file.empty()) {
     lines += loaded_->source + "; wait loaded; ";
-  else if (loaded_)
-    recording = fmt::format(" {}", loaded_->shell);
+  } else if (loaded_) {
+    const ReadingChoices& read = loaded_->choices;
+    recording = fmt::format(" {}", shell_word(read.file));
+    if (!read.poses.empty()) recording += fmt::format(" --poses {}", shell_word(read.poses));
+    recording += shell_options(read, true);
+  }
+  if (options_.assume)
+    recording += options_.assume == RigKind::kMoving ? " --assume moving" : " --assume stationary";
   for (const std::string& line : lines_to_reach(settings_)) lines += line + "; ";
   // Said even where it is the default: an estimate leaves alone what a person set.
   if (estimate_) lines += fmt::format("offset-b {}; estimate; ", settings_.offset_b_ms);
-  return fmt::format("sweepscope view{}{} --headless --size {}x{} --run {}", recording,
-                     options_.shell_options, width_px, height_px,
+  return fmt::format("sweepscope view{} --headless --size {}x{} --run {}", recording, width_px, height_px,
                      shell_word(lines + "wait solved; screenshot picture.png"));
 }
 

@@ -26,14 +26,16 @@ Estimate GrowingCurve::so_far() const {
   Estimate estimate;
   {
     const std::lock_guard lock(mutex_);
-    estimate.curve = points_;
+    // The last one first: a candidate that is computed again, of all of a recording rather than of a sample
+    // of its sweeps, replaces what it was.
+    estimate.curve.assign(points_.rbegin(), points_.rend());
   }
   const bool by_method = std::any_of(estimate.curve.begin(), estimate.curve.end(), has_criteria);
   if (by_method) std::erase_if(estimate.curve, [](const CurvePoint& point) { return !has_criteria(point); });
   estimate.method = by_method ? Method::kMoving : Method::kDirect;
   std::stable_sort(estimate.curve.begin(), estimate.curve.end(),
                    [](const CurvePoint& a, const CurvePoint& b) { return a.offset_s < b.offset_s; });
-  // The coarse search computes its best candidate once more beside its neighbours.
+  // The parts of a recording share their candidates.
   const auto same = [](const CurvePoint& a, const CurvePoint& b) { return a.offset_s == b.offset_s; };
   estimate.curve.erase(std::unique(estimate.curve.begin(), estimate.curve.end(), same), estimate.curve.end());
   return estimate;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "core/io/printable_text.hpp"
 #include "core/io/trajectory_file.hpp"
 #include "core/map/pose_reader.hpp"
 #include "core/numbers.hpp"
@@ -41,24 +40,23 @@ Result<LoadedPtr> finish(std::shared_ptr<Loaded> loaded, const Job& job) {
 
 }  // namespace
 
-Result<LoadedPtr> load_file(const std::filesystem::path& path, const std::filesystem::path& poses,
-                            const ReadOptions& options, const std::optional<TimeWindow>& part,
-                            const Job& job) {
-  auto recording = read_recording(path, options, job);
-  if (recording && part) recording = cut_to_window(*recording, *part, path.string());
+Result<LoadedPtr> load_file(const ReadingChoices& choices, const Job& job) {
+  const auto options = read_options(choices);
+  if (!options) return tl::unexpected(options.error());
+  auto recording = read_recording(choices.file, *options, job);
+  if (recording && choices.window) recording = cut_to_window(*recording, *choices.window, choices.file);
   if (!recording) return tl::unexpected(recording.error());
   auto loaded = std::make_shared<Loaded>();
-  loaded->source = "open " + ui::quoted(path.string());
-  loaded->shell = shell_word(path.string());
-  if (!poses.empty()) {
-    auto known = read_tum(poses, recording->epoch_ns);
+  loaded->choices = choices;
+  loaded->source = "open " + ui::quoted(choices.file);
+  if (!choices.poses.empty()) {
+    auto known = read_tum(choices.poses, recording->epoch_ns);
     if (!known) return tl::unexpected(known.error());
     auto covered = check_pose_coverage(*recording, *known);
     if (!covered) return tl::unexpected(covered.error());
     if (!covered->empty()) recording->report.warnings.push_back(*covered);
     loaded->poses = std::move(*known);
-    loaded->source += fmt::format(" {}", ui::quoted(poses.string()));
-    loaded->shell += fmt::format(" --poses {}", shell_word(poses.string()));
+    loaded->source += fmt::format(" {}", ui::quoted(choices.poses));
   }
   loaded->recording = std::move(*recording);
   return finish(std::move(loaded), job);

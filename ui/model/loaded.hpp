@@ -14,7 +14,7 @@
 #include "core/offset/walk.hpp"
 #include "core/recording/formats/read_recording.hpp"
 #include "core/recording/inspect.hpp"
-#include "core/recording/time_window.hpp"
+#include "ui/model/reading_choices.hpp"
 
 namespace sweepscope::ui {
 
@@ -37,8 +37,8 @@ class KnownWalk {
 
 /// An open recording, and everything that is computed once for it.
 struct Loaded {
-  std::string source;  // the command line that opens it again: `open FILE` or `sample SCENE`
-  std::string shell;   // REC of the command line, quoted for a shell; empty for a sample
+  std::string source;      // the command line that opens it again: `open FILE` or `sample SCENE`
+  ReadingChoices choices;  // how its file was read; without a file: a sample
   Recording recording;
   RecordingSummary summary;
   PreparedRecording prepared;  // of this->recording
@@ -57,10 +57,7 @@ struct Loaded {
 };
 using LoadedPtr = std::shared_ptr<const Loaded>;
 
-/// `poses`: a TUM file with the rig's trajectory, or empty. `part`: empty for all of the recording.
-Result<LoadedPtr> load_file(const std::filesystem::path& path, const std::filesystem::path& poses,
-                            const ReadOptions& options, const std::optional<TimeWindow>& part,
-                            const Job& job);
+Result<LoadedPtr> load_file(const ReadingChoices& choices, const Job& job);
 /// A simulated recording; seconds 0: all of the walk.
 Result<LoadedPtr> load_sample(const std::string& scene, double seconds, const Job& job);
 

@@ -39,6 +39,7 @@ class Filter {
       const double time_s = beams.time_s(beam) - begin_s_;
       if (time_s < look_.time_from_s || time_s > look_.time_to_s) return false;
     }
+    if (!in_box(place_m)) return false;
     if (look_.heights == Heights::kAll) return true;
     const double above_m = static_cast<double>(place_m[2] - placement_.map->path_height_m[beams.scan[beam]]);
     if (look_.heights == Heights::kSlab) return above_m >= look_.slab_from_m && above_m <= look_.slab_to_m;
@@ -49,6 +50,12 @@ class Filter {
   }
 
  private:
+  bool in_box(const std::array<float, 3>& place_m) const {
+    if (look_.box_from_m == look_.box_to_m) return true;
+    const Eigen::Vector3d p_m(place_m[0], place_m[1], place_m[2]);
+    return (p_m.array() >= look_.box_from_m.array()).all() && (p_m.array() <= look_.box_to_m.array()).all();
+  }
+
   const Placement& placement_;
   const CloudLook& look_;
   double begin_s_ = 0;
@@ -154,6 +161,16 @@ Colour colour_of_value(const CloudLook& look, const ColourScale& scale, double v
 
 }  // namespace
 
+ColourTable shown_table(const std::string& name, bool on_light) {
+  const ColourTable whole = colour_table(name).value_or(ColourTable());
+  if (!on_light || name == "turbo") return whole;
+  const double last = name == "grey" ? 0.75 : 0.88;  // darker than the ground by eye, for all three
+  ColourTable part = whole;
+  for (std::size_t i = 0; i < part.size(); ++i)
+    part[i] = whole[static_cast<std::size_t>(std::lround(last * static_cast<double>(i)))];
+  return part;
+}
+
 bool is_slow(ColourBy by) {
   return by == ColourBy::kFeatures || by == ColourBy::kBlur;
 }
@@ -227,10 +244,12 @@ double difference_span_mm(const Placement& placement, const Placement& other) {
 
 namespace {
 
-/// `slots`: numbers of beams, or of those chosen, in the order of drawing.
+/// `slots`: numbers of beams, or of those chosen, in the order of drawing. `spacing_m`: of each slot, or
+/// null.
 PlacedCloud place_in_order(const Placement& placement, const CloudLook& look,
                            const std::vector<std::uint32_t>* chosen, const std::vector<std::uint32_t>& slots,
-                           const Placement* other, const BeamValues* slow) {
+                           const Placement* other, const BeamValues* slow,
+                           const std::vector<float>* spacing_m) {
   const Places places = place_beams(placement, chosen);
   const Places other_places = other != nullptr ? place_beams(*other, chosen) : Places();
   const std::vector<int> direction =
@@ -252,7 +271,7 @@ PlacedCloud place_in_order(const Placement& placement, const CloudLook& look,
         return static_cast<double>(places[slot][2]);
     }
   };
-  const ColourScale scale{colour_table(look.table).value_or(ColourTable()), look.from, look.to};
+  const ColourScale scale{shown_table(look.table, look.on_light), look.from, look.to};
   const Filter filter(placement, look);
   const auto beam_of = [&](std::uint32_t slot) { return chosen != nullptr ? (*chosen)[slot] : slot; };
   const Shown shown(slots, [&](std::uint32_t slot) { return filter.shows(beam_of(slot), places[slot]); });
@@ -260,12 +279,14 @@ PlacedCloud place_in_order(const Placement& placement, const CloudLook& look,
   auto points = std::make_shared<LivePoints>();
   points->xyz_m.resize(shown.count());
   points->rgb.resize(shown.count());
+  if (spacing_m != nullptr) points->spacing_m.resize(shown.count());
   cloud.beams.resize(shown.count());
   shown.for_each([&](std::size_t at, std::uint32_t slot) {
     const std::uint32_t beam = beam_of(slot);
     const Colour colour = colour_of_value(look, scale, value_of(beam, slot), other != nullptr);
     points->xyz_m[at] = places[slot];
     points->rgb[at] = {colour.red, colour.green, colour.blue};
+    if (spacing_m != nullptr) points->spacing_m[at] = (*spacing_m)[slot];
     cloud.beams[at] = beam;
   });
   cloud.points = std::move(points);
@@ -277,8 +298,10 @@ PlacedCloud place_in_order(const Placement& placement, const CloudLook& look,
 PlacedCloud place_cloud(const Placement& placement, const CloudLook& look, bool coarse,
                         const Placement* other, const BeamValues* slow) {
   const DrawOrder& order = placement.map->order;
-  if (coarse) return place_in_order(placement, look, &order.chosen, order.chosen_order, other, slow);
-  return place_in_order(placement, look, nullptr, order.all, other, slow);
+  if (coarse)
+    return place_in_order(placement, look, &order.chosen, order.chosen_order, other, slow,
+                          &order.chosen_spacing_m);
+  return place_in_order(placement, look, nullptr, order.all, other, slow, &order.spacing_m);
 }
 
 PlacedCloud place_chosen(const Placement& placement, const CloudLook& look,
@@ -286,7 +309,7 @@ PlacedCloud place_chosen(const Placement& placement, const CloudLook& look,
                          const BeamValues* slow) {
   std::vector<std::uint32_t> slots(beams.size());
   std::iota(slots.begin(), slots.end(), 0);
-  return place_in_order(placement, look, &beams, slots, other, slow);
+  return place_in_order(placement, look, &beams, slots, other, slow, nullptr);
 }
 
 }  // namespace sweepscope::ui

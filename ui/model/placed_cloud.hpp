@@ -25,9 +25,15 @@ struct CloudLook {
   Heights heights = Heights::kSharp;
   double slab_from_m = 0, slab_to_m = 0;
   double time_from_s = 0, time_to_s = 0;
+  Eigen::Vector3d box_from_m{0, 0, 0}, box_to_m{0, 0, 0};  // both the same: no box
+  bool on_light = false;                                   // the ground behind the points
 
   bool operator==(const CloudLook&) const = default;
 };
+
+/// The colours of a table. On a light ground a table that ends in a bright yellow or in white stops before
+/// it, or its greatest values could not be seen.
+ColourTable shown_table(const std::string& name, bool on_light);
 
 /// Points ready to be drawn, and the beam that each came from.
 struct PlacedCloud {

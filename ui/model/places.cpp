@@ -43,10 +43,8 @@ SlabPoints above_the_path(const Heights3d& all, double ceiling_m) {
   return out;
 }
 
-/// As `compare` chooses the height of a close-up, from the extent of the map.
-double close_up_height_m(const SolvedMap& map) {
-  const double extent_m = std::max(map.x_m.to - map.x_m.from, map.y_m.to - map.y_m.from);
-  return std::clamp(extent_m / 24, 2.0, 6.0);
+double extent_m(const SolvedMap& map) {
+  return std::max(map.x_m.to - map.x_m.from, map.y_m.to - map.y_m.from);
 }
 
 bool lies_in(const PlaceToLook& place, const Heights3d& all, std::size_t beam, double margin_m) {
@@ -73,7 +71,7 @@ PlaceToLook with_beams(PlaceToLook place, const Heights3d& a, const Heights3d& b
 std::vector<PlacePtr> find_places(const Placement& a, const Placement& b, const Job& job) {
   const Heights3d at_a = heights_of(a), at_b = heights_of(b);
   if (job.cancelled()) return {};
-  const double ceiling_m = ceiling_above_path_m(*b.map), height_m = close_up_height_m(*b.map);
+  const double ceiling_m = ceiling_above_path_m(*b.map), height_m = close_up_height_m(extent_m(*b.map));
   const std::array maps{above_the_path(at_a, ceiling_m), above_the_path(at_b, ceiling_m)};
   std::vector<PlacePtr> places;
   for (DifferingPlace& found :
@@ -91,6 +89,7 @@ PlacedCloud place_close_up(const PlaceToLook& place, const Placement& placement,
   above.heights = Heights::kSlab;
   above.slab_from_m = 0;
   above.slab_to_m = ceiling_above_path_m(*placement.map);
+  above.box_from_m = above.box_to_m = {0, 0, 0};  // a place outside of it is a place all the same
   return place_chosen(placement, above, place.beams, other, slow);
 }
 

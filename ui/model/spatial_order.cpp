@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/geometry/morton.hpp"
+#include "render/clouds/points.hpp"
 
 namespace sweepscope::ui {
 namespace {
@@ -67,6 +68,12 @@ void choose(DrawOrder& order, const std::vector<MortonKey>& cubes) {
   }
 }
 
+std::vector<float> spacing_among_chosen(const DrawOrder& order, std::span<const std::array<float, 3>> xyz_m) {
+  std::vector<std::array<float, 3>> places;
+  for (const std::uint32_t i : order.chosen) places.push_back(xyz_m[i]);
+  return spacing_of(places);
+}
+
 }  // namespace
 
 DrawOrder order_for_drawing(std::span<const std::array<float, 3>> xyz_m, std::size_t max_chosen) {
@@ -81,8 +88,10 @@ DrawOrder order_for_drawing(std::span<const std::array<float, 3>> xyz_m, std::si
   const double finest_m = box.longest() * std::exp2(-kMortonBits);
   const std::vector<MortonKey> along_curve = along_morton_curve(xyz_m, finite, box.least, finest_m);
   for (const MortonKey& key : along_curve) order.all.push_back(key.index);
+  order.spacing_m = spacing_along(along_curve, finest_m, xyz_m.size());
   if (finite.size() <= max_chosen) {
     choose(order, along_curve);
+    order.chosen_spacing_m = spacing_among_chosen(order, xyz_m);
     return order;
   }
   double edge_m = edge_for(along_curve, finest_m, max_chosen);
@@ -92,6 +101,7 @@ DrawOrder order_for_drawing(std::span<const std::array<float, 3>> xyz_m, std::si
     choose(order, along_morton_curve(xyz_m, finite, box.least, edge_m));
     edge_m *= 1.1;
   } while (order.chosen.size() > max_chosen);
+  order.chosen_spacing_m = spacing_among_chosen(order, xyz_m);
   return order;
 }
 

@@ -12,6 +12,9 @@ struct DrawOrder {
   std::vector<std::uint32_t> all;     // along a Morton curve, several times faster to draw than at random
   std::vector<std::uint32_t> chosen;  // one point for each of the cubes that fill the map, ascending
   std::vector<std::uint32_t> chosen_order;  // indices into `chosen`, along the curve
+  // How far apart points are around each of all, and around each of `chosen` among these (spacing_of); 0 for
+  // those that are alone or left out.
+  std::vector<float> spacing_m, chosen_spacing_m;
 };
 
 /// Points that are not finite are left out. At most `max_chosen` are chosen, and not many fewer: the edge of

@@ -21,6 +21,10 @@ std::vector<TaskStep> steps_of_loading() {
       {"unpacking", 0.2}, {"reading", 1}, {"looking at it", 0.2}, {"features", 1}, {"the first map", 0.5}};
 }
 
+std::vector<TaskStep> steps_of_surveying() {
+  return {{"unpacking", 0.2}, {"reading", 1}, {"features", 1}};
+}
+
 std::vector<TaskStep> steps_of_simulating() {
   return {{"casting", 4}, {"looking at it", 0.2}, {"features", 1}, {"the first map", 0.5}};
 }

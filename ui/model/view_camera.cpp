@@ -88,7 +88,7 @@ ViewPoint turned(ViewPoint view, double right_px, double down_px) {
   return view;
 }
 
-ViewPoint moved(ViewPoint view, double right_px, double down_px, double pane_height_px) {
+ViewPoint moved(const ViewPoint& view, double right_px, double down_px, double pane_height_px) {
   const double metres_per_px = view.height_m / std::max(pane_height_px, 1.0);
   return shifted(view, -right_px * metres_per_px, down_px * metres_per_px);
 }

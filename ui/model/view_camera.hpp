@@ -30,7 +30,7 @@ ViewPoint fitted(ViewPoint view, const Box& box, const PictureShape& shape);
 
 /// The view after dragging by a number of pixels: turned, or moved with the mouse.
 ViewPoint turned(ViewPoint view, double right_px, double down_px);
-ViewPoint moved(ViewPoint view, double right_px, double down_px, double pane_height_px);
+ViewPoint moved(const ViewPoint& view, double right_px, double down_px, double pane_height_px);
 /// Zoomed in by a factor; the position under the pixel does not move.
 ViewPoint zoomed(ViewPoint view, double factor, PixelPoint at, const PixelRect& pane);
 

@@ -106,13 +106,17 @@ void menu(const PaneContext& context, const std::string& name) {
   ImGui::EndMenu();
 }
 
-/// The recording's name, in the middle of the bar.
+/// The recording's name, in the middle of the bar, or as near to it as the menus let it.
 void title(const PaneContext& context, const PixelRect& place) {
   const Loaded* loaded = context.explorer.loaded();
-  const std::string text = loaded != nullptr ? printable_line(loaded->recording.name) : "sweepscope";
+  const double after_menus = static_cast<double>(ImGui::GetCursorScreenPos().x) + context.px(12);
+  const double room = place.right() - context.px(12) - after_menus;
+  const std::string text = fit_text(loaded != nullptr ? printable_line(loaded->recording.name) : "sweepscope",
+                                    static_cast<double>(ImGui::GetFontSize()), std::max(room, 0.0));
   const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+  const double middle = place.left + (place.width - static_cast<double>(size.x)) / 2;
   ImGui::GetWindowDrawList()->AddText(
-      {static_cast<float>(place.left + (place.width - static_cast<double>(size.x)) / 2),
+      {static_cast<float>(std::max(middle, after_menus)),
        static_cast<float>(place.top + (place.height - static_cast<double>(size.y)) / 2)},
       to_imgui(context.style.faint_text), text.c_str());
 }

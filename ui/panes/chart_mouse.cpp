@@ -92,6 +92,11 @@ void show_values(const PaneContext& context, const Chart& chart, const ChartLayo
   }
   context.anchor(fmt::format("chart value {}", number),
                  {static_cast<double>(x), layout.plot.top, 1, layout.plot.height});
+  // Beside the mouse, and below the chart's title in any case.
+  const ImVec2 at = ImGui::GetIO().MousePos;
+  ImGui::SetNextWindowPos(
+      {at.x + context.pxf(14),
+       std::max(at.y + context.pxf(10), static_cast<float>(layout.plot.top) + context.pxf(4))});
   ImGui::SetTooltip("%s", words.c_str());
 }
 

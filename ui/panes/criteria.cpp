@@ -147,7 +147,7 @@ void draw_one(const PaneContext& context, Chart chart, const PixelRect& place, s
   ImGui::InvisibleButton(fmt::format("chart title {}", number).c_str(),
                          {static_cast<float>(place.width * 0.6), context.pxf(18)});
   context.anchor_last(fmt::format("chart title {}", number));
-  tooltip(context, meaning(chart.title));
+  tooltip(context, meaning(chart.title), TooltipPlace::kBelow);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "render/charts/ticks.hpp"
 #include "ui/host/paint.hpp"
 #include "ui/panes/close_ups.hpp"
+#include "ui/panes/number_box.hpp"
 #include "ui/panes/widgets.hpp"
 
 namespace sweepscope::ui {
@@ -45,8 +46,7 @@ void feature_legend(const PaneContext& context) {
 void legend(const PaneContext& context) {
   if (context.settings().colouring == ColourBy::kFeatures && context.settings().layout != Layout::kDifference)
     return feature_legend(context);
-  const auto table = colour_table(context.settings().table);
-  if (!table) return;
+  const ColourTable table = shown_table(context.settings().table, backdrop_of(context).green >= 128);
   ImGui::TextUnformatted(name_of(context.settings()));
   const ImVec2 from = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x, height = context.pxf(10);
@@ -56,7 +56,7 @@ void legend(const PaneContext& context) {
     const float x = from.x + width * static_cast<float>(i) / kParts;
     const float next = from.x + width * static_cast<float>(i + 1) / kParts;
     list.AddRectFilled({x, from.y}, {next, from.y + height},
-                       to_imgui((*table)[std::size_t{2} * static_cast<std::size_t>(i)]));
+                       to_imgui(table[std::size_t{2} * static_cast<std::size_t>(i)]));
   }
   const ColourSpan span = context.explorer.shown_span();
   const double size = context.px(11);
@@ -152,6 +152,39 @@ void time_window(const PaneContext& context) {
     list.AddCircleFilled({x_of(end), y}, r, to_imgui(colour_of_b(context.style)));
 }
 
+/// A button that sets the box, and once there is one its corners.
+void clipping_box(const PaneContext& context) {
+  const Command& command = *find_command("box");
+  begin_field(context, command);
+  const bool any = context.settings().has_box();
+  if (!any) {
+    button(context, "To the view", "box-here");
+    return;
+  }
+  button(context, "None", "box 0 0 0 0 0 0");
+  const auto width =
+      (ImGui::GetContentRegionAvail().x - context.pxf(20) - ImGui::GetStyle().ItemInnerSpacing.x) / 2;
+  for (const std::size_t axis : {0, 1, 2}) {
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextDisabled("%c", static_cast<char>('x' + axis));
+    ImGui::SameLine(ImGui::GetWindowContentRegionMin().x + context.pxf(20));
+    for (const std::size_t end : {axis, axis + 3}) {
+      if (end != axis) ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
+      ImGui::SetNextItemWidth(width);
+      number_box(context, {.id = fmt::format("box{}", end),
+                           .command = &command,
+                           .index = end,
+                           .least = command.parameters[end].least,
+                           .greatest = command.parameters[end].greatest,
+                           .step = 0.1,
+                           .per_px = 0.02,
+                           .slider = false,
+                           .format = "%.1f m"});
+      context.anchor_last(fmt::format("box {}", end));
+    }
+  }
+}
+
 }  // namespace
 
 void draw_display_panel(const PaneContext& context, const PixelRect& place) {
@@ -166,6 +199,7 @@ void draw_display_panel(const PaneContext& context, const PixelRect& place) {
   field(context, "colouring");
   field(context, "table");
   legend(context);
+  field(context, "colour-range");
   map_thickness(context);
   field(context, "point-size");
   field(context, "backdrop");
@@ -174,6 +208,7 @@ void draw_display_panel(const PaneContext& context, const PixelRect& place) {
   field(context, "heights");
   if (settings.heights == Heights::kSlab) field(context, "slab");
   time_window(context);
+  clipping_box(context);
   heading(context, "Inspect");
   field(context, "tool");
   field(context, "scan-view");

@@ -16,12 +16,15 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The entries that the typed path leads to. The folder is read when it is another one than before.
-std::vector<FileEntry> entries_now(Transient& transient) {
+std::vector<FileEntry> entries_now(Transient& transient, const FileRoots& roots) {
   Transient::Browsing& browsing = transient.browsing;
   const TypedPath typed = split_typed(transient.asked_text);
   const std::string folder = without_tilde(typed.folder, home_folder());
   if (!browsing.known || browsing.folder != folder) {
-    browsing.entries = list_folder(folder);
+    const fs::path here = folder.empty() ? "." : folder;
+    browsing.entries = roots.can_read(here) ? list_folder(here) : std::vector<FileEntry>();
+    std::erase_if(browsing.entries,
+                  [&](const FileEntry& entry) { return !roots.can_read(here / entry.name); });
     browsing.folder = folder;
     browsing.known = true;
   }
@@ -48,14 +51,20 @@ std::string path_of(const Transient& transient, const FileEntry& entry) {
 }
 
 void open_path(const PaneContext& context, const std::string& path) {
+  const std::string command = context.transient.asks_for ? context.transient.asks_for->command : "open";
   context.transient.asks_for.reset();
-  context.perform("open " + ui::quoted(without_tilde(path, home_folder())));
+  context.perform(command + " " + ui::quoted(without_tilde(path, home_folder())));
+}
+
+bool asks_for_recording(const Transient& transient) {
+  return transient.asks_for && !transient.asks_for->command.starts_with("choose-");
 }
 
 /// Goes into a folder, or opens what is a recording.
 void choose(const PaneContext& context, const FileEntry& entry) {
   const std::string path = path_of(context.transient, entry);
-  if (entry.folder && !entry.opens) return go_to(context.transient, path + "/");
+  if (entry.folder && !(entry.opens && asks_for_recording(context.transient)))
+    return go_to(context.transient, path + "/");
   open_path(context, path);
 }
 
@@ -67,18 +76,21 @@ void choose_typed(const PaneContext& context) {
   const std::string path = without_tilde(typed, home_folder());
   const fs::path whole = fs::path(path).lexically_normal();
   const fs::path folder = whole.has_filename() ? whole : whole.parent_path();
-  if (fs::is_directory(path, failed) && !opens_as_recording(folder))
+  const bool readable = context.explorer.roots().can_read(path);
+  const bool recording = readable && asks_for_recording(context.transient) && opens_as_recording(folder);
+  if (readable && fs::is_directory(path, failed) && !recording)
     return go_to(context.transient, typed.ends_with('/') ? typed : typed + "/");
   open_path(context, typed);
 }
 
 /// Tab completes; a path that was put into the field has the cursor at its end.
 int edit_path(ImGuiInputTextCallbackData* data) {
-  Transient& transient = *static_cast<Transient*>(data->UserData);
+  const PaneContext& context = *static_cast<const PaneContext*>(data->UserData);
+  Transient& transient = context.transient;
   if (data->EventFlag == ImGuiInputTextFlags_CallbackCompletion) {
     const std::string typed(data->Buf, static_cast<std::size_t>(data->BufTextLen));
     transient.asked_text = typed;
-    const std::string longer = completed(typed, entries_now(transient));
+    const std::string longer = completed(typed, entries_now(transient, context.explorer.roots()));
     data->DeleteChars(0, data->BufTextLen);
     data->InsertChars(0, longer.c_str());
   } else if (transient.browsing.to_end) {
@@ -101,7 +113,7 @@ bool path_field(const PaneContext& context) {
       "##file", "A path; ~ is the home folder. Tab completes it.", &transient.asked_text,
       ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackCompletion |
           ImGuiInputTextFlags_CallbackAlways,
-      edit_path, &transient);
+      edit_path, const_cast<PaneContext*>(&context));  // NOLINT(cppcoreguidelines-pro-type-const-cast)
   context.anchor_last("ask file");
   if (transient.asked_text != before) transient.browsing.choice = -1;
   return entered;
@@ -117,8 +129,12 @@ void place_button(const PaneContext& context, const std::string& title, const st
 /// Folders to go to, and recordings that were open before.
 void recent_places(const PaneContext& context) {
   ImGui::TextDisabled("Places");
-  if (!home_folder().empty()) place_button(context, "Home", "~/");
-  place_button(context, "Working folder", "");
+  const FileRoots& roots = context.explorer.roots();
+  for (const fs::path& folder : roots.folders())
+    place_button(context, folder.filename().empty() ? folder.string() : folder.filename().string(),
+                 (folder / "").string());
+  if (!roots.limited() && !home_folder().empty()) place_button(context, "Home", "~/");
+  if (!roots.limited()) place_button(context, "Working folder", "");
   std::vector<std::string> folders;
   for (const std::string& path : context.transient.recent) {
     const std::string folder = fs::path(path).parent_path().string() + "/";
@@ -126,6 +142,7 @@ void recent_places(const PaneContext& context) {
   }
   for (const std::string& folder : folders)
     place_button(context, fs::path(folder).parent_path().filename().string(), folder);
+  if (!asks_for_recording(context.transient)) return;
   if (!context.transient.recent.empty()) ImGui::TextDisabled("Recent");
   for (const std::string& path : std::vector<std::string>(context.transient.recent)) {
     const std::string name = printable_line(fs::path(path).filename().string());
@@ -156,28 +173,37 @@ void list(const PaneContext& context, const std::vector<FileEntry>& entries) {
     ImGui::SameLine(right - ImGui::CalcTextSize(what.c_str()).x - context.pxf(6));
     ImGui::TextDisabled("%s", what.c_str());
   }
-  if (entries.empty())
-    ImGui::TextDisabled(browsing.all ? "Nothing here begins like that." : "Nothing here can be opened.");
+  if (!entries.empty()) return;
+  const FileRoots& roots = context.explorer.roots();
+  const bool readable = roots.can_read(folder.empty() ? "." : without_tilde(folder, home_folder()));
+  ImGui::TextDisabled("%s", !readable      ? "This folder is not below those of --root."
+                            : browsing.all ? "Nothing here begins like that."
+                                           : "Nothing here can be opened.");
 }
 
 }  // namespace
 
+bool is_opening(const std::string& command) {
+  return command == "open" || command.starts_with("choose");
+}
+
 std::string first_path(const std::vector<std::string>& recent) {
-  if (recent.empty()) return "";
-  return fs::path(recent.front()).parent_path().string() + "/";
+  const fs::path folder = recent.empty() ? fs::path() : fs::path(recent.front()).parent_path();
+  return folder.empty() ? "" : folder.string() + "/";
 }
 
 void draw_open_dialog(const PaneContext& context, const PixelRect& whole) {
   Transient& transient = context.transient;
+  const Command& command = *find_command(transient.asks_for->command);
   begin_front(context, "ask", whole, 760, 470, 0.14);
   ImGui::PushFont(context.fonts.heading);
-  ImGui::TextUnformatted("Open");
+  ImGui::TextUnformatted(command.name == "open" ? "Open" : command.title.c_str());
   ImGui::PopFont();
   ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(context.style.faint_text));
-  ImGui::TextWrapped("%s", find_command("open")->help.c_str());
+  ImGui::TextWrapped("%s", command.help.c_str());
   ImGui::PopStyleColor();
   const bool entered = path_field(context);
-  const std::vector<FileEntry> entries = entries_now(transient);
+  const std::vector<FileEntry> entries = entries_now(transient, context.explorer.roots());
   int& choice = transient.browsing.choice;
   const int last = static_cast<int>(entries.size()) - 1;
   if (ImGui::IsKeyPressed(keys::kDown)) ++choice;

@@ -194,7 +194,7 @@ void draw_palette(const PaneContext& context, const PixelRect& whole) {
 
 void draw_help(const PaneContext& context, const PixelRect& whole) {
   if (!context.transient.help) return;
-  begin_front(context, "keys", whole, 940, 470, 0.1);
+  begin_front(context, "keys", whole, 940, 510, 0.1);
   ImGui::PushFont(context.fonts.heading);
   ImGui::TextUnformatted("Keys");
   ImGui::PopFont();
@@ -271,7 +271,7 @@ void draw_ask(const PaneContext& context, const PixelRect& whole) {
   Transient& transient = context.transient;
   if (!transient.asks_for) return;
   const Transient::Asked asked = *transient.asks_for;
-  if (asked.command == "open") return draw_open_dialog(context, whole);
+  if (is_opening(asked.command)) return draw_open_dialog(context, whole);
   begin_front(context, "ask", whole, 560, 206, 0.22);
   ImGui::PushFont(context.fonts.heading);
   ImGui::TextUnformatted(title_of_asking(asked).c_str());

@@ -15,17 +15,32 @@ PixelRect snapped(const PixelRect& rect) {
           std::max(0.0, std::round(rect.bottom()) - top)};
 }
 
+/// The size that a person gave, or the one by the window, within what leaves room for the rest.
+double size_px(double given_px, double by_window_px, double scale, double least_px, double greatest_px) {
+  const double wanted_px = given_px > 0 ? given_px * scale : by_window_px;
+  return given_px > 0 ? std::clamp(wanted_px, least_px, std::max(least_px, greatest_px)) : wanted_px;
+}
+
 }  // namespace
 
 Places lay_out(double width_px, double height_px, double scale, const Settings& settings, bool has_recording,
                double message_px) {
   const double menu = 30 * scale, status = 28 * scale;
   const bool panels = settings.panels && has_recording && width_px > 760 * scale;
-  const double left = panels ? std::min(292 * scale, 0.26 * width_px) : 0;
-  const double right = panels ? std::min(244 * scale, 0.24 * width_px) : 0;
+  const double widest = 0.36 * width_px;
+  const double left = panels ? size_px(settings.left_width_px, std::min(292 * scale, 0.26 * width_px), scale,
+                                       160 * scale, widest)
+                             : 0;
+  const double right = panels ? size_px(settings.right_width_px, std::min(244 * scale, 0.24 * width_px),
+                                        scale, 160 * scale, widest)
+                              : 0;
   const double middle = height_px - menu - status;
   const bool criteria = settings.criteria && has_recording && middle > 420 * scale;
-  const double charts = criteria ? std::clamp(0.29 * middle, 190 * scale, 300 * scale) : 0;
+  const double charts =
+      criteria ? size_px(settings.charts_height_px, std::clamp(0.29 * middle, 190 * scale, 300 * scale),
+                         scale, 120 * scale, 0.65 * middle)
+               : 0;
+  const double playback = has_recording && settings.time_s >= 0 ? 34 * scale : 0;
   // A message takes its place from the charts, so that the maps keep their size as long as charts remain.
   const double charts_beside_message = std::max(charts - message_px, std::min(charts, 120 * scale));
   const double below = message_px > 0 ? message_px + charts_beside_message : charts;
@@ -36,26 +51,31 @@ Places lay_out(double width_px, double height_px, double scale, const Settings& 
   places.message = snapped({0, above_message, width_px, message_px});
   places.left = snapped({0, menu, left, above_message - menu});
   places.right = snapped({width_px - right, menu, right, above_message - menu});
-  places.maps = snapped({left, menu, width_px - left - right, middle - below});
+  places.maps = snapped({left, menu, width_px - left - right, middle - below - playback});
+  places.playback = snapped({left, places.maps.bottom(), width_px - left - right, playback});
   places.criteria = snapped({left, height_px - status - below, width_px - left - right, below - message_px});
   return places;
 }
 
-MapPlaces lay_out_maps(const PixelRect& maps, double scale, Layout layout) {
+MapPlaces lay_out_maps(const PixelRect& maps, double scale, Layout layout, double share) {
   const double margin = 10 * scale, header = 34 * scale;
   const PixelRect inner{maps.left + margin, maps.top, maps.width - 2 * margin, maps.height - margin};
-  const double width = layout == Layout::kSideBySide ? (inner.width - margin) / 2 : inner.width;
+  const bool beside = layout == Layout::kSideBySide, stacked = layout == Layout::kStacked;
   MapPlaces places;
-  const auto pane = [&](double left, PixelRect& above, PixelRect& picture) {
-    above = snapped({left, inner.top, width, header});
-    picture = snapped({left, inner.top + header, width, inner.height - header});
+  const auto pane = [&](const PixelRect& place, PixelRect& above, PixelRect& picture) {
+    above = snapped({place.left, place.top, place.width, header});
+    picture = snapped({place.left, place.top + header, place.width, place.height - header});
   };
-  if (layout != Layout::kOnlyB && layout != Layout::kDifference)
-    pane(inner.left, places.header_a, places.picture_a);
-  if (layout == Layout::kSideBySide)
-    pane(inner.left + width + margin, places.header_b, places.picture_b);
-  else if (layout != Layout::kOnlyA)
-    pane(inner.left, places.header_b, places.picture_b);
+  PixelRect a = inner, b = inner;
+  if (beside) {
+    a.width = (inner.width - margin) * share;
+    b = {a.right() + margin, inner.top, inner.width - margin - a.width, inner.height};
+  } else if (stacked) {
+    a.height = inner.height * share;
+    b = {inner.left, a.bottom(), inner.width, inner.height - a.height};
+  }
+  if (layout != Layout::kOnlyB && layout != Layout::kDifference) pane(a, places.header_a, places.picture_a);
+  if (layout != Layout::kOnlyA) pane(b, places.header_b, places.picture_b);
   return places;
 }
 

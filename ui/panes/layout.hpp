@@ -9,7 +9,7 @@ namespace sweepscope::ui {
 
 /// The positions of the parts of the interface, in pixels. A part that is not shown has no width.
 struct Places {
-  PixelRect menu, left, right, maps, criteria, message, status;
+  PixelRect menu, left, right, maps, playback, criteria, message, status;
 };
 
 /// For a drawing of this size; `scale` is 1 at 100 %. Without a recording there are no side panels. A message
@@ -21,7 +21,8 @@ Places lay_out(double width_px, double height_px, double scale, const Settings& 
 struct MapPlaces {
   PixelRect header_a, picture_a, header_b, picture_b;
 };
-MapPlaces lay_out_maps(const PixelRect& maps, double scale, Layout layout);
+/// `share`: that of map A where the maps stand side by side, or one above the other.
+MapPlaces lay_out_maps(const PixelRect& maps, double scale, Layout layout, double share = 0.5);
 
 /// The close-ups inside a map's picture, at its lower right: one, or in a swipe that of A and that of B.
 /// Empty where a picture is too small for them.

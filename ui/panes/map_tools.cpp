@@ -5,8 +5,11 @@
 #include <cmath>
 
 #include "render/charts/ticks.hpp"
+#include "render/comparison/comparison_marks.hpp"
+#include "render/comparison/scanner_pose.hpp"
 #include "ui/host/paint.hpp"
 #include "ui/model/picking.hpp"
+#include "ui/model/playback.hpp"
 #include "ui/panes/close_ups.hpp"
 #include "ui/panes/widgets.hpp"
 
@@ -210,6 +213,32 @@ void draw_picked(const PaneContext& context, Side side, const Projection& projec
   list.AddCircle(*at, context.pxf(8), IM_COL32_WHITE, 0, context.pxf(2));
 }
 
+/// Where the scanner is at the moment that is played, or at the end of the time that is shown.
+void draw_scanner(const PaneContext& context, Side side, const Projection& projection) {
+  const Settings& s = context.settings();
+  const auto& request = context.explorer.pane(side).request;
+  if (!cues_in(camera_of(view_of(s, side), s.perspective), s.cues).scanner || !request) return;
+  const Recording& recording = request->placement.loaded->recording;
+  const double until_s = scanner_time_s(recording, s);
+  const ScannerMark mark{
+      scanner_pose(recording, request->placement.map->trajectory, request->placement.offset_s, until_s),
+      context.px(26), ink_of(context)};
+  paint(*ImGui::GetWindowDrawList(), scanner_marks(mark, projection), context.fonts);
+}
+
+/// The directions of the axes, at the upper right, unless the map is seen from above with x to the right.
+void draw_axes(const PaneContext& context, Side side, const PixelRect& picture) {
+  const Camera camera = camera_of(view_of(context.settings(), side), context.settings().perspective);
+  if (is_plan(camera) && camera.up.y() > 1 - 1e-9) return;
+  const double side_px = axes_side_px(context.scale);
+  if (picture.width < 3 * side_px || picture.height < 3 * side_px) return;
+  Drawing drawing;
+  add_axes(drawing,
+           {picture.right() - side_px - context.px(8), picture.top + context.px(8), side_px, side_px}, camera,
+           ink_of(context), context.scale);
+  paint(*ImGui::GetWindowDrawList(), drawing, context.fonts);
+}
+
 void draw_profile(const PaneContext& context, const Projection& projection, double z_m) {
   const Settings& s = context.settings();
   if (s.profile_from_m == s.profile_to_m) return;
@@ -241,16 +270,42 @@ void use_mouse(const PaneContext& context, Side side, const PixelRect& picture) 
   if (tool != Tool::kLook && ImGui::IsItemHovered()) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
 }
 
+void draw_ground(const PaneContext& context, Side side, const PixelRect& picture) {
+  const auto& request = context.explorer.pane(side).request;
+  const Camera camera = camera_of(view_of(context.settings(), side), context.settings().perspective);
+  if (!cues_in(camera, context.settings().cues).grid || !request) return;
+  const Projection projection(camera, picture);
+  const SolvedMap& map = *request->placement.map;
+  GroundGrid grid =
+      ground_grid({{map.x_m.from, map.y_m.from, map.z_m.from}, {map.x_m.to, map.y_m.to, map.z_m.to}},
+                  projection, context.px(60));
+  grid.line_px = context.px(1);
+  grid.text_px = context.px(11);
+  grid.lines = grid.text = ink_of(context);
+  grid.lines.alpha = 40;
+  grid.text.alpha = 150;
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ImVec2 from{static_cast<float>(picture.left), static_cast<float>(picture.top)},
+      to{static_cast<float>(picture.right()), static_cast<float>(picture.bottom())};
+  list.PushClipRect(from, to, true);
+  list.AddRectFilled(from, to, to_imgui(backdrop_of(context)));
+  paint(list, grid_marks(grid, camera, projection), context.fonts);
+  list.PopClipRect();
+}
+
 void draw_overlays(const PaneContext& context, Side side, const PixelRect& picture) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.PushClipRect({static_cast<float>(picture.left), static_cast<float>(picture.top)},
                     {static_cast<float>(picture.right()), static_cast<float>(picture.bottom())}, true);
   const Projection projection = projection_of(context.settings(), side, picture);
   draw_path(context, side, projection);
+  draw_played_scan(context, side, projection);
   draw_place_mark(context, projection);
   draw_profile(context, projection, view_of(context.settings(), side).centre_m.z());
   draw_measure(context, projection);
   draw_picked(context, side, projection);
+  draw_scanner(context, side, projection);
+  draw_axes(context, side, picture);
   draw_scale_bar(context, picture, projection);
   list.PopClipRect();
 }

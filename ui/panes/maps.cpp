@@ -28,8 +28,16 @@ void render(const PaneContext& context, Side side, const PixelRect& picture) {
   const auto points = [](const PlacedCloudPtr& cloud) { return cloud ? cloud->points : nullptr; };
   view.resize(std::max(16, static_cast<int>(picture.width)), std::max(16, static_cast<int>(picture.height)));
   view.set_background(backdrop_of(context));
-  view.set_point_size(std::round(context.settings().point_size_px * context.scale));
-  view.set_camera(camera_of(view_of(context.settings(), side), context.settings().perspective));
+  const Camera camera = camera_of(view_of(context.settings(), side), context.settings().perspective);
+  view.set_camera(camera);
+  const ShownCues cues = cues_in(camera, context.settings().cues);
+  const double size_px = std::round(context.settings().point_size_px * context.scale);
+  view.set_lighting(
+      cues.lighting ? std::optional(Lighting{.radius_px = std::round(2 * context.scale), .splat_px = size_px})
+                    : std::nullopt);
+  view.set_splats(cues.splats);
+  view.set_transparent(cues.grid);
+  view.set_point_size(size_px);
   view.show(points(pane.coarse), points(pane.full));
   view.set_moving(context.transient.camera_moved_s < kMoving_s || context.transient.handle);
   view.draw(context.draw_budget_s);
@@ -149,7 +157,7 @@ void draw_header(const PaneContext& context, Side side, const PixelRect& place) 
                        .format = fmt::format("%.{}f ms", decimals)});
   context.anchor_last(command);
   tooltip(context, find_command(command)->help + "  Drag, or click to type.");
-  if (context.settings().layout == Layout::kSideBySide)
+  if (context.settings().layout == Layout::kSideBySide || context.settings().layout == Layout::kStacked)
     draw_link(context, side, static_cast<double>(ImGui::GetItemRectMax().x) + context.px(8), middle);
   // Behind what stands before it, or cut: the last line says it whole.
   const double room = place.right() - static_cast<double>(ImGui::GetItemRectMax().x) - context.px(12);
@@ -182,6 +190,7 @@ void take_mouse(const PaneContext& context, Side side, const PixelRect& picture)
 }
 
 void draw_map(const PaneContext& context, Side side, const PixelRect& picture) {
+  draw_ground(context, side, picture);
   show_texture(context, side, picture);
   draw_overlays(context, side, picture);
   draw_close_up(context, side, picture);
@@ -225,6 +234,7 @@ void divider(const PaneContext& context, const PixelRect& picture) {
 
 void draw_swipe(const PaneContext& context, const PixelRect& picture) {
   const double share = context.settings().divider;
+  draw_ground(context, Side::kB, picture);
   show_texture(context, Side::kA, picture, 0, share);
   show_texture(context, Side::kB, picture, share, 1);
   draw_overlays(context, Side::kB, picture);
@@ -261,7 +271,7 @@ std::vector<Side> sides_of(Layout layout) {
 void draw_maps(const PaneContext& context, const PixelRect& place) {
   begin_panel(context, "maps", place, false);
   const Layout layout = context.settings().layout;
-  const MapPlaces places = lay_out_maps(place, context.scale, layout);
+  const MapPlaces places = lay_out_maps(place, context.scale, layout, context.settings().map_share);
   const auto picture_of = [&](Side side) { return side == Side::kA ? places.picture_a : places.picture_b; };
   if (layout == Layout::kSwipe) {
     take_mouse(context, Side::kA, places.picture_b);

@@ -63,7 +63,8 @@ struct Transient {
   std::string opens_menu;                // a menu's title, until it is open
   int start_choice = -1;                 // of the start page, by the keyboard; below 0: none
   std::vector<std::string> start_lines;  // what can be chosen there
-  double time_handle = 0;                // which end of the time window is held
+  double time_handle = 0;                // which end of a time window is held
+  bool on_choices_page = false;          // it was drawn in the frame before
   struct KnownProfile {
     PlacedCloudPtr cloud;
     std::array<double, 4> line{};
@@ -113,11 +114,17 @@ std::vector<Side> sides_of(Layout layout);
 void draw_menu_bar(const PaneContext& context, const PixelRect& place);
 void draw_status_bar(const PaneContext& context, const PixelRect& place);
 void draw_start_page(const PaneContext& context, const PixelRect& place);
+/// What decides how a recording is read, to choose from, each with what was detected.
+void draw_choices_page(const PaneContext& context, const PixelRect& place);
 void draw_loading_page(const PaneContext& context, const PixelRect& place);
 void draw_recording_panel(const PaneContext& context, const PixelRect& place);
 void draw_display_panel(const PaneContext& context, const PixelRect& place);
 void draw_maps(const PaneContext& context, const PixelRect& place);
 void draw_criteria(const PaneContext& context, const PixelRect& place);
+/// Where the recording is played: the time, and how fast it goes on.
+void draw_playback(const PaneContext& context, const PixelRect& place);
+/// Edges between the parts of the interface that can be dragged; a double click gives the size by the window.
+void draw_splitters(const PaneContext& context, const Places& places, const PixelRect& whole);
 /// The card of the inspected point, and of the measured distance.
 void draw_cards(const PaneContext& context, const PixelRect& maps);
 /// The windows in front: the palette, the keys, a dialog.

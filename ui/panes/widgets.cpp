@@ -102,15 +102,16 @@ void PaneContext::anchor_last(const std::string& name) const {
 }
 
 void begin_panel(const PaneContext& context, const char* name, const PixelRect& place, bool padded,
-                 bool above) {
+                 bool above, bool by_keys) {
   ImGui::SetNextWindowPos(corner(place));
   ImGui::SetNextWindowSize({static_cast<float>(place.width), static_cast<float>(place.height)});
   const float margin = padded ? context.pxf(14) : 0;
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(margin, padded ? context.pxf(10) : 0));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
   ImGui::Begin(name, nullptr,
-               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
-                   ImGuiWindowFlags_NoNav |
+               ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse |
+                   ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                   (padded ? 0 : ImGuiWindowFlags_NoScrollbar) | (by_keys ? 0 : ImGuiWindowFlags_NoNav) |
                    (above ? ImGuiWindowFlags_NoFocusOnAppearing : ImGuiWindowFlags_NoBringToFrontOnFocus));
   ImGui::PopStyleVar(2);
 }
@@ -191,7 +192,7 @@ bool button(const PaneContext& context, const char* title, const std::string& li
   return pressed;
 }
 
-void tooltip(const PaneContext& context, const std::string& text) {
+void tooltip(const PaneContext& context, const std::string& text, TooltipPlace place) {
   constexpr float kDelay_s = 0.5f;
   if (!ImGui::IsItemHovered() || context.transient.handle) return;
   // ImGui 1.86 has no delay of its own.
@@ -203,6 +204,8 @@ void tooltip(const PaneContext& context, const std::string& text) {
     since_s = ImGui::GetTime();
   }
   if (ImGui::GetTime() - since_s < static_cast<double>(kDelay_s)) return;
+  if (place == TooltipPlace::kBelow)
+    ImGui::SetNextWindowPos({ImGui::GetItemRectMin().x, ImGui::GetItemRectMax().y + context.pxf(4)});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(context.pxf(10), context.pxf(7)));
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(context.pxf(330));

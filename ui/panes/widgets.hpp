@@ -7,8 +7,10 @@
 namespace sweepscope::ui {
 
 /// Opens a window at a fixed position without decoration, behind or above the others; `end_panel` closes it.
+/// What does not fit can be scrolled to, with a bar where the window is padded. `by_keys`: arrows and Space
+/// reach its widgets while the interface is navigated by keys.
 void begin_panel(const PaneContext& context, const char* name, const PixelRect& place, bool padded = true,
-                 bool above = false);
+                 bool above = false, bool by_keys = false);
 void end_panel();
 
 /// A panel's heading with a rule above it (not above the first).
@@ -28,8 +30,11 @@ void begin_field(const PaneContext& context, const Command& command);
 bool button(const PaneContext& context, const char* title, const std::string& line, double width_px = 0,
             bool primary = false);
 
-/// A tooltip, shown while the mouse rests on the last widget.
-void tooltip(const PaneContext& context, const std::string& text);
+/// A tooltip, shown while the mouse rests on the last widget: beside the mouse, or below the widget where
+/// that has to stay legible.
+enum class TooltipPlace { kBesideMouse, kBelow };
+void tooltip(const PaneContext& context, const std::string& text,
+             TooltipPlace place = TooltipPlace::kBesideMouse);
 
 /// A thin bar, `fraction` of it filled; as wide as there is room unless `width_px` says otherwise.
 void progress_bar(const PaneContext& context, double fraction, double width_px = 0);

@@ -361,7 +361,8 @@ class Runner {
     const Explorer& explorer = ui_.explorer();
     const std::string what = words.take();
     const double max_s = words.any() ? number(words.take()).value_or(max_s_) : max_s_;
-    if (what == "loaded") return wait_until([&] { return !explorer.is_loading(); }, what, max_s);
+    if (what == "loaded")
+      return wait_until([&] { return !explorer.is_loading() && !explorer.is_surveying(); }, what, max_s);
     if (what == "estimated")
       return wait_until([&] { return !explorer.background().has("estimate"); }, what, max_s);
     if (what != "solved") return wrong("wait loaded, wait estimated or wait solved");

@@ -5,6 +5,7 @@ namespace sweepscope::ui {
 std::span<const Shortcut> shortcuts() {
   static const std::vector<Shortcut> all{
       {"Ctrl+O", "ask open"},
+      {"Ctrl+Shift+O", "choose"},
       {"Ctrl+S", "ask save-session"},
       {"Ctrl+E", "ask export-picture"},
       {"Ctrl+R", "ask export-report"},
@@ -50,6 +51,7 @@ std::span<const Shortcut> shortcuts() {
       {"Shift+L", "nudge b 1", "Map B: 1 ms more"},
       {"Space", "flip"},
       {"B", "layout side-by-side"},
+      {"Shift+B", "layout stacked"},
       {"S", "layout swipe"},
       {"D", "layout difference"},
       {"U", "linked"},
@@ -69,6 +71,11 @@ std::span<const Shortcut> shortcuts() {
       {"W", "panels"},
       {"Shift+W", "criteria"},
       {"J", "trajectory"},
+      {"R", "play"},
+      {"Shift+R", "time -1", "Stop playing"},
+      {"Shift+C", "box-here"},
+      {"Ctrl+0", "box 0 0 0 0 0 0", "No clipping box"},
+      {"A", "lighting", "Next lighting"},
   };
   return all;
 }
@@ -76,6 +83,7 @@ std::span<const Shortcut> shortcuts() {
 std::span<const MenuItem> menu_items() {
   static const std::vector<MenuItem> all{
       {"File", "Open …", "ask open"},
+      {"File", "Open with other choices …", "choose"},
       {"File", "Sample: a room, stationary", "sample room-1"},
       {"File", "Sample: a metro station, 20 s of walking", "sample metro-station 20"},
       {"File", "Save the session …", "ask save-session"},
@@ -102,6 +110,7 @@ std::span<const MenuItem> menu_items() {
       {"Offset", "Cancel running jobs", "cancel"},
       {"Offset", "Solve the maps", "solve"},
       {"View", "Side by side", "layout side-by-side"},
+      {"View", "Stacked", "layout stacked"},
       {"View", "Swipe", "layout swipe"},
       {"View", "Flip between A and B", "flip"},
       {"View", "Difference", "layout difference"},
@@ -113,6 +122,15 @@ std::span<const MenuItem> menu_items() {
       {"View", "Fit the view", "fit-view"},
       {"View", "Perspective", "perspective"},
       {"View", "Linked cameras", "linked"},
+      {"View", "", ""},
+      {"View", "Play or pause", "play"},
+      {"View", "Clip to the view", "box-here"},
+      {"View", "No clipping box", "box 0 0 0 0 0 0"},
+      {"View", "", ""},
+      {"View", "Lighting: auto, on, off", "lighting"},
+      {"View", "Splats: auto, on, off", "splats"},
+      {"View", "Ground grid: auto, on, off", "grid"},
+      {"View", "Scanner: auto, on, off", "scanner"},
       {"View", "", ""},
       {"View", "Side panels", "panels"},
       {"View", "Criteria", "criteria"},

@@ -19,7 +19,7 @@ Json to_json(const Value& value) {
   return std::visit([](const auto& held) { return Json(held); }, value);
 }
 
-std::string to_word(const Json& json) {
+std::string word_of(const Json& json) {
   if (json.is_boolean()) return json.get<bool>() ? "on" : "off";
   if (json.is_number()) return ui::to_word(Value(json.get<double>()));
   return json.is_string() ? json.get<std::string>() : json.dump();
@@ -31,7 +31,7 @@ Result<void> read_field(const Command& command, const Json& json, Settings& sett
   if (array.size() != command.parameters.size())
     return unreadable(fmt::format("it holds {} values", array.size()));
   for (std::size_t i = 0; i < array.size(); ++i) {
-    auto value = parse_value(command.parameters[i], to_word(array[i]));
+    auto value = parse_value(command.parameters[i], word_of(array[i]));
     if (!value) return unreadable(value.error().message);
     call.values.push_back(std::move(*value));
   }
@@ -53,7 +53,9 @@ std::string session_to_json(const Session& session) {
       for (const Value& value : values) field.push_back(to_json(value));
     }
   }
-  Json json{{"schema", kSchema}, {"source", session.source}, {"settings", settings}};
+  Json json{{"schema", kSchema}, {"source", session.source}};
+  if (Json reading = to_json(session.reading); !reading.is_null()) json["reading"] = std::move(reading);
+  json["settings"] = std::move(settings);
   if (session.estimate) json["estimate"] = Json::parse(estimate_to_json(*session.estimate, Timing::kNull));
   return json_text(std::move(json));
 }
@@ -66,6 +68,11 @@ Result<Session> parse_session(std::string_view text, std::string_view name) {
   Session session;
   if (const auto source = json.find("source"); source != json.end() && source->is_string())
     session.source = source->get<std::string>();
+  if (const auto reading = json.find("reading"); reading != json.end()) {
+    auto read = reading_from_json(*reading, std::string(name));
+    if (!read) return tl::unexpected(read.error());
+    session.reading = std::move(*read);
+  }
   const Json settings = json.value("settings", Json::object());
   if (!settings.is_object()) return unreadable(fmt::format("{}: settings: not a JSON object", name));
   for (const Command& command : commands()) {

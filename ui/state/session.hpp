@@ -6,13 +6,15 @@
 
 #include "core/error.hpp"
 #include "core/offset/estimate.hpp"
+#include "ui/model/reading_choices.hpp"
 #include "ui/state/settings.hpp"
 
 namespace sweepscope::ui {
 
 /// The state that is kept between two runs: the recording, the settings, and the estimate if there is one.
 struct Session {
-  std::string source;  // the line that opens the recording: `open FILE` or `sample SCENE`
+  std::string source;      // the line that opens the recording: `open FILE` or `sample SCENE`
+  ReadingChoices reading;  // how its file is read, without the file and the poses, which `source` names
   Settings settings;
   std::optional<Estimate> estimate;
 };

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "render/comparison/colouring.hpp"
+#include "render/pictures/depth_cues.hpp"
 
 namespace sweepscope::ui {
 
@@ -18,7 +19,7 @@ struct ViewPoint {
   bool operator==(const ViewPoint&) const = default;
 };
 
-enum class Layout { kSideBySide, kSwipe, kOnlyA, kOnlyB, kDifference };
+enum class Layout { kSideBySide, kSwipe, kOnlyA, kOnlyB, kDifference, kStacked };
 enum class Heights { kSharp, kAll, kSlab };
 enum class Theme { kDark, kLight };
 enum class Backdrop { kTheme, kBlack, kWhite };
@@ -31,8 +32,9 @@ struct Settings {
   double offset_a_ms = 0, offset_b_ms = 0;
 
   Layout layout = Layout::kSideBySide;
-  double divider = 0.5;  // of a swipe, from the pane's left edge
-  bool linked = true;    // the cameras of both panes
+  double divider = 0.5;    // of a swipe, from the pane's left edge
+  double map_share = 0.5;  // of map A: of the width side by side, of the height stacked
+  bool linked = true;      // the cameras of both panes
   bool perspective = false;
   ViewPoint camera_a, camera_b;
 
@@ -42,8 +44,14 @@ struct Settings {
   double slab_from_m = 0.8, slab_to_m = 2.5;  // above the sensor's path
   double point_size_px = 2;
   Backdrop backdrop = Backdrop::kTheme;
+  DepthCues cues;
   bool trajectory = true;
   double time_from_s = 0, time_to_s = 0;  // since the first scan; both 0: all of the recording
+  double colour_from = 0, colour_to = 0;  // values at the ends of the colour table; both the same: found
+  Eigen::Vector3d box_from_m{0, 0, 0}, box_to_m{0, 0, 0};  // only points inside; both the same: all
+
+  double time_s = -1;     // the moment that is played, since the first scan; below 0: none
+  double play_speed = 1;  // seconds of the recording per second
 
   Tool tool = Tool::kLook;
   Eigen::Vector2d profile_from_m{0, 0}, profile_to_m{0, 0};        // both the same: none
@@ -65,6 +73,9 @@ struct Settings {
   bool criteria = true;
   double chart_from_ms = 0, chart_to_ms = 0;  // the offsets that the charts show; both the same: all
   double ui_scale = 0;                        // 0: the display's scale
+  double left_width_px = 0, right_width_px = 0, charts_height_px = 0;  // at 100 %; 0: by the window's size
+
+  bool has_box() const { return box_from_m != box_to_m; }
 
   bool operator==(const Settings&) const = default;
 };

@@ -1,0 +1,53 @@
+'use strict';
+// Pictures as the program sends them: see ui/serve/protocol.hpp.
+
+const FRAME_TYPES = ['image/jpeg', 'image/png'];
+
+function decodeFrame(buffer) {
+  const view = new DataView(buffer);
+  const frame = {
+    number: view.getUint32(0, true), input: view.getUint32(4, true), wait_us: view.getUint32(8, true),
+    draw_us: view.getUint32(12, true), width: view.getUint16(16, true), height: view.getUint16(18, true),
+    exact: (view.getUint16(20, true) & 1) !== 0, atRest: (view.getUint16(20, true) & 2) !== 0,
+    bytes: buffer.byteLength, parts: [],
+  };
+  let at = 24;
+  for (let count = view.getUint16(22, true); count > 0; --count) {
+    const [left, top, width, height, format] = [0, 2, 4, 6, 8].map((offset) => view.getUint16(at + offset, true));
+    const size = view.getUint32(at + 10, true);
+    frame.parts.push({left, top, width, height, blob: new Blob([new Uint8Array(buffer, at + 14, size)],
+                                                               {type: FRAME_TYPES[format]})});
+    at += 14 + size;
+  }
+  return frame;
+}
+
+/** Draws frames one after the other, each whole, and tells when one is on the canvas. */
+class FramePainter {
+  constructor(canvas, shown) {
+    this.canvas = canvas;
+    this.context = canvas.getContext('2d', {alpha: false});
+    this.shown = shown;
+    this.last = Promise.resolve();
+  }
+
+  paint(buffer) {
+    const frame = decodeFrame(buffer);
+    const options = {colorSpaceConversion: 'none', premultiplyAlpha: 'none'};
+    const bitmaps = Promise.all(frame.parts.map((part) => createImageBitmap(part.blob, options)));
+    this.last = this.last.then(() => bitmaps).then((pictures) => this.draw(frame, pictures));
+    return this.last;
+  }
+
+  draw(frame, pictures) {
+    if (this.canvas.width !== frame.width || this.canvas.height !== frame.height) {
+      this.canvas.width = frame.width;
+      this.canvas.height = frame.height;
+    }
+    pictures.forEach((picture, i) => {
+      this.context.drawImage(picture, frame.parts[i].left, frame.parts[i].top);
+      picture.close();
+    });
+    this.shown(frame);
+  }
+}

@@ -1,0 +1,291 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "core/io/printable_text.hpp"
+#include "ui/host/input.hpp"
+#include "ui/panes/widgets.hpp"
+
+namespace sweepscope::ui {
+namespace {
+
+constexpr double kWidth = 760, kHeight = 560, kTitles = 120;  // at 100 %
+
+/// The title of what is chosen; its widget comes next.
+void begin_choice(const PaneContext& context, const Command& command) {
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(command.title.c_str());
+  tooltip(context, command.help);
+  ImGui::SameLine(ImGui::GetWindowContentRegionMin().x + context.pxf(kTitles));
+}
+
+/// Under a widget: where its value comes from, or, marked, why there is none.
+void note(const PaneContext& context, const std::string& words, bool problem = false) {
+  if (words.empty()) return;
+  ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMin().x + context.pxf(kTitles));
+  ImGui::PushFont(context.fonts.small);
+  const Colour colour = problem ? colour_of_a(context.style) : context.style.faint_text;
+  ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(colour));
+  ImGui::TextWrapped("%s", printable_text(words).c_str());
+  ImGui::PopStyleColor();
+  ImGui::PopFont();
+}
+
+std::string in_words(const LaserChoice& laser) {
+  return fmt::format("{}   {} {} of up to {} beams{}", printable_line(laser.topic), laser.scans,
+                     laser.of_clouds ? "lines of clouds" : "scans", laser.max_beams,
+                     laser.rate_hz > 0 ? fmt::format(", {:.1f} Hz", laser.rate_hz) : "");
+}
+
+std::string in_words(const JointChoice& joint) {
+  const char* source = joint.source == JointSource::kNumber      ? ", plain numbers"
+                       : joint.source == JointSource::kTransform ? ", of transforms"
+                                                                 : "";
+  return fmt::format("{}   turns over {:.1f}°, {} samples on {}{}", printable_line(joint.joint),
+                     joint.turned_deg, joint.samples, printable_line(joint.topic), source);
+}
+
+/// A list of choices, each with the line that it performs; `chosen` is marked.
+struct Entries {
+  std::vector<std::pair<std::string, std::string>> all;  // words, line
+  std::optional<std::size_t> chosen;
+  std::string without;  // what stands there while none is chosen
+};
+
+void combo(const PaneContext& context, const char* command, const Entries& entries) {
+  ImGui::SetNextItemWidth(-1e-3f);
+  const std::string now = entries.chosen ? entries.all[*entries.chosen].first : entries.without;
+  if (ImGui::BeginCombo((std::string("##") + command).c_str(), now.c_str())) {
+    for (std::size_t i = 0; i < entries.all.size(); ++i) {
+      const auto& [words, line] = entries.all[i];
+      if (ImGui::Selectable(words.c_str(), entries.chosen == i)) context.perform(line);
+      context.anchor_last(line);
+    }
+    ImGui::EndCombo();
+  }
+  context.anchor_last(command);
+  tooltip(context, find_command(command)->help);
+}
+
+void laser_choice(const PaneContext& context, const RecordingSurvey& streams) {
+  begin_choice(context, *find_command("choose-laser"));
+  Entries entries{{}, streams.laser, streams.lasers.empty() ? "None in this recording" : "Not chosen yet"};
+  for (const LaserChoice& laser : streams.lasers)
+    entries.all.emplace_back(in_words(laser), "choose-laser " + ui::quoted(laser.topic));
+  combo(context, "choose-laser", entries);
+  note(context, streams.laser_problem, true);
+}
+
+void motor_choice(const PaneContext& context, const RecordingSurvey& streams) {
+  begin_choice(context, *find_command("choose-motor"));
+  Entries entries{{}, streams.joint, streams.joints.empty() ? "None in this recording" : "Not chosen yet"};
+  for (const JointChoice& joint : streams.joints)
+    entries.all.emplace_back(
+        in_words(joint), fmt::format("choose-motor {} {}", ui::quoted(joint.joint), ui::quoted(joint.topic)));
+  combo(context, "choose-motor", entries);
+  note(context, streams.joint_problem, true);
+}
+
+void stamps_choice(const PaneContext& context, const Explorer::Choosing& choosing) {
+  begin_choice(context, *find_command("choose-stamps"));
+  const auto& stamps = choosing.choices.stamps;
+  const std::size_t chosen = !stamps ? 0 : *stamps == StampSource::kHeader ? 1 : 2;
+  combo(context, "choose-stamps",
+        {{{"As detected", "choose-stamps detected"},
+          {"Of the header, for both", "choose-stamps header"},
+          {"Of receiving, for both", "choose-stamps receive"}},
+         chosen,
+         ""});
+  if (choosing.survey) note(context, choosing.survey->stamps_note);
+}
+
+/// A file, a button that asks for it, and one that takes it away.
+void file_choice(const PaneContext& context, const char* command, const std::string& file,
+                 const char* without) {
+  begin_choice(context, *find_command(command));
+  const std::string line = std::string("ask ") + command;
+  const std::string name = file.empty() ? without : printable_line(file);
+  const float button_width = context.pxf(90), gap = ImGui::GetStyle().ItemSpacing.x;
+  const float room = ImGui::GetContentRegionAvail().x - (file.empty() ? 1.0f : 2.0f) * (button_width + gap);
+  ImGui::AlignTextToFramePadding();
+  const float x = ImGui::GetCursorPosX();
+  ImGui::PushStyleColor(ImGuiCol_Text,
+                        to_imgui(file.empty() ? context.style.faint_text : context.style.text));
+  ImGui::TextUnformatted(
+      fit_text(name, static_cast<double>(ImGui::GetFontSize()), static_cast<double>(room)).c_str());
+  ImGui::PopStyleColor();
+  if (!file.empty()) tooltip(context, file);
+  ImGui::SameLine(x + room + gap);
+  button(context, "Choose …", line, static_cast<double>(button_width));
+  if (file.empty()) return;
+  ImGui::SameLine();
+  button(context, "None", command, static_cast<double>(button_width));
+}
+
+/// The recording from end to end: where the rig stood and moved, and a handle at either end of what is used.
+class PartStrip {
+ public:
+  PartStrip(const PaneContext& context, const ReadingSurvey& survey, const ReadingChoices& choices)
+      : context_(context),
+        survey_(survey),
+        all_(!choices.window),
+        from_s_(choices.window ? choices.window->from_s : 0),
+        to_s_(choices.window ? std::min(choices.window->to_s, survey.duration_s) : survey.duration_s) {}
+
+  void draw() {
+    at_ = ImGui::GetCursorScreenPos();
+    width_ = ImGui::GetContentRegionAvail().x;
+    ImGui::InvisibleButton("choose-part", {width_, context_.pxf(kHigh)});
+    context_.anchor_last("choose-part");
+    tooltip(context_, find_command("choose-part")->help);
+    use_mouse();
+    draw_parts();
+    for (const double end_s : {from_s_, to_s_}) draw_handle(end_s);
+  }
+  /// What is used, and what the colours mean.
+  std::string words() const {
+    std::string text =
+        all_ ? fmt::format("All of {:.1f} s. Drag the ends to use a part.", survey_.duration_s)
+             : fmt::format("{:.1f} to {:.1f} s of {:.1f} s.", from_s_, to_s_, survey_.duration_s);
+    double moved_s = 0;
+    for (const MotionPart& part : survey_.motion) moved_s += part.moved ? part.end_s - part.begin_s : 0;
+    if (!survey_.motion.empty())
+      text += fmt::format(" The rig was stationary for {:.1f} s (faint) and moved for {:.1f} s (strong).",
+                          survey_.duration_s - moved_s, moved_s);
+    return text;
+  }
+
+ private:
+  static constexpr double kHigh = 26;
+
+  float x_of(double s) const {
+    const double share = std::clamp(s / std::max(survey_.duration_s, 1e-9), 0.0, 1.0);
+    return at_.x + margin() + static_cast<float>(share) * (width_ - 2 * margin());
+  }
+  float margin() const { return context_.pxf(6); }
+
+  void use_mouse() {
+    const double room = static_cast<double>(width_ - 2 * margin());
+    const double mouse_s =
+        std::clamp(static_cast<double>(ImGui::GetIO().MousePos.x - at_.x - margin()) / room, 0.0, 1.0) *
+        survey_.duration_s;
+    double& held = context_.transient.time_handle;
+    if (ImGui::IsItemActivated()) held = std::abs(mouse_s - from_s_) <= std::abs(mouse_s - to_s_) ? 0 : 1;
+    if (!ImGui::IsItemActive()) return;
+    const double rounded_s = std::round(mouse_s * 10) / 10;
+    if (held < 0.5)
+      from_s_ = std::clamp(rounded_s, 0.0, std::max(0.0, to_s_ - 0.1));
+    else
+      to_s_ = std::max(rounded_s, from_s_ + 0.1);
+    const bool whole = from_s_ < 0.05 && to_s_ > survey_.duration_s - 0.05;
+    context_.perform(Call{find_command("choose-part"), {whole ? 0.0 : from_s_, whole ? 0.0 : to_s_}});
+  }
+
+  void draw_parts() const {
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const float top = at_.y + context_.pxf(7), bottom = at_.y + context_.pxf(kHigh - 7);
+    const auto bar = [&](double begin_s, double end_s, ImU32 colour) {
+      list.AddRectFilled({x_of(begin_s), top}, {x_of(end_s), bottom}, colour);
+    };
+    bar(0, survey_.duration_s, to_imgui(context_.style.frame));
+    for (const MotionPart& part : survey_.motion)
+      bar(part.begin_s, part.end_s, to_imgui(colour_of_b(context_.style), part.moved ? 0.85 : 0.3));
+    const ImU32 veil = to_imgui(context_.style.page, 0.72);
+    bar(0, from_s_, veil);
+    bar(to_s_, survey_.duration_s, veil);
+  }
+
+  void draw_handle(double s) const {
+    const float x = x_of(s), half = context_.pxf(3);
+    ImGui::GetWindowDrawList()->AddRectFilled({x - half, at_.y + context_.pxf(2)},
+                                              {x + half, at_.y + context_.pxf(kHigh - 2)},
+                                              to_imgui(context_.style.text), context_.pxf(2));
+  }
+
+  const PaneContext& context_;
+  const ReadingSurvey& survey_;
+  bool all_;
+  double from_s_, to_s_;
+  ImVec2 at_{};
+  float width_ = 0;
+};
+
+void part_choice(const PaneContext& context, const Explorer::Choosing& choosing) {
+  begin_choice(context, *find_command("choose-part"));
+  const bool known = choosing.survey && choosing.survey->duration_s > 0;
+  if (known) {
+    PartStrip strip(context, *choosing.survey, choosing.choices);
+    strip.draw();
+    return note(context, strip.words());
+  }
+  const auto& window = choosing.choices.window;
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextDisabled("%s", window ? fmt::format("{:.1f} to {:.1f} s", window->from_s, window->to_s).c_str()
+                                   : "All of it. The strip comes once laser and motor are known.");
+}
+
+void beginning(const PaneContext& context, const Explorer::Choosing& choosing) {
+  ImGui::PushFont(context.fonts.heading);
+  ImGui::TextUnformatted(
+      printable_line("Open " + std::filesystem::path(choosing.choices.file).filename().string()).c_str());
+  ImGui::PopFont();
+  ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(context.style.faint_text));
+  ImGui::TextWrapped("%s", printable_line(choosing.choices.file).c_str());
+  ImGui::PopStyleColor();
+  tooltip(context, whole_path(choosing.choices.file));
+  if (context.explorer.is_surveying() || !choosing.survey) {
+    ImGui::TextDisabled("Looking at it …");
+  } else if (const auto problems = problems_of(choosing); problems.empty()) {
+    ImGui::TextDisabled("It can be opened like this.");
+  } else {
+    const bool missing = !choosing.survey->streams.complete();
+    ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(colour_of_a(context.style)));
+    ImGui::TextWrapped("%s", missing ? "Something has to be chosen first. It is marked below."
+                                     : printable_message(problems.front()).c_str());
+    ImGui::PopStyleColor();
+  }
+}
+
+/// Enter opens, unless a list is open or something in front has the keyboard.
+bool entered(const Transient& transient) {
+  const bool in_front = transient.palette || transient.help || transient.asks_for;
+  const bool popup = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
+  return !in_front && !popup && ImGui::IsKeyPressed(keys::kEnter, false);
+}
+
+}  // namespace
+
+void draw_choices_page(const PaneContext& context, const PixelRect& place) {
+  const Explorer::Choosing choosing = *context.explorer.choosing();  // what is performed may replace it
+  const double w = std::min(context.px(kWidth), place.width - context.px(24));
+  const double h = std::min(context.px(kHeight), place.height - context.px(16));
+  const PixelRect page{std::round(place.left + (place.width - w) / 2),
+                       std::round(place.top + (place.height - h) / 2.4), w, h};
+  if (!context.transient.on_choices_page) ImGui::SetNextWindowFocus();
+  begin_panel(context, "choices", page, true, false, true);
+  beginning(context, choosing);
+  heading(context, "Streams");
+  const RecordingSurvey streams = choosing.survey ? choosing.survey->streams : RecordingSurvey();
+  if (choosing.survey) {
+    laser_choice(context, streams);
+    motor_choice(context, streams);
+  }
+  stamps_choice(context, choosing);
+  heading(context, "Rig and trajectory");
+  file_choice(context, "choose-rig", choosing.choices.rig_file, "No rig file");
+  if (choosing.survey) note(context, choosing.survey->mount_note);
+  file_choice(context, "choose-poses", choosing.choices.poses, "None: it is solved for");
+  heading(context, "Time");
+  part_choice(context, choosing);
+  ImGui::Dummy({0, context.pxf(6)});
+  const bool opens = entered(context.transient);
+  button(context, "Open", "open-chosen", context.px(130), true);
+  ImGui::SameLine();
+  button(context, "Cancel", "dismiss", context.px(110));
+  end_panel();
+  if (opens) context.perform("open-chosen");
+}
+
+}  // namespace sweepscope::ui
