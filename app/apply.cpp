@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <memory>
 
 #include "app/applied_offset.hpp"
@@ -9,10 +8,9 @@
 #include "app/progress.hpp"
 #include "app/recording_options.hpp"
 #include "app/say.hpp"
-#include "core/apply/applied_records.hpp"
 #include "core/apply/apply.hpp"
+#include "core/apply/apply_files.hpp"
 #include "core/apply/sweep_folder.hpp"
-#include "core/recording/formats/read_raw_recording.hpp"
 
 namespace sweepscope::app {
 namespace {
@@ -21,9 +19,10 @@ namespace fs = std::filesystem;
 
 struct Options {
   fs::path recording, output;
-  std::optional<fs::path> estimate, rig;
+  std::optional<fs::path> estimate;
+  RigOptions rig;
   std::optional<double> offset_ms;
-  std::optional<std::string> stamps;
+  std::optional<StampSource> stamps;
   std::string shift = "motor";
   bool again = false;
   std::string clouds_topic, base_frame = "base_link", clouds_format = "pcd";
@@ -34,18 +33,10 @@ struct Options {
 
 /// Whether the output may be written, before anything is read.
 Result<void> check_files(const Options& options) {
-  std::vector<fs::path> inputs = recording_files(options.recording);
-  for (const auto& file : {options.estimate, options.rig})
-    if (file) inputs.push_back(*file);
-  if (options.poses) inputs.push_back(*options.poses);
-  if (options.clouds_only)
-    if (auto checked =
-            check_outputs({(*options.clouds_only / "poses.tum").string()}, inputs, *options.clouds_only);
-        !checked || options.output.empty())
-      return checked;
-  const bool folder = !options.output.has_filename() || options.output.extension().empty();
-  if (folder) return check_outputs({(options.output / "metadata.yaml").string()}, inputs, options.output);
-  return check_outputs({options.output.string()}, std::move(inputs));
+  std::vector<fs::path> others;
+  for (const auto& file : {options.estimate, options.rig.rig, options.poses})
+    if (file) others.push_back(*file);
+  return check_apply_files(options.recording, options.output, options.clouds_only, std::move(others));
 }
 
 Result<ApplyOptions> apply_options(const Options& options) {
@@ -56,13 +47,10 @@ Result<ApplyOptions> apply_options(const Options& options) {
   if (options.estimate) result.estimate = options.estimate->filename().string();
   result.shifted = options.shift == "laser" ? ShiftedStream::kLaser : ShiftedStream::kMotor;
   result.again = options.again;
-  if (options.stamps)
-    result.stamps = *options.stamps == "header" ? StampSource::kHeader : StampSource::kReceive;
-  if (options.rig) {
-    auto rig = read_rig(*options.rig);
-    if (!rig) return tl::unexpected(rig.error());
-    result.rig = std::move(*rig);
-  }
+  result.stamps = options.stamps;
+  const auto rig = options.rig.rig_given();
+  if (!rig) return tl::unexpected(rig.error());
+  result.rig = rig->value_or(Rig());
   result.add.clouds_topic = options.clouds_topic;
   result.add.transforms = options.transforms;
   result.add.base_frame = options.base_frame;
@@ -87,23 +75,10 @@ Result<void> check_options(const Options& options) {
   return {};
 }
 
-/// Tables hold no record: they are as they were recorded.
-Result<void> check_not_applied(const Recording& recording, const Options& options, const Job& job) {
-  const auto stream = open_stream(options.recording, job);
-  if (options.again || !stream) return {};
-  const auto& topics = recording.report.topics;
-  const bool has_record = std::ranges::find(topics, kAppliedTopic, &RecordedTopic::name) != topics.end();
-  return sweepscope::check_not_applied(*stream, has_record);
-}
-
 Result<void> write_clouds(const Options& options, const ApplyOptions& apply_options,
                           const Progress& progress) {
-  const ReadOptions read_options{apply_options.rig, apply_options.stamps};
-  auto recording = read_recording(options.recording, read_options, progress.job());
-  if (!recording) return tl::unexpected(recording.error());
-  if (auto checked = check_not_applied(*recording, options, progress.job()); !checked) return checked;
-  const auto written = write_sweeps(std::move(*recording), apply_options.offset, apply_options.add,
-                                    *options.clouds_only, "." + options.clouds_format, progress.job());
+  const auto written = write_applied_sweeps(options.recording, apply_options, *options.clouds_only,
+                                            "." + options.clouds_format, progress.job());
   if (!written) return tl::unexpected(written.error());
   for (const std::string& warning : written->warnings) progress.say("warning: " + warning);
   print("{}: {} sweeps of a {} rig, and poses.tum\n", options.clouds_only->string(), written->sweeps,
@@ -170,15 +145,9 @@ void add_apply(CLI::App& app, ExitCode& exit_code) {
                    "motor: move its stamps onto the laser's clock; laser: the other way")
       ->capture_default_str()
       ->check(CLI::IsMember({"motor", "laser"}));
-  command
-      ->add_option("--rig", options->rig,
-                   "Rig file that names the laser, the motor and their stamps, where that is ambiguous")
-      ->type_name("F");
-  command
-      ->add_option("--stamps", options->stamps,
-                   "Stamps that are used: header or receive (default: the rig file's, else header)")
-      ->type_name("S")
-      ->check(CLI::IsMember({"header", "receive"}));
+  options->rig.declare_rig(
+      *command, "Rig file that names the laser, the motor and their stamps, where that is ambiguous");
+  declare_stamps(*command, options->stamps);
   command
       ->add_option(
           "--clouds", options->clouds_topic,

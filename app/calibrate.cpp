@@ -20,7 +20,7 @@ namespace {
 
 struct Options {
   std::string source, address;  // the address: of a Foxglove server
-  RecordingOptions recording;   // --rig, --stamps and --threads
+  RecordingOptions recording;   // --rig, --laser, --motor, --joint, --stamps and --threads
   CalibrationOptions calibration;
   std::filesystem::path record;
   EstimateOutput output;
@@ -122,11 +122,9 @@ Result<Estimate> run_calibration(Options& options, Result<void>& kept) {
                    options.address.empty()
                        ? "calibrate foxglove needs an address, such as ws://localhost:8765"
                        : "an address belongs to calibrate foxglove");
-  if (options.recording.rig) {
-    const auto rig = read_rig(*options.recording.rig);
-    if (!rig) return tl::unexpected(rig.error());
-    options.calibration.rig = *rig;
-  }
+  const auto rig = options.recording.rig_given();
+  if (!rig) return tl::unexpected(rig.error());
+  options.calibration.rig = rig->value_or(Rig());
   options.calibration.stamps = options.recording.stamps;
   auto format = options.record.empty() ? RecordingFormat::kCsv : record_format(options.record);
   if (!format) return tl::unexpected(format.error());
@@ -198,19 +196,9 @@ void add_calibrate(CLI::App& app, ExitCode& exit_code) {
           "--record", options->record,
           "Record what was received: OUT.bag, OUT.mcap, or OUT for a folder with scans.csv and motor.csv")
       ->type_name("OUT");
-  command
-      ->add_option("--rig", options->recording.rig,
-                   "Rig file: topics, joint, stamps and mount (default: detected, rolling about x)")
-      ->type_name("F");
-  command
-      ->add_option_function<std::string>(
-          "--stamps",
-          [options](const std::string& text) {
-            options->recording.stamps = text == "header" ? StampSource::kHeader : StampSource::kReceive;
-          },
-          "Stamps to use for both streams: header or receive (default: the rig file's, else header)")
-      ->type_name("S")
-      ->check(CLI::IsMember({"header", "receive"}));
+  options->recording.declare_rig(
+      *command, "Rig file: topics, joint, stamps and mount (default: detected, rolling about x)");
+  declare_stamps(*command, options->recording.stamps);
   command
       ->add_option_function<std::string>(
           "--method",

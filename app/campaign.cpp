@@ -66,13 +66,7 @@ std::vector<CampaignInput> inputs_of(const CampaignOptions& options, const std::
 
 std::vector<std::uint64_t> sizes_of(const CampaignOptions& options) {
   std::vector<std::uint64_t> sizes;
-  for (const fs::path& recording : options.recordings) {
-    std::uint64_t bytes = 0;
-    std::error_code unknown;
-    for (const fs::path& file : recording_files(recording))
-      if (const auto size = fs::file_size(file, unknown); !unknown) bytes += size;
-    sizes.push_back(bytes);
-  }
+  for (const fs::path& recording : options.recordings) sizes.push_back(recording_size_bytes(recording));
   return sizes;
 }
 
@@ -86,9 +80,9 @@ std::optional<CampaignRow> estimate_row(const fs::path& recording, const Estimat
   try {
     found = estimate_recording(reading, search, job);
   } catch (const std::bad_alloc&) {
-    found = unreadable(recording.string() + ": needs more memory than this machine has");
+    found = tl::unexpected(too_little_memory(recording.string()));
   } catch (const std::length_error&) {
-    found = unreadable(recording.string() + ": needs more memory than this machine has");
+    found = tl::unexpected(too_little_memory(recording.string()));
   }
   if (found ? found->estimate.interrupted : found.error().code == ExitCode::kInterrupted) return std::nullopt;
   return campaign_row(recording.string(), found);

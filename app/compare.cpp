@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -15,11 +14,11 @@
 #include "app/say.hpp"
 #include "core/io/cloud_file.hpp"
 #include "core/io/trajectory_file.hpp"
-#include "core/map/feature_points.hpp"
 #include "core/map/offset_map.hpp"
 #include "core/recording/formats/read_raw_recording.hpp"
 #include "core/results/estimate_json.hpp"
 #include "render/charts/curve_charts.hpp"
+#include "render/comparison/compared_recording.hpp"
 #include "render/comparison/comparison_json.hpp"
 #include "render/vector/vector_file.hpp"
 
@@ -85,24 +84,28 @@ struct Compared {
   std::unique_ptr<CandidateFile> kept;  // the estimate's candidates, until the picture is there
 };
 
-/// The paper's criteria of that kind of recording, whatever method an estimate would take. Finished
-/// candidates are kept beside the picture.
-Result<Estimate> curve_about(const PreparedRecording& prepared, const OffsetMap& map,
+/// Finished candidates are kept beside the picture.
+Result<Estimate> curve_about(const PreparedRecording& prepared, const ComparedRecording& compared,
                              const CompareOptions& options, CandidateFile& kept, const Job& job) {
-  const auto [least, greatest] = std::minmax_element(options.offsets_ms.begin(), options.offsets_ms.end());
-  EstimateOptions wanted;
-  wanted.method = map.moving ? Method::kMoving : Method::kStationary;
-  wanted.walk = map.walk;
-  wanted.ranges = {{(*least - 5) * 1e-3, (*greatest + 5) * 1e-3, 1e-3}};
-  auto curve = estimate(prepared, wanted, {&kept, {}}, job);
+  auto curve = estimate(prepared, criteria_about(compared, options.offsets_ms), {&kept, {}}, job);
   if (curve && curve->interrupted) curve = failure(ExitCode::kInterrupted, "interrupted");
   if (!curve) return tl::unexpected(ended(curve.error(), kept));
   return curve;
 }
 
+Result<MapOptions> map_options(const CompareOptions& options, const Recording& recording) {
+  MapOptions map_options;
+  map_options.assume = options.recording.assumed_kind();
+  if (options.poses.empty()) return map_options;
+  auto poses = read_tum(options.poses, recording.epoch_ns);
+  if (!poses) return tl::unexpected(poses.error());
+  map_options.poses = std::move(*poses);
+  return map_options;
+}
+
 Result<Compared> from_recording(const CompareOptions& options, bool by_features) {
-  if (options.offsets_ms.size() < 2 || options.offsets_ms.size() > 4)
-    return wrong_usage("compare of a recording needs two to four offsets, such as --offsets-ms 19,24");
+  if (const auto counted = check_offset_count(options.offsets_ms.size()); !counted)
+    return tl::unexpected(counted.error());
   const Progress progress;
   RecordingOptions reading = options.recording;
   reading.recording = options.inputs.front();
@@ -110,34 +113,24 @@ Result<Compared> from_recording(const CompareOptions& options, bool by_features)
   if (!recording) return tl::unexpected(recording.error());
   std::vector<double> offsets_s;
   for (const double offset_ms : options.offsets_ms) offsets_s.push_back(offset_ms * 1e-3);
-  MapOptions map_options;
-  map_options.assume = options.recording.assumed_kind();
-  if (!options.poses.empty()) {
-    auto poses = read_tum(options.poses, recording->epoch_ns);
-    if (!poses) return tl::unexpected(poses.error());
-    map_options.poses = std::move(*poses);
-  }
+  const auto how = map_options(options, *recording);
+  if (!how) return tl::unexpected(how.error());
   warn_of_memory(*recording, offsets_s.size(), progress);
-  const auto prepared = prepare(*recording, map_options.features, progress.job());
+  const auto prepared = prepare(*recording, how->features, progress.job());
   if (!prepared) return tl::unexpected(prepared.error());
-  auto built = build_maps(*prepared, offsets_s, map_options, progress.job());
-  if (!built) return tl::unexpected(built.error());
-  if (!built->front().warning.empty()) progress.say("warning: " + built->front().warning);
+  auto maps = compared_recording(*prepared, offsets_s, *how, by_features, progress.job());
+  if (!maps) return tl::unexpected(maps.error());
+  if (!maps->warning.empty()) progress.say("warning: " + maps->warning);
   Compared compared;
-  for (OffsetMap& map : *built) {
-    ComparedMap& next = compared.maps.emplace_back();
-    next.offset_s = map.offset_s;
-    next.cloud = map.cloud;
-    next.path = std::move(map.trajectory);
-    if (by_features) next.feature_kinds = feature_kinds(*prepared->features, *map.cloud);
+  if (options.curve.empty() && !options.no_curve) {
+    auto kept = keep_while_working(kept_candidates(options), reading, options.given);
+    if (!kept) return tl::unexpected(kept.error());
+    compared.kept = std::move(*kept);
+    auto curve = curve_about(*prepared, *maps, options, *compared.kept, progress.job());
+    if (!curve) return tl::unexpected(curve.error());
+    compared.estimate = std::move(*curve);
   }
-  if (!options.curve.empty() || options.no_curve) return compared;
-  auto kept = keep_while_working(kept_candidates(options), reading, options.given);
-  if (!kept) return tl::unexpected(kept.error());
-  compared.kept = std::move(*kept);
-  auto curve = curve_about(*prepared, built->front(), options, *compared.kept, progress.job());
-  if (!curve) return tl::unexpected(curve.error());
-  compared.estimate = std::move(*curve);
+  compared.maps = std::move(maps->maps);
   return compared;
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 struct Options {
   std::filesystem::path recording, output;
-  std::optional<std::filesystem::path> rig;
+  RigOptions rig;
   std::string to, compression = "none";
 };
 
@@ -35,7 +35,7 @@ Result<RecordingFormat> format_of(const Options& options) {
 
 Result<void> check_files(const Options& options, RecordingFormat format) {
   std::vector<std::filesystem::path> inputs = recording_files(options.recording);
-  if (options.rig) inputs.push_back(*options.rig);
+  if (options.rig.rig) inputs.push_back(*options.rig.rig);
   return check_outputs(written_files(options.output, format), std::move(inputs),
                        format == RecordingFormat::kCsv ? options.output : std::filesystem::path());
 }
@@ -45,14 +45,15 @@ Result<std::string> convert(const Options& options) {
   const auto format = format_of(options);
   if (!format) return tl::unexpected(format.error());
   if (const auto checked = check_files(options, *format); !checked) return tl::unexpected(checked.error());
-  const auto rig = options.rig ? read_rig(*options.rig) : Result<Rig>(Rig());
-  if (!rig) return tl::unexpected(rig.error());
+  const auto given = options.rig.rig_given();
+  if (!given) return tl::unexpected(given.error());
+  const Rig rig = given->value_or(Rig());
   const Progress progress;
-  const auto raw = read_raw_recording(options.recording, *rig, progress.job(), CloudDetail::kWhole);
+  const auto raw = read_raw_recording(options.recording, rig, progress.job(), CloudDetail::kWhole);
   if (!raw) return tl::unexpected(raw.error());
-  const auto laser = choose_laser(*raw, *rig);
+  const auto laser = choose_laser(*raw, rig);
   if (!laser) return tl::unexpected(laser.error());
-  const auto joint = choose_joint(*raw, *rig);
+  const auto joint = choose_joint(*raw, rig);
   if (!joint) return tl::unexpected(joint.error());
   const RawLaser& scans = raw->lasers[*laser];
   const RawJoint& motor = raw->joints[*joint];
@@ -97,10 +98,7 @@ void add_convert(CLI::App& app, ExitCode& exit_code) {
       ->capture_default_str()
       ->type_name("C")
       ->check(CLI::IsMember({"none", "bz2", "lz4", "zstd"}));
-  command
-      ->add_option("--rig", options->rig,
-                   "Rig file that names the laser and the motor, where that is ambiguous")
-      ->type_name("F");
+  options->rig.declare_rig(*command, "Rig file that names the laser and the motor, where that is ambiguous");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

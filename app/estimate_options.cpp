@@ -179,7 +179,7 @@ std::vector<std::string> deciding_options(const CLI::App& command) {
     const std::string name = option->get_name();
     if (option->get_positional() || std::find(kOthers.begin(), kOthers.end(), name) != kOthers.end())
       continue;
-    for (const std::string& value : option->results()) options.push_back(name + "=" + value);
+    for (const std::string& value : option->results()) options.push_back(fmt::format("{}={}", name, value));
   }
   return options;
 }

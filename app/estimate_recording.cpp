@@ -11,12 +11,8 @@ namespace sweepscope::app {
 namespace {
 
 bool is_large(const std::filesystem::path& recording) {
-  constexpr std::uintmax_t kLarge_bytes = std::uintmax_t{64} << 20;
-  std::uintmax_t bytes = 0;
-  std::error_code unknown;
-  for (const std::filesystem::path& file : recording_files(recording))
-    if (const auto size = std::filesystem::file_size(file, unknown); !unknown) bytes += size;
-  return bytes > kLarge_bytes;
+  constexpr std::uint64_t kLarge_bytes = std::uint64_t{64} << 20;
+  return recording_size_bytes(recording) > kLarge_bytes;
 }
 
 DatedEstimate dated(Estimate estimate, const Recording& recording) {

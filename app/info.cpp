@@ -1,96 +1,19 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "app/commands.hpp"
 #include "app/progress.hpp"
 #include "app/recording_options.hpp"
 #include "app/say.hpp"
 #include "core/io/printable_text.hpp"
-#include "core/offset/expectations.hpp"
-#include "core/offset/rig_motion.hpp"
+#include "core/offset/summary.hpp"
 #include "core/recording/inspect.hpp"
 #include "core/recording/rig.hpp"
+#include "core/results/info_json.hpp"
 
 namespace sweepscope::app {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-template <typename T>
-Json or_null(const std::optional<T>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
-
-Json stream_json(const StreamSummary& stream) {
-  return {{"topic", stream.topic},
-          {"stamp", name_of(stream.stamp)},
-          {"used", stream.used},
-          {"rate_hz", stream.rate_hz()},
-          {"median_period_s", stream.median_period_s},
-          {"duration_s", stream.duration_s},
-          {"gaps", stream.gaps},
-          {"longest_gap_s", stream.longest_gap_s},
-          {"out_of_order", stream.out_of_order},
-          {"doubled", stream.doubled},
-          {"dropped", stream.dropped},
-          {"receive_minus_header_s", or_null(stream.receive_minus_header_s)},
-          {"receive_jitter_s", or_null(stream.receive_jitter_s)}};
-}
-
-Json laser_json(const LaserSummary& laser) {
-  Json json = stream_json(laser);
-  json.update(Json{{"stamp_at", name_of(laser.stamp_at)},
-                   {"fewest_beams", laser.min_beams},
-                   {"most_beams", laser.max_beams},
-                   {"first_beam_deg", laser.first_beam_deg},
-                   {"last_beam_deg", laser.last_beam_deg},
-                   {"scan_s", laser.scan_s},
-                   {"beams", laser.beams},
-                   {"usable_beams", laser.usable_beams},
-                   {"nan_ranges", laser.nan},
-                   {"infinite_ranges", laser.infinite},
-                   {"zero_ranges", laser.zero},
-                   {"out_of_range_ranges", laser.out_of_range},
-                   {"median_range_m", laser.median_range_m},
-                   {"scans_without_motor", laser.scans_without_motor},
-                   {"intensities", laser.intensities},
-                   {"rings", laser.rings}});
-  return json;
-}
-
-Json motor_json(const MotorSummary& motor) {
-  Json json = stream_json(motor);
-  json.update(Json{{"joint", motor.joint},
-                   {"least_deg", motor.min_deg},
-                   {"most_deg", motor.max_deg},
-                   {"median_speed_deg_s", motor.median_speed_deg_s},
-                   {"deg_per_ms", motor.deg_per_ms()},
-                   {"turns", motor.turns},
-                   {"one_way", motor.one_way},
-                   {"unwrapped", motor.unwrapped},
-                   {"reversals", motor.reversals},
-                   {"whole_sweeps", motor.whole_sweeps()},
-                   {"median_sweep_s", motor.median_sweep_s}});
-  return json;
-}
-
-std::string as_json(const RecordingSummary& summary) {
-  Json topics = Json::array();
-  for (const RecordedTopic& topic : summary.topics) {
-    topics.push_back({{"name", topic.name},
-                      {"type", topic.type},
-                      {"messages", topic.messages},
-                      {"malformed", topic.malformed}});
-  }
-  const Json json = {{"schema", "sweepscope.info/1"},      {"recording", summary.name},
-                     {"warnings", summary.warnings},       {"topics", topics},
-                     {"laser", laser_json(summary.laser)}, {"motor", motor_json(summary.motor)},
-                     {"motion", or_null(summary.motion)},  {"expectations", summary.expectations},
-                     {"version", SWEEPSCOPE_VERSION}};
-  return json_text(json);
-}
 
 std::string row(std::string_view name, const std::string& value) {
   return fmt::format("  {:<10} {}\n", name, printable_line(value));
@@ -185,19 +108,13 @@ ExitCode run(const RecordingOptions& options, const std::string& json) {
     const Progress progress;
     const auto recording = options.read(progress.job());
     if (!recording) return tl::unexpected(recording.error());
-    RecordingSummary found = inspect(*recording);
-    const auto prepared = prepare(*recording, FeatureOptions(), progress.job());
-    if (!prepared) return tl::unexpected(prepared.error());
-    const MotionTest motion = test_motion(*prepared);
-    if (motion.answered()) found.motion = motion.moving() ? "moving" : "stationary";
-    found.expectations = expectations(*recording, found, prepared->motor);
-    return found;
+    return summarise(*recording, progress.job());
   }();
   if (!summary) return fail(summary.error());
   for (const std::string& warning : summary->warnings) say("warning: {}: {}\n", summary->name, warning);
   if (json != "-") fmt::print("{}", as_text(*summary));
   if (json.empty()) return ExitCode::kDone;
-  const auto written = write_text(json, as_json(*summary));
+  const auto written = write_text(json, info_to_json(*summary));
   return written ? ExitCode::kDone : fail(written.error());
 }
 

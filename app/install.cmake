@@ -1,5 +1,5 @@
-# What `cmake --install` puts where, in two parts, and the two Debian packages that CPack makes of them: the program,
-# and the engine for other programs.
+# What `cmake --install` puts where, in parts, and the Debian packages that CPack makes of them: the program, the
+# engine for other programs, and the Python package where it is built (app/python installs it).
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -51,6 +51,9 @@ set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_COMPONENTS_ALL program engine)
+if(TARGET sweepscope_python)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+endif()
 set(CPACK_PACKAGE_CONTACT "The authors of sweepscope <sweepscope@localhost>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "time offset between an actuated laser scanner and its motor")
 set(CPACK_DEB_COMPONENT_INSTALL ON)
@@ -71,8 +74,17 @@ set(CPACK_DEBIAN_ENGINE_DESCRIPTION "engine of sweepscope, for other programs
  package: find_package(sweepscope) and link sweepscope::core.")
 # What the program is built with, for whoever builds with its engine.
 set(CPACK_DEBIAN_ENGINE_PACKAGE_DEPENDS
-    "libbz2-dev, libeigen3-dev, libembree-dev, libexpected-dev, libfmt-dev, liblz4-dev, libpcl-dev, librosbag-storage-dev, libroscpp-core-dev, libsensor-msgs-dev, libsqlite3-dev, libtbb-dev, libxxhash-dev, libyaml-cpp-dev, libzstd-dev, nlohmann-json3-dev, pkg-config, zlib1g-dev")
+    "libbz2-dev, libdeflate-dev, libeigen3-dev, libembree-dev, libexpected-dev, libfmt-dev, liblz4-dev, libpcl-dev, librosbag-storage-dev, libroscpp-core-dev, libsensor-msgs-dev, libsqlite3-dev, libtbb-dev, libxxhash-dev, libyaml-cpp-dev, libzstd-dev, nlohmann-json3-dev, pkg-config")
 if(roscpp_FOUND)
   string(APPEND CPACK_DEBIAN_ENGINE_PACKAGE_DEPENDS ", libroscpp-dev")
 endif()
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-sweepscope)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_DESCRIPTION "sweepscope from Python
+ The offset of a recording, its map as NumPy arrays, and pictures that a
+ notebook shows: import sweepscope.")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+# The module is of one version of Python. OSMesa is loaded at run time.
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+    "python3 (>= ${SWEEPSCOPE_PYTHON_VERSION}), python3 (<< ${SWEEPSCOPE_NEXT_PYTHON_VERSION}~), python3-numpy, libosmesa6")
 include(CPack)

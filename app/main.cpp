@@ -42,7 +42,7 @@ std::string input_of(const CLI::App& app) {
 }
 
 ExitCode fail_for_memory(const CLI::App& app) {
-  return app::fail({ExitCode::kUnreadableInput, input_of(app) + ": needs more memory than this machine has"});
+  return app::fail(app::too_little_memory(input_of(app)));
 }
 
 /// Says what is wrong with a first word that names no subcommand; "" if it names one, or is an option.

@@ -36,23 +36,49 @@ std::optional<RecordingOptions::Window> parse_window(const std::string& text) {
 
 }  // namespace
 
+void RigOptions::declare_rig(CLI::App& app, const std::string& help_of_rig) {
+  app.add_option("--rig", rig, help_of_rig)->type_name("F");
+  const auto name = [&app](const char* option, std::optional<std::string>& member, const char* help) {
+    app.add_option_function<std::string>(
+           option, [&member](const std::string& text) { member = text; }, help)
+        ->type_name(std::string(option) == "--joint" ? "NAME" : "TOPIC");
+  };
+  name("--laser", streams.laser, "Topic of the scans, where there are several (default: the rig file's)");
+  name("--motor", streams.motor,
+       "Topic of the motor's angle, where there are several (default: the rig file's)");
+  name("--joint", streams.joint, "Joint that turns the laser, where several move (default: the rig file's)");
+}
+
+Result<std::optional<Rig>> RigOptions::rig_given() const {
+  std::optional<Rig> given;
+  if (rig) {
+    auto from_file = read_rig(*rig);
+    if (!from_file) return tl::unexpected(std::move(from_file.error()));
+    given = std::move(*from_file);
+  }
+  if (streams.any()) given = with_streams(given.value_or(Rig()), streams);
+  return given;
+}
+
+void declare_stamps(CLI::App& app, std::optional<StampSource>& stamps) {
+  app.add_option_function<std::string>(
+         "--stamps",
+         [&stamps](const std::string& text) {
+           stamps = text == "header" ? StampSource::kHeader : StampSource::kReceive;
+         },
+         "Stamps to use for both streams: header or receive (default: the rig file's, else header)")
+      ->type_name("S")
+      ->check(CLI::IsMember({"header", "receive"}));
+}
+
 void RecordingOptions::declare(CLI::App& app) {
   app.add_option("REC", recording, std::string("The recording: ") + kRecordings)->required();
   declare_reading(app);
 }
 
 void RecordingOptions::declare_reading(CLI::App& app) {
-  app.add_option("--rig", rig,
-                 "Rig file: topics, joint, stamps and mount (default: detected, rolling about x)")
-      ->type_name("F");
-  app.add_option_function<std::string>(
-         "--stamps",
-         [this](const std::string& text) {
-           stamps = text == "header" ? StampSource::kHeader : StampSource::kReceive;
-         },
-         "Stamps to use for both streams: header or receive (default: the rig file's, else header)")
-      ->type_name("S")
-      ->check(CLI::IsMember({"header", "receive"}));
+  declare_rig(app, "Rig file: topics, joint, stamps and mount (default: detected, rolling about x)");
+  declare_stamps(app, stamps);
   app.add_option_function<std::string>(
          "--window", [this](const std::string& text) { window = parse_window(text); },
          "Use only the part from A to B, in seconds since the first scan")
@@ -92,11 +118,9 @@ Result<ReadOptions> RecordingOptions::read_options() const {
   ReadOptions options;
   options.stamps = stamps;
   options.keep_intensities = keep_intensities;
-  if (rig) {
-    auto from_file = read_rig(*rig);
-    if (!from_file) return tl::unexpected(std::move(from_file.error()));
-    options.rig = std::move(*from_file);
-  }
+  auto given = rig_given();
+  if (!given) return tl::unexpected(std::move(given.error()));
+  options.rig = std::move(*given);
   return options;
 }
 
@@ -120,6 +144,10 @@ CLI::Validator finite_number() {
 ExitCode fail(const Error& error) {
   say("sweepscope: {}\n", error.message);
   return error.code;
+}
+
+Error too_little_memory(const std::string& input) {
+  return {ExitCode::kUnreadableInput, input + ": needs more memory than this machine has"};
 }
 
 void print_warnings(const Recording& recording) {

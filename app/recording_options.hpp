@@ -13,6 +13,7 @@
 #include "core/job.hpp"
 #include "core/offset/estimate.hpp"
 #include "core/recording/formats/read_recording.hpp"
+#include "core/recording/rig/named_streams.hpp"
 
 namespace sweepscope::app {
 
@@ -20,20 +21,35 @@ namespace sweepscope::app {
 inline constexpr const char* kRecordings =
     "a ROS 1 or ROS 2 bag (.bag, .db3, .mcap), or a folder of either or of CSV tables";
 
+/// The options that name the laser and the motor of a recording, declared once.
+struct RigOptions {
+  std::optional<std::filesystem::path> rig;
+  StreamNames streams;  // --laser, --motor and --joint
+
+  /// --rig, --laser, --motor and --joint. The options write to this object, which must outlive `app`'s
+  /// parsing.
+  void declare_rig(CLI::App& app, const std::string& help_of_rig);
+  /// The rig file's contents with the streams that are named; empty where nothing is given.
+  Result<std::optional<Rig>> rig_given() const;
+};
+
+/// --stamps.
+void declare_stamps(CLI::App& app, std::optional<StampSource>& stamps);
+
 /// The options of every subcommand that reads a recording, declared once.
-struct RecordingOptions {
+struct RecordingOptions : RigOptions {
   struct Window {
     double from_s = 0, to_s = 0;
   };
   std::filesystem::path recording;
-  std::optional<std::filesystem::path> rig;
   std::optional<StampSource> stamps;
   std::optional<Window> window;       // seconds since the first scan
   std::optional<std::string> assume;  // "stationary" or "moving"; empty: the motion test decides
   bool keep_intensities = true;       // of the beams; false if they are not used
   int threads = 0;                    // 0: as many as there are processors
 
-  /// REC, --rig, --stamps and --window. The options write to this object, which must outlive `app`'s parsing.
+  /// REC, --rig, --laser, --motor, --joint, --stamps and --window. The options write to this object, which
+  /// must outlive `app`'s parsing.
   void declare(CLI::App& app);
   /// The same without REC, for a subcommand whose input may be something else.
   void declare_reading(CLI::App& app);
@@ -56,6 +72,9 @@ CLI::Validator finite_number();
 
 /// Prints the error of a subcommand, and returns its exit code.
 ExitCode fail(const Error& error);
+
+/// The error for an input that memory does not suffice for.
+Error too_little_memory(const std::string& input);
 /// Warns, above the bar, if this number of maps of the recording needs more memory than is available.
 void warn_of_memory(const Recording& recording, std::size_t maps, const Progress& progress);
 /// Prints the warnings of reading on stderr.

@@ -19,7 +19,7 @@ namespace {
 
 struct Options {
   std::filesystem::path recording;
-  std::optional<std::filesystem::path> rig;
+  RigOptions rig;
   std::optional<StampSource> stamps;
   std::string output = "-";
   std::optional<RigSystem> system;  // none: the rig file
@@ -42,11 +42,9 @@ bool is_rig_file(const Options& options) {
 Result<DetectedRig> detect(const Options& options) {
   ReadOptions reading;
   reading.stamps = options.stamps;
-  if (options.rig) {
-    auto given = read_rig(*options.rig);
-    if (!given) return tl::unexpected(given.error());
-    reading.rig = *given;
-  }
+  auto given = options.rig.rig_given();
+  if (!given) return tl::unexpected(given.error());
+  reading.rig = std::move(*given);
   const Progress progress;
   return detect_rig(options.recording, reading, progress.job());
 }
@@ -78,15 +76,15 @@ Result<void> check_options(const Options& options) {
   if (options.system && options.estimate.has_value() == options.offset_ms.has_value())
     return refuse("--as writes the offset as well: give one of --estimate and --offset-ms");
   if (!options.system && has_offset) return refuse("--estimate and --offset-ms belong to --as");
-  if (is_rig_file(options) && (options.rig || options.stamps))
-    return refuse("--rig and --stamps belong to a recording, not to a rig file");
+  if (is_rig_file(options) && (options.rig.rig || options.rig.streams.any() || options.stamps))
+    return refuse("--rig, --laser, --motor, --joint and --stamps belong to a recording, not to a rig file");
   return {};
 }
 
 std::vector<std::filesystem::path> input_files(const Options& options) {
   std::vector<std::filesystem::path> files = recording_files(options.recording);
   if (is_rig_file(options)) files.push_back(options.recording);
-  if (options.rig) files.push_back(*options.rig);
+  if (options.rig.rig) files.push_back(*options.rig.rig);
   if (options.estimate) files.push_back(*options.estimate);
   return files;
 }
@@ -141,20 +139,10 @@ void add_rig(CLI::App& app, ExitCode& exit_code) {
       ->required();
   command->add_option("-o,--output", options->output, "The rig file, or that of --as (default: stdout)")
       ->type_name("OUT");
-  command
-      ->add_option("--rig", options->rig,
-                   "Rig file with what is already known, or that names the laser and the motor where that is "
-                   "ambiguous")
-      ->type_name("F");
-  command
-      ->add_option_function<std::string>(
-          "--stamps",
-          [options](const std::string& text) {
-            options->stamps = text == "header" ? StampSource::kHeader : StampSource::kReceive;
-          },
-          "Stamps to use for both streams: header or receive (default: the rig file's, else header)")
-      ->type_name("S")
-      ->check(CLI::IsMember({"header", "receive"}));
+  options->rig.declare_rig(*command,
+                           "Rig file with what is already known, or that names the laser and the motor where "
+                           "that is ambiguous");
+  declare_stamps(*command, options->stamps);
   declare_snippet(*command, *options);
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }

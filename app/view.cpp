@@ -10,11 +10,12 @@
 #include "app/commands.hpp"
 #include "app/interrupt.hpp"
 #include "app/recording_options.hpp"
+#include "app/say.hpp"
 #include "core/io/atomic_file.hpp"
 #include "core/io/output_check.hpp"
-#include "core/io/printable_text.hpp"
 #include "ui/preferences.hpp"
 #include "ui/script/script.hpp"
+#include "ui/serve/serve.hpp"
 #include "ui/window_loop.hpp"
 
 namespace sweepscope::app {
@@ -27,6 +28,9 @@ struct ViewOptions {
   bool headless = false, size_given = false;
   std::string size = "1600x1000", script, run, record;
   double scale = 0;
+  bool served = false, once = false, listen_anywhere = false;
+  std::string address;  // of --serve
+  std::vector<std::string> roots, hosts;
 };
 
 struct Size {
@@ -53,25 +57,15 @@ Result<Size> parse_size(const std::string& text) {
 Result<ui::Ui::Options> ui_options(const ViewOptions& options) {
   ui::Ui::Options out;
   out.explorer.assume = options.reading.assumed_kind();
-  out.explorer.reading.stamps = options.reading.stamps;
+  ui::ReadingChoices& reading = out.explorer.reading;
+  reading.streams = options.reading.streams;
+  reading.stamps = options.reading.stamps;
   if (options.reading.rig) {
-    auto rig = read_rig(*options.reading.rig);
-    if (!rig) return tl::unexpected(rig.error());
-    out.explorer.reading.rig = std::move(*rig);
-    out.explorer.shell_options = " --rig " + shell_word(options.reading.rig->string());
-    out.explorer.report_options = " --rig " + shell_word(options.reading.rig->filename().string());
+    if (auto rig = read_rig(*options.reading.rig); !rig) return tl::unexpected(rig.error());
+    reading.rig_file = options.reading.rig->string();
+    out.explorer.input_files.push_back(*options.reading.rig);
   }
-  std::string others;
-  if (options.reading.stamps)
-    others += *options.reading.stamps == StampSource::kHeader ? " --stamps header" : " --stamps receive";
-  if (options.reading.assume) others += " --assume " + *options.reading.assume;
-  if (const auto& part = options.reading.window) {
-    others += fmt::format(" --window {}:{}", part->from_s, part->to_s);
-    out.explorer.window = TimeWindow{part->from_s, part->to_s};
-  }
-  out.explorer.shell_options += others;
-  out.explorer.report_options += others;
-  if (options.reading.rig) out.explorer.input_files.push_back(*options.reading.rig);
+  if (const auto& part = options.reading.window) reading.window = TimeWindow{part->from_s, part->to_s};
   if (!options.script.empty()) out.explorer.input_files.emplace_back(options.script);
   if (options.scale > 0) out.display_scale = options.scale;
   return out;
@@ -105,6 +99,75 @@ Result<void> check_record(const ViewOptions& options) {
   return check_run_files({inputs, {options.record}, {}});
 }
 
+/// Where the server listens; elsewhere than on this machine only if that is asked for as well.
+Result<ui::ListenAddress> listen_address(const ViewOptions& options) {
+  auto address = ui::parse_listen_address(options.address);
+  if (!address || address->loopback || options.listen_anywhere) return address;
+  return failure(
+      ExitCode::kWrongUsage,
+      fmt::format("--serve {}: other machines would reach it without encryption. Use 127.0.0.1 and "
+                  "ssh -L, or add --listen-anywhere",
+                  options.address));
+}
+
+/// The folders for viewers; what the command line names may be read wherever it is.
+Result<ui::FileRoots> file_roots(const ViewOptions& options) {
+  std::vector<std::filesystem::path> folders(options.roots.begin(), options.roots.end());
+  if (folders.empty()) folders.emplace_back(".");
+  return ui::FileRoots::of(folders).map([&](ui::FileRoots roots) {
+    for (const std::string& input : {options.recording, options.poses})
+      if (!input.empty()) roots.allow_reading(input);
+    if (options.reading.rig) roots.allow_reading(*options.reading.rig);
+    return roots;
+  });
+}
+
+/// From the root of the file system: the working folder changes before it is opened.
+std::string absolute(const std::string& path) {
+  std::error_code failed;
+  const auto whole = std::filesystem::absolute(path, failed);
+  return path.empty() || failed ? path : whole.string();
+}
+
+std::string first_line_of(const std::string& recording, const std::string& poses) {
+  std::string line = recording.empty() ? "" : "open " + ui::quoted(recording);
+  if (!poses.empty()) line += " " + ui::quoted(poses);
+  return line;
+}
+
+Result<void> serve(const ViewOptions& options, ui::Ui::Options with, const ui::WindowOptions& window,
+                   std::span<const ui::Script> scripts) {
+  const auto address = listen_address(options);
+  if (!address) return tl::unexpected(address.error());
+  const auto roots = file_roots(options);
+  if (!roots) return tl::unexpected(roots.error());
+  const std::string first = first_line_of(absolute(options.recording), absolute(options.poses));
+  with.explorer.roots = *roots;
+  for (auto& input : with.explorer.input_files) input = absolute(input.string());
+  with.explorer.reading.rig_file = absolute(with.explorer.reading.rig_file);
+  if (!options.roots.empty()) {
+    // What viewers name without a folder lies in the first of theirs.
+    std::error_code failed;
+    std::filesystem::current_path(roots->folders().front(), failed);
+    if (failed)
+      return failure(ExitCode::kWrongUsage, fmt::format("--root {}: {}", options.roots[0], failed.message()));
+  }
+  ui::ServeOptions served;
+  served.window = window;
+  served.server.address = *address;
+  served.server.hosts = {options.listen_anywhere, options.hosts};
+  served.server.token = ui::random_token();
+  served.server.hub.once = options.once;
+  served.server.hub.roots = *roots;
+  served.say = [](const std::string& text) {
+    for (const std::string& part : {text, std::string("Ctrl-C ends it.\n")}) {
+      fmt::print("{}", part);
+      std::fflush(stdout);  // it may be read by a program
+    }
+  };
+  return ui::run_served(std::move(with), std::move(served), first, scripts);
+}
+
 /// Clouds come and go by the hundred megabytes: what is let go goes back to the system at once.
 void return_memory() {
   constexpr int kKept_bytes = 1 << 20, kMaxArenas = 4;
@@ -121,8 +184,10 @@ Result<void> view(const ViewOptions& options) {
   if (const auto checked = check_record(options); !checked) return checked;
   auto with = ui_options(options);
   if (!with) return tl::unexpected(with.error());
-  std::string first = options.recording.empty() ? "" : "open " + ui::quoted(options.recording);
-  if (!options.poses.empty()) first += " " + ui::quoted(options.poses);
+  if (options.served)
+    return serve(options, std::move(*with), {size->width_px, size->height_px, absolute(options.record)},
+                 *scripts);
+  const std::string first = first_line_of(options.recording, options.poses);
   const ui::Preferences before = ui::read_preferences(ui::preferences_path());
   if (!options.headless && !options.size_given && before.width_px >= kMinSide_px &&
       before.height_px >= kMinSide_px)
@@ -134,6 +199,34 @@ Result<void> view(const ViewOptions& options) {
   auto context = gl::make_offscreen_context(size->width_px, size->height_px);
   if (!context) return tl::unexpected(context.error());
   return ui::run_headless(**context, std::move(*with), first, *scripts);
+}
+
+void declare_serving(CLI::App& command, ViewOptions& options, CLI::Option* headless) {
+  CLI::Option* serve = command.add_option("--serve", options.address,
+                                          "Show this interface in a browser, without a display here; prints "
+                                          "the address to open (default: 127.0.0.1:8717)");
+  serve->expected(0, 1)->type_name("[ADDRESS:PORT]")->excludes(headless);
+  command
+      .add_option("--root", options.roots,
+                  "With --serve: files are opened and written below this folder alone; repeatable; without a "
+                  "folder a name lies in the first (default: the working folder)")
+      ->type_name("DIR")
+      ->needs(serve)
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command.add_flag("--once", options.once, "With --serve: end when the last viewer left")->needs(serve);
+  command
+      .add_flag("--listen-anywhere", options.listen_anywhere,
+                "With --serve: allow an ADDRESS that other machines reach; nothing is encrypted")
+      ->needs(serve);
+  command
+      .add_option("--host", options.hosts,
+                  "With --serve: a name under which browsers reach it, such as that of a reverse proxy; "
+                  "repeatable")
+      ->type_name("NAME")
+      ->needs(serve)
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
 void declare(CLI::App& command, ViewOptions& options) {
@@ -163,6 +256,7 @@ void declare(CLI::App& command, ViewOptions& options) {
                   "Write what is done in the window to a script, line by line as it happens")
       ->type_name("F")
       ->excludes(headless);
+  declare_serving(command, options, headless);
   command.footer([] { return "\n" + ui::script_help(); });
 }
 
@@ -176,6 +270,7 @@ void add_view(CLI::App& app, ExitCode& exit_code) {
   command->callback([options, command, &exit_code] {
     const auto threads = options->reading.limit_threads();
     options->size_given = command->count("--size") > 0;
+    options->served = command->count("--serve") > 0;
     end_at_first_interrupt();
     if (const auto done = view(*options); !done) exit_code = fail(done.error());
   });
