@@ -46,6 +46,17 @@ TEST_F(CalibrateCommand, FindsWhatEstimateFindsInTheSameRecording) {
   EXPECT_EQ(kept["offset_ms"], expected["offset_ms"]);
 }
 
+TEST_F(CalibrateCommand, NamesTheLaserAndTheJointAsOtherCommandsDo) {
+  const std::string calibrate = "calibrate - --seconds 60 --json - --no-timing";
+  const Outcome named = run(calibrate + " --laser /scan --joint roll_motor <stream.csv");
+  ASSERT_EQ(named.exit_code, 0) << named.err;
+  EXPECT_EQ(parsed(named.out)["offset_ms"], parsed(run(calibrate + " <stream.csv").out)["offset_ms"]);
+  const Outcome wrong = run(calibrate + " --joint wheel <stream.csv");
+  EXPECT_EQ(wrong.exit_code, 4);
+  EXPECT_EQ(parsed(wrong.out)["reasons"].at(0), "No motor angles of the joint wheel were received.")
+      << wrong.out;
+}
+
 TEST_F(CalibrateCommand, HearsForTheSecondsAskedForAndSaysHowFarItIs) {
   const Outcome outcome = run("calibrate - --seconds 4.5 --record kept <stream.csv");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;

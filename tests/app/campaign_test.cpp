@@ -251,7 +251,9 @@ TEST_F(Campaign, TheTestReportIsXmlWithItsCounts) {
          "               errors=len(suite.findall('testcase/error')),\n"
          "               skipped=len(suite.findall('testcase/skipped')))\n"
          "for name, count in counted.items():\n"
-         "    assert int(suite.get(name)) == int(root.get(name)) == count, name\n"
+         "    assert int(suite.get(name)) == count, name\n"
+         "    # Jenkins' schema knows no 'skipped' in the root\n"
+         "    assert root.get(name) == (None if name == 'skipped' else str(count)), name\n"
          "assert all(c.get('classname') and c.get('name') and float(c.get('time')) == 0 for c in cases)\n"
          "print(counted, [c.get('name') for c in cases])\n";
   const Outcome counted = test::run_shell(folder_, "python3 counts.py");

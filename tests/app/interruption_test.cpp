@@ -300,7 +300,7 @@ TEST_P(FirstOutputs, OverTheLimitOfAFilesSizeAreRefused) {
             0);
   const std::string both = test::contents_of(folder_ / "said.both");
   const std::size_t last = both.rfind('\n', both.size() - 2) + 1;
-  expect_refused({std::atoi(both.c_str() + last), "", both.substr(0, last)}, "File too large");
+  expect_refused({std::stoi(both.substr(last)), "", both.substr(0, last)}, "File too large");
 }
 
 INSTANTIATE_TEST_SUITE_P(OfCommands, FirstOutputs,

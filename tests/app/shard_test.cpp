@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/results/candidate_file.hpp"
+#include "core/results/sealed_line.hpp"
 #include "tests/app/self_signal.hpp"
 #include "tests/program.hpp"
 

@@ -1,7 +1,10 @@
 // The explorer's command line, through the shipped executable.
 #include <gtest/gtest.h>
 
+#include <csignal>
+
 #include "core/io/atomic_file.hpp"
+#include "tests/app/self_signal.hpp"
 #include "tests/program.hpp"
 
 namespace sweepscope {
@@ -10,6 +13,17 @@ namespace {
 class View : public test::ProgramTest {
  protected:
   void SetUp() override { ASSERT_EQ(run("simulate room-3 -o room.bag --duration-s 5").exit_code, 0); }
+  /// Width and height as the file's header says.
+  std::pair<int, int> size_of_png(const std::string& name) const {
+    const std::string bytes = test::contents_of(folder_ / name);
+    const auto number = [&](std::size_t at) {
+      int value = 0;
+      for (std::size_t i = at; i < at + 4; ++i)
+        value = 256 * value + static_cast<unsigned char>(bytes.size() > i ? bytes[i] : '\0');
+      return value;
+    };
+    return {number(16), number(20)};
+  }
 };
 
 TEST_F(View, AWindowInTimeIsUsedAsByTheOtherCommands) {
@@ -43,6 +57,29 @@ TEST_F(View, ACommandForARecordingThatCannotBeReadGivesItsReason) {
   EXPECT_EQ(none.exit_code, 2) << none.err;
 }
 
+TEST_F(View, TheMapsAreExportedAtASizeOfTheirOwn) {
+  const Outcome exported =
+      run("view room.bag --headless --size 800x600 --run 'wait solved; export-picture all.png; "
+          "export-picture maps.png maps; export-picture sized.png maps 1600x900; theme light; "
+          "export-picture light.png maps 1600x900'");
+  ASSERT_EQ(exported.exit_code, 0) << exported.err;
+  const auto all = size_of_png("all.png"), maps = size_of_png("maps.png");
+  EXPECT_EQ(all, std::pair(800, 600));
+  EXPECT_LT(maps.first, all.first);
+  EXPECT_EQ(size_of_png("sized.png"), std::pair(1600, 900));
+  EXPECT_EQ(size_of_png("light.png"), std::pair(1600, 900));
+  EXPECT_NE(test::contents_of(folder_ / "sized.png"), test::contents_of(folder_ / "light.png"));
+  for (const char* size : {"1600", "1600x", "axb", "0x900", "1600x900x2", "99999x99999"}) {
+    const Outcome refused = run(
+        std::string("view room.bag --headless --run 'wait solved; export-picture no.png maps ") + size + "'");
+    EXPECT_EQ(refused.exit_code, 2) << size << refused.err;
+    EXPECT_FALSE(exists("no.png")) << size;
+  }
+  EXPECT_EQ(run("view room.bag --headless --run 'wait solved; export-picture no.png everything 1600x900'")
+                .exit_code,
+            2);
+}
+
 TEST_F(View, WhatIsRecordedReplacesNoInput) {
   const std::string before = read_file(folder_ / "room.bag").value();
   const Outcome recorded = run("view room.bag --record room.bag");
@@ -51,10 +88,29 @@ TEST_F(View, WhatIsRecordedReplacesNoInput) {
   EXPECT_EQ(read_file(folder_ / "room.bag").value(), before);
 }
 
+TEST_F(View, AServerThatOthersReachMustBeAskedFor) {
+  for (const char* address : {"0.0.0.0:0", "[::]:0", "192.0.2.1"}) {
+    const Outcome refused = run(std::string("view room.bag --serve ") + address);
+    EXPECT_EQ(refused.exit_code, 2) << address;
+    EXPECT_NE(refused.err.find("--listen-anywhere"), std::string::npos) << refused.err;
+  }
+  for (const char* wrong : {"--serve room.bag", "--serve 127.0.0.1:99999", "--serve --root none", "--root .",
+                            "--once", "--serve --headless", "--serve 192.0.2.1 --listen-anywhere"})
+    EXPECT_EQ(run(std::string("view ") + wrong).exit_code, 2) << wrong;
+}
+
+TEST_F(View, AServerIsInterrupted) {
+  const Outcome served =
+      run("view room.bag --serve 127.0.0.1:0", test::SelfSignal{SIGINT, "Ctrl-C ends it", 1}.environment());
+  EXPECT_EQ(served.exit_code, 130) << served.err;
+  EXPECT_NE(served.out.find("#token="), std::string::npos) << served.out;
+  EXPECT_NE(served.out.find("ssh -N -L "), std::string::npos) << served.out;
+}
+
 TEST_F(View, WithoutADisplayTheOtherWaysAreNamed) {
   const Outcome refused = run("view room.bag", "-u DISPLAY -u WAYLAND_DISPLAY");
   EXPECT_EQ(refused.exit_code, 2);
-  for (const char* way : {"--headless", "sweepscope report", "sweepscope compare"})
+  for (const char* way : {"--serve", "--headless", "sweepscope report", "sweepscope compare"})
     EXPECT_NE(refused.err.find(way), std::string::npos) << refused.err;
 }
 

@@ -15,7 +15,9 @@
 
 #include "render/clouds/point_polydata.hpp"
 #include "render/comparison/comparison.hpp"
+#include "render/gl/default_framebuffer.hpp"
 #include "render/gl/vtk_window.hpp"
+#include "render/pictures/live_view.hpp"
 #include "render/pictures/picture.hpp"
 #include "tests/render/synthetic_maps.hpp"
 
@@ -95,6 +97,43 @@ void drawing(State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(draw(picture).value());
 }
 
+/// A hall of 1 million points in an isometric view of 1280 x 720, drawn anew: flat (0), or lit (1). What
+/// lighting adds is the difference of the medians.
+void lighting(State& state) {
+  static const auto points = [] {
+    auto made = std::make_shared<LivePoints>();
+    const auto hall = test::HallMap(0, 1'000'000).make();
+    for (const MapPoint& point : *hall) {
+      made->xyz_m.push_back({point.x, point.y, point.z});
+      made->rgb.push_back({90, 160, 120});
+    }
+    return made;
+  }();
+  const auto context = gl::make_offscreen_context(64, 64).value();
+  LiveView view(*context);
+  view.resize(1280, 720);
+  view.set_point_size(2);
+  view.set_camera(camera_on({{-16, -8, -1.3}, {16, 8, 3.7}}, Viewpoint::kIsometric, true, 1280.0 / 720));
+  view.show(nullptr, points);
+  if (state.range(0) == 1) view.set_lighting(Lighting{});
+  view.draw(60);
+  std::uint8_t shade = 0;
+  for (auto _ : state) {
+    view.set_background({0, 0, shade = static_cast<std::uint8_t>(shade ^ 1)});
+    view.draw(60);
+    gl::finish_drawing(*context);
+  }
+}
+
+BENCHMARK(lighting)
+    ->Arg(0)
+    ->Arg(1)
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime()
+    ->Iterations(1)
+    ->Repetitions(51)
+    ->ReportAggregatesOnly(true);
 BENCHMARK(bare_vtk_render)
     ->Unit(benchmark::kMillisecond)
     ->MeasureProcessCPUTime()

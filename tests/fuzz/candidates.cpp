@@ -1,6 +1,7 @@
 // Files of candidates: what was read is written and read again as the same. The input's lines are sealed, or
 // no change would get past the hashes.
 #include "core/results/candidate_file.hpp"
+#include "core/results/sealed_line.hpp"
 #include "tests/fuzz/memory_file.hpp"
 
 namespace {

@@ -93,7 +93,7 @@ class Page:
         self.send("Emulation.setScriptExecutionDisabled", value=not scripts)
         self.send("Emulation.setEmulatedMedia", media=media,
                   features=[{"name": "prefers-color-scheme", "value": "dark" if dark else "light"}])
-        self.send("Page.navigate", url="file://" + os.path.abspath(path))
+        self.send("Page.navigate", url=path if path.startswith("http:") else "file://" + os.path.abspath(path))
         browser.wait("Page.loadEventFired", self.session)
 
     def send(self, method, **params):

@@ -1,19 +1,12 @@
 // Where to look: the places where the maps differ, and their close-ups in a corner of each map.
 #include <gtest/gtest.h>
 
+#include "tests/image_part.hpp"
 #include "ui/panes/layout.hpp"
 #include "ui/script/script.hpp"
 
 namespace sweepscope::ui {
 namespace {
-
-Image part_of(const Image& image, const PixelRect& place) {
-  Image part(static_cast<int>(place.width), static_cast<int>(place.height));
-  for (int y = 0; y < part.height_px; ++y)
-    std::copy_n(image.pixel(static_cast<int>(place.left), static_cast<int>(place.top) + y),
-                Image::kChannels * static_cast<std::size_t>(part.width_px), part.pixel(0, y));
-  return part;
-}
 
 bool contains(const PixelRect& outer, const PixelRect& inner) {
   return inner.left >= outer.left && inner.right() <= outer.right() && inner.top >= outer.top &&
@@ -44,7 +37,7 @@ TEST_F(Places, TheFirstPictureShowsTheBestOneInACornerOfBothMaps) {
   EXPECT_TRUE(contains(*ui_.anchor("map a"), *a));
   EXPECT_TRUE(contains(*ui_.anchor("map b"), *b));
   const Image picture = ui_.screenshot();
-  EXPECT_NE(part_of(picture, *a), part_of(picture, *b));
+  EXPECT_NE(test::part_of(picture, *a), test::part_of(picture, *b));
 }
 
 TEST_F(Places, TheMapIsFittedBesideTheCloseUp) {

@@ -13,6 +13,9 @@ TEST_F(PreferencesTest, TheLookIsKeptAndNothingElse) {
   settings.theme = Theme::kLight;
   settings.layout = Layout::kSwipe;
   settings.ui_scale = 1.5;
+  settings.left_width_px = 321;
+  settings.map_share = 0.3;
+  settings.time_s = 5;
   settings.offset_a_ms = 19;
   settings.camera_a.height_m = 3;
   const auto file = folder_ / "state/preferences";
@@ -21,6 +24,9 @@ TEST_F(PreferencesTest, TheLookIsKeptAndNothingElse) {
   EXPECT_EQ(read.look.theme, Theme::kLight);
   EXPECT_EQ(read.look.layout, Layout::kSwipe);
   EXPECT_EQ(read.look.ui_scale, 1.5);
+  EXPECT_EQ(read.look.left_width_px, 321);
+  EXPECT_EQ(read.look.map_share, 0.3);
+  EXPECT_EQ(read.look.time_s, -1);
   EXPECT_EQ(read.look.offset_a_ms, 0);
   EXPECT_EQ(read.look.camera_a, Settings().camera_a);
   EXPECT_EQ(read.width_px, 1300);

@@ -9,7 +9,7 @@
 namespace sweepscope::ui {
 namespace {
 
-Settings after(const std::string& line, Settings settings = {}) {
+Settings after(const std::string& line, const Settings& settings = {}) {
   const auto call = parse_call(line);
   EXPECT_TRUE(call) << line;
   return call ? changed(settings, *call) : settings;
@@ -76,7 +76,7 @@ TEST(Commands, ALineThatDoesNotFitSaysWhatWould) {
            {"offset-a 19 20", "offset-a OFFSET"},
            {"offset-a nineteen", "and not \"nineteen\""},
            {"offset-a nan", "and not \"nan\""},
-           {"layout upside-down", "side-by-side, swipe, a, b or difference"},
+           {"layout upside-down", "side-by-side, swipe, a, b, difference or stacked"},
            {"point-size 99", "1 to 8 px"},
            {"open \"unclosed", "quote"}}) {
     const auto call = parse_call(line);
@@ -132,7 +132,7 @@ TEST(History, ADragIsOneStep) {
 }
 
 TEST(Session, ComesBackAsItWas) {
-  Session session{"sample room-1", unusual(), {}};
+  Session session{"sample room-1", {}, unusual(), {}};
   Estimate estimate;
   estimate.recording = "room-1";
   estimate.method = Method::kStationary;

@@ -3,6 +3,7 @@
 
 #include <thread>
 
+#include "tests/image_part.hpp"
 #include "ui/script/script.hpp"
 #include "ui/ui.hpp"
 
@@ -10,14 +11,6 @@ namespace sweepscope::ui {
 namespace {
 
 constexpr double kFrame_s = 1.0 / 60;
-
-Image part_of(const Image& image, const PixelRect& place) {
-  Image part(static_cast<int>(place.width), static_cast<int>(place.height));
-  for (int y = 0; y < part.height_px; ++y)
-    std::copy_n(image.pixel(static_cast<int>(place.left), static_cast<int>(place.top) + y),
-                Image::kChannels * static_cast<std::size_t>(part.width_px), part.pixel(0, y));
-  return part;
-}
 
 /// The pictures of a pane in a row, each different from the one before, and the frames at which they came.
 struct Strip {
@@ -49,8 +42,8 @@ class WholePictures : public testing::Test {
     for (int frame = 0; frame < 2 || !ui_.explorer().at_rest() || !ui_.shows_all_points(); ++frame) {
       if (frame > 0) ui_.frame({}, kFrame_s);
       const Image all = ui_.screenshot();
-      strips.first.add(part_of(all, *ui_.anchor("map a")), frame);
-      strips.second.add(part_of(all, *ui_.anchor("map b")), frame);
+      strips.first.add(test::part_of(all, *ui_.anchor("map a")), frame);
+      strips.second.add(test::part_of(all, *ui_.anchor("map b")), frame);
       if (ui_.explorer().background().busy()) std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
     return strips;
@@ -93,7 +86,7 @@ TEST_F(WholePictures, ACameraThatIsMovedTakesBothMapsAlongInTheSameFrame) {
   ui_.frame(move, kFrame_s);
   const Image after = ui_.screenshot();
   for (const char* pane : {"map a", "map b"})
-    EXPECT_NE(part_of(before, *ui_.anchor(pane)), part_of(after, *ui_.anchor(pane))) << pane;
+    EXPECT_NE(test::part_of(before, *ui_.anchor(pane)), test::part_of(after, *ui_.anchor(pane))) << pane;
   ui_.frame(release, kFrame_s);
   const auto [a, b] = strips_to_rest();
   EXPECT_EQ(a.frames, b.frames);

@@ -30,7 +30,8 @@ std::vector<double> numbers_in(const std::string& text, const std::string& patte
     if (c == ',' || c == '\n') c = ' ';
   std::istringstream stream(found);
   std::vector<double> numbers;
-  for (double number = 0; stream >> number;) numbers.push_back(number);
+  double number = 0;
+  while (stream >> number) numbers.push_back(number);
   return numbers;
 }
 

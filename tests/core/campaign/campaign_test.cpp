@@ -96,7 +96,7 @@ TEST(CampaignTable, AsJunitCountsFailuresErrorsAndWhatIsPending) {
   campaign.pending = {"e"};
   const std::string xml = campaign_text(campaign, CampaignFormat::kJunit);
   EXPECT_NE(xml.find("<testsuite name=\"offset: 24 +- 0.5 ms\" tests=\"5\" failures=\"1\" errors=\"2\" "
-                     "skipped=\"1\" time=\"0\">"),
+                     "time=\"0\" skipped=\"1\">"),
             std::string::npos)
       << xml;
   EXPECT_NE(xml.find("name=\"a&lt;&amp;&gt;&quot;.bag\""), std::string::npos) << xml;
@@ -105,6 +105,16 @@ TEST(CampaignTable, AsJunitCountsFailuresErrorsAndWhatIsPending) {
       << xml;
   EXPECT_NE(xml.find("<error type=\"refused\""), std::string::npos) << xml;
   EXPECT_NE(xml.find("<skipped message=\"not estimated yet\"/>"), std::string::npos) << xml;
+}
+
+TEST(CampaignTable, AsJunitHasOnlyTheAttributesOfJenkinssSchema) {
+  Campaign campaign = campaign_of({answered("a", 24)});
+  campaign.pending = {"b"};
+  const std::string xml = campaign_to_junit(campaign);
+  EXPECT_NE(xml.find("<testsuites name=\"sweepscope estimate\" tests=\"2\" failures=\"0\" errors=\"0\" "
+                     "time=\"0\">\n"),
+            std::string::npos)
+      << xml;
 }
 
 TEST(CampaignTable, AnUnknownExtensionIsRefused) {

@@ -5,6 +5,8 @@
 
 #include <cmath>
 #include <functional>
+#include <mutex>
+#include <set>
 
 #include "core/offset/estimator.hpp"
 #include "core/offset/sampled_sweeps.hpp"
@@ -264,6 +266,28 @@ TEST(SampledSweeps, AnswerForALongRecordingOfAStationaryRig) {
   EXPECT_LT(sample.scans.size(), recording.scans.size() * 3 / 4);
   EXPECT_EQ(sample.scans.front().first_beam_s, recording.scans.front().first_beam_s);
   EXPECT_EQ(sample.scans.back().first_beam_s, recording.scans.back().first_beam_s);
+}
+
+TEST(SampledSweeps, TellTheirCandidatesWhileTheyAreComputed) {
+  SimulationOptions made;
+  made.scene = "room-4";
+  made.sweep_s = 0.51;
+  made.duration_s = 70;
+  const Recording recording = simulate(made, Job()).value().recording;
+  ASSERT_TRUE(sampled_sweeps(recording));
+  std::mutex mutex;
+  std::set<double> told_s;
+  const KeptCandidates kept{nullptr, {}, [&](const CurvePoint& point) {
+                              const std::lock_guard lock(mutex);
+                              told_s.insert(point.offset_s);
+                            }};
+  const Estimate found = estimate(recording, {}, kept, Job()).value();
+  ASSERT_TRUE(found.sample);
+  ASSERT_GT(found.curve.size(), 20U);
+  std::set<double> answered_s;
+  for (const CurvePoint& point : found.curve)
+    if (point.capped_cost_m) answered_s.insert(point.offset_s);
+  EXPECT_EQ(told_s, answered_s);
 }
 
 TEST(SampledSweeps, AreNotTakenOfShortRecordings) {

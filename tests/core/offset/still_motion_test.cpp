@@ -108,6 +108,31 @@ TEST(MotionOfTheRig, IsNoneWhereTheClocksDriftApart) {
   EXPECT_FALSE(tested(simulate(options, Job()).value().recording, options.offset_s).moving());
 }
 
+TEST(MotionOverTime, ShowsWhenARigThatStoodBeganToMove) {
+  test::Bench bench;
+  bench.mesh = test::hall();
+  bench.duration_s = 16;
+  bench.offset_s = kTruth_s;
+  bench.world_from_base = [](double t_s) {
+    return Eigen::Isometry3d(Eigen::Translation3d(0.4 * std::max(0.0, t_s - 8), 0, 0));
+  };
+  const Recording recording = bench.record();
+  const OffsetProblem problem = test::problem_of(recording);
+  const auto parts = motion_over_time(still_grid(problem), -0.04);
+  ASSERT_EQ(parts.size(), 2U);
+  EXPECT_FALSE(parts[0].moved);
+  EXPECT_TRUE(parts[1].moved);
+  EXPECT_EQ(parts[0].begin_s, 0);
+  EXPECT_NEAR(parts[0].end_s, 8, 1.6) << "within a pair of sweeps";
+  EXPECT_EQ(parts[1].begin_s, parts[0].end_s);
+  EXPECT_NEAR(parts[1].end_s, 16, 0.3);
+}
+
+TEST(MotionOverTime, IsUnknownWithoutTwoSweepsOfOneDirection) {
+  const Recording part = window(test::room(kTruth_s), 0, 0.9);
+  EXPECT_TRUE(motion_over_time(still_grid(test::problem_of(part)), kTruth_s).empty());
+}
+
 TEST(MotionOfTheRig, TooFewSweepsAreNoAnswer) {
   const Recording part = window(test::room(kTruth_s), 0, 0.9);
   EXPECT_FALSE(test_motion(still_grid(test::problem_of(part)), kTruth_s).answered());

@@ -1,4 +1,5 @@
 #include "core/results/candidate_file.hpp"
+#include "core/results/sealed_line.hpp"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,201 @@
+// Recordings that need choosing: on the command line and on the explorer's page.
+#include <fmt/format.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "core/io/atomic_file.hpp"
+#include "core/recording/csv/csv_recording.hpp"
+#include "core/recording/formats/read_raw_recording.hpp"
+#include "core/recording/formats/recording_writer.hpp"
+#include "tests/core/cloud_bench.hpp"
+#include "tests/program.hpp"
+
+namespace sweepscope {
+namespace {
+
+/// The folder `rec`: tables of a room whose scanner is on /scan and whose motor is the joint roll_motor. A
+/// test adds to them.
+class Choices : public test::ProgramTest {
+ protected:
+  void SetUp() override {
+    ASSERT_EQ(run("simulate room-3 -o room.bag --duration-s 5").exit_code, 0);
+    const auto raw = read_raw_recording(folder_ / "room.bag", {}, Job());
+    ASSERT_TRUE(raw);
+    ASSERT_TRUE(write_csv_recording(raw->lasers.at(0), raw->joints.at(0), folder_ / "rec", Job()));
+  }
+
+  /// Every line of a table once more, with one word replaced by another.
+  void repeat_with(const std::string& table, const std::string& word, const std::string& other) const {
+    std::string text = read_file(folder_ / "rec" / table).value();
+    std::string more = text.substr(text.find('\n') + 1);
+    for (std::size_t at = 0; (at = more.find(word, at)) != std::string::npos; at += other.size())
+      more.replace(at, word.size(), other);
+    ASSERT_NE(more, text.substr(text.find('\n') + 1)) << word;
+    ASSERT_TRUE(write_file(folder_ / "rec" / table, text + more));
+  }
+  void add_laser() const { repeat_with("scans.csv", "/scan", "/back"); }
+  void add_joint() const { repeat_with("motor.csv", "roll_motor", "wheel"); }
+
+  void view(const std::string& script, int exit_code = 0, const std::string& options = "") const {
+    std::ofstream(folder_ / "test.script") << script;
+    const Outcome outcome = run("view " + options + " --headless --size 1024x768 --script test.script");
+    EXPECT_EQ(outcome.exit_code, exit_code) << outcome.err;
+  }
+};
+
+TEST_F(Choices, SeveralLasersAndJointsAreNamedOnTheCommandLine) {
+  add_laser();
+  add_joint();
+  EXPECT_EQ(run("info rec").exit_code, 3);
+  EXPECT_EQ(run("info rec --laser /scan").exit_code, 3);
+  const Outcome info = run("info rec --laser /back --joint wheel");
+  EXPECT_EQ(info.exit_code, 0) << info.err;
+  EXPECT_NE(info.out.find("/back"), std::string::npos) << info.out;
+  EXPECT_NE(info.out.find("wheel"), std::string::npos) << info.out;
+  const Outcome of_bag = run("estimate room.bag --json - --no-timing"),
+                of_choice = run("estimate rec --laser /scan --joint roll_motor --json - --no-timing");
+  ASSERT_EQ(of_choice.exit_code, 0) << of_choice.err;
+  EXPECT_EQ(nlohmann::json::parse(of_choice.out)["offset_ms"],
+            nlohmann::json::parse(of_bag.out)["offset_ms"]);
+  const Outcome wrong = run("info rec --laser /side --joint wheel");
+  EXPECT_EQ(wrong.exit_code, 3);
+  EXPECT_NE(wrong.err.find("/side"), std::string::npos) << wrong.err;
+}
+
+TEST_F(Choices, TheCommandsThatWriteTakeTheSameNames) {
+  add_laser();
+  add_joint();
+  const std::string names = " --laser /scan --joint roll_motor";
+  for (const std::string command :
+       {"convert rec -o out.bag", "rig rec", "apply rec --offset-ms 24 --clouds-only out"}) {
+    const Outcome ambiguous = run(command);
+    EXPECT_EQ(ambiguous.exit_code, 3) << command;
+    const Outcome named = run(command + names);
+    EXPECT_EQ(named.exit_code, 0) << command << ": " << named.err;
+  }
+  EXPECT_NE(run("rig rec" + names).out.find("roll_motor"), std::string::npos);
+  // What was converted holds these two alone.
+  EXPECT_EQ(run("info out.bag").exit_code, 0);
+  std::ofstream(folder_ / "rig.yaml") << run("rig room.bag").out;
+  EXPECT_EQ(run("rig rig.yaml --as urdf --offset-ms 24 --laser /scan").exit_code, 2);
+}
+
+TEST_F(Choices, TwoLasersGiveAPageAndOpenOnceOneIsChosen) {
+  add_laser();
+  view(
+      "open rec\nwait loaded\nexpect page is choices\n"
+      "expect chosen-problem is 2 topics hold scans. Choose the scanner that the motor turns.\n"
+      "expect chosen-laser is\nexpect chosen-motor is roll_motor\nexpect message is\n"
+      "choose-laser /back\nwait loaded\nexpect chosen-laser is /back\nexpect chosen-problem is\n"
+      "expect chosen-parts is 1\n"
+      "open-chosen\nwait loaded\nexpect page is maps\nexpect recording is rec\n"
+      "copy-command\nexpect message contains view rec --laser /back --headless\n"
+      "save-session s.json\n");
+  // The session alone opens it again, and so does what was copied.
+  view("wait loaded\nexpect page is maps\nexpect recording is rec\n", 0, "s.json");
+  view("wait loaded\nexpect page is maps\n", 0, "rec --laser /back");
+  const auto session = nlohmann::json::parse(read_file(folder_ / "s.json").value());
+  EXPECT_EQ(session["reading"], nlohmann::json({{"laser", "/back"}}));
+  EXPECT_EQ(session["source"], "open rec");
+}
+
+TEST_F(Choices, TwoJointsAreChosenByTheMouse) {
+  add_joint();
+  view(
+      "open rec\nwait loaded\nexpect chosen-laser is /scan\nexpect chosen-motor is\n"
+      "expect chosen-problem is 2 of 2 joints turn. Choose the one that turns the scanner.\n"
+      "click \"choose-motor\"\nclick \"choose-motor wheel /joint_states\"\nwait loaded\n"
+      "expect chosen-motor is wheel\nclick \"button open-chosen\"\nwait loaded\nexpect page is maps\n"
+      "copy-command\nexpect message contains --motor /joint_states --joint wheel\n");
+}
+
+TEST_F(Choices, ThePageWorksByTheKeyboard) {
+  view(
+      "open rec\nwait solved\nkey Ctrl+Shift+O\nwait loaded\nexpect page is choices\n"
+      "key E\nkey Escape\nexpect page is maps\nexpect estimate is none\n"
+      "key Ctrl+Shift+O\nwait loaded\nexpect chosen-laser is /scan\nchoose-part 1 4\nkey Enter\nwait loaded\n"
+      "expect page is maps\ncopy-command\nexpect message contains --window 1:4\n");
+}
+
+TEST_F(Choices, APartInTimeIsDraggedOnTheStripOfWhereTheRigStood) {
+  view(
+      "choose rec\nwait loaded\nexpect chosen-parts is 1\n"
+      "drag \"choose-part\" at 0.995 0.5 to \"choose-part\" at 0.5 0.5\nopen-chosen\nwait loaded\n"
+      "copy-command\nexpect message contains --window 0:2.5\n");
+}
+
+TEST_F(Choices, ARecordingThatNeedsARigFileIsOpenedWithOne) {
+  add_laser();
+  std::ofstream(folder_ / "rig.yaml") << "laser: {topic: /scan}\nmount: {axis: [0, 1, 0]}\n";
+  view(
+      "open rec\nwait loaded\nexpect page is choices\nclick \"button ask choose-rig\"\n"
+      "key Escape\nexpect page is choices\n"
+      "click \"button ask choose-rig\"\ntype rig.yaml\nkey Enter\nwait loaded\n"
+      "expect chosen-laser is /scan\nexpect chosen-problem is\nopen-chosen\nwait loaded\nexpect page is maps\n"
+      "copy-command\nexpect message contains --rig rig.yaml\nsave-session s.json\n");
+  view("wait loaded\nexpect page is maps\n", 0, "s.json");
+}
+
+TEST_F(Choices, ARigFileThatCannotBeReadStaysOnThePageWithItsReason) {
+  std::ofstream(folder_ / "rig.yaml") << "laser: {tropic: /scan}\n";
+  view(
+      "choose rec\nwait loaded\nchoose-rig rig.yaml\nwait loaded\nexpect chosen-problem contains rig.yaml\n"
+      "open-chosen\nwait loaded\nexpect page is choices\nexpect chosen-problem contains tropic\n"
+      "choose-rig\nwait loaded\nexpect chosen-problem is\nopen-chosen\nwait loaded\nexpect page is maps\n");
+}
+
+TEST_F(Choices, APartWithoutScansAndPosesThatDoNotFitStayOnThePage) {
+  std::ofstream(folder_ / "far.tum") << "1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0 1\n";
+  view(
+      "choose rec\nwait loaded\nchoose-part 100 200\nopen-chosen\nwait loaded\nexpect page is choices\n"
+      "expect chosen-problem contains no scan lies within\nchoose-part 0 0\nchoose-poses far.tum\nopen-chosen\n"
+      "wait loaded\nexpect page is choices\nexpect chosen-problem contains poses\nchoose-poses\nopen-chosen\n"
+      "wait loaded\nexpect page is maps\n");
+}
+
+TEST_F(Choices, AScriptThatDoesNotChooseEndsWithTheReason) {
+  add_laser();
+  const Outcome outcome = run("view rec --headless --run 'wait solved; screenshot picture.png'");
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_NE(outcome.err.find("has 2 topics of scans"), std::string::npos) << outcome.err;
+  EXPECT_FALSE(exists("picture.png"));
+  view("choose-laser /scan\nopen-chosen\nwait loaded\nexpect page is maps\n", 0, "rec");
+}
+
+TEST_F(Choices, WhatHoldsNoStreamsGivesAMessageAndNoPage) {
+  std::ofstream(folder_ / "text.bag") << "not a recording";
+  view("open text.bag\nwait loaded\nexpect page is start\nexpect message contains text.bag\n");
+  view("choose missing.bag\n", 3);
+  view("choose-laser /scan\n", 2);
+  view("open-chosen\n", 2);
+}
+
+TEST_F(Choices, ASessionWithChoicesOfTheWrongKindIsRefusedWithTheKey) {
+  view("open rec\nwait loaded\nsave-session s.json\n");
+  auto session = nlohmann::ordered_json::parse(read_file(folder_ / "s.json").value());
+  EXPECT_FALSE(session.contains("reading")) << "everything was detected";
+  session["reading"] = {{"stamps", "sundial"}};
+  std::ofstream(folder_ / "bad.json") << session.dump();
+  view(
+      "open bad.json\nwait loaded\nexpect page is start\nexpect message contains neither header nor receive\n");
+}
+
+TEST_F(Choices, CloudsOfA3dScannerAreListedAndOpenWithTheirMount) {
+  test::CloudBench bench;
+  bench.rings = 4;
+  bench.beams = 200;
+  bench.duration_s = 9;
+  const RawRecording raw = bench.raw(CloudDetail::kWhole);
+  ASSERT_TRUE(write_recording(raw.lasers.at(0), raw.joints.at(0), RecordingFormat::kRos1, "none",
+                              folder_ / "clouds.bag", Job()));
+  std::ofstream(folder_ / "rig.yaml")
+      << "mount: {axis: [0, 1, 0], laser_in_motor: {xyz_m: [0.05, 0, 0.08]}}\n";
+  view(
+      "choose clouds.bag\nwait loaded\nexpect chosen-laser is /points\nchoose-rig rig.yaml\nwait loaded\n"
+      "expect chosen-problem is\nopen-chosen\nwait loaded\nexpect page is maps\nexpect recording is clouds.bag\n"
+      "copy-command\nexpect message contains view clouds.bag --rig rig.yaml\n");
+}
+
+}  // namespace
+}  // namespace sweepscope

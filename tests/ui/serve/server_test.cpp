@@ -1,0 +1,208 @@
+// A server and real connections to it, good and bad.
+#include "ui/serve/server.hpp"
+
+#include <gtest/gtest.h>
+
+#include <boost/asio/connect.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/read.hpp>
+#include <boost/asio/write.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/websocket.hpp>
+#include <fstream>
+
+#include "tests/folder_test.hpp"
+
+namespace sweepscope::ui {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace websocket = beast::websocket;
+using Tcp = asio::ip::tcp;
+
+constexpr const char* kToken = "secret";
+
+class Serving : public test::FolderTest {
+ protected:
+  void SetUp() override {
+    Server::Options options;
+    options.address = {"127.0.0.1", 0, true};
+    options.token = kToken;
+    options.hub.max_viewers = 2;
+    options.max_request = std::chrono::milliseconds(300);
+    server_ = Server::start(options, mailbox_).value();
+  }
+
+  std::string place() const { return server_->address().text(); }
+
+  Tcp::socket connected() {
+    Tcp::socket socket(context_);
+    socket.connect({asio::ip::make_address("127.0.0.1"), server_->address().port});
+    return socket;
+  }
+
+  /// All that comes back to these bytes, until the server ends the connection.
+  std::string answer_to(const std::string& bytes) {
+    Tcp::socket socket = connected();
+    asio::write(socket, asio::buffer(bytes));
+    std::string answer;
+    beast::error_code ended;
+    asio::read(socket, asio::dynamic_buffer(answer), ended);
+    return answer;
+  }
+
+  std::string upgrade(const std::string& host, const std::string& origin, const std::string& token) const {
+    return "GET /socket HTTP/1.1\r\nHost: " + host + "\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n" +
+           (origin.empty() ? "" : "Origin: " + origin + "\r\n") +
+           "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Protocol: "
+           "sweepscope.1, token." +
+           token + "\r\n\r\n";
+  }
+
+  using Socket = websocket::stream<Tcp::socket>;
+  std::unique_ptr<Socket> viewer() {
+    auto socket = std::make_unique<Socket>(connected());
+    socket->set_option(websocket::stream_base::decorator([this](websocket::request_type& request) {
+      request.set(beast::http::field::origin, "http://" + place());
+      request.set(beast::http::field::sec_websocket_protocol, std::string("sweepscope.1, token.") + kToken);
+    }));
+    socket->handshake(place(), "/socket");
+    return socket;
+  }
+
+  /// The next frame; texts before it are left out. Empty once the connection ended.
+  static std::string next_frame(Socket& socket) {
+    for (;;) {
+      beast::flat_buffer buffer;
+      beast::error_code failed;
+      socket.read(buffer, failed);
+      if (failed) return {};
+      if (socket.got_binary()) return beast::buffers_to_string(buffer.data());
+    }
+  }
+
+  static ServedPicture picture(int shade) {
+    auto image = std::make_shared<Image>(320, 240);
+    std::fill(image->rgba.begin(), image->rgba.end(), static_cast<std::uint8_t>(shade));
+    image->make_opaque();
+    return {image, 0, 0, 0, false};
+  }
+
+  asio::io_context context_;
+  Mailbox mailbox_;
+  std::unique_ptr<Server> server_;
+};
+
+TEST_F(Serving, AViewerWithTheTokenGetsPicturesAndSendsInput) {
+  auto socket = viewer();
+  while (!mailbox_.wait(10).repaint) {
+  }
+  server_->show(picture(10));
+  EXPECT_GT(next_frame(*socket).size(), 24U);
+  socket->write(asio::buffer(std::string(R"({"type":"input","number":1,"events":[["wheel",1]]})")));
+  Mailbox::Arrived arrived;
+  while (arrived.events.empty()) arrived = mailbox_.wait(10);
+  EXPECT_EQ(arrived.events[0].wheel, 1);
+  EXPECT_EQ(arrived.input_number, 1U);
+}
+
+TEST_F(Serving, WrongTokensOriginsAndHostsAreRefusedBeforeAnythingIsSent) {
+  const std::string own = "http://" + place();
+  EXPECT_TRUE(answer_to(upgrade(place(), own, "wrong")).starts_with("HTTP/1.1 403 "));
+  EXPECT_TRUE(answer_to(upgrade(place(), own, "")).starts_with("HTTP/1.1 403 "));
+  EXPECT_TRUE(answer_to(upgrade(place(), "http://evil.example", kToken)).starts_with("HTTP/1.1 403 "));
+  EXPECT_TRUE(answer_to(upgrade(place(), "", kToken)).starts_with("HTTP/1.1 403 "));
+  EXPECT_TRUE(answer_to(upgrade("evil.example", "http://evil.example", kToken)).starts_with("HTTP/1.1 421 "));
+  EXPECT_FALSE(server_->has_viewers());
+}
+
+TEST_F(Serving, HalfARequestIsNotWaitedForWithoutEnd) {
+  EXPECT_EQ(answer_to("GET /socket HTTP/1.1\r\nHost: local"), "");
+  EXPECT_EQ(answer_to(""), "");
+  EXPECT_GT(answer_to("GET / HTTP/1.1\r\nHost: localhost\r\n\r\n").size(), 500U) << "others are served";
+}
+
+TEST_F(Serving, ARequestThatIsTooLongEndsTheConnection) {
+  const std::string answer = answer_to("GET / HTTP/1.1\r\nHost: localhost\r\nX: " + std::string(20000, 'a'));
+  EXPECT_EQ(answer.find("200 OK"), answer.npos);
+  EXPECT_EQ(answer_to("\x16\x03\x01\x02\r\n\r\n").find("200 OK"), std::string::npos)
+      << "what is no HTTP neither";
+}
+
+TEST_F(Serving, AFloodEndsTheConnectionAndLeavesTheOtherViewer) {
+  auto good = viewer();
+  auto bad = viewer();
+  beast::error_code failed;
+  while (!failed) bad->write(asio::buffer(std::string(R"({"type":"blur"})")), failed);
+  server_->show(picture(20));
+  EXPECT_GT(next_frame(*good).size(), 24U);
+}
+
+TEST_F(Serving, AMessageThatIsTooLongEndsTheConnection) {
+  auto socket = viewer();
+  beast::error_code failed;
+  socket->write(asio::buffer(std::string(kMaxPageMessage_bytes + 1, ' ')), failed);
+  EXPECT_EQ(next_frame(*socket), "");
+}
+
+TEST_F(Serving, AViewerThatReadsNothingHoldsNobodyUp) {
+  auto deaf = viewer();
+  auto good = viewer();
+  std::uint32_t number = 0;
+  for (int i = 0; i < 100; ++i) {
+    server_->show(picture(i));
+    ASSERT_GT(next_frame(*good).size(), 24U) << i;
+    good->write(asio::buffer(R"({"type":"shown","frame":)" + std::to_string(++number) + "}"));
+  }
+}
+
+TEST_F(Serving, OneViewerTooManyIsToldSo) {
+  auto first = viewer(), second = viewer();
+  server_->show(picture(1));
+  ASSERT_GT(next_frame(*second).size(), 24U);
+  auto third = viewer();
+  EXPECT_EQ(next_frame(*third), "");
+  EXPECT_EQ(third->reason().code, websocket::close_code::try_again_later);
+}
+
+TEST_F(Serving, AFileIsFetchedUnderItsAddressAlone) {
+  std::ofstream(folder_ / "curve.csv") << "offset_ms,d\n";
+  auto socket = viewer();
+  server_->offer(folder_ / "curve.csv");
+  std::string address;
+  while (address.empty()) {
+    beast::flat_buffer buffer;
+    socket->read(buffer);
+    const std::string text = beast::buffers_to_string(buffer.data());
+    const std::size_t at = text.find("/download/");
+    if (at != text.npos) address = text.substr(at, text.find('"', at) - at);
+  }
+  const auto get = [&](const std::string& path) {
+    return answer_to("GET " + path + " HTTP/1.1\r\nHost: localhost\r\n\r\n");
+  };
+  const std::string fetched = get(address);
+  EXPECT_TRUE(fetched.starts_with("HTTP/1.1 200 ")) << fetched;
+  EXPECT_TRUE(fetched.ends_with("\r\n\r\noffset_ms,d\n")) << fetched;
+  EXPECT_NE(fetched.find("Content-Disposition: attachment"), fetched.npos);
+  std::string other = address;
+  other[12] = other[12] == 'a' ? 'b' : 'a';
+  EXPECT_TRUE(get(other).starts_with("HTTP/1.1 404 "));
+  EXPECT_TRUE(get("/download/").starts_with("HTTP/1.1 404 "));
+  std::filesystem::remove(folder_ / "curve.csv");
+  EXPECT_TRUE(get(address).starts_with("HTTP/1.1 404 "));
+}
+
+TEST_F(Serving, APortThatIsTakenIsOneSentence) {
+  Server::Options options;
+  options.address = server_->address();
+  Mailbox mailbox;
+  const auto second = Server::start(options, mailbox);
+  ASSERT_FALSE(second);
+  EXPECT_EQ(second.error().code, ExitCode::kWrongUsage);
+  EXPECT_NE(second.error().message.find(place()), std::string::npos) << second.error().message;
+}
+
+}  // namespace
+}  // namespace sweepscope::ui
