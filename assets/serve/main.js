@@ -6,7 +6,7 @@ const canvas = element('picture');
 const MAX_PX = 2.1e6;
 
 /** What the page knows, and a promise of what it waits for. */
-const status = {connected: false, viewer: -1, driver: -1, asking: -1, viewers: 0, frame: null, frames: 0, files: [], copied: ''};
+const status = {connected: false, viewer: -1, driver: -1, asking: -1, viewers: 0, frame: null, frames: 0, files: [], copied: '', said: ''};
 const waiting = new Set();
 function changed() {
   for (const one of [...waiting]) {
@@ -42,6 +42,14 @@ function note(text) {
   element('note').hidden = !text;
 }
 
+/** A note that a click removes; pictures do not. */
+function say(text) {
+  status.said = text;
+  note(text);
+  element('note').onclick = () => say('');
+  changed();
+}
+
 function tell(message) {
   if (socket && socket.readyState === WebSocket.OPEN) socket.send(JSON.stringify(message));
 }
@@ -49,6 +57,7 @@ function tell(message) {
 const sender = new EventSender(tell);
 const keys = new MouseAndKeys(canvas, element('keys'), sender, tell);
 const touch = new Touch(canvas, keys, sender);
+const uploader = new Uploader(tell, element('sending'), say);
 let painter = null;
 
 function ratio() {
@@ -75,7 +84,7 @@ function shown(frame, of) {
   status.frames += 1;
   tell({type: 'shown', frame: frame.number});
   fit();
-  note('');
+  note(status.said);
   changed();
 }
 
@@ -111,8 +120,8 @@ function showFile(name, address) {
 function copied(text) {
   status.copied = text;
   const offer = () => {
-    note('Click here to copy.');
-    element('note').onclick = () => navigator.clipboard.writeText(text).finally(() => note(''));
+    say('Click here to copy.');
+    element('note').onclick = () => navigator.clipboard.writeText(text).finally(() => say(''));
   };
   if (navigator.clipboard) navigator.clipboard.writeText(text).catch(offer);
 }
@@ -128,6 +137,7 @@ function hear(message) {
     status.files.push(message);
     showFile(message.name, message.address);
   }
+  if (message.type === 'upload') uploader.answered(message);
   if (message.type === 'copied') copied(message.text);
   changed();
 }
@@ -195,7 +205,7 @@ for (const button of document.querySelectorAll('[data-chord]')) {
 element('keyboard').onclick = () => keys.focus();
 element('touch').hidden = !matchMedia('(pointer: coarse)').matches;
 // For tests, and for who looks under the hood.
-window.sweepscope = {status, until, sender, canvas, connect, drop: () => socket && socket.close()};
+window.sweepscope = {status, until, sender, uploader, canvas, connect, drop: () => socket && socket.close()};
 
 if (token) connect();
 else note('This address has no token. Use the address that the program printed when it was started.');

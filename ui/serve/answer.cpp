@@ -36,17 +36,27 @@ Answer web_socket(const Request& request, std::string_view token) {
 
 Answer download(std::string_view rest) {
   const std::string_view id = rest.substr(0, rest.find('/'));
-  return {.kind = Answer::Kind::kDownload, .download_id = id};
+  return {.kind = Answer::Kind::kDownload, .file_id = id};
+}
+
+/// The id alone lets in: it went through the WebSocket to who announced the file.
+Answer upload(const Request& request, std::string_view id) {
+  if (!is_own_origin(request.origin, request.host))
+    return refusal(403, "A page of another site may not send files.\n");
+  return {.kind = Answer::Kind::kUpload, .file_id = id};
 }
 
 }  // namespace
 
 Answer answer_to(const Request& request, const HostPolicy& hosts, std::string_view token) {
-  constexpr std::string_view kDownload = "/download/", kBearer = "Bearer ";
+  constexpr std::string_view kDownload = "/download/", kUpload = "/upload/", kBearer = "Bearer ";
   if (!is_own_host(request.host, hosts))
     return refusal(421, "This server is not reached by that name. See --host of sweepscope view.\n");
-  if (request.method != "GET") return refusal(405, "Only GET is answered.\n");
   const std::string_view path = request.target.substr(0, request.target.find('?'));
+  if (request.method == "PUT" && path.starts_with(kUpload) && !request.upgrade)
+    return upload(request, path.substr(kUpload.size()));
+  if (request.method != "GET")
+    return refusal(405, "Only GET is answered, and PUT for a file that was announced.\n");
   if (request.upgrade) return path == "/socket" ? web_socket(request, token) : refusal(404, "Not found.\n");
   if (path.starts_with(kDownload)) return download(path.substr(kDownload.size()));
   if (path == "/check") {

@@ -16,12 +16,12 @@ struct Request {
 
 /// What a request gets.
 struct Answer {
-  enum class Kind { kText, kDownload, kWebSocket };
+  enum class Kind { kText, kDownload, kUpload, kWebSocket };
   Kind kind = Kind::kText;
   unsigned status = 200;
   std::string_view type = "text/plain; charset=utf-8";
   std::string_view body = {};
-  std::string_view download_id = {};
+  std::string_view file_id = {};  // of a download or an upload
 };
 
 /// The WebSocket's subprotocol. A page offers it together with "token." and the token.

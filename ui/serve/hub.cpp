@@ -98,6 +98,7 @@ void Hub::use(int id, Viewer& viewer, PageMessage message, Time now) {
   if (const auto* input = std::get_if<InputMessage>(&message)) use_input(id, viewer, *input);
   if (const auto* shown = std::get_if<ShownMessage>(&message)) use_shown(viewer, shown->frame, now);
   if (const auto* control = std::get_if<ControlMessage>(&message)) use_control(id, control->what, now);
+  if (const auto* upload = std::get_if<UploadMessage>(&message)) use_upload(id, viewer, *upload, now);
   if (const auto* size = std::get_if<SizeMessage>(&message)) {
     viewer.size = *size;
     if (drives) mailbox_.resize(*size);
@@ -134,6 +135,18 @@ void Hub::use_control(int id, Control what, Time now) {
   if (what == Control::kKeep) crew_.keep(id);
   driver_changed(before);
   tell_state();
+}
+
+void Hub::use_upload(int id, Viewer& viewer, const UploadMessage& message, Time now) {
+  Json answer{{"type", "upload"}, {"name", message.name}};
+  if (crew_.driver() != id) {
+    answer["refused"] = "Only the viewer who drives can send a file.";
+  } else if (const auto upload = uploads_.announce(id, message, now)) {
+    answer["address"] = "/upload/" + *upload;
+  } else {
+    answer["refused"] = upload.error().message;
+  }
+  viewer.link->send_text(to_text(answer));
 }
 
 void Hub::release_held() {
@@ -202,6 +215,19 @@ std::optional<std::filesystem::path> Hub::offered(std::string_view id) const {
   for (const Download& download : downloads_)
     if (equal_in_constant_time(id, download.id)) found = download.path;
   return found && options_.roots.can_read(*found) ? found : std::nullopt;
+}
+
+std::optional<Upload> Hub::begin_upload(std::string_view id, std::uint64_t size_bytes, Time now) {
+  auto upload = uploads_.begin(id, now);
+  if (!upload || upload->size_bytes == size_bytes) return upload;
+  uploads_.end(upload->id);
+  return std::nullopt;
+}
+
+bool Hub::end_upload(const Upload& upload, bool whole) {
+  uploads_.end(upload.id);
+  if (!whole || crew_.driver() != upload.viewer) return false;
+  return mailbox_.add({input_number_, {InputEvent::drop(upload.path.string())}});
 }
 
 void Hub::send_frame(Viewer& viewer, Time now) {

@@ -15,6 +15,7 @@
 #include "ui/serve/frame_coder.hpp"
 #include "ui/serve/mailbox.hpp"
 #include "ui/serve/rate_limit.hpp"
+#include "ui/serve/uploads.hpp"
 
 namespace sweepscope::ui {
 
@@ -59,7 +60,8 @@ class Hub {
     bool once = false;  // over when the last viewer left
     FileRoots roots;    // of what is offered
   };
-  Hub(Options options, Mailbox& mailbox) : options_(std::move(options)), mailbox_(mailbox) {}
+  Hub(Options options, Mailbox& mailbox)
+      : options_(std::move(options)), mailbox_(mailbox), uploads_(options_.roots) {}
 
   /// The viewer's number; nothing if there are too many.
   std::optional<int> join(ViewerLink& link, Time now);
@@ -74,6 +76,12 @@ class Hub {
   void offer(const std::filesystem::path& file);
   /// The file of an address, if it still lies where files may be read.
   std::optional<std::filesystem::path> offered(std::string_view id) const;
+
+  /// The file that a page may send to this address, once, if it is as long as it was announced.
+  std::optional<Upload> begin_upload(std::string_view id, std::uint64_t size_bytes, Time now);
+  /// Call it for everything that begin_upload returned. The explorer opens a file that came whole while its
+  /// viewer drives; true if so.
+  bool end_upload(const Upload& upload, bool whole);
 
   /// Sends what can be sent now, and closes what does not answer.
   void pump(Time now);
@@ -101,6 +109,7 @@ class Hub {
   void use(int id, Viewer& viewer, PageMessage message, Time now);
   void use_input(int id, Viewer& viewer, const InputMessage& input);
   void use_shown(Viewer& viewer, std::uint32_t frame, Time now);
+  void use_upload(int id, Viewer& viewer, const UploadMessage& message, Time now);
   void use_control(int id, Control what, Time now);
   void release_held();
   void driver_changed(int before);
@@ -119,6 +128,7 @@ class Hub {
   std::vector<InputEvent> held_;  // what the driver holds down, as the releases
   std::uint32_t input_number_ = 0;
   std::vector<Download> downloads_;
+  Uploads uploads_;
   std::optional<Time> over_at_;
 };
 

@@ -145,6 +145,16 @@ Result<PageMessage> control(const Json& message) {
   return wrong("control needs ask, give or keep");
 }
 
+Result<PageMessage> upload(const Json& message) {
+  constexpr std::size_t kMaxName_bytes = 1024;
+  constexpr double kMaxFile_bytes = 1e15;
+  const auto name = message.find("name"), size = message.find("size_bytes");
+  const std::string* text = name == message.end() ? nullptr : text_in(*name, kMaxName_bytes);
+  const bool counted = size != message.end() && size->is_number_unsigned() && *size <= kMaxFile_bytes;
+  if (text == nullptr || !counted) return wrong("upload needs a name and a size in bytes");
+  return UploadMessage{*text, size->get<std::uint64_t>()};
+}
+
 void put(std::string& out, std::uint32_t value, int bytes) {
   for (int i = 0; i < bytes; ++i) out += static_cast<char>(value >> (8 * i) & 0xFF);
 }
@@ -163,6 +173,7 @@ Result<PageMessage> parse_page_message(std::string_view text) {
   if (*type == "paste") return paste(message);
   if (*type == "blur") return BlurMessage{};
   if (*type == "control") return control(message);
+  if (*type == "upload") return upload(message);
   return wrong("its type is not known");
 }
 

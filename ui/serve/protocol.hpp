@@ -32,12 +32,17 @@ struct PasteMessage {
 };
 /// The page lost the keyboard: nothing is held any longer.
 struct BlurMessage {};
+/// A file that the page would send, before it does.
+struct UploadMessage {
+  std::string name;
+  std::uint64_t size_bytes = 0;
+};
 enum class Control { kAsk, kGive, kKeep };
 struct ControlMessage {
   Control what = Control::kAsk;
 };
-using PageMessage =
-    std::variant<InputMessage, SizeMessage, ShownMessage, PasteMessage, BlurMessage, ControlMessage>;
+using PageMessage = std::variant<InputMessage, SizeMessage, ShownMessage, PasteMessage, BlurMessage,
+                                 ControlMessage, UploadMessage>;
 
 /// Sizes of a picture that are possible, in pixels.
 inline constexpr int kMinServedSide_px = 240, kMaxServedSide_px = 4096;

@@ -35,7 +35,7 @@ struct Server::Parts {
   Parts(Options with, Mailbox& mailbox)
       : options(std::move(with)), hub(options.hub, mailbox), acceptor(context), timer(context) {
     connections = std::make_shared<ConnectionContext>(
-        ConnectionContext{hub, options.hosts, options.token, [this] { after(); }, options.max_request});
+        ConnectionContext{hub, options.hosts, options.token, [this] { after(); }, disk, options.max_request});
     connections_mailbox = &mailbox;
   }
 
@@ -96,8 +96,9 @@ struct Server::Parts {
   }
 
   Options options;
+  Hub hub;  // outlives what waits in the next two
   asio::io_context context{1};
-  Hub hub;
+  asio::thread_pool disk{1};  // its handlers hold sockets of the context
   Mailbox* connections_mailbox = nullptr;
   std::shared_ptr<ConnectionContext> connections;
   Tcp::acceptor acceptor;
@@ -122,6 +123,8 @@ Result<std::unique_ptr<Server>> Server::start(Options options, Mailbox& mailbox)
 Server::~Server() {
   parts_->context.stop();
   parts_->thread.join();
+  parts_->disk.stop();
+  parts_->disk.join();
 }
 
 const ListenAddress& Server::address() const {

@@ -150,6 +150,88 @@ TEST_F(Hubs, OnceIsOverWhenTheLastViewerLeftAndNotWhenAConnectionBroke) {
   EXPECT_TRUE(hub_.is_over(now_ + seconds(44)));
 }
 
+/// What the hub answers to an announced file: its address, or why not.
+std::string announced(Hub& hub, FakeLink& link, int viewer, const std::string& name, const std::string& size,
+                      Hub::Time now) {
+  hub.receive(viewer, R"({"type":"upload","name":")" + name + R"(","size_bytes":)" + size + "}", now);
+  return link.texts.back();
+}
+
+class HubsWithAFolder : public Hubs {
+ protected:
+  std::string id_of(const std::string& answer) const {
+    const std::size_t at = answer.find("/upload/");
+    EXPECT_NE(at, answer.npos) << answer;
+    return answer.substr(at + 8, 64);
+  }
+
+  Hub rooted_{{.max_viewers = 2, .once = true, .roots = FileRoots::of({{folder_}}).value()}, mailbox_};
+};
+
+TEST_F(HubsWithAFolder, AnAnnouncedFileIsTakenOnceAndOpened) {
+  const int driver = rooted_.join(first_, now_).value();
+  const std::string id = id_of(announced(rooted_, first_, driver, "run 7.bag", "9", now_));
+  EXPECT_FALSE(rooted_.begin_upload(std::string(64, '0'), 9, now_));
+  EXPECT_FALSE(rooted_.begin_upload("", 9, now_));
+  const auto upload = rooted_.begin_upload(id, 9, now_);
+  ASSERT_TRUE(upload);
+  EXPECT_EQ(upload->path, std::filesystem::canonical(folder_) / "run 7.bag");
+  EXPECT_FALSE(rooted_.begin_upload(id, 9, now_)) << "it is on its way";
+  (void)mailbox_.wait(0);
+  EXPECT_TRUE(rooted_.end_upload(*upload, true));
+  const auto events = mailbox_.wait(0).events;
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_EQ(events[0].what, InputEvent::What::kDrop);
+  EXPECT_EQ(events[0].text, upload->path);
+  EXPECT_FALSE(rooted_.begin_upload(id, 9, now_)) << "once";
+}
+
+TEST_F(HubsWithAFolder, OnlyWhatIsAsLongAsAnnouncedAndInTimeIsTaken) {
+  const int driver = rooted_.join(first_, now_).value();
+  std::string id = id_of(announced(rooted_, first_, driver, "a.bag", "9", now_));
+  EXPECT_FALSE(rooted_.begin_upload(id, 10, now_));
+  EXPECT_FALSE(rooted_.begin_upload(id, 9, now_)) << "one try";
+  id = id_of(announced(rooted_, first_, driver, "a.bag", "9", now_));
+  EXPECT_FALSE(rooted_.begin_upload(id, 9, now_ + seconds(61)));
+}
+
+TEST_F(HubsWithAFolder, WhoStoppedDrivingHasTheFileKeptButNotOpened) {
+  const int driver = rooted_.join(first_, now_).value(), other = rooted_.join(second_, now_).value();
+  const auto upload =
+      rooted_.begin_upload(id_of(announced(rooted_, first_, driver, "a.bag", "9", now_)), 9, now_);
+  rooted_.receive(other, R"({"type":"control","what":"ask"})", now_);
+  rooted_.receive(driver, R"({"type":"control","what":"give"})", now_);
+  (void)mailbox_.wait(0);
+  EXPECT_FALSE(rooted_.end_upload(upload.value(), true));
+  EXPECT_TRUE(mailbox_.wait(0).events.empty());
+}
+
+TEST_F(HubsWithAFolder, WhatMayNotBeSentIsRefusedWithTheReason) {
+  const int driver = rooted_.join(first_, now_).value(), other = rooted_.join(second_, now_).value();
+  const auto refusal = [&](const std::string& name, const std::string& size) {
+    const std::string answer = announced(rooted_, first_, driver, name, size, now_);
+    EXPECT_EQ(answer.find("/upload/"), answer.npos) << answer;
+    return answer;
+  };
+  for (const char* name : {"", "..", ".bashrc", "../x.bag", "/etc/x", "a/b.bag", "a\\u001b[2J", "a\\nb"})
+    EXPECT_NE(refusal(name, "9").find("plain name"), std::string::npos) << name;
+  EXPECT_NE(refusal(std::string(300, 'a'), "9").find("plain name"), std::string::npos);
+  EXPECT_NE(refusal("huge.bag", "900000000000000").find("free"), std::string::npos);
+  std::ofstream(folder_ / "there.bag") << "x";
+  std::filesystem::create_symlink("nowhere", folder_ / "link.bag");
+  EXPECT_NE(refusal("there.bag", "9").find("there already"), std::string::npos);
+  EXPECT_NE(refusal("link.bag", "9").find("there already"), std::string::npos);
+  EXPECT_NE(announced(rooted_, second_, other, "a.bag", "9", now_).find("Only the viewer who drives"),
+            std::string::npos);
+  (void)id_of(announced(rooted_, first_, driver, "a.bag", "9", now_));
+  EXPECT_NE(refusal("a.bag", "9").find("on its way"), std::string::npos);
+  (void)id_of(announced(rooted_, first_, driver, "b.bag", "9", now_));
+  EXPECT_NE(refusal("c.bag", "9").find("Two files"), std::string::npos);
+  const int unlimited = hub_.join(second_, now_).value();
+  EXPECT_NE(announced(hub_, second_, unlimited, "a.bag", "9", now_).find("--root"), std::string::npos);
+  EXPECT_EQ(first_.closed + second_.closed, "");
+}
+
 TEST_F(Hubs, FilesAreOfferedUnderAddressesThatCannotBeGuessed) {
   std::ofstream(folder_ / "map 1.pcd") << "points";
   (void)hub_.join(first_, now_);

@@ -41,6 +41,12 @@ TEST(PageMessages, NumbersAreLimited) {
   EXPECT_EQ(input.events.at(1).modifiers, 7U);
 }
 
+TEST(PageMessages, AFileIsAnnouncedByNameAndSize) {
+  const auto upload = read<UploadMessage>(R"({"type":"upload","name":"run 7.bag","size_bytes":5000000000})");
+  EXPECT_EQ(upload.name, "run 7.bag");
+  EXPECT_EQ(upload.size_bytes, 5000000000U);
+}
+
 TEST(PageMessages, ControlCharactersAreLeftOut) {
   EXPECT_EQ(
       read<InputMessage>(R"({"type":"input","events":[["text","a\u0000\u001bb\n"]]})").events.at(0).text,
@@ -61,6 +67,12 @@ TEST(PageMessages, WhatIsNotInTheProtocolIsRefused) {
         std::string(R"({"type":"input","events":[["key","Meta",true,0]]})"),
         std::string("{\"type\":\"paste\",\"text\":\"\xff\xfe\"}"),
         std::string(R"({"type":"control","what":"take"})"),
+        std::string(R"({"type":"upload","name":"a"})"),
+        std::string(R"({"type":"upload","name":5,"size_bytes":1})"),
+        std::string(R"({"type":"upload","name":"a","size_bytes":-1})"),
+        std::string(R"({"type":"upload","name":"a","size_bytes":1.5})"),
+        std::string(R"({"type":"upload","name":"a","size_bytes":1e300})"),
+        R"({"type":"upload","name":")" + std::string(2000, 'a') + R"(","size_bytes":1})",
         R"({"type":"paste","text":")" + std::string(40000, 'a') + "\"}", many + "]}",
         std::string(kMaxPageMessage_bytes + 1, ' '), std::string(60000, '[')})
     EXPECT_FALSE(parse_page_message(text)) << text.substr(0, 80);

@@ -11,7 +11,9 @@
 #include <boost/beast/core.hpp>
 #include <boost/beast/websocket.hpp>
 #include <fstream>
+#include <thread>
 
+#include "core/io/atomic_file.hpp"
 #include "tests/folder_test.hpp"
 
 namespace sweepscope::ui {
@@ -31,6 +33,7 @@ class Serving : public test::FolderTest {
     options.address = {"127.0.0.1", 0, true};
     options.token = kToken;
     options.hub.max_viewers = 2;
+    options.hub.roots = FileRoots::of({{folder_}}).value();
     options.max_request = std::chrono::milliseconds(300);
     server_ = Server::start(options, mailbox_).value();
   }
@@ -192,6 +195,100 @@ TEST_F(Serving, AFileIsFetchedUnderItsAddressAlone) {
   EXPECT_TRUE(get("/download/").starts_with("HTTP/1.1 404 "));
   std::filesystem::remove(folder_ / "curve.csv");
   EXPECT_TRUE(get(address).starts_with("HTTP/1.1 404 "));
+}
+
+/// The page's answer to a file that it announced.
+std::string told(websocket::stream<Tcp::socket>& socket, const std::string& type) {
+  for (;;) {
+    beast::flat_buffer buffer;
+    socket.read(buffer);
+    std::string text = beast::buffers_to_string(buffer.data());
+    if (socket.got_text() && text.find("\"type\":\"" + type + '"') != text.npos) return text;
+  }
+}
+
+class Sending : public Serving {
+ protected:
+  void SetUp() override {
+    Serving::SetUp();
+    page_ = viewer();
+  }
+
+  std::string address_for(const std::string& name, std::size_t size) {
+    page_->write(asio::buffer(R"({"type":"upload","name":")" + name + R"(","size_bytes":)" +
+                              std::to_string(size) + "}"));
+    const std::string answer = told(*page_, "upload");
+    const std::size_t at = answer.find("/upload/");
+    EXPECT_NE(at, answer.npos) << answer;
+    return answer.substr(at, 8 + 64);
+  }
+
+  std::string put(const std::string& address, const std::string& origin, std::size_t size,
+                  const std::string& body) {
+    return answer_to("PUT " + address + " HTTP/1.1\r\nHost: " + place() + "\r\nOrigin: " + origin +
+                     "\r\nContent-Length: " + std::to_string(size) + "\r\n\r\n" + body);
+  }
+
+  std::string own() const { return "http://" + place(); }
+
+  std::size_t files() const {
+    const std::filesystem::directory_iterator entries(folder_);
+    return static_cast<std::size_t>(std::distance(begin(entries), end(entries)));
+  }
+
+  std::unique_ptr<Socket> page_;
+};
+
+TEST_F(Sending, AFileOfSeveralPiecesComesWholeAndIsOpened) {
+  std::string body(1'000'003, 'x');
+  for (std::size_t i = 0; i < body.size(); i += 7) body[i] = static_cast<char>(i);
+  const std::string answer = put(address_for("run.bag", body.size()), own(), body.size(), body);
+  EXPECT_TRUE(answer.starts_with("HTTP/1.1 200 ")) << answer;
+  EXPECT_TRUE(answer.ends_with("\r\n\r\nopened\n")) << answer;
+  EXPECT_EQ(read_file(folder_ / "run.bag").value(), body);
+  Mailbox::Arrived arrived;
+  while (arrived.events.empty()) arrived = mailbox_.wait(10);
+  EXPECT_EQ(arrived.events[0].what, InputEvent::What::kDrop);
+  EXPECT_EQ(arrived.events[0].text, std::filesystem::canonical(folder_ / "run.bag"));
+}
+
+TEST_F(Sending, AnEmptyFileIsAFile) {
+  EXPECT_TRUE(put(address_for("empty.bag", 0), own(), 0, "").starts_with("HTTP/1.1 200 "));
+  EXPECT_EQ(std::filesystem::file_size(folder_ / "empty.bag"), 0U);
+}
+
+TEST_F(Sending, WhatBreaksOffLeavesNothing) {
+  // The answer ends when the server gave up on the rest.
+  EXPECT_EQ(put(address_for("run.bag", 900'000), own(), 900'000, std::string(300'000, 'x')), "");
+  while (files() > 0) std::this_thread::yield();
+  {
+    Tcp::socket socket = connected();
+    asio::write(socket, asio::buffer("PUT " + address_for("gone.bag", 900'000) +
+                                     " HTTP/1.1\r\nHost: " + place() + "\r\nOrigin: " + own() +
+                                     "\r\nContent-Length: 900000\r\n\r\n" + std::string(300'000, 'x')));
+    while (files() == 0) std::this_thread::yield();
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "gone.bag"));
+  }
+  while (files() > 0) std::this_thread::yield();
+}
+
+TEST_F(Sending, OnlyTheOwnPageSendsWhatItAnnounced) {
+  const std::string address = address_for("run.bag", 3);
+  EXPECT_TRUE(put(address, "http://evil.example", 3, "abc").starts_with("HTTP/1.1 403 "));
+  EXPECT_TRUE(put("/upload/" + std::string(64, '0'), own(), 3, "abc").starts_with("HTTP/1.1 404 "));
+  EXPECT_TRUE(put("/", own(), 3, "abc").starts_with("HTTP/1.1 405 "));
+  EXPECT_TRUE(put(address, own(), 4, "abcd").starts_with("HTTP/1.1 404 ")) << "another length";
+  EXPECT_TRUE(put(address, own(), 3, "abc").starts_with("HTTP/1.1 404 ")) << "after one try";
+  EXPECT_EQ(files(), 0U);
+}
+
+TEST_F(Sending, AFileThatAppearedMeanwhileIsNotReplaced) {
+  const std::string address = address_for("run.bag", 3);
+  std::ofstream(folder_ / "run.bag") << "older";
+  const std::string answer = put(address, own(), 3, "abc");
+  EXPECT_TRUE(answer.starts_with("HTTP/1.1 507 ")) << answer;
+  EXPECT_EQ(read_file(folder_ / "run.bag").value(), "older");
+  EXPECT_EQ(files(), 1U);
 }
 
 TEST_F(Serving, APortThatIsTakenIsOneSentence) {
