@@ -99,7 +99,8 @@ Pose Sensor::pose_at(double t_s) const {
 }
 
 Vector3d Sensor::from_motor(const Pose& pose, double t_s, const Vector3d& in_motor) const {
-  const SinCos roll = sin_cos(motor_.laser_angle_rad(t_s, radians(options_.backlash_deg)));
+  const SinCos roll = sin_cos(radians(options_.motor_middle_deg) +
+                              motor_.laser_angle_rad(t_s, radians(options_.backlash_deg)));
   const Vector3d in_base(in_motor.x(), in_motor.y() * roll.cos - in_motor.z() * roll.sin,
                          in_motor.y() * roll.sin + in_motor.z() * roll.cos);
   return pose.orientation * in_base;
@@ -152,7 +153,7 @@ void Sensor::cast_scan(std::size_t number, std::span<float> ranges_m, std::span<
 }
 
 double Sensor::encoder_angle_rad(double t_s) const {
-  const double angle_rad = motor_.angle_rad(t_s);
+  const double angle_rad = radians(options_.motor_middle_deg) + motor_.angle_rad(t_s);
   return angle_rad + radians(options_.eccentricity_deg) *
                          sin_cos(angle_rad + radians(options_.eccentricity_phase_deg)).sin;
 }

@@ -47,6 +47,7 @@ Result<void> check(const SimulationOptions& o) {
       {"the noise", o.noise_m * 1e3, 0, 1000, " mm"},
       {"the dropout", o.dropout, 0, 1, ""},
       {"the sweep", o.sweep_s, 0.05, 60, " s"},
+      {"the middle of the motor's swing", o.motor_middle_deg, -180, 180, " deg"},
       {"the encoder's step", o.encoder_step_deg, 1e-6, 10, " deg"},
       {"the encoder's rate", o.encoder_hz, 5, 2000, " Hz"},
       {"the encoder's jitter", o.encoder_jitter_s * 1e3, 0, 300 / o.encoder_hz, " ms"},

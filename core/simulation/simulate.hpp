@@ -37,6 +37,7 @@ struct SimulationOptions {
   double dropout = 0.002;  // fraction of the beams without a return, 0 to 1
   double sweep_s = 0.5;    // one half turn of the motor, 0.05 to 60
   simulation::MotorKind motor = simulation::MotorKind::kTrapezoid;
+  double motor_middle_deg = 0;  // about which the motor swings, within +-180; 0: the scanner is level there
   /// Of a motor that turns one way, instead of sweep_s: each for an equal part of the recording, or with
   /// speed_ramp evenly from one to the next. 1 to 3600 each; empty: one speed, half a turn in sweep_s.
   std::vector<double> speeds_dps = {};

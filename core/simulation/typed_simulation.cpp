@@ -45,6 +45,8 @@ std::vector<SimulationOption> recording_options(TypedSimulation& typed) {
           {"dropout", &options.dropout, "Fraction of beams without a return"},
           {"sweep-s", &options.sweep_s, "Duration of one half turn of the motor"},
           {"motor", &typed.motor, "triangle, trapezoid, sine, one-way or stuck"},
+          {"motor-middle-deg", &options.motor_middle_deg,
+           "Angle about which the motor swings by 90 deg to either side; 0: the scanner is level there"},
           {"speeds-dps", &options.speeds_dps,
            "Speeds of a motor that turns one way (deg/s), each for an equal part of the recording", "A,B,...",
            "", false},

@@ -114,6 +114,7 @@ Json options_json(const SimulationOptions& o) {
           {"dropout", tidy(o.dropout)},
           {"sweep_s", tidy(o.sweep_s)},
           {"motor", simulation::name_of(o.motor)},
+          {"motor_middle_deg", tidy(o.motor_middle_deg)},
           {"speeds_dps", speeds},
           {"speed_ramp", o.speed_ramp},
           {"encoder_step_deg", tidy(o.encoder_step_deg)},

@@ -262,6 +262,7 @@ def simulate(
     dropout: Optional[float] = None,
     sweep_s: Optional[float] = None,
     motor: Optional[Literal["triangle", "trapezoid", "sine", "one-way", "stuck"]] = None,
+    motor_middle_deg: Optional[float] = None,
     speeds_dps: Optional[_Numbers] = None,
     speed_ramp: Optional[bool] = None,
     encoder_step_deg: Optional[float] = None,

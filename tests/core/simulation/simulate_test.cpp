@@ -55,16 +55,11 @@ double mean_difference_m(const Recording& l, const Recording& r) {
   return sum / count;
 }
 
-class OffsetsSign : public testing::TestWithParam<double> {};
-
 // Above a bare floor, 1 m high, the beam to the left (+90 deg, the last one) meets the floor at range
 // 1 / sin(-phi) when the motor stands at phi < 0: at 2 m for -30 deg. So its range alone tells the motor's
 // true angle at the instant of its stamp, and t_motor = t_laser + offset says where the encoder must have
 // recorded that angle.
-TEST_P(OffsetsSign, TheEncoderShowsABeamsAngleOneOffsetAfterItsStamp) {
-  const double offset_s = GetParam();
-  SimulationOptions options = clean();
-  options.offset_s = offset_s;
+void expect_angles_of_the_floor(SimulationOptions options, int min_compared) {
   options.motor = simulation::MotorKind::kTriangle;
   options.encoder_hz = 1000;
   options.encoder_jitter_s = 0;
@@ -79,15 +74,34 @@ TEST_P(OffsetsSign, TheEncoderShowsABeamsAngleOneOffsetAfterItsStamp) {
     if (std::isnan(ranges_m.back()) || ranges_m.back() > 4) continue;
     const double stamp_s = sensor.scan(number).last_beam_s();
     const double phi_deg = degrees(-std::asin(1.0 / ranges_m.back()));
-    if (phi_deg < -75) continue;  // near the reversal both directions are at hand, and the range says little
-    EXPECT_NEAR(degrees(track.angle_at(stamp_s + offset_s)), phi_deg, 0.2);
-    EXPECT_GT(std::abs(degrees(track.angle_at(stamp_s)) - phi_deg), 300 * std::abs(offset_s));
+    // Near the reversal both directions are at hand, and the range says little.
+    if (phi_deg < options.motor_middle_deg - 75) continue;
+    EXPECT_NEAR(degrees(track.angle_at(stamp_s + options.offset_s)), phi_deg, 0.2);
+    EXPECT_GT(std::abs(degrees(track.angle_at(stamp_s)) - phi_deg), 300 * std::abs(options.offset_s));
     ++compared;
   }
-  EXPECT_GE(compared, 8);
+  EXPECT_GE(compared, min_compared);
+}
+
+class OffsetsSign : public testing::TestWithParam<double> {};
+
+TEST_P(OffsetsSign, TheEncoderShowsABeamsAngleOneOffsetAfterItsStamp) {
+  SimulationOptions options = clean();
+  options.offset_s = GetParam();
+  expect_angles_of_the_floor(options, 8);
 }
 
 INSTANTIATE_TEST_SUITE_P(BothSigns, OffsetsSign, testing::Values(0.024, -0.037));
+
+TEST(Simulate, TheMotorSwingsAboutTheMiddleAskedFor) {
+  SimulationOptions options = clean();
+  options.motor_middle_deg = 45;
+  const auto& angles_rad = simulated(options).recording.motor.angle_rad;
+  const auto [least, most] = std::ranges::minmax(angles_rad);
+  EXPECT_NEAR(degrees(least), -45, 1);
+  EXPECT_NEAR(degrees(most), 135, 1);
+  expect_angles_of_the_floor(options, 4);
+}
 
 TEST(Simulate, SameBytesForOneThreadAndMany) {
   SimulationOptions options;
