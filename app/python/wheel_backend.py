@@ -48,7 +48,8 @@ def _run(command, **options):
 
 def _configure(build):
     """CMake's own choice of compiler and options, for the Python that pip runs with."""
-    options = ["-DCMAKE_BUILD_TYPE=Release", "-DBUILD_TESTING=OFF", "-DSWEEPSCOPE_BUILD_PYTHON=ON"]
+    options = ["-DCMAKE_BUILD_TYPE=Release", "-DBUILD_TESTING=OFF", "-DSWEEPSCOPE_BUILD_PYTHON=ON",
+               "-DCMAKE_UNITY_BUILD=ON"]
     python = [f"-DPython_EXECUTABLE={sys.executable}"]
     _run(["cmake", "-S", SOURCES, "-B", build, "-G", "Ninja", *options, *python])
 
