@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <iterator>
 #include <numbers>
 #include <vector>
@@ -9,6 +10,7 @@ namespace sweepscope {
 
 inline constexpr double kRadPerDeg = std::numbers::pi / 180;
 inline constexpr double kDegPerRad = 180 / std::numbers::pi;
+inline constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
 /// The normal distribution's standard deviation as a multiple of its median absolute deviation.
 inline constexpr double kSigmaPerMedianDeviation = 1.4826;

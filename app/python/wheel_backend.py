@@ -48,7 +48,8 @@ def _run(command, **options):
 
 def _configure(build):
     """CMake's own choice of compiler and options, for the Python that pip runs with."""
-    options = ["-DCMAKE_BUILD_TYPE=Release", "-DBUILD_TESTING=OFF", "-DSWEEPSCOPE_BUILD_PYTHON=ON"]
+    options = ["-DCMAKE_BUILD_TYPE=Release", "-DBUILD_TESTING=OFF", "-DSWEEPSCOPE_BUILD_PYTHON=ON",
+               "-DCMAKE_UNITY_BUILD=ON"]
     python = [f"-DPython_EXECUTABLE={sys.executable}"]
     _run(["cmake", "-S", SOURCES, "-B", build, "-G", "Ninja", *options, *python])
 
@@ -56,7 +57,26 @@ def _configure(build):
 def _packed(folder):
     """The files of the package, as they are in the wheel; CMake's part `python` is installed into the folder."""
     installed = next(Path(folder).rglob("sweepscope/__init__.py")).parent
-    return {f"sweepscope/{path.name}": path.read_bytes() for path in sorted(installed.iterdir())}
+    files = {f"sweepscope/{path.name}": path.read_bytes() for path in sorted(installed.iterdir())}
+    packages = f'PACKAGES = "{_packages(next(installed.glob("_engine*.so"), ""))}"'
+    words = "sweepscope/_libraries.py"
+    files[words] = files[words].replace(b'PACKAGES = ""', packages.encode())
+    return files
+
+
+def _packages(engine):
+    """Debian's packages of the libraries that the module names, where Debian's tools are: for who has them not."""
+    def output(*command):
+        return subprocess.run(command, capture_output=True, text=True).stdout
+
+    try:
+        places = dict(re.findall(r"(\S+) => (/\S+)", output("ldd", engine)))
+        names = re.findall(r"NEEDED +(\S+)", output("objdump", "-p", engine))
+        found = output("dpkg-query", "-S", *(os.path.realpath(places[name]) for name in names if name in places))
+    except FileNotFoundError:
+        return ""
+    packages = {line.split(":")[0] for line in found.splitlines()} - {"libc6", "libgcc-s1", "libstdc++6"}
+    return " ".join(sorted(packages | {"libosmesa6"}))  # which is loaded at run time
 
 
 def _build(build, folder):

@@ -12,6 +12,7 @@
 #include "core/apply/message_sink.hpp"
 #include "core/apply/provenance.hpp"
 #include "core/io/atomic_file.hpp"
+#include "core/numbers.hpp"
 #include "core/recording/messages/messages.hpp"
 #include "core/recording/packed/compress.hpp"
 #include "core/recording/ros1/ros1_record.hpp"
@@ -21,7 +22,6 @@ namespace {
 
 constexpr std::size_t kChunk_bytes = std::size_t{768} << 10;  // as rosbag
 constexpr std::size_t kBagHeader_bytes = 4096;                // the record with its padding
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
 template <typename T>
 std::string as_bytes(T value) {

@@ -8,10 +8,11 @@
 #include <optional>
 #include <vector>
 
+#include "core/numbers.hpp"
+
 namespace sweepscope {
 namespace {
 
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr std::size_t kStamp_bytes = 8;  // seconds and nanoseconds
 
 std::uint32_t load(const std::byte* at, bool swapped) {

@@ -39,7 +39,7 @@ std::optional<std::string> lzf_unpack(std::string_view packed, std::size_t unpac
   return out;
 }
 
-constexpr std::size_t kMaxFields = 128;
+constexpr std::size_t kMaxPcdFields = 128;
 constexpr double kMaxCount = 4096;
 
 struct PcdHeader {
@@ -105,9 +105,9 @@ std::optional<ScalarType> scalar_type(std::string_view letter, double size) {
 
 Result<void> complete_fields(PcdHeader& header, std::string_view name) {
   auto& fields = header.layout.fields;
-  if (fields.empty() || fields.size() > kMaxFields) {
-    return unreadable(
-        fmt::format("{}: the PCD header names {} fields; 1 to {} are read", name, fields.size(), kMaxFields));
+  if (fields.empty() || fields.size() > kMaxPcdFields) {
+    return unreadable(fmt::format("{}: the PCD header names {} fields; 1 to {} are read", name, fields.size(),
+                                  kMaxPcdFields));
   }
   if (header.counts.empty()) header.counts.assign(fields.size(), 1);
   if (header.sizes.size() != fields.size() || header.types.size() != fields.size() ||

@@ -8,7 +8,7 @@
 namespace sweepscope {
 namespace {
 
-constexpr std::size_t kMaxFields = 128;
+constexpr std::size_t kMaxPlyFields = 128;
 
 struct PlyHeader {
   std::string format;
@@ -40,7 +40,7 @@ std::string take_property(TextCursor& words, PlyHeader& header) {
   if (type_word && *type_word == "list") return "a list in the element vertex cannot be read";
   const auto type = type_word ? ply_scalar_type(*type_word) : std::nullopt;
   if (!type || !field) return "a property needs a known type and a name";
-  if (header.layout.fields.size() == kMaxFields) return "the vertices have too many properties";
+  if (header.layout.fields.size() == kMaxPlyFields) return "the vertices have too many properties";
   header.layout.fields.push_back({std::string(*field), *type});
   return {};
 }

@@ -15,7 +15,7 @@ constexpr double kWhole = 2;
 
 // Of the first sweep, and where scans are missing, the velocity is carried on for no longer than this: a
 // sweep of most recordings, and about half a stride.
-constexpr double kLongestGap_s = 0.5;
+constexpr double kLongestCarriedGap_s = 0.5;
 
 std::size_t steps_of(const PlacedSweep& sweep, const MappingOptions& options) {
   return std::max<std::size_t>(1, std::size_t(std::lround((sweep.end_s - sweep.begin_s) / options.knot_s)));
@@ -116,7 +116,7 @@ Pose Tracker::given_move(double from_s, double to_s) const {
 // A sweep's path begins where the last one's ended.
 void Tracker::begin_path(const PlacedSweep& sweep, std::size_t steps) {
   const double step_s = (sweep.end_s - sweep.begin_s) / double(steps);
-  const double gap_s = std::min(sweep.begin_s - end_s_, kLongestGap_s);
+  const double gap_s = std::min(sweep.begin_s - end_s_, kLongestCarriedGap_s);
   const double last = double(path_.size() - 1);
   const auto at = [&](double after_s) { return pose_between(path_, 1 + after_s / step_s_ / last); };
   before_ = at(gap_s - step_s);
@@ -136,7 +136,7 @@ bool Tracker::begin_along_given(const PlacedSweep& sweep, std::size_t steps) {
   const auto at = [&](double after_s) {
     return stepped(carried, after_s * deviation_per_s, carried.translation_m);
   };
-  const double carried_s = std::min(gap_s, kLongestGap_s);
+  const double carried_s = std::min(gap_s, kLongestCarriedGap_s);
   path_ = {at(carried_s)};
   before_ = at(carried_s - step_s) * given_move(sweep.begin_s, sweep.begin_s - step_s);
   step_s_ = step_s;

@@ -108,14 +108,14 @@ std::vector<WallPoint> wall_points(const Surfaces& map, const RigReader& rig, co
   return found;
 }
 
-struct Candidate {
+struct SectionCandidate {
   CrossSection section;
   double lever_m = 0, promise = 0;
 };
 
 // One column's points of one direction as a section; nothing where they are too few or of one turning alone.
-std::optional<Candidate> candidate_of(std::span<const WallPoint> points, const MapCloud& cloud,
-                                      double points_each, const SectionSearch& search) {
+std::optional<SectionCandidate> candidate_of(std::span<const WallPoint> points, const MapCloud& cloud,
+                                             double points_each, const SectionSearch& search) {
   const double count = points_each * static_cast<double>(points.size());
   if (count < static_cast<double>(search.min_points)) return std::nullopt;
   std::vector<float> heights_m;
@@ -134,7 +134,7 @@ std::optional<Candidate> candidate_of(std::span<const WallPoint> points, const M
   const std::size_t lesser = std::min(forward, points.size() - forward);
   if (lesser * 5 < points.size()) return std::nullopt;
   std::sort(heights_m.begin(), heights_m.end());
-  Candidate candidate;
+  SectionCandidate candidate;
   candidate.section.at_m = sum_m / static_cast<double>(points.size());
   candidate.section.normal_rad = std::atan2(doubled.y(), doubled.x()) / 2;
   candidate.section.length_m = search.length_m;
@@ -151,10 +151,10 @@ std::optional<Candidate> candidate_of(std::span<const WallPoint> points, const M
   return candidate;
 }
 
-std::vector<Candidate> candidates(const Surfaces& map, double points_each, const RigReader& rig,
-                                  const SectionSearch& search) {
+std::vector<SectionCandidate> candidates(const Surfaces& map, double points_each, const RigReader& rig,
+                                         const SectionSearch& search) {
   const std::vector<WallPoint> points = wall_points(map, rig, search);
-  std::vector<Candidate> found;
+  std::vector<SectionCandidate> found;
   for (std::size_t begin = 0; begin < points.size();) {
     std::size_t end = begin;
     while (end < points.size() && points[end].place == points[begin].place) ++end;
@@ -164,7 +164,7 @@ std::vector<Candidate> candidates(const Surfaces& map, double points_each, const
     begin = end;
   }
   std::stable_sort(found.begin(), found.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.promise > b.promise; });
+                   [](const SectionCandidate& a, const Candidate& b) { return a.promise > b.promise; });
   if (found.size() > kMaxCandidates) found.resize(kMaxCandidates);
   return found;
 }
@@ -223,7 +223,7 @@ struct Measured {
 };
 
 // The section laid on its face, with the widths of all maps; none where any cannot be told.
-std::optional<Measured> measured(const Candidate& candidate, std::size_t sharpest,
+std::optional<Measured> measured(const SectionCandidate& candidate, std::size_t sharpest,
                                  const std::vector<SectionPoints>& per_map, const RigReader& rig,
                                  const SectionSearch& search) {
   const SectionPoints& sharp = per_map[sharpest];
@@ -265,9 +265,9 @@ std::optional<FoundSection> best_section(std::span<const MapOnPath> maps, const 
                                surfaces.begin());
   const double points_each = double(maps[sharpest].cloud->size()) / double(surfaces[sharpest].cloud.size());
   const RigReader rig(maps[sharpest].path, search.motor_axis.normalized());
-  const std::vector<Candidate> tried = candidates(surfaces[sharpest], points_each, rig, search);
+  const std::vector<SectionCandidate> tried = candidates(surfaces[sharpest], points_each, rig, search);
   std::vector<CrossSection> sections;
-  for (const Candidate& candidate : tried) sections.push_back(candidate.section);
+  for (const SectionCandidate& candidate : tried) sections.push_back(candidate.section);
 
   std::vector<std::vector<SectionPoints>> points(tried.size());  // per candidate and map
   for (const MapOnPath& map : maps) {

@@ -13,7 +13,7 @@ namespace {
 constexpr int kRings = 2;  // cubes from a point's own to the cap
 
 // A cube of points to search, and where it lies.
-struct Candidate {
+struct CubeToSearch {
   std::uint32_t begin = 0, end = 0;
   std::array<float, 3> low_m, high_m;
 };
@@ -58,7 +58,7 @@ class CubeSearch {
   void gather(const VoxelLevel::Place& place) {
     const std::uint32_t cell = level_.find(place);
     if (cell == VoxelLevel::kNone) return;
-    Candidate& candidate = candidates_.emplace_back();
+    CubeToSearch& candidate = candidates_.emplace_back();
     candidate.begin = level_.begin(cell);
     candidate.end = level_.begin(cell + 1);
     for (int axis = 0; axis < 3; ++axis) {
@@ -77,7 +77,7 @@ class CubeSearch {
     return std::max(0.0f, min_m) * std::max(0.0f, min_m);
   }
 
-  void look_in(const Candidate& candidate, const std::array<float, 3>& p_m, float& min_m2) const {
+  void look_in(const CubeToSearch& candidate, const std::array<float, 3>& p_m, float& min_m2) const {
     float gap_m2 = 0;
     for (int axis = 0; axis < 3; ++axis) {
       const float gap_m =
@@ -95,7 +95,7 @@ class CubeSearch {
   const VoxelLevel& level_;
   float cap_m2_;
   VoxelLevel::Place place_{};
-  std::vector<Candidate> candidates_;  // by ring
+  std::vector<CubeToSearch> candidates_;  // by ring
   std::array<std::size_t, kRings + 1> ring_end_{};
   int rings_ = 0;  // gathered
 };

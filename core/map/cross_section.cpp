@@ -13,7 +13,7 @@ namespace sweepscope {
 namespace {
 
 constexpr double kStep_mm = 1, kSmoothing_mm = 3;
-constexpr std::size_t kMinPoints = 300;
+constexpr std::size_t kMinSectionPoints = 300;
 const double kWidthPerDeviation = 2 * std::sqrt(2 * std::numbers::ln2);
 
 // Counts per step from -reach to reach about the median, and a Gaussian's width beyond it on either side.
@@ -201,7 +201,7 @@ Profile profile_of(std::vector<double> distances_m, double reach_m) {
   for (std::size_t i = 0; i < profile.density_per_mm.size(); ++i)
     profile.distances_mm.push_back(kStep_mm * static_cast<double>(i) - half_mm);
   profile.peak_per_mm = *std::max_element(profile.density_per_mm.begin(), profile.density_per_mm.end());
-  if (profile.points >= kMinPoints) {
+  if (profile.points >= kMinSectionPoints) {
     const double half = profile.peak_per_mm / 2;
     profile.width_at_half_height_mm = width_at_half_mm(profile.density_per_mm, half);
     const auto [first, last] = outermost(profile.density_per_mm, half);
@@ -213,7 +213,7 @@ Profile profile_of(std::vector<double> distances_m, double reach_m) {
 
 std::optional<CrossSection> face_of(const MapCloud& cloud, std::span<const std::uint32_t> inside,
                                     const CrossSection& section) {
-  if (inside.size() < kMinPoints) return std::nullopt;
+  if (inside.size() < kMinSectionPoints) return std::nullopt;
   std::vector<FacePoint> face;
   for (const std::uint32_t i : inside) face.push_back(face_point(cloud.points[i], section));
   const Plane plane = robust_plane(face, densest(face, section.length_m, section.reach_m), section.reach_m);

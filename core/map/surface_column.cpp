@@ -11,7 +11,7 @@
 namespace sweepscope {
 namespace {
 
-constexpr std::size_t kMinPoints = 20;  // for a normal
+constexpr std::size_t kMinColumnPoints = 20;  // for a normal
 // Of the bins in a disc, 17 along its diameter and 227 in all, those that a surface fills: more than three
 // parallel lines can.
 constexpr int kSide = 17;
@@ -206,7 +206,7 @@ bool SurfaceColumn::gather_ball() {
     for (int dy = -1; dy <= 1; ++dy)
       for (int dx = -1; dx <= 1; ++dx)
         take({place[0] + dx, place[1] + dy, place[2] + dz}, kMaxPerCubeOfBall, keep);
-  return x_m_.size() >= kMinPoints;
+  return x_m_.size() >= kMinColumnPoints;
 }
 
 // A sweep's points lie on their surface whatever the offset, so the spread within sweeps gives the normal;

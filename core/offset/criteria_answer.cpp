@@ -110,10 +110,6 @@ Certainty of_walk(const SolvedWalk& walk, double offset_s) {
           walk.joint->sigma_s};
 }
 
-void add(std::vector<std::string>& to, const Remark& remark) {
-  if (remark) to.push_back(*remark);
-}
-
 // A slow motor leaves d so flat that the least of many candidates is chance.
 Fit fit_of(const OffsetSearch& search) {
   const bool slow = search.scale.unit_s > 1e-3;

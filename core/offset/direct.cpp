@@ -18,10 +18,6 @@ namespace {
 
 constexpr double kMinPart_s = 5;  // of a walk over time: shorter parts hold too few turns
 
-void add(std::vector<std::string>& to, const Remark& remark) {
-  if (remark) to.push_back(*remark);
-}
-
 // Where neighbours in time err together, their scatter hides it, and the halves disagree.
 struct HalvesCheck {
   std::optional<double> sigma_s;  // widened where they do

@@ -16,6 +16,10 @@ namespace sweepscope {
 /// sentences, empty if there is nothing to report.
 using Remark = std::optional<std::string>;
 
+inline void add(std::vector<std::string>& to, const Remark& remark) {
+  if (remark) to.push_back(*remark);
+}
+
 /// The minimum of a coarse curve lies at its end, a second minimum is nearly as deep, or there is none.
 Remark edge_reason(const std::vector<CurvePoint>& coarse, std::size_t best);
 Remark rival_reason(const std::vector<CurvePoint>& coarse, std::size_t best, const SearchScale& scale);

@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::string_view kSchema = "sweepscope.candidates/2";
+constexpr std::string_view kCandidatesSchema = "sweepscope.candidates/2";
 constexpr std::string_view kOurs = "{\"schema\":\"sweepscope.candidates/";  // what every version begins with
 
 std::string text_of(const Json& line) {
@@ -26,7 +26,7 @@ std::string text_of(const Json& line) {
 
 std::string header_line(const CandidateSearch& search) {
   Json line;
-  line["schema"] = kSchema;
+  line["schema"] = kCandidatesSchema;
   line["program"] = search.program;
   line["recording"] = search.recording;
   line["recording_hash"] = search.recording_hash;
@@ -114,7 +114,7 @@ bool is_ours(std::string_view text) {
 /// Whether a first line is that of a file of candidates, and of this version.
 Result<void> check_header(std::string_view line, std::string_view name) {
   if (!line.starts_with(kOurs)) return unreadable(fmt::format("{}: is not a candidate file", name));
-  if (line.substr(kOurs.find("sweepscope")).starts_with(fmt::format("{}\"", kSchema))) return {};
+  if (line.substr(kOurs.find("sweepscope")).starts_with(fmt::format("{}\"", kCandidatesSchema))) return {};
   return unreadable(
       fmt::format("{}: line 1: another version of sweepscope wrote this candidate file. Delete it and run "
                   "the estimate again",

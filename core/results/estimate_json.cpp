@@ -21,7 +21,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kSchema = "sweepscope.estimate/1";
+constexpr const char* kEstimateSchema = "sweepscope.estimate/1";
 
 // Of an instant in a recording.
 double to_millisecond(double time_s) {
@@ -329,8 +329,8 @@ std::vector<Interval> intervals_from_json(const Json& document, const char* key)
 
 Estimate estimate_from_json(const Json& document) {
   if (!document.is_object()) throw BadValue("it is not a JSON object");
-  if (required<std::string>(document, "schema") != kSchema) {
-    throw BadValue(fmt::format("schema is not {}", kSchema));
+  if (required<std::string>(document, "schema") != kEstimateSchema) {
+    throw BadValue(fmt::format("schema is not {}", kEstimateSchema));
   }
   Estimate estimate;
   estimate.recording = required<std::string>(document, "recording");
@@ -370,7 +370,7 @@ const char* to_text(RigKind kind) {
 
 std::string estimate_to_json(const Estimate& estimate, Timing timing) {
   Json document;
-  document["schema"] = kSchema;
+  document["schema"] = kEstimateSchema;
   document["recording"] = estimate.recording;
   document["method"] = to_text(estimate.method);
   document["equation"] = "t_motor = t_laser + offset";

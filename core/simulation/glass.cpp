@@ -7,7 +7,7 @@
 namespace sweepscope::simulation {
 namespace {
 
-enum Purpose : std::uint64_t { kPane = 9, kBeam = 10 };
+enum GlassPurpose : std::uint64_t { kPane = 9, kBeam = 10 };
 
 constexpr double kPasses = 0.9;
 constexpr double kBehind_m = 1e-4;  // where a beam goes on behind a pane

@@ -40,7 +40,7 @@ Mesh flight() {
   return mesh.add_box({run_m, -0.25, 0}, {run_m + 1.0, kStairWidth_m + 0.25, top_m}, 0.5);
 }
 
-void add_shell(Mesh& hall) {
+void add_hall_shell(Mesh& hall) {
   hall.add_box({-kHalfLength_m, -kPlatformEdge_m, -0.25}, {kHalfLength_m, kPlatformEdge_m, 0}, 0.5);
   hall.add_box({-kHalfLength_m, -kPlatformEdge_m + 0.4, kTrackBed_m},
                {kHalfLength_m, kPlatformEdge_m - 0.4, -0.25}, 0.3);
@@ -63,7 +63,7 @@ void add_shell(Mesh& hall) {
     hall.add_box({end * 24.2 - 0.2, -kWall_m, kTrackBed_m}, {end * 24.2 + 0.2, kWall_m, 8.5}, 0.6);
 }
 
-void add_ceiling(Mesh& hall) {
+void add_hall_ceiling(Mesh& hall) {
   // Open above the stairs, so that the flights go on upwards.
   const double half_m = kStairWidth_m / 2 + 0.25;
   hall.add_box({-17, -kWall_m, kCeiling_m}, {17, kWall_m, kCeiling_m + 0.3}, 0.8);
@@ -82,7 +82,7 @@ void add_ceiling(Mesh& hall) {
       hall.add_box({x - 0.7, y - 0.1, kCeiling_m - 0.9}, {x + 0.7, y + 0.1, kCeiling_m - 0.8}, 0.95);
 }
 
-void add_furniture(Mesh& hall) {
+void add_hall_furniture(Mesh& hall) {
   hall.add(prism(6, 0.45, kCeiling_m, 0.7));
   hall.add(frustum(6, 0.45, 0.75, 0.5, 0.7), {0, 0, kCeiling_m - 0.5, 0}).add(prism(6, 0.55, 0.25, 0.4));
   for (const double x : {-13.6, 13.6})
@@ -102,9 +102,9 @@ void add_furniture(Mesh& hall) {
 
 Scene metro_station() {
   Scene scene;
-  add_shell(scene.mesh);
-  add_ceiling(scene.mesh);
-  add_furniture(scene.mesh);
+  add_hall_shell(scene.mesh);
+  add_hall_ceiling(scene.mesh);
+  add_hall_furniture(scene.mesh);
   scene.mesh.add(flight(), {kStairFoot_m, -kStairWidth_m / 2, 0, 0});
   scene.mesh.add(flight(), {-kStairFoot_m, kStairWidth_m / 2, 0, 180});
   // Three times around the pillar, ever closer, with a look at either flight of stairs.

@@ -59,7 +59,7 @@ Mesh radiator(double length_m) {
   return mesh;
 }
 
-void add_shell(Mesh& room) {
+void add_room_shell(Mesh& room) {
   room.add_box({-0.3, -0.3, -0.2}, {kLength_m + 0.3, kWidth_m + 0.5, 0}, 0.4);
   room.add_box({-0.3, -0.3, kHeight_m}, {kLength_m + 0.3, kWidth_m + 0.5, kHeight_m + 0.2}, 0.9);
   room.add(wall(kLength_m, kHeight_m, 0.2), {0, -0.2, 0, 0});
@@ -79,7 +79,7 @@ void add_shell(Mesh& room) {
   }
 }
 
-void add_ceiling(Mesh& room) {
+void add_room_ceiling(Mesh& room) {
   for (const double x : {2.4, 4.9})
     room.add_box({x, 0, kHeight_m - 0.3}, {x + 0.25, kWidth_m, kHeight_m}, 0.8);
   for (const double x : {1.0, 3.6, 6.0})
@@ -90,7 +90,7 @@ void add_ceiling(Mesh& room) {
     }
 }
 
-void add_furniture(Mesh& room) {
+void add_room_furniture(Mesh& room) {
   room.add(table(2.4, 1.1), {2.5, 2.2, 0, 0});
   constexpr std::array<Placement, 6> kChairs = {{{2.95, 1.95, 0, 85},
                                                  {3.75, 1.85, 0, 97},
@@ -122,9 +122,9 @@ void add_furniture(Mesh& room) {
 
 Scene room(int position) {
   Scene scene;
-  add_shell(scene.mesh);
-  add_ceiling(scene.mesh);
-  add_furniture(scene.mesh);
+  add_room_shell(scene.mesh);
+  add_room_ceiling(scene.mesh);
+  add_room_furniture(scene.mesh);
   constexpr std::array<std::array<double, 4>, 6> kStands = {{{0.9, 2.2, 1.25, 12},
                                                              {1.5, 4.6, 1.15, -40},
                                                              {5.6, 4.7, 1.30, -125},

@@ -10,7 +10,7 @@
 namespace sweepscope::simulation {
 namespace {
 
-enum Purpose : std::uint64_t {
+enum SensorPurpose : std::uint64_t {
   kPhases = 2,
   kBeamNoise = 3,
   kEncoder = 4,

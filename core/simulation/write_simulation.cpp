@@ -19,10 +19,10 @@ namespace {
 using simulation::Random;
 using simulation::Sensor;
 
-enum Purpose : std::uint64_t { kScanArrival = 101, kMotorArrival = 102 };
+enum ArrivalPurpose : std::uint64_t { kScanArrival = 101, kMotorArrival = 102 };
 
 /// Most messages arrive promptly, few late: an exponential distribution, cut off.
-double delay_s(const Simulation& simulation, Purpose purpose, std::size_t number) {
+double delay_s(const Simulation& simulation, ArrivalPurpose purpose, std::size_t number) {
   constexpr double kMean_s = 0.0003, kMax_s = 0.003;
   const double u = Random(simulation.options.seed, purpose, number).uniform();
   return std::min(-kMean_s * simulation::natural_log(1 - u), kMax_s);

@@ -90,16 +90,16 @@ Tiled tile(std::span<const SlabPoints> maps, const Bounds& x, const Bounds& y, d
   return tiled;
 }
 
-struct Candidate {
+struct CloseUpCandidate {
   double score = 0;
   DifferingPlace place;
 };
 
 /// Of what a window shows. A score of 0: nothing that tells.
-Candidate candidate_at(const Tiled& tiled, std::size_t column, std::size_t row) {
+CloseUpCandidate candidate_at(const Tiled& tiled, std::size_t column, std::size_t row) {
   constexpr double kMinCells = 30;
   const std::size_t side = tiled.side, rim = side / 2;
-  Candidate found;
+  CloseUpCandidate found;
   for (const TileGrid& grid : tiled.grids)
     found.place.cells.push_back(static_cast<std::size_t>(grid.window(column, row, side, side).count));
   const auto least = static_cast<double>(found.place.cells[found.place.sharpest()]),
@@ -118,12 +118,12 @@ Candidate candidate_at(const Tiled& tiled, std::size_t column, std::size_t row) 
 }
 
 /// Best first; where they are equal, in the order of rows and columns.
-std::vector<Candidate> all_candidates(const Tiled& tiled) {
-  std::vector<Candidate> all;
+std::vector<CloseUpCandidate> all_candidates(const Tiled& tiled) {
+  std::vector<CloseUpCandidate> all;
   const TileGrid& first = tiled.grids.front();
   for (std::size_t row = 0; row + tiled.side <= first.rows; ++row) {
     for (std::size_t column = 0; column + tiled.side <= first.columns; ++column) {
-      Candidate candidate = candidate_at(tiled, column, row);
+      CloseUpCandidate candidate = candidate_at(tiled, column, row);
       if (candidate.score > 0) all.push_back(std::move(candidate));
     }
   }
@@ -151,7 +151,7 @@ std::vector<DifferingPlace> differing_places(std::span<const SlabPoints> maps, d
   const Bounds x = bounds_of(maps, 0, 0.002), y = bounds_of(maps, 1, 0.002);
   const double larger_m = std::max(height_m, width_m);  // a close-up may be turned
   std::vector<DifferingPlace> best;
-  for (Candidate& candidate : all_candidates(tile(maps, x, y, std::min(height_m, width_m)))) {
+  for (CloseUpCandidate& candidate : all_candidates(tile(maps, x, y, std::min(height_m, width_m)))) {
     if (best.size() == max_count) break;
     const Eigen::Vector2d& here_m = candidate.place.region.centre_m;
     const bool shown = std::any_of(best.begin(), best.end(), [&](const DifferingPlace& other) {

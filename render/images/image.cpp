@@ -9,13 +9,10 @@
 #include <stdexcept>
 
 #include "core/io/atomic_file.hpp"
+#include "render/images/png_bytes.hpp"
 
 namespace sweepscope {
 namespace {
-
-void append_bytes(png_structp png, png_bytep bytes, png_size_t length) {
-  static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<const char*>(bytes), length);
-}
 
 bool is_ascii(const std::string& text) {
   return std::all_of(text.begin(), text.end(), [](unsigned char c) { return c < 128; });
@@ -55,7 +52,7 @@ std::vector<png_text> to_png_texts(std::span<const PngText> texts) {
 bool encode_into(png_structp png, png_infop info, const PngPixels& pixels, std::vector<png_text>& texts,
                  std::string& bytes) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
-  png_set_write_fn(png, &bytes, append_bytes, nullptr);
+  png_set_write_fn(png, &bytes, append_png_bytes, nullptr);
   png_set_IHDR(png, info, static_cast<png_uint_32>(pixels.width_px),
                static_cast<png_uint_32>(pixels.height_px), 8,
                pixels.with_alpha ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,

@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "render/images/png_bytes.hpp"
+
 namespace sweepscope {
 namespace {
 
@@ -18,17 +20,13 @@ struct Destroy {
   void operator()(void* codec) const { tjDestroy(codec); }
 };
 
-void append_bytes(png_structp png, png_bytep bytes, png_size_t length) {
-  static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<const char*>(bytes), length);
-}
-
 void no_flush(png_structp) {}
 
 /// libpng leaves by longjmp: nothing with a destructor lives here.
 bool encode_into(png_structp png, png_infop info, const Image& image, const ImageRect& part,
                  std::string& bytes) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
-  png_set_write_fn(png, &bytes, append_bytes, no_flush);
+  png_set_write_fn(png, &bytes, append_png_bytes, no_flush);
   png_set_IHDR(png, info, static_cast<png_uint_32>(part.width), static_cast<png_uint_32>(part.height), 8,
                PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   png_set_compression_level(png, 1);

@@ -10,7 +10,7 @@
 namespace sweepscope {
 namespace {
 
-constexpr std::array<std::string_view, 4> kNames{"top", "front", "right", "isometric"};
+constexpr std::array<std::string_view, 4> kViewpointNames{"top", "front", "right", "isometric"};
 constexpr double kRoom = 1.06;       // around what is shown
 constexpr double kFarAway_m = 1000;  // an orthographic picture does not depend on it
 
@@ -41,14 +41,14 @@ std::array<Eigen::Vector3d, 8> corners_of(const Box& box) {
 }  // namespace
 
 std::span<const std::string_view> viewpoint_names() {
-  return kNames;
+  return kViewpointNames;
 }
 
 Result<Viewpoint> viewpoint(std::string_view name) {
-  const auto found = std::find(kNames.begin(), kNames.end(), name);
-  if (found != kNames.end()) return static_cast<Viewpoint>(found - kNames.begin());
-  return failure(ExitCode::kWrongUsage,
-                 fmt::format("There is no viewpoint \"{}\"; there are {}", name, fmt::join(kNames, ", ")));
+  const auto found = std::find(kViewpointNames.begin(), kNames.end(), name);
+  if (found != kViewpointNames.end()) return static_cast<Viewpoint>(found - kNames.begin());
+  return failure(ExitCode::kWrongUsage, fmt::format("There is no viewpoint \"{}\"; there are {}", name,
+                                                    fmt::join(kViewpointNames, ", ")));
 }
 
 Camera camera_on(const Box& box, Viewpoint viewpoint, bool orthographic, double aspect) {

@@ -16,7 +16,7 @@
 namespace sweepscope {
 namespace {
 
-constexpr std::array<std::string_view, 3> kNames{"offscreen", "window", "null"};
+constexpr std::array<std::string_view, 3> kBackendNames{"offscreen", "window", "null"};
 
 class OffscreenCanvas final : public Canvas {
  public:
@@ -73,11 +73,11 @@ class NullCanvas final : public Canvas {
 }  // namespace
 
 Result<Backend> backend(std::string_view name) {
-  for (std::size_t i = 0; i < kNames.size(); ++i) {
-    if (kNames[i] == name) return static_cast<Backend>(i);
+  for (std::size_t i = 0; i < kBackendNames.size(); ++i) {
+    if (kBackendNames[i] == name) return static_cast<Backend>(i);
   }
-  return failure(ExitCode::kWrongUsage,
-                 fmt::format("There is no back end \"{}\"; there are {}", name, fmt::join(kNames, ", ")));
+  return failure(ExitCode::kWrongUsage, fmt::format("There is no back end \"{}\"; there are {}", name,
+                                                    fmt::join(kBackendNames, ", ")));
 }
 
 Result<std::unique_ptr<Canvas>> make_canvas(Backend backend) {

@@ -27,7 +27,7 @@
 namespace sweepscope {
 namespace {
 
-constexpr std::size_t kSlicePoints = 32768;
+constexpr std::size_t kActorPoints = 32768;
 
 /// A cloud cut into actors, which are made when they are first drawn.
 struct Slices {
@@ -43,12 +43,12 @@ struct Slices {
     }
     splats = wants_splats && next && next->spacing_m.size() == next->size();
     points = std::move(next);
-    actors.assign(points ? (points->size() + kSlicePoints - 1) / kSlicePoints : 0, nullptr);
+    actors.assign(points ? (points->size() + kActorPoints - 1) / kSlicePoints : 0, nullptr);
   }
   /// Stays in the renderer, unseen between drawings: VTK uploads an actor's points anew once it was away.
   vtkActor* at(std::size_t slice, const SplatSizes& sizes, vtkRenderer& renderer) {
     if (!actors[slice]) {
-      const std::size_t from = slice * kSlicePoints, count = std::min(kSlicePoints, points->size() - from);
+      const std::size_t from = slice * kActorPoints, count = std::min(kSlicePoints, points->size() - from);
       vtkNew<vtkPolyDataMapper> mapper;
       const std::span<const float> spacing_m =
           splats ? std::span(points->spacing_m).subspan(from, count) : std::span<const float>();

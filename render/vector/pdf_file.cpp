@@ -156,19 +156,14 @@ void set_metadata(cairo_surface_t* page, std::span<const PngText> texts) {
   cairo_pdf_surface_set_metadata(page, CAIRO_PDF_METADATA_CREATE_DATE, nullptr);  // else the clock's
 }
 
-cairo_status_t append(void* out, const unsigned char* bytes, unsigned int length) {
-  static_cast<std::string*>(out)->append(reinterpret_cast<const char*>(bytes), length);
-  return CAIRO_STATUS_SUCCESS;
-}
-
 }  // namespace
 
 Result<std::string> encode_pdf(const Picture& picture, std::span<const PngText> texts) {
   const auto views = view_images(picture);
   if (!views) return tl::unexpected(views.error());
   std::string pdf;
-  const Surface page(cairo_pdf_surface_create_for_stream(append, &pdf, picture.width_px * kPointsPerPixel,
-                                                         picture.height_px * kPointsPerPixel));
+  const Surface page(cairo_pdf_surface_create_for_stream(
+      append_bytes, &pdf, picture.width_px * kPointsPerPixel, picture.height_px * kPointsPerPixel));
   set_metadata(page.get(), texts);
   {
     Painter painter(page.get());

@@ -82,14 +82,9 @@ std::string base64(std::string_view bytes) {
   return out;
 }
 
-cairo_status_t append(void* out, const unsigned char* bytes, unsigned int length) {
-  static_cast<std::string*>(out)->append(reinterpret_cast<const char*>(bytes), length);
-  return CAIRO_STATUS_SUCCESS;
-}
-
 std::string element(const ViewImage& view) {
   std::string png;
-  cairo_surface_write_to_png_stream(view.image.get(), append, &png);
+  cairo_surface_write_to_png_stream(view.image.get(), append_bytes, &png);
   const PixelRect& place = view.place;
   return fmt::format(
       "<image x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" xlink:href=\"data:image/png;base64,{}\"/>\n",

@@ -3,6 +3,7 @@
 #include <cairo.h>
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "core/error.hpp"
@@ -14,6 +15,12 @@ struct DestroySurface {
   void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
 };
 using Surface = std::unique_ptr<cairo_surface_t, DestroySurface>;
+
+/// For Cairo's streams, whose closure is a std::string.
+inline cairo_status_t append_bytes(void* out, const unsigned char* bytes, unsigned int length) {
+  static_cast<std::string*>(out)->append(reinterpret_cast<const char*>(bytes), length);
+  return CAIRO_STATUS_SUCCESS;
+}
 
 /// A view of a scene as an image, and its position in the picture.
 struct ViewImage {

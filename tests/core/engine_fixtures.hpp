@@ -1,6 +1,9 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -9,6 +12,7 @@
 #include <string>
 #include <tuple>
 
+#include "core/offset/estimator.hpp"
 #include "core/offset/prepared.hpp"
 #include "core/offset/search_window.hpp"
 #include "core/recording/sweeps.hpp"
@@ -52,6 +56,18 @@ inline const Simulation& simulated(const std::string& scene, double offset_s, do
 
 inline const Recording& room(double offset_s, double sweep_s = 0.5) {
   return simulated("room-1", offset_s, 4.5, sweep_s).recording;
+}
+
+inline Estimate estimated(const Recording& recording, const EstimateOptions& options = {}) {
+  return estimate(recording, options, Job()).value();
+}
+
+inline void expect_refused(const Estimate& estimate, const std::string& why) {
+  EXPECT_FALSE(estimate.identifiable);
+  EXPECT_FALSE(estimate.offset_s);
+  const auto says = [&](const std::string& reason) { return reason.find(why) != std::string::npos; };
+  EXPECT_TRUE(std::any_of(estimate.reasons.begin(), estimate.reasons.end(), says))
+      << why << " is not in: " << testing::PrintToString(estimate.reasons);
 }
 
 /// A recording made by hand, independently of the simulator's sensor: any surroundings, rig and path, and

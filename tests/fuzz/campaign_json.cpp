@@ -4,7 +4,7 @@
 #include "core/campaign/campaign_table.hpp"
 #include "tests/fuzz/memory_file.hpp"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
+int fuzz_campaign_json(const std::uint8_t* bytes, std::size_t size) {
   using namespace sweepscope;
   const auto campaign = parse_campaign_json(test::text_of(bytes, size), "f");
   test::expect_sentence(campaign);

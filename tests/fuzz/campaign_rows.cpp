@@ -4,23 +4,15 @@
 
 #include "core/campaign/campaign_json.hpp"
 #include "core/campaign/row_file.hpp"
-#include "core/results/sealed_line.hpp"
 #include "tests/fuzz/memory_file.hpp"
+#include "tests/fuzz/sealed_lines.hpp"
 
 namespace {
 
 using namespace sweepscope;
 using Json = nlohmann::ordered_json;
 
-std::string sealed(std::string_view text) {
-  std::string whole;
-  std::size_t begin = 0;
-  for (std::size_t end = 0; (end = text.find('\n', begin)) != text.npos; begin = end + 1)
-    whole += end > begin ? sealed_line(text.substr(begin, end - begin)) : "\n";
-  return whole.append(text.substr(begin));
-}
-
-void check(std::string_view text) {
+void check_rows(std::string_view text) {
   const test::MemoryFile memory(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
   const auto file = RowFile::open(memory.path());
   test::expect_sentence(file);
@@ -34,9 +26,9 @@ void check(std::string_view text) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
+int fuzz_campaign_rows(const std::uint8_t* bytes, std::size_t size) {
   const auto text = test::text_of(bytes, size);
-  check(text);
-  check(sealed(text));
+  check_rows(text);
+  check_rows(test::sealed_lines(text));
   return 0;
 }

@@ -1,20 +1,12 @@
 // Files of candidates: what was read is written and read again as the same. The input's lines are sealed, or
 // no change would get past the hashes.
 #include "core/results/candidate_file.hpp"
-#include "core/results/sealed_line.hpp"
 #include "tests/fuzz/memory_file.hpp"
+#include "tests/fuzz/sealed_lines.hpp"
 
 namespace {
 
-std::string sealed(std::string_view text) {
-  std::string whole;
-  std::size_t begin = 0;
-  for (std::size_t end = 0; (end = text.find('\n', begin)) != text.npos; begin = end + 1)
-    whole += end > begin ? sweepscope::sealed_line(text.substr(begin, end - begin)) : "\n";
-  return whole.append(text.substr(begin));
-}
-
-void check(std::string_view text) {
+void check_candidates(std::string_view text) {
   const auto held = sweepscope::parse_candidates(text, "f");
   sweepscope::test::expect_sentence(held);
   if (!held) return;
@@ -25,9 +17,9 @@ void check(std::string_view text) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
+int fuzz_candidates(const std::uint8_t* bytes, std::size_t size) {
   const auto text = sweepscope::test::text_of(bytes, size);
-  check(text);
-  check(sealed(text));
+  check_candidates(text);
+  check_candidates(sweepscope::test::sealed_lines(text));
   return 0;
 }

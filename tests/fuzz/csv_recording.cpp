@@ -7,7 +7,7 @@
 #include "tests/fuzz/memory_file.hpp"
 #include "tests/scratch_folder.hpp"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
+int fuzz_csv_recording(const std::uint8_t* bytes, std::size_t size) {
   static const sweepscope::test::ScratchFolder folder(sweepscope::test::folder_in_memory());
   const std::string_view text = sweepscope::test::text_of(bytes, size);
   const std::size_t end = std::min(text.find('\0'), text.size());

@@ -5,7 +5,7 @@
 
 #include "tests/fuzz/memory_file.hpp"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
+int fuzz_csv_stream(const std::uint8_t* bytes, std::size_t size) {
   std::string_view text = sweepscope::test::text_of(bytes, size);
   const sweepscope::Rig rig;
   sweepscope::CsvStream stream("stream", rig);

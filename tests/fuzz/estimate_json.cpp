@@ -3,7 +3,7 @@
 
 #include "tests/fuzz/memory_file.hpp"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
+int fuzz_estimate_json(const std::uint8_t* bytes, std::size_t size) {
   const auto estimate = sweepscope::parse_estimate_json(sweepscope::test::text_of(bytes, size), "f");
   sweepscope::test::expect_sentence(estimate);
   if (!estimate) return 0;

@@ -5,7 +5,7 @@
 
 #include "tests/fuzz/memory_file.hpp"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
+int fuzz_expected_offset(const std::uint8_t* bytes, std::size_t size) {
   using namespace sweepscope;
   const auto expected = parse_expected_offset(test::text_of(bytes, size));
   test::expect_sentence(expected);

@@ -35,7 +35,7 @@ std::vector<std::size_t> topics_of(const FoxgloveNews& news, HeardMessages& hear
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
+int fuzz_foxglove(const std::uint8_t* bytes, std::size_t size) {
   std::string_view rest = test::text_of(bytes, size);
   const Rig rig;
   HeardMessages heard("ws://fuzz", rig);

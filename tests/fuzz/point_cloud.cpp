@@ -4,7 +4,7 @@
 
 #include "tests/fuzz/memory_file.hpp"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
+int fuzz_point_cloud(const std::uint8_t* bytes, std::size_t size) {
   if (size < 4) return 0;
   const auto encoding = bytes[0] % 2 == 0 ? sweepscope::Encoding::kRos1 : sweepscope::Encoding::kCdr;
   const std::size_t most = 1 + bytes[1] + 256U * bytes[2];

@@ -1,25 +1,39 @@
-// Readers that give a value or refuse with a sentence; FUZZ_READER, which the build defines, is the target's
-// name.
+// Readers that give a value or refuse with a sentence.
 #include "core/io/point_records.hpp"
 #include "core/io/trajectory_file.hpp"
 #include "core/recording/formats/read_recording.hpp"
 #include "core/recording/rig.hpp"
 #include "tests/fuzz/memory_file.hpp"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
-  using namespace sweepscope;
-  constexpr std::string_view kReader = FUZZ_READER;
-  const std::string_view text = test::text_of(bytes, size);
-  if constexpr (kReader == "pcd") {
-    test::expect_sentence(parse_pcd(text, "f"));
-  } else if constexpr (kReader == "ply") {
-    test::expect_sentence(parse_ply(text, "f"));
-  } else if constexpr (kReader == "trajectory") {
-    test::expect_sentence(read_tum(test::MemoryFile(bytes, size).path()));
-  } else if constexpr (kReader == "rig") {
-    test::expect_sentence(read_rig(test::MemoryFile(bytes, size).path()));
-  } else {  // whole bags: records, chunks and their compression, messages, and the recording made of them
-    test::expect_sentence(read_recording(test::MemoryFile(bytes, size).path(), {}, Job()));
-  }
+namespace test = sweepscope::test;
+
+int fuzz_pcd(const std::uint8_t* bytes, std::size_t size) {
+  test::expect_sentence(sweepscope::parse_pcd(test::text_of(bytes, size), "f"));
   return 0;
+}
+
+int fuzz_ply(const std::uint8_t* bytes, std::size_t size) {
+  test::expect_sentence(sweepscope::parse_ply(test::text_of(bytes, size), "f"));
+  return 0;
+}
+
+int fuzz_trajectory(const std::uint8_t* bytes, std::size_t size) {
+  test::expect_sentence(sweepscope::read_tum(test::MemoryFile(bytes, size).path()));
+  return 0;
+}
+
+int fuzz_rig(const std::uint8_t* bytes, std::size_t size) {
+  test::expect_sentence(sweepscope::read_rig(test::MemoryFile(bytes, size).path()));
+  return 0;
+}
+
+// Whole bags: records, chunks and their compression, messages, and the recording made of them.
+int fuzz_ros1_bag(const std::uint8_t* bytes, std::size_t size) {
+  test::expect_sentence(
+      sweepscope::read_recording(test::MemoryFile(bytes, size).path(), {}, sweepscope::Job()));
+  return 0;
+}
+
+int fuzz_mcap(const std::uint8_t* bytes, std::size_t size) {
+  return fuzz_ros1_bag(bytes, size);
 }

@@ -1,4 +1,5 @@
 // Runs a fuzz target without a fuzzer: every file of its corpus, and for some seconds changed copies of them.
+// FUZZ_TARGETS, which the build defines, is FUZZ_TARGET(name) for each.
 // Changes are drawn from a fixed seed, so that run after run begins alike; a target that ends the program
 // leaves the input.
 #include <chrono>
@@ -8,14 +9,24 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <random>
 #include <set>
 #include <string>
 #include <vector>
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size);
+#define FUZZ_TARGET(name) int fuzz_##name(const std::uint8_t* bytes, std::size_t size);
+FUZZ_TARGETS
+#undef FUZZ_TARGET
 
 namespace {
+
+using Target = int (*)(const std::uint8_t* bytes, std::size_t size);
+const std::map<std::string, Target> targets{
+#define FUZZ_TARGET(name) {#name, fuzz_##name},
+    FUZZ_TARGETS
+#undef FUZZ_TARGET
+};
 
 using Bytes = std::vector<std::uint8_t>;
 using Random = std::mt19937_64;
@@ -70,40 +81,42 @@ void change_once(Bytes& bytes, const std::vector<Bytes>& corpus, Random& random)
 std::string crash_file;
 
 // The input, before it is tried: it is there after a crash, whatever kind of crash.
-void try_input(const Bytes& bytes) {
+void try_input(Target target, const Bytes& bytes) {
   std::ofstream(crash_file, std::ios::binary)
       .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  LLVMFuzzerTestOneInput(bytes.data(), bytes.size());
+  target(bytes.data(), bytes.size());
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 4) {
-    std::fprintf(stderr, "usage: %s CORPUS SECONDS INPUT (where the last input is left after a crash)\n",
+  const auto target = argc == 5 ? targets.find(argv[1]) : targets.end();
+  if (target == targets.end()) {
+    std::fprintf(stderr,
+                 "usage: %s TARGET CORPUS SECONDS INPUT (where the last input is left after a crash)\n",
                  argv[0]);
     return 2;
   }
-  crash_file = argv[3];
+  crash_file = argv[4];
   std::set<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(argv[1])) files.insert(entry.path());
+  for (const auto& entry : std::filesystem::directory_iterator(argv[2])) files.insert(entry.path());
   std::vector<Bytes> corpus;
   for (const auto& file : files) {
     std::ifstream stream(file, std::ios::binary);
     corpus.emplace_back(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
   }
   if (corpus.empty()) {
-    std::fprintf(stderr, "%s: no seeds\n", argv[1]);
+    std::fprintf(stderr, "%s: no seeds\n", argv[2]);
     return 1;
   }
-  for (const Bytes& bytes : corpus) try_input(bytes);
-  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(std::stod(argv[2]));
+  for (const Bytes& bytes : corpus) try_input(target->second, bytes);
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(std::stod(argv[3]));
   std::size_t tried = 0;
   Random random(1);  // NOLINT(bugprone-random-generator-seed): the same tries each time
   for (; std::chrono::steady_clock::now() < end; ++tried) {
     Bytes bytes = corpus[below(random, corpus.size())];
     for (std::uint64_t changes = 1 + random() % 5; changes > 0; --changes) change_once(bytes, corpus, random);
-    try_input(bytes);
+    try_input(target->second, bytes);
   }
   std::filesystem::remove(crash_file);
   std::printf("%zu seeds and %zu changed copies of them\n", corpus.size(), tried);

@@ -3,7 +3,7 @@
 
 #include "tests/fuzz/memory_file.hpp"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
+int fuzz_script(const std::uint8_t* bytes, std::size_t size) {
   for (const bool semicolons : {false, true})
     sweepscope::test::expect_sentence(
         sweepscope::ui::parse_script(sweepscope::test::text_of(bytes, size), "f", semicolons));

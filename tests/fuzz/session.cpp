@@ -3,7 +3,7 @@
 
 #include "tests/fuzz/memory_file.hpp"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
+int fuzz_session(const std::uint8_t* bytes, std::size_t size) {
   const auto session = sweepscope::ui::parse_session(sweepscope::test::text_of(bytes, size), "f");
   sweepscope::test::expect_sentence(session);
   if (!session) return 0;

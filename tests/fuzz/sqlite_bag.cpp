@@ -3,7 +3,7 @@
 #include "tests/fuzz/memory_file.hpp"
 #include "tests/scratch_folder.hpp"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
+int fuzz_sqlite_bag(const std::uint8_t* bytes, std::size_t size) {
   static const sweepscope::test::ScratchFolder folder(sweepscope::test::folder_in_memory());
   const auto path = folder / "bag.db3";  // SQLite needs a file with a name
   sweepscope::test::write_file(path, sweepscope::test::text_of(bytes, size));

@@ -2,7 +2,7 @@
 #include "core/io/table.hpp"
 #include "tests/fuzz/memory_file.hpp"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
+int fuzz_table(const std::uint8_t* bytes, std::size_t size) {
   const std::string text(sweepscope::test::text_of(bytes, size));
   const std::size_t third = text.size() / 3;
   sweepscope::Table table;

@@ -4,6 +4,7 @@ import base64
 import csv
 import hashlib
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -63,6 +64,20 @@ class Wheel(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             zipfile.ZipFile(self.wheel).extractall(folder)
             self.run_installed(folder)
+
+    def test_names_the_packages_to_install_where_a_library_is_missing(self):
+        with tempfile.TemporaryDirectory() as folder:
+            with zipfile.ZipFile(self.wheel) as archive:
+                archive.extractall(folder, [name for name in archive.namelist() if "/_engine" not in name])
+            missing = "libvtkCommonCore-9.1.so.1: cannot open shared object file: No such file or directory"
+            (Path(folder) / "sweepscope/_engine.py").write_text(f"raise ImportError({missing!r})\n")
+            done = subprocess.run([sys.executable, "-c", "import sweepscope"], env={**os.environ, "PYTHONPATH": folder},
+                                  capture_output=True, text=True)
+        self.assertEqual(done.returncode, 1)
+        sentence = done.stderr.splitlines()[-1]
+        self.assertIn(f"ImportError: {missing}. sweepscope needs", sentence)
+        if shutil.which("dpkg-query") and shutil.which("objdump"):
+            self.assertRegex(sentence, r"apt install .*\blibvtk9\.1\b")
 
     def test_pip_installs_it(self):
         pip = [sys.executable, "-m", "pip"]

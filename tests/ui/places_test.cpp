@@ -13,7 +13,7 @@ bool contains(const PixelRect& outer, const PixelRect& inner) {
          inner.bottom() <= outer.bottom();
 }
 
-class Places : public testing::Test {
+class PlacesToLook : public testing::Test {
  protected:
   void SetUp() override { run("sample room-1\noffset-a 14\noffset-b 24\nwait solved\n"); }
   void run(const std::string& lines) {
@@ -27,7 +27,7 @@ class Places : public testing::Test {
   Ui ui_{*context_, Ui::Options()};
 };
 
-TEST_F(Places, TheFirstPictureShowsTheBestOneInACornerOfBothMaps) {
+TEST_F(PlacesToLook, TheFirstPictureShowsTheBestOneInACornerOfBothMaps) {
   ASSERT_GT(ui_.explorer().places().size(), 1u);
   const PlaceToLook& best = *ui_.explorer().place();
   EXPECT_EQ(ui_.explorer().places().front().get(), &best);
@@ -40,7 +40,7 @@ TEST_F(Places, TheFirstPictureShowsTheBestOneInACornerOfBothMaps) {
   EXPECT_NE(test::part_of(picture, *a), test::part_of(picture, *b));
 }
 
-TEST_F(Places, TheMapIsFittedBesideTheCloseUp) {
+TEST_F(PlacesToLook, TheMapIsFittedBesideTheCloseUp) {
   const PixelRect pane = *ui_.anchor("map b"), close_up = *ui_.anchor("close-up b");
   const Projection projection = projection_of(camera(), false, pane);
   const auto& points = ui_.explorer().pane(Side::kB).full->points->xyz_m;
@@ -54,7 +54,7 @@ TEST_F(Places, TheMapIsFittedBesideTheCloseUp) {
   EXPECT_LT(outside, points.size() / 20);
 }
 
-TEST_F(Places, KeysButtonsAndTheListStepThroughThemAndRoundAtTheEnds) {
+TEST_F(PlacesToLook, KeysButtonsAndTheListStepThroughThemAndRoundAtTheEnds) {
   const std::string first = now("place-at"), count = now("places");
   run("key N\nexpect place is 2");
   EXPECT_NE(now("place-at"), first);
@@ -65,7 +65,7 @@ TEST_F(Places, KeysButtonsAndTheListStepThroughThemAndRoundAtTheEnds) {
   EXPECT_EQ(now("place-at"), first);
 }
 
-TEST_F(Places, AreSwitchedOffByAKeyAndTheMapHasAllOfItsPane) {
+TEST_F(PlacesToLook, AreSwitchedOffByAKeyAndTheMapHasAllOfItsPane) {
   const Eigen::Vector3d centre_m = camera().centre_m;
   run("key Y\nexpect close-up is off\nwait solved");
   EXPECT_FALSE(ui_.anchor("close-up a"));
@@ -73,14 +73,14 @@ TEST_F(Places, AreSwitchedOffByAKeyAndTheMapHasAllOfItsPane) {
   run("key N\nexpect close-up is on\nwait solved\nclick \"button close-up\"\nexpect close-up is off");
 }
 
-TEST_F(Places, ADoubleClickLooksAtThePlace) {
+TEST_F(PlacesToLook, ADoubleClickLooksAtThePlace) {
   run("double-click \"close-up a\" at 0.5 0.7");
   const PlaceToLook& place = *ui_.explorer().place();
   EXPECT_LT((camera().centre_m.head<2>() - place.found.region.centre_m).norm(), 0.01);
   EXPECT_NEAR(camera().height_m, 1.5 * place.height_m(), 0.01);
 }
 
-TEST_F(Places, OfEqualOffsetsAreNone) {
+TEST_F(PlacesToLook, OfEqualOffsetsAreNone) {
   run("offset-a 24\nwait solved\nexpect places is 0\nexpect place-at is \"\"");
   EXPECT_FALSE(ui_.anchor("close-up a"));
   const auto done = run_script(ui_, *parse_script("look-at-place", "test"), 300);
@@ -88,7 +88,7 @@ TEST_F(Places, OfEqualOffsetsAreNone) {
   EXPECT_NE(done.error().message.find("do not differ"), std::string::npos);
 }
 
-TEST_F(Places, TheCloseUpFollowsAHandleWhileItIsDragged) {
+TEST_F(PlacesToLook, TheCloseUpFollowsAHandleWhileItIsDragged) {
   const PlacedCloudPtr before = ui_.explorer().pane(Side::kA).close_up;
   const std::string place = now("place-at");
   ASSERT_GT(before->points->size(), 1000u);
@@ -100,7 +100,7 @@ TEST_F(Places, TheCloseUpFollowsAHandleWhileItIsDragged) {
   run("mouse up");
 }
 
-TEST_F(Places, ACloseUpHasTheMapsOwnPoints) {
+TEST_F(PlacesToLook, ACloseUpHasTheMapsOwnPoints) {
   run("heights all\nwait solved");
   const PlaceToLook& place = *ui_.explorer().place();
   const Pane& pane = ui_.explorer().pane(Side::kB);
@@ -112,7 +112,7 @@ TEST_F(Places, ACloseUpHasTheMapsOwnPoints) {
   EXPECT_TRUE(std::is_sorted(place.beams.begin(), place.beams.end()));
 }
 
-TEST_F(Places, BothCloseUpsChangeInTheSameFrame) {
+TEST_F(PlacesToLook, BothCloseUpsChangeInTheSameFrame) {
   run("offset-b 20");
   for (int frame = 0; frame < 400 && !ui_.explorer().at_rest(); ++frame) {
     ui_.frame({}, 1.0 / 60);
@@ -120,7 +120,7 @@ TEST_F(Places, BothCloseUpsChangeInTheSameFrame) {
   }
 }
 
-TEST_F(Places, EveryLayoutShowsTheCloseUpsOfTheMapsThatItShows) {
+TEST_F(PlacesToLook, EveryLayoutShowsTheCloseUpsOfTheMapsThatItShows) {
   for (const auto& [layout, a, b] :
        {std::tuple{"side-by-side", true, true}, std::tuple{"swipe", true, true}, std::tuple{"a", true, false},
         std::tuple{"b", false, true}, std::tuple{"difference", false, true}}) {

@@ -51,10 +51,10 @@ std::string numbers(const std::vector<double>& values) {
 }
 
 /// What the mouse did to these settings, as lines of commands: its places are its own.
-struct Places {
+struct PlacesOfStory {
   std::string offset_a, divider, camera, window, asked, profile;
 
-  explicit Places(const Settings& s)
+  explicit PlacesOfStory(const Settings& s)
       : offset_a("offset-a" + numbers({s.offset_a_ms})),
         divider("divider" + numbers({s.divider})),
         camera("camera-a" +
@@ -106,7 +106,7 @@ click "button ok"
 )";
 
 /// Every line that no key stands for is typed into the palette.
-std::string with_the_keyboard(const Places& places) {
+std::string with_the_keyboard(const PlacesOfStory& places) {
   std::string lines;
   const auto typed = [&](const std::string& line) {
     lines += fmt::format("key Ctrl+P\ntype \"{}\"\nkey Enter\n", line);
@@ -130,7 +130,7 @@ std::string with_the_keyboard(const Places& places) {
   return lines;
 }
 
-std::string as_a_script(const Places& places) {
+std::string as_a_script(const PlacesOfStory& places) {
   return fmt::format(
       "sample room-1\nwait solved\nsearch range\nestimate\nwait estimated\n{}\nlayout swipe\nwait solved\n"
       "{}\n{}\ncolouring intensity\n{}\n{}\n{}\ntheme light\nsave-session room-1.session.json\n",
@@ -156,7 +156,7 @@ TEST_F(Story, TheMouseTheKeyboardAndAScriptEndInTheSameSession) {
   EXPECT_NE(s.profile_from_m, s.profile_to_m);
   EXPECT_EQ(s.theme, Theme::kLight);
 
-  const Places places(s);
+  const PlacesOfStory places(s);
   EXPECT_EQ(tell(with_the_keyboard(places), {"key", "type", "wait"}), by_mouse);
   std::vector<std::string> commands_alone{"wait"};
   for (const Command& command : commands()) commands_alone.push_back(command.name);

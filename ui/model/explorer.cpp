@@ -14,10 +14,6 @@
 namespace sweepscope::ui {
 namespace {
 
-tl::unexpected<Error> not_now(std::string why) {
-  return failure(ExitCode::kWrongUsage, std::move(why));
-}
-
 /// Turning the view to one of its directions leaves its middle and its size to the program.
 bool moves_view(const std::string& command) {
   return command.starts_with("camera") || command == "zoom" || command == "pan" || command == "turn";

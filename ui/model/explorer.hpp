@@ -25,6 +25,11 @@
 
 namespace sweepscope::ui {
 
+/// What a command answers that the state of the explorer does not allow.
+inline tl::unexpected<Error> not_now(std::string why) {
+  return failure(ExitCode::kWrongUsage, std::move(why));
+}
+
 enum class Side { kA, kB };
 inline constexpr std::array kBothSides{Side::kA, Side::kB};
 

@@ -8,10 +8,6 @@
 namespace sweepscope::ui {
 namespace {
 
-tl::unexpected<Error> not_now(std::string why) {
-  return failure(ExitCode::kWrongUsage, std::move(why));
-}
-
 std::optional<std::string> named(const Call& call, std::size_t i) {
   const std::string text = call.text(i);
   return text.empty() ? std::nullopt : std::optional(text);

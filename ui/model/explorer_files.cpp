@@ -16,10 +16,6 @@
 namespace sweepscope::ui {
 namespace {
 
-tl::unexpected<Error> not_now(std::string why) {
-  return failure(ExitCode::kWrongUsage, std::move(why));
-}
-
 /// What a pane shows, in the order of time.
 MapCloud cloud_of(const CloudRequest& request, const PlacedCloud& placed) {
   const Beams& beams = request.placement.loaded->beams;

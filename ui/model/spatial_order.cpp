@@ -10,7 +10,7 @@
 namespace sweepscope::ui {
 namespace {
 
-struct Box {
+struct PointBox {
   std::array<float, 3> least{}, greatest{};
   double longest() const {
     double edge = 1e-3;
@@ -20,8 +20,8 @@ struct Box {
   }
 };
 
-Box box_of(std::span<const std::array<float, 3>> points, std::span<const std::uint32_t> indices) {
-  Box box;
+PointBox box_of(std::span<const std::array<float, 3>> points, std::span<const std::uint32_t> indices) {
+  PointBox box;
   box.least.fill(std::numeric_limits<float>::max());
   box.greatest.fill(std::numeric_limits<float>::lowest());
   for (const std::uint32_t i : indices) {
@@ -84,7 +84,7 @@ DrawOrder order_for_drawing(std::span<const std::array<float, 3>> xyz_m, std::si
   }
   DrawOrder order;
   if (finite.empty()) return order;
-  const Box box = box_of(xyz_m, finite);
+  const PointBox box = box_of(xyz_m, finite);
   const double finest_m = box.longest() * std::exp2(-kMortonBits);
   const std::vector<MortonKey> along_curve = along_morton_curve(xyz_m, finite, box.least, finest_m);
   for (const MortonKey& key : along_curve) order.all.push_back(key.index);

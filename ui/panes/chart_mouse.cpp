@@ -12,11 +12,6 @@
 namespace sweepscope::ui {
 namespace {
 
-PixelPoint mouse() {
-  const ImVec2 at = ImGui::GetIO().MousePos;
-  return {static_cast<double>(at.x), static_cast<double>(at.y)};
-}
-
 /// The offset at a pixel.
 double value_at(const ChartLayout& layout, double px) {
   return layout.x.from + (px - layout.plot.left) / layout.plot.width * layout.x.length();

@@ -16,11 +16,6 @@
 namespace sweepscope::ui {
 namespace {
 
-PixelPoint mouse() {
-  const ImVec2 at = ImGui::GetIO().MousePos;
-  return {static_cast<double>(at.x), static_cast<double>(at.y)};
-}
-
 void set_view(const PaneContext& context, Side side, const ViewPoint& view) {
   const bool b = side == Side::kB && !context.settings().linked;
   const auto millimetres = [](double metres) { return std::round(metres * 1e4) / 1e4; };

@@ -14,9 +14,6 @@ namespace {
 
 constexpr double kMoving_s = 0.2;  // after the last move of a camera, thinned points alone are drawn
 
-ImVec2 corner(const PixelRect& rect) {
-  return {static_cast<float>(rect.left), static_cast<float>(rect.top)};
-}
 ImVec2 far_corner(const PixelRect& rect) {
   return {static_cast<float>(rect.right()), static_cast<float>(rect.bottom())};
 }

@@ -11,10 +11,6 @@
 namespace sweepscope::ui {
 namespace {
 
-ImVec2 corner(const PixelRect& rect) {
-  return {static_cast<float>(rect.left), static_cast<float>(rect.top)};
-}
-
 /// As many decimals as the step needs.
 int decimals_for(double step) {
   if (step <= 0) return 2;
@@ -80,6 +76,15 @@ void number_field(const PaneContext& context, const Command& command) {
 }
 
 }  // namespace
+
+ImVec2 corner(const PixelRect& rect) {
+  return {static_cast<float>(rect.left), static_cast<float>(rect.top)};
+}
+
+PixelPoint mouse() {
+  const ImVec2 at = ImGui::GetIO().MousePos;
+  return {static_cast<double>(at.x), static_cast<double>(at.y)};
+}
 
 void PaneContext::perform(const std::string& line, const std::string& gesture) const {
   if (const auto done = explorer.perform(line, gesture); !done)

@@ -6,6 +6,12 @@
 
 namespace sweepscope::ui {
 
+/// The top left corner.
+ImVec2 corner(const PixelRect& rect);
+
+/// Where the mouse is.
+PixelPoint mouse();
+
 /// Opens a window at a fixed position without decoration, behind or above the others; `end_panel` closes it.
 /// What does not fit can be scrolled to, with a bar where the window is padded. `by_keys`: arrows and Space
 /// reach its widgets while the interface is navigated by keys.

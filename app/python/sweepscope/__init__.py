@@ -16,7 +16,14 @@ stops long work within a fraction of a second, other threads run on meanwhile, a
 InputError, CannotAnswer, or ValueError for wrong usage.
 """
 
-from ._engine import __version__
+try:
+    from ._engine import __version__
+except ImportError as error:
+    if "shared object file" not in str(error):
+        raise
+    from ._libraries import words_for
+
+    raise ImportError(words_for(error)) from None
 from ._errors import CannotAnswer, Error, InputError
 from ._recording import (
     Recording,

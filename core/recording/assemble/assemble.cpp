@@ -8,6 +8,7 @@
 #include <map>
 #include <numbers>
 
+#include "core/numbers.hpp"
 #include "core/recording/assemble/beam_times.hpp"
 #include "core/recording/assemble/choose_streams.hpp"
 #include "core/recording/stream_stamps.hpp"
@@ -16,15 +17,9 @@ namespace sweepscope {
 namespace {
 
 constexpr double kScanGapFactor = 1.5, kMotorGapFactor = 3.0;
-constexpr double kLongestTimeIncrement_s = 1.0;
-constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
 
 double since_s(std::int64_t ns, std::int64_t epoch_ns) {
   return static_cast<double>(ns - epoch_ns) * 1e-9;
-}
-
-bool usable_increment(double increment_s) {
-  return increment_s > 0 && increment_s < kLongestTimeIncrement_s;
 }
 
 /// Refuses a scan of more beams than can be told apart.
@@ -78,7 +73,7 @@ void ScanAssembler::set_epoch() {
     const std::int64_t ns = stamp_ns(scan.stamps, report_.laser_stamps.used);
     if (ns != 0) first_ns = std::min(first_ns, ns);
   }
-  recording_.epoch_ns = first_ns - first_ns % kNanosecondsPerSecond;
+  recording_.epoch_ns = first_ns - first_ns % kSecond_ns;
 }
 
 /// A scan whose beams were fired from the last to the first (a negative time_increment), in the order of

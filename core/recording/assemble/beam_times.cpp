@@ -16,17 +16,13 @@ constexpr double kAlike = 1.25, kSameTime = 1.1;
 constexpr int kMaxTurns = 10;  // of the mirror from one scan to the next
 constexpr double kFullTurn = 2 * std::numbers::pi;
 
-bool usable(double increment_s) {
-  return increment_s > 0 && increment_s < kLongestTimeIncrement_s;
-}
-
 bool alike(double a, double b, double factor = kAlike) {
   return a < factor * b && b < factor * a;
 }
 
 /// One of a driver that leaves out scans may be a turn of the mirror.
 bool plausible_scan_time(double scan_time_s, double period_s) {
-  if (!usable(scan_time_s / kMaxTurns)) return false;
+  if (!usable_increment(scan_time_s / kMaxTurns)) return false;
   if (!(period_s > 0)) return true;
   for (int turns = 1; turns <= kMaxTurns; ++turns)
     if (alike(turns * scan_time_s, period_s)) return true;
@@ -35,7 +31,7 @@ bool plausible_scan_time(double scan_time_s, double period_s) {
 
 IncrementFinding finding_of(const RawScan& scan, double period_s) {
   const double increment_s = double{scan.time_increment_s}, scan_time_s = double{scan.scan_time_s};
-  if (!usable(increment_s)) return IncrementFinding::kMissing;
+  if (!usable_increment(increment_s)) return IncrementFinding::kMissing;
   if (!(period_s > 0)) return IncrementFinding::kSound;
   const double turns_a_beam = std::abs(double{scan.angle_increment_rad}) / kFullTurn;
   const double of_mirror_s = period_s * turns_a_beam;
@@ -52,6 +48,10 @@ IncrementFinding finding_of(const RawScan& scan, double period_s) {
 }
 
 }  // namespace
+
+bool usable_increment(double increment_s) {
+  return increment_s > 0 && increment_s < kLongestTimeIncrement_s;
+}
 
 double BeamTimes::doubt_s(double beams) const {
   return other_s > 0 ? std::abs(time_increment_s - other_s) * std::max(0.0, beams - 1) : 0;
@@ -72,7 +72,7 @@ BeamTimes judge_beam_times(const RawScan& scan, double period_s, std::optional<d
   const double scan_time_s = double{scan.scan_time_s};
   if (guessed)
     times.time_increment_s = plausible_scan_time(scan_time_s, period_s) ? scan_time_s / scan.beams : 0;
-  if (!usable(times.time_increment_s)) {
+  if (!usable_increment(times.time_increment_s)) {
     times.time_increment_s = 0;
     return times;
   }

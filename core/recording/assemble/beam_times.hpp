@@ -19,6 +19,9 @@ namespace sweepscope {
 /// scan_time / beams, with doubt if the mirror's differs.
 enum class IncrementFinding { kSound, kMissing, kSkipsOrTooShort, kWholePeriodOrTooLong, kImpossible };
 
+/// Whether a time_increment is given, and shorter than one second.
+bool usable_increment(double increment_s);
+
 struct BeamTimes {
   IncrementFinding finding = IncrementFinding::kSound;
   bool of_rig = false;                 // time_increment_s is the rig's

@@ -15,7 +15,6 @@
 namespace sweepscope {
 namespace {
 
-constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
 constexpr std::int64_t kLastSecond = 9'000'000'000;  // what fits into 63 bits of nanoseconds
 constexpr const char* kDefaultLaser = "/scan";
 constexpr const char* kDefaultMotor = "/joint_states";
@@ -28,10 +27,10 @@ std::optional<std::int64_t> parse_stamp_ns(std::string_view text) {
   const auto [after, error] = std::from_chars(text.data(), end, seconds);
   if (error != std::errc() || seconds < 0 || seconds > kLastSecond || text.front() == '-')
     return std::nullopt;
-  std::int64_t ns = seconds * kNanosecondsPerSecond;
+  std::int64_t ns = seconds * kSecond_ns;
   if (after == end) return ns;
   if (*after != '.') return std::nullopt;
-  std::int64_t unit_ns = kNanosecondsPerSecond / 10;
+  std::int64_t unit_ns = kSecond_ns / 10;
   for (const char* digit = after + 1; digit < end; ++digit, unit_ns /= 10) {
     if (*digit < '0' || *digit > '9') return std::nullopt;
     ns += unit_ns * (*digit - '0');

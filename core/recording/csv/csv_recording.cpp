@@ -7,17 +7,16 @@
 
 #include "core/io/atomic_file.hpp"
 #include "core/io/printable_text.hpp"
+#include "core/numbers.hpp"
 #include "core/recording/csv/csv_lines.hpp"
 #include "core/recording/csv/csv_table.hpp"
 
 namespace sweepscope {
 namespace {
 
-constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
-
 std::string stamp_text(std::int64_t ns) {
   if (ns == 0) return "";
-  return fmt::format("{}.{:09}", ns / kNanosecondsPerSecond, ns % kNanosecondsPerSecond);
+  return fmt::format("{}.{:09}", ns / kSecond_ns, ns % kSecond_ns);
 }
 
 /// One table of the folder, from its first line to its last.

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "core/numbers.hpp"
 #include "core/recording/messages/messages.hpp"
 
 namespace sweepscope {
@@ -39,7 +40,6 @@ class MessageWriter {
   }
   /// std_msgs/Header; ROS 1's has a number, which is left 0.
   void header(std::int64_t ns, std::string_view frame) {
-    constexpr std::int64_t kSecond_ns = 1'000'000'000;
     if (!cdr_) number(std::uint32_t{0});
     number(static_cast<std::int32_t>(ns / kSecond_ns));
     number(static_cast<std::uint32_t>(ns % kSecond_ns));

@@ -8,6 +8,8 @@
 #include <limits>
 #include <numbers>
 
+#include "core/numbers.hpp"
+
 namespace sweepscope {
 
 static_assert(std::endian::native == std::endian::little, "messages are read as they lie");
@@ -94,7 +96,7 @@ class Cursor {
     const std::string_view name = text();
     if (frame != nullptr) *frame = name;
     if (cdr_ && static_cast<std::int32_t>(seconds) < 0) return 0;
-    return seconds * std::int64_t{1'000'000'000} + nanoseconds;
+    return seconds * kSecond_ns + nanoseconds;
   }
   bool whole() const { return whole_; }
   /// Middlewares fill a message of CDR up to a multiple of four bytes.

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr std::array kZstdMagic{std::byte{0x28}, std::byte{0xb5}, std::byte{0x2f}, std::byte{0xfd}};
 
-using Output = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
+using OutputFile = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 using Context = std::unique_ptr<ZSTD_DCtx, std::size_t (*)(ZSTD_DCtx*)>;
 
 tl::unexpected<Error> no_room(const fs::path& packed, const fs::path& unpacked) {
@@ -81,7 +81,7 @@ Result<UnpackedFile> UnpackedFile::unpack(const fs::path& packed, UnpackingLimit
   auto temporary = TemporaryFile::create();
   if (!temporary) return tl::unexpected(temporary.error());
   UnpackedFile file(std::move(*temporary));
-  Output output(std::fopen(file.path().c_str(), "wb"), std::fclose);
+  OutputFile output(std::fopen(file.path().c_str(), "wb"), std::fclose);
   if (!output) return no_room(packed, file.path());
   const auto [end, unpacked_bytes] = unpack_into(output.get(), *input, limit.most(max_bytes), job);
   if (auto error = limit.take(unpacked_bytes)) return tl::unexpected(std::move(*error));

@@ -2,6 +2,8 @@
 
 #include <bit>
 
+#include "core/numbers.hpp"
+
 namespace sweepscope {
 
 static_assert(std::endian::native == std::endian::little, "bags are little-endian");
@@ -49,7 +51,7 @@ std::optional<std::string_view> BagFields::text(std::string_view name) const {
 std::optional<std::int64_t> BagFields::time_ns() const {
   const auto value = find("time");
   if (!value || value->size() != 8) return std::nullopt;
-  return load<std::uint32_t>(*value) * std::int64_t{1'000'000'000} + load<std::uint32_t>(value->subspan(4));
+  return load<std::uint32_t>(*value) * kSecond_ns + load<std::uint32_t>(value->subspan(4));
 }
 
 std::optional<BagOp> BagFields::op() const {

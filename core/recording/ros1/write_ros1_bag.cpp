@@ -19,6 +19,7 @@
 
 #include "core/io/atomic_file.hpp"
 #include "core/io/temporary_file.hpp"
+#include "core/numbers.hpp"
 #include "core/recording/raw_recording.hpp"
 #include "core/recording/ros1/ros_libraries.hpp"
 
@@ -31,7 +32,6 @@ using ImuMessage = sensor_msgs::Imu_<MessageAllocator<void>>;
 using JointStateMessage = sensor_msgs::JointState_<MessageAllocator<void>>;
 
 ros::Time ros_time(std::int64_t ns) {
-  constexpr std::int64_t kSecond_ns = 1'000'000'000;
   if (ns < 0 || ns / kSecond_ns > std::numeric_limits<std::uint32_t>::max())
     throw std::out_of_range(fmt::format("a ROS 1 bag holds no time {} s", ns / kSecond_ns));
   return {static_cast<std::uint32_t>(ns / kSecond_ns), static_cast<std::uint32_t>(ns % kSecond_ns)};

@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "core/apply/apply.hpp"
+#include "core/numbers.hpp"
 #include "tests/core/recording/test_bag.hpp"
 #include "tests/folder_test.hpp"
 
@@ -16,8 +17,6 @@
 namespace sweepscope::test {
 
 namespace fs = std::filesystem;
-
-inline constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
 /// A message with all that describes it.
 struct Seen {

@@ -4,6 +4,7 @@
 #include "core/apply/clock_shift.hpp"
 #include "core/apply/provenance.hpp"
 #include "core/apply/stamp_shift.hpp"
+#include "core/numbers.hpp"
 #include "tests/core/recording/message_bytes.hpp"
 
 namespace sweepscope {
@@ -11,7 +12,7 @@ namespace {
 
 using test::MessageBytes;
 
-constexpr std::int64_t kMs_ns = 1'000'000, kSecond_ns = 1'000'000'000;
+constexpr std::int64_t kMs_ns = 1'000'000;
 
 TEST(ClockShift, TheMotorsStampIsTheLasersPlusTheOffset) {
   const ClockShift shift(0.024);

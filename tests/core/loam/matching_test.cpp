@@ -27,14 +27,14 @@ Neighbours rows(int lines, const Place& place) {
 
 // A patch of the plane through (20, -30, 5) with this normal, and how far its points stand out to either
 // side.
-const Vector3d kNormal = Vector3d(1, 2, -1).normalized();
-const Vector3d kAlong = kNormal.unitOrthogonal(), kAcross = kNormal.cross(kAlong);
+const Vector3d kPatchNormal = Vector3d(1, 2, -1).normalized();
+const Vector3d kAlong = kPatchNormal.unitOrthogonal(), kAcross = kPatchNormal.cross(kAlong);
 const Vector3d kCentre(20, -30, 5);
 
 Neighbours patch(double out_m) {
   return rows(3, [&](int row, int i) -> Vector3d {
     const double side = (row + i) % 2 == 0 ? 1 : -1;
-    return kCentre + 0.15 * i * kAlong + 0.15 * (row - 1) * kAcross + side * out_m * kNormal;
+    return kCentre + 0.15 * i * kAlong + 0.15 * (row - 1) * kAcross + side * out_m * kPatchNormal;
   });
 }
 
@@ -47,8 +47,8 @@ PatchOptions three_lines() {
 TEST(FitPlane, FindsThePlaneFarFromTheOrigin) {
   const auto plane = fit_plane(patch(0.005), three_lines(), kRadius_m);
   ASSERT_TRUE(plane);
-  EXPECT_NEAR(std::abs(plane->normal.dot(kNormal)), 1, 1e-3);
-  EXPECT_NEAR((plane->centre_m - kCentre).dot(kNormal), 0, 1e-3);
+  EXPECT_NEAR(std::abs(plane->normal.dot(kPatchNormal)), 1, 1e-3);
+  EXPECT_NEAR((plane->centre_m - kCentre).dot(kPatchNormal), 0, 1e-3);
 }
 
 TEST(FitPlane, RefusesAPatchThatIsThick) {
@@ -82,7 +82,7 @@ TEST(FitPlane, RefusesFewerThanFivePoints) {
 // Corners of a door frame, say: one point per scan line, up along it.
 Neighbours column(double out_m) {
   return rows(3, [&](int row, int i) -> Vector3d {
-    return kCentre + (0.3 * row + 0.1 * i) * kAlong + out_m * (i * kAcross + (row - 1) * kNormal);
+    return kCentre + (0.3 * row + 0.1 * i) * kAlong + out_m * (i * kAcross + (row - 1) * kPatchNormal);
   });
 }
 
@@ -121,10 +121,10 @@ Vector3d numeric_normal(const auto& patch, const Vector3d& p_m) {
 }
 
 TEST(MatchResidual, ChangesAlongItsNormal) {
-  const PlanePatch plane{kCentre, kNormal};
+  const PlanePatch plane{kCentre, kPatchNormal};
   const LinePatch line{kCentre, kAlong};
   for (const double side : {-0.3, 0.2}) {
-    const Vector3d p_m = kCentre + side * kNormal + 0.7 * kAcross + 0.1 * kAlong;
+    const Vector3d p_m = kCentre + side * kPatchNormal + 0.7 * kAcross + 0.1 * kAlong;
     EXPECT_NEAR(residual_of(plane, p_m).distance_m, side, 1e-12);
     EXPECT_NEAR(residual_of(line, p_m).distance_m, std::hypot(side, 0.7), 1e-12);
     EXPECT_LT((residual_of(plane, p_m).normal - numeric_normal(plane, p_m)).norm(), 1e-8);

@@ -9,7 +9,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-const Vector3d kPivot(0.4, -0.2, 0.1);
+const Vector3d kTurnedAbout(0.4, -0.2, 0.1);
 
 std::vector<Pose> path() {
   std::vector<Pose> knots;
@@ -27,7 +27,7 @@ Eigen::VectorXd numeric_gradient(const std::function<double(const std::vector<Po
     const auto at = [&](double step) {
       std::vector<Pose> moved = knots;
       Pose& knot = moved[std::size_t(i / 6)];
-      knot = stepped(knot, step * Vector6d::Unit(i % 6), kPivot);
+      knot = stepped(knot, step * Vector6d::Unit(i % 6), kTurnedAbout);
       return cost(moved);
     };
     gradient[i] = (at(kStep) - at(-kStep)) / (2 * kStep);
@@ -45,7 +45,7 @@ TEST(PathEquations, APointsRowActsOnTheTwoKnotsBesideIt) {
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(24, 24);
   Eigen::VectorXd gradient = Eigen::VectorXd::Zero(24);
   for (const double u : {0.0, 0.05, 0.31, 0.6, 0.62}) {
-    const Vector6d row = distance_jacobian({1 + u, 2, -1}, Vector3d(1, 2, u).normalized(), kPivot);
+    const Vector6d row = distance_jacobian({1 + u, 2, -1}, Vector3d(1, 2, u).normalized(), kTurnedAbout);
     equations.add(u, row, 0.3 - u, 2.0);
     const double place = u / 0.2;
     const auto knot = std::min<Eigen::Index>(2, Eigen::Index(place));
@@ -62,7 +62,7 @@ TEST(PathEquations, APointsRowActsOnTheTwoKnotsBesideIt) {
 TEST(PathEquations, AccelerationsHaveTheGradientOfTheirSquares) {
   const Pose before{rotation_from_vector({-0.03, 0, 0.01}), {-0.2, 0, 0.3}};
   PathEquations equations(4, 1);
-  equations.add_accelerations(path(), before, {0.2, 0.5}, kPivot);
+  equations.add_accelerations(path(), before, {0.2, 0.5}, kTurnedAbout);
   const Eigen::VectorXd numeric = numeric_gradient([&](const std::vector<Pose>& knots) {
     double sum = 0;
     for (std::size_t i = 0; i + 1 < knots.size(); ++i)
@@ -80,8 +80,8 @@ TEST(PathEquations, DeviationsFromAGivenMotionHaveTheGradientOfTheirSquares) {
   for (int i = 0; i < 4; ++i)
     moves.push_back({rotation_from_vector({0.03, -0.02 * i, 0.1}), {0.08, 0.03 * i, -0.05}});
   PathEquations equations(4, 1);
-  equations.add_accelerations(path(), before, {0.2, 0.5}, kPivot, moves);
-  equations.add_velocities(path(), 0.7, kPivot, moves);
+  equations.add_accelerations(path(), before, {0.2, 0.5}, kTurnedAbout, moves);
+  equations.add_velocities(path(), 0.7, kTurnedAbout, moves);
   const Eigen::VectorXd numeric = numeric_gradient([&](const std::vector<Pose>& knots) {
     double sum = 0;
     for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
@@ -97,8 +97,8 @@ TEST(PathEquations, DeviationsFromAGivenMotionHaveTheGradientOfTheirSquares) {
 TEST(PathEquations, VelocitiesAndTheTieHaveTheGradientOfTheirSquares) {
   const Pose given{rotation_from_vector({0.01, 0.02, 0}), {0.05, 0.1, 0.2}};
   PathEquations equations(4, 1);
-  equations.add_velocities(path(), 0.7, kPivot);
-  equations.add_tie(path().front(), given, 0.3, kPivot);
+  equations.add_velocities(path(), 0.7, kTurnedAbout);
+  equations.add_tie(path().front(), given, 0.3, kTurnedAbout);
   const Eigen::VectorXd numeric = numeric_gradient([&](const std::vector<Pose>& knots) {
     double sum = half_square(difference(knots[0], given), 0.3, 0.3);
     for (std::size_t i = 0; i + 1 < knots.size(); ++i)
@@ -113,10 +113,10 @@ TEST(PathEquations, TheSolutionLeadsToTheLeastSquares) {
   std::vector<Pose> knots = path();
   for (int i = 0; i < 5; ++i) {
     PathEquations equations(4, 1);
-    equations.add_velocities(knots, 0.7, kPivot);
-    equations.add_tie(knots.front(), given, 0.3, kPivot);
+    equations.add_velocities(knots, 0.7, kTurnedAbout);
+    equations.add_tie(knots.front(), given, 0.3, kTurnedAbout);
     const std::vector<Vector6d> steps = equations.solve();
-    for (std::size_t k = 0; k < knots.size(); ++k) knots[k] = stepped(knots[k], steps[k], kPivot);
+    for (std::size_t k = 0; k < knots.size(); ++k) knots[k] = stepped(knots[k], steps[k], kTurnedAbout);
   }
   for (const Pose& knot : knots) EXPECT_LT(difference(knot, given).norm(), 1e-6);
 }

@@ -12,9 +12,8 @@ namespace sweepscope {
 namespace {
 
 using Eigen::Vector3d;
+using test::kWidthPerDeviation;
 using test::NoisySurfaces;
-
-constexpr double kWidthPerDeviation = 2.3548;
 
 // A wall through (3, 2), 2 m long and 2 m high, its normal 30 deg from x, seen by sweeps of both directions.
 struct Wall {

@@ -7,6 +7,9 @@
 
 namespace sweepscope::test {
 
+/// The width at half height of a normal distribution, in standard deviations.
+inline constexpr double kWidthPerDeviation = 2.3548;
+
 /// A map made of patches whose noise is known. Points of even and odd sweeps take turns.
 class NoisySurfaces {
  public:

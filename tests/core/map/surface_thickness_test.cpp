@@ -15,6 +15,7 @@ namespace sweepscope {
 namespace {
 
 using Eigen::Vector3d;
+using test::kWidthPerDeviation;
 using test::NoisySurfaces;
 
 // The value below which a part of the finite ones lies.
@@ -31,8 +32,6 @@ std::vector<float> surface_thickness_m(const MapCloud& cloud, const ThicknessOpt
     thickness_m.push_back(surface.thickness_m);
   return thickness_m;
 }
-
-constexpr double kWidthPerDeviation = 2.3548;
 
 // The width at half height of two normal layers of equal weight.
 double width_of_two_layers_m(double apart_m, double noise_m) {

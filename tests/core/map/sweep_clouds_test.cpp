@@ -7,14 +7,14 @@
 namespace sweepscope {
 namespace {
 
-constexpr double kTruth_s = 0.024;
+constexpr double kCloudsTruth_s = 0.024;
 
 // Every sweep's cloud, moved by its pose, holds the points of the map, in their order.
 void expect_the_map(const Recording& recording, const MapOptions& options, std::size_t min_sweeps) {
   const auto prepared = prepare(recording, {}, Job()).value();
-  const auto clouds = SweepClouds::create(prepared, kTruth_s, options, Job());
+  const auto clouds = SweepClouds::create(prepared, kCloudsTruth_s, options, Job());
   ASSERT_TRUE(clouds) << clouds.error().message;
-  const OffsetMap map = build_maps(prepared, {&kTruth_s, 1}, options, Job()).value().front();
+  const OffsetMap map = build_maps(prepared, {&kCloudsTruth_s, 1}, options, Job()).value().front();
   EXPECT_EQ(clouds->moving(), map.moving);
   EXPECT_GE(clouds->size(), min_sweeps);
   std::size_t next = 0;
@@ -39,16 +39,16 @@ void expect_the_map(const Recording& recording, const MapOptions& options, std::
 TEST(SweepClouds, OfAStationaryRigAreTheMapInPieces) {
   test::Bench bench;
   bench.mesh = test::hall();
-  bench.offset_s = kTruth_s;
+  bench.offset_s = kCloudsTruth_s;
   expect_the_map(bench.record(), {}, 8);
 }
 
 TEST(SweepClouds, OfAMovingRigLieInTheBaseFrameOfTheirFirstBeam) {
-  expect_the_map(test::simulated("metro-station", kTruth_s, 12).recording, {}, 22);
+  expect_the_map(test::simulated("metro-station", kCloudsTruth_s, 12).recording, {}, 22);
 }
 
 TEST(SweepClouds, FollowPosesFromElsewhere) {
-  const Simulation& simulation = test::simulated("metro-station", kTruth_s, 12);
+  const Simulation& simulation = test::simulated("metro-station", kCloudsTruth_s, 12);
   MapOptions options;
   for (const TruthPose& pose : simulation.truth)
     options.poses.push_back({pose.time_s, pose.position_m, pose.orientation});
@@ -56,11 +56,11 @@ TEST(SweepClouds, FollowPosesFromElsewhere) {
 }
 
 TEST(SweepClouds, HoldTheMotionOfARigThatIsTakenToBeStationary) {
-  const Simulation& simulation = test::simulated("metro-station", kTruth_s, 12);
+  const Simulation& simulation = test::simulated("metro-station", kCloudsTruth_s, 12);
   const auto prepared = prepare(simulation.recording, {}, Job()).value();
   MapOptions options;
   options.assume = RigKind::kStationary;
-  const auto clouds = SweepClouds::create(prepared, kTruth_s, options, Job()).value();
+  const auto clouds = SweepClouds::create(prepared, kCloudsTruth_s, options, Job()).value();
   EXPECT_FALSE(clouds.moving());
   for (std::size_t i = 0; i < clouds.size(); ++i)
     EXPECT_EQ(clouds.at(i).map_from_base.translation_m, Eigen::Vector3d::Zero());

@@ -6,10 +6,12 @@
 #include <atomic>
 #include <cmath>
 
+#include "tests/core/engine_fixtures.hpp"
+
 namespace sweepscope {
 namespace {
 
-constexpr double kMs = 1e-3;
+using test::kMs;
 
 std::vector<double> in_ms(const std::vector<OffsetRange>& ranges) {
   std::vector<double> offsets_ms;

@@ -19,12 +19,6 @@ std::string reasons(const Estimate& estimate) {
   return text;
 }
 
-Estimate estimated(const Recording& recording, const EstimateOptions& options) {
-  auto found = estimate(recording, options, Job());
-  EXPECT_TRUE(found);
-  return found ? *found : Estimate();
-}
-
 EstimateOptions direct() {
   EstimateOptions options;
   options.method = Method::kDirect;
@@ -48,7 +42,7 @@ TEST(CloudOffset, StandingInAHall) {
   EXPECT_EQ(recording.scans.size(), 185U * 16U);
   EXPECT_TRUE(recording.report.warnings.empty()) << recording.report.warnings.front();
   EXPECT_NEAR(recording.report.laser_stamps.median_period_s, 0.1, 1e-6);
-  expect_answer(estimated(recording, direct()), RigKind::kStationary, bench.offset_s, 0.5);
+  expect_answer(test::estimated(recording, direct()), RigKind::kStationary, bench.offset_s, 0.5);
 }
 
 TEST(CloudOffset, StandingRolledSpunTheOtherWayAndTwiceAsFast) {
@@ -60,7 +54,7 @@ TEST(CloudOffset, StandingRolledSpunTheOtherWayAndTwiceAsFast) {
   bench.sweep_s = 1.33;
   bench.beams = 360;
   bench.duration_s = 11;
-  expect_answer(estimated(bench.record(), direct()), RigKind::kStationary, bench.offset_s, 1.0);
+  expect_answer(test::estimated(bench.record(), direct()), RigKind::kStationary, bench.offset_s, 1.0);
 }
 
 TEST(CloudOffset, StandingInAFurnishedRoom) {
@@ -77,7 +71,7 @@ TEST(CloudOffset, StandingInAFurnishedRoom) {
   bench.sweep_s = 3.1;
   bench.duration_s = 20;
   bench.noise_m = 0.02;
-  expect_answer(estimated(bench.record(), direct()), RigKind::kStationary, bench.offset_s, 1.0);
+  expect_answer(test::estimated(bench.record(), direct()), RigKind::kStationary, bench.offset_s, 1.0);
 }
 
 TEST(CloudOffset, APlaneScannerWhoseDriverSendsClouds) {
@@ -91,18 +85,18 @@ TEST(CloudOffset, APlaneScannerWhoseDriverSendsClouds) {
   bench.swing_deg = 90;
   bench.duration_s = 4.5;
   bench.offset_s = -0.0127;
-  expect_answer(estimated(bench.record(), direct()), RigKind::kStationary, bench.offset_s, 0.2);
+  expect_answer(test::estimated(bench.record(), direct()), RigKind::kStationary, bench.offset_s, 0.2);
 }
 
 TEST(CloudOffset, ALivoxDriversMessageGivesTheEstimateOfThePointCloud) {
   CloudBench bench;
   bench.duration_s = 9;
   bench.driver = CloudBench::Driver::kNanoseconds;
-  const Estimate of_cloud = estimated(bench.record(), direct());
+  const Estimate of_cloud = test::estimated(bench.record(), direct());
   expect_answer(of_cloud, RigKind::kStationary, bench.offset_s, 1.0);
   for (const auto driver : {CloudBench::Driver::kLivox, CloudBench::Driver::kLivox2}) {
     bench.driver = driver;
-    const Estimate of_livox = estimated(bench.record(), direct());
+    const Estimate of_livox = test::estimated(bench.record(), direct());
     EXPECT_EQ(of_livox.offset_s, of_cloud.offset_s);
     EXPECT_EQ(of_livox.sigma_s, of_cloud.sigma_s);
     EXPECT_EQ(of_livox.scans, of_cloud.scans);
@@ -122,10 +116,10 @@ TEST(CloudOffset, APatternThatDoesNotRepeatItself) {
   EstimateOptions stationary;
   stationary.method = Method::kStationary;
   stationary.ranges = {{bench.offset_s - 0.006, bench.offset_s + 0.0061, 0.002}};
-  const Estimate found = estimated(recording, stationary);
+  const Estimate found = test::estimated(recording, stationary);
   ASSERT_TRUE(found.offset_s) << reasons(found);
   EXPECT_NEAR(*found.offset_s * 1e3, bench.offset_s * 1e3, 1.0);
-  const Estimate refused = estimated(recording, direct());
+  const Estimate refused = test::estimated(recording, direct());
   ASSERT_FALSE(refused.offset_s);
   EXPECT_NE(reasons(refused).find("lines do not repeat themselves"), std::string::npos) << reasons(refused);
 }
@@ -137,13 +131,13 @@ TEST(CloudOffset, AWalkInAHall) {
   bench.duration_s = 42;
   bench.offset_s = -0.0186;
   const Recording recording = bench.record();
-  expect_answer(estimated(recording, direct()), RigKind::kMoving, bench.offset_s, 2.0);
+  expect_answer(test::estimated(recording, direct()), RigKind::kMoving, bench.offset_s, 2.0);
   EstimateOptions moving;
   moving.method = Method::kMoving;
   moving.ranges = {{bench.offset_s - 0.003, bench.offset_s + 0.0031, 0.001}};
-  const Estimate found = estimated(recording, moving);
-  ASSERT_TRUE(found.offset_s) << reasons(found) << *estimated(recording, direct()).offset_s << " "
-                              << *estimated(recording, direct()).sigma_s;
+  const Estimate found = test::estimated(recording, moving);
+  ASSERT_TRUE(found.offset_s) << reasons(found) << *test::estimated(recording, direct()).offset_s << " "
+                              << *test::estimated(recording, direct()).sigma_s;
   EXPECT_NEAR(*found.offset_s * 1e3, bench.offset_s * 1e3, 1.0);
 }
 
@@ -156,14 +150,14 @@ TEST(CloudOffset, AWalkWithAPatternThatDoesNotRepeatItself) {
   bench.rings = 2;
   bench.beams = 1000;
   bench.driver = CloudBench::Driver::kLivox2;
-  expect_answer(estimated(bench.record(), direct()), RigKind::kMoving, bench.offset_s, 5.0);
+  expect_answer(test::estimated(bench.record(), direct()), RigKind::kMoving, bench.offset_s, 5.0);
 }
 
 TEST(CloudOffset, AWalkInAHallWithASlowerMotor) {
   CloudBench bench;
   bench.world_from_base = test::walk_in_hall;
   bench.duration_s = 50;
-  expect_answer(estimated(bench.record(), direct()), RigKind::kMoving, bench.offset_s, 2.0);
+  expect_answer(test::estimated(bench.record(), direct()), RigKind::kMoving, bench.offset_s, 2.0);
 }
 
 TEST(CloudOffset, NoLeverNoAnswer) {
@@ -172,7 +166,7 @@ TEST(CloudOffset, NoLeverNoAnswer) {
   bench.laser_in_motor_m = Eigen::Vector3d::Zero();
   bench.mesh = simulation::box({-40, -40, -1.6}, {40, 40, -1.5});
   bench.duration_s = 9;
-  const Estimate found = estimated(bench.record(), direct());
+  const Estimate found = test::estimated(bench.record(), direct());
   EXPECT_FALSE(found.offset_s);
   EXPECT_FALSE(found.reasons.empty());
 }

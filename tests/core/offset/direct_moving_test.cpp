@@ -9,7 +9,7 @@ namespace {
 
 using test::kMs;
 
-constexpr double kTruth_s = 0.024;
+constexpr double kMovingTruth_s = 0.024;
 
 class DirectMoving : public testing::Test {
  protected:
@@ -18,16 +18,16 @@ class DirectMoving : public testing::Test {
     options.walk = walk_options(MappingOptions(), search_scale(problem_.motor));
     return solve_moving(problem_, first_offset_s, options, job);
   }
-  const Recording& recording_ = test::simulated("metro-station", kTruth_s, 20).recording;
+  const Recording& recording_ = test::simulated("metro-station", kMovingTruth_s, 20).recording;
   const OffsetProblem problem_ = test::problem_of(recording_);
 };
 
 TEST_F(DirectMoving, AtItsAnswerEIsLeastAndNGreatest) {
-  const auto found = solved(kTruth_s - kMs, Job());
+  const auto found = solved(kMovingTruth_s - kMs, Job());
   ASSERT_TRUE(found && found->walk->joint);
   EXPECT_TRUE(found->converged);
   const double offset_s = found->walk->joint->offset_s;
-  EXPECT_NEAR(offset_s, kTruth_s, 3 * found->walk->joint->sigma_s);
+  EXPECT_NEAR(offset_s, kMovingTruth_s, 3 * found->walk->joint->sigma_s);
   ASSERT_EQ(found->curve.size(), 3U);
   EXPECT_NEAR(found->curve[0].offset_s, offset_s - 3 * kMs, 1e-12);
   EXPECT_EQ(found->curve[1].offset_s, offset_s);
@@ -39,17 +39,17 @@ TEST_F(DirectMoving, AtItsAnswerEIsLeastAndNGreatest) {
 }
 
 TEST_F(DirectMoving, TracksAgainAtTheOffsetThatFitsUntilItIsNear) {
-  const auto found = solved(kTruth_s + 5 * kMs, Job());
+  const auto found = solved(kMovingTruth_s + 5 * kMs, Job());
   ASSERT_TRUE(found && found->walk->joint);
   EXPECT_TRUE(found->walk->near);
   EXPECT_LT(std::abs(found->walk->tracked_at_s - found->walk->joint->offset_s), kMs);
-  EXPECT_NEAR(found->walk->joint->offset_s, kTruth_s, 3 * found->walk->joint->sigma_s);
+  EXPECT_NEAR(found->walk->joint->offset_s, kMovingTruth_s, 3 * found->walk->joint->sigma_s);
 }
 
 TEST_F(DirectMoving, ACancelledJobHasNoAnswer) {
   Job job;
   job.cancel();
-  EXPECT_FALSE(solved(kTruth_s, job));
+  EXPECT_FALSE(solved(kMovingTruth_s, job));
 }
 
 }  // namespace

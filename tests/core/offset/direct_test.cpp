@@ -9,6 +9,7 @@
 namespace sweepscope {
 namespace {
 
+using test::expect_refused;
 using test::kMs;
 
 Estimate directly(const Recording& recording, EstimateOptions options = {}) {
@@ -18,14 +19,6 @@ Estimate directly(const Recording& recording, EstimateOptions options = {}) {
 
 Recording made(const SimulationOptions& options) {
   return simulate(options, Job()).value().recording;
-}
-
-void expect_refused(const Estimate& estimate, const std::string& why) {
-  EXPECT_FALSE(estimate.identifiable);
-  EXPECT_FALSE(estimate.offset_s);
-  const auto says = [&](const std::string& reason) { return reason.find(why) != std::string::npos; };
-  EXPECT_TRUE(std::any_of(estimate.reasons.begin(), estimate.reasons.end(), says))
-      << why << " is not in: " << testing::PrintToString(estimate.reasons);
 }
 
 TEST(Direct, AnswersWhereTheLastStepsGoToAndFroByLessThanTheUncertainty) {

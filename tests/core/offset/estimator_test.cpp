@@ -9,11 +9,9 @@
 namespace sweepscope {
 namespace {
 
+using test::estimated;
+using test::expect_refused;
 using test::kMs;
-
-Estimate estimated(const Recording& recording, const EstimateOptions& options = {}) {
-  return estimate(recording, options, Job()).value();
-}
 
 EstimateOptions by(Method method) {
   EstimateOptions options;
@@ -32,14 +30,6 @@ double optimum_s(const Estimate& estimate, const std::string& criterion) {
     if (optimum.name == criterion) return optimum.offset_s;
   ADD_FAILURE() << "no criterion " << criterion;
   return 0;
-}
-
-void expect_refused(const Estimate& estimate, const std::string& why) {
-  EXPECT_FALSE(estimate.identifiable);
-  EXPECT_FALSE(estimate.offset_s);
-  const auto says = [&](const std::string& reason) { return reason.find(why) != std::string::npos; };
-  EXPECT_TRUE(std::any_of(estimate.reasons.begin(), estimate.reasons.end(), says))
-      << why << " is not in: " << testing::PrintToString(estimate.reasons);
 }
 
 class StandingInARoom : public testing::TestWithParam<std::tuple<double, double>> {};

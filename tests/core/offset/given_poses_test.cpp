@@ -31,7 +31,7 @@ std::vector<StampedPose> true_poses(double shift_s) {
   return poses;
 }
 
-Result<Estimate> estimated(const Recording& recording, std::optional<GivenPoses> poses) {
+Result<Estimate> estimated_with(const Recording& recording, std::optional<GivenPoses> poses) {
   EstimateOptions options;
   options.method = Method::kDirect;
   options.poses = std::move(poses);
@@ -50,14 +50,14 @@ void expect_found(const Result<Estimate>& found, double offset_tolerance_s, doub
 }
 
 TEST(GivenPoses, AsThePriorAreHelpAndTheirTimeShiftIsFound) {
-  const auto found = estimated(walk().recording, GivenPoses{"T.tum", true_poses(kShift_s), false});
+  const auto found = estimated_with(walk().recording, GivenPoses{"T.tum", true_poses(kShift_s), false});
   expect_found(found, 0.1 * kMs, 2 * kMs);
   EXPECT_EQ(found->motion->name, "T.tum");
   EXPECT_FALSE(found->motion->trusted);
 }
 
 TEST(GivenPoses, AsTheTruthGiveTheOffsetToHundredthsOfAMillisecond) {
-  const auto found = estimated(walk().recording, GivenPoses{"T.tum", true_poses(kShift_s), true});
+  const auto found = estimated_with(walk().recording, GivenPoses{"T.tum", true_poses(kShift_s), true});
   expect_found(found, 0.03 * kMs, 0.5 * kMs);
   EXPECT_TRUE(found->motion->trusted);
   EXPECT_LT(*found->sigma_s, 0.05 * kMs);
@@ -65,7 +65,7 @@ TEST(GivenPoses, AsTheTruthGiveTheOffsetToHundredthsOfAMillisecond) {
 
 TEST(GivenPoses, AreFoundAtAnEpochOfAnotherClock) {
   auto poses = true_poses(1000 + kShift_s);
-  const auto found = estimated(walk().recording, GivenPoses{"T.tum", std::move(poses), true});
+  const auto found = estimated_with(walk().recording, GivenPoses{"T.tum", std::move(poses), true});
   ASSERT_TRUE(found) << found.error().message;
   EXPECT_NEAR(found->motion->time_shift_s.value_or(0), 1000 + kShift_s, 1 * kMs);
   EXPECT_NEAR(found->offset_s.value_or(0), 0.024, 0.03 * kMs);
@@ -75,7 +75,7 @@ TEST(GivenPoses, OfTheRigsImuAreAPriorWithATimeShiftOfItsOwn) {
   Recording recording = walk().recording;
   recording.rig.imu.topic = "/imu";
   recording.turn_rates = walk().imu;
-  const auto found = estimated(recording, std::nullopt);
+  const auto found = estimated_with(recording, std::nullopt);
   expect_found(found, 0.3 * kMs, 3 * kMs);
   EXPECT_EQ(found->motion->kind, UsedMotion::Kind::kImu);
   EXPECT_EQ(found->motion->name, "/imu");
@@ -85,7 +85,7 @@ TEST(GivenPoses, OfTheRigsOdometryAreAPrior) {
   Recording recording = walk().recording;
   recording.rig.odometry.topic = "/odom";
   recording.odometry = true_poses(kShift_s);
-  const auto found = estimated(recording, std::nullopt);
+  const auto found = estimated_with(recording, std::nullopt);
   expect_found(found, 0.1 * kMs, 2 * kMs);
   EXPECT_EQ(found->motion->kind, UsedMotion::Kind::kOdometry);
 }
@@ -96,7 +96,7 @@ TEST(GivenPoses, OfAnotherTimeThatFitNoTurnsAreRefusedByName) {
     pose.time_s += 500;
     pose.orientation = Eigen::Quaterniond::Identity();
   }
-  const auto found = estimated(walk().recording, GivenPoses{"other.tum", std::move(poses), false});
+  const auto found = estimated_with(walk().recording, GivenPoses{"other.tum", std::move(poses), false});
   ASSERT_FALSE(found);
   EXPECT_EQ(found.error().code, ExitCode::kUnreadableInput);
   EXPECT_EQ(found.error().message.rfind("other.tum: the poses do not overlap the recording", 0), 0U)
@@ -104,7 +104,7 @@ TEST(GivenPoses, OfAnotherTimeThatFitNoTurnsAreRefusedByName) {
 }
 
 TEST(GivenPoses, OfARigThatStoodStillAreRefused) {
-  const auto found = estimated(test::room(0.024), GivenPoses{"T.tum", true_poses(0), false});
+  const auto found = estimated_with(test::room(0.024), GivenPoses{"T.tum", true_poses(0), false});
   ASSERT_FALSE(found);
   EXPECT_EQ(found.error().code, ExitCode::kWrongUsage);
   EXPECT_NE(found.error().message.find("poses have no use for a stationary rig"), std::string::npos);

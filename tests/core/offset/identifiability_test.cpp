@@ -6,11 +6,13 @@
 #include <functional>
 
 #include "core/simulation/portable_math.hpp"
+#include "tests/core/engine_fixtures.hpp"
 
 namespace sweepscope {
 namespace {
 
-constexpr double kMs = 1e-3;
+using test::kMs;
+
 const SearchScale kScale{1 * kMs, 60 * kMs, 250 * kMs};
 
 // Capped cost over -30 to 30 ms by 1 ms.

@@ -9,18 +9,18 @@ namespace {
 
 using test::kMs;
 
-constexpr double kTruth_s = 0.024;
+constexpr double kStationaryTruth_s = 0.024;
 
 // 9 s in a room.
 class Room : public testing::Test {
  protected:
   std::vector<PairMotion> pairs(double off_s) const {
-    return pair_motions(problem_, kTruth_s + off_s, OdometryOptions());
+    return pair_motions(problem_, kStationaryTruth_s + off_s, OdometryOptions());
   }
   CurvePoint candidate(double off_s, const std::vector<std::size_t>& of_pairs, double weight_c = 1) const {
-    return stationary_candidate(problem_, kTruth_s + off_s, of_pairs, weight_c, OdometryOptions());
+    return stationary_candidate(problem_, kStationaryTruth_s + off_s, of_pairs, weight_c, OdometryOptions());
   }
-  const Recording& recording_ = test::simulated("room-1", kTruth_s, 9, 0.513).recording;
+  const Recording& recording_ = test::simulated("room-1", kStationaryTruth_s, 9, 0.513).recording;
   const OffsetProblem problem_ = test::problem_of(recording_);
 };
 

@@ -8,7 +8,7 @@
 namespace sweepscope {
 namespace {
 
-constexpr double kTruth_s = 0.024;
+constexpr double kStillTruth_s = 0.024;
 
 MotionTest tested(const Recording& recording, double offset_s) {
   const OffsetProblem problem = test::problem_of(recording);
@@ -16,8 +16,8 @@ MotionTest tested(const Recording& recording, double offset_s) {
 }
 
 TEST(MotionOfTheRig, ARoomStandsAlsoAtAWrongOffset) {
-  for (const double offset_s : {kTruth_s, -0.04}) {
-    const MotionTest test = tested(test::room(kTruth_s), offset_s);
+  for (const double offset_s : {kStillTruth_s, -0.04}) {
+    const MotionTest test = tested(test::room(kStillTruth_s), offset_s);
     EXPECT_GE(test.pairs, 4u);
     EXPECT_FALSE(test.moving()) << test.moved << " of " << test.pairs;
     EXPECT_LT(test.median_translation_m, 0.01);
@@ -25,8 +25,8 @@ TEST(MotionOfTheRig, ARoomStandsAlsoAtAWrongOffset) {
 }
 
 TEST(MotionOfTheRig, AWalkMovesAlsoAtAWrongOffset) {
-  for (const double offset_s : {kTruth_s, -0.04}) {
-    const MotionTest test = tested(test::simulated("metro-station", kTruth_s, 8).recording, offset_s);
+  for (const double offset_s : {kStillTruth_s, -0.04}) {
+    const MotionTest test = tested(test::simulated("metro-station", kStillTruth_s, 8).recording, offset_s);
     EXPECT_TRUE(test.moving()) << test.moved << " of " << test.pairs;
   }
 }
@@ -57,7 +57,7 @@ TEST(MotionOfTheRig, IsNoneAmongTrees) {
       bench.noise_m = 0.01;
       bench.duration_s = 7;
       bench.sweep_s = sweep_s;
-      bench.offset_s = kTruth_s;
+      bench.offset_s = kStillTruth_s;
       const MotionTest test = tested(bench.record(), 0);
       EXPECT_GE(test.pairs, 4u);
       EXPECT_FALSE(test.moving()) << seed << ": " << test.moved << " of " << test.pairs << ", "
@@ -81,7 +81,8 @@ TEST(MotionOfTheRig, IsNoneWherePeopleWalkBy) {
 TEST(MotionOfTheRig, IsSeenInTheFirstSecondsOfEveryWalk) {
   for (const char* scene : {"metro-station", "parking-area", "cemetery", "lecture-room"})
     for (const double sweep_s : {0.5, 0.556}) {
-      const MotionTest test = tested(test::simulated(scene, kTruth_s, 6, sweep_s).recording, kTruth_s);
+      const MotionTest test =
+          tested(test::simulated(scene, kStillTruth_s, 6, sweep_s).recording, kStillTruth_s);
       EXPECT_TRUE(test.moving()) << scene << " " << sweep_s << ": " << test.moved << " of " << test.pairs;
     }
 }
@@ -92,11 +93,11 @@ TEST(MotionOfTheRig, IsSeenWhereItIsSlow) {
   bench.mesh = test::hall();
   bench.noise_m = 0.01;
   bench.duration_s = 7;
-  bench.offset_s = kTruth_s;
+  bench.offset_s = kStillTruth_s;
   bench.world_from_base = [](double t_s) {
     return Eigen::Isometry3d(Eigen::Translation3d(0.015 * t_s, 0.005 * t_s, 0));
   };
-  const MotionTest test = tested(bench.record(), kTruth_s);
+  const MotionTest test = tested(bench.record(), kStillTruth_s);
   EXPECT_TRUE(test.moving()) << test.moved << " of " << test.pairs << ", " << test.far_moved << " of "
                              << test.far_pairs;
 }
@@ -112,7 +113,7 @@ TEST(MotionOverTime, ShowsWhenARigThatStoodBeganToMove) {
   test::Bench bench;
   bench.mesh = test::hall();
   bench.duration_s = 16;
-  bench.offset_s = kTruth_s;
+  bench.offset_s = kStillTruth_s;
   bench.world_from_base = [](double t_s) {
     return Eigen::Isometry3d(Eigen::Translation3d(0.4 * std::max(0.0, t_s - 8), 0, 0));
   };
@@ -129,13 +130,13 @@ TEST(MotionOverTime, ShowsWhenARigThatStoodBeganToMove) {
 }
 
 TEST(MotionOverTime, IsUnknownWithoutTwoSweepsOfOneDirection) {
-  const Recording part = window(test::room(kTruth_s), 0, 0.9);
-  EXPECT_TRUE(motion_over_time(still_grid(test::problem_of(part)), kTruth_s).empty());
+  const Recording part = window(test::room(kStillTruth_s), 0, 0.9);
+  EXPECT_TRUE(motion_over_time(still_grid(test::problem_of(part)), kStillTruth_s).empty());
 }
 
 TEST(MotionOfTheRig, TooFewSweepsAreNoAnswer) {
-  const Recording part = window(test::room(kTruth_s), 0, 0.9);
-  EXPECT_FALSE(test_motion(still_grid(test::problem_of(part)), kTruth_s).answered());
+  const Recording part = window(test::room(kStillTruth_s), 0, 0.9);
+  EXPECT_FALSE(test_motion(still_grid(test::problem_of(part)), kStillTruth_s).answered());
 }
 
 // How sweep 4 of a rig in a hall lies against sweep 2, which turned the same way 1.03 s before.
@@ -143,14 +144,14 @@ SweepShift shift_of(const Eigen::Vector3d& velocity_m_s) {
   test::Bench bench;
   bench.mesh = test::hall();
   bench.duration_s = 3.5;
-  bench.offset_s = kTruth_s;
+  bench.offset_s = kStillTruth_s;
   bench.world_from_base = [&](double t_s) {
     return Eigen::Isometry3d(Eigen::Translation3d(t_s * velocity_m_s));
   };
   const Recording recording = bench.record();
   const OffsetProblem problem = test::problem_of(recording);
   const StillGrid grid = still_grid(problem);
-  const StillPoints points = place_still(grid, kTruth_s, StillDetail::kPoints);
+  const StillPoints points = place_still(grid, kStillTruth_s, StillDetail::kPoints);
   const std::vector<LinePool> pools = pools_by_sweep(points);
   return shift_between(points, pools.at(2), pools.at(4), grid).value();
 }

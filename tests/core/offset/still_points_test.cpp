@@ -7,7 +7,7 @@
 namespace sweepscope {
 namespace {
 
-constexpr double kTruth_s = 0.017;
+constexpr double kBoxTruth_s = 0.017;
 
 // A bare box about a rig that stands in it, and no noise.
 class InABox : public testing::Test {
@@ -17,7 +17,7 @@ class InABox : public testing::Test {
       test::Bench bench;
       bench.mesh = simulation::box(kLow_m, kHigh_m);
       bench.duration_s = 2.5;
-      bench.offset_s = kTruth_s;
+      bench.offset_s = kBoxTruth_s;
       return bench.record();
     }();
     return recording;
@@ -32,7 +32,7 @@ class InABox : public testing::Test {
 };
 
 TEST_F(InABox, AtTheTrueOffsetPointsLieOnItsWalls) {
-  const StillPoints points = place_still(grid_, kTruth_s, StillDetail::kPoints);
+  const StillPoints points = place_still(grid_, kBoxTruth_s, StillDetail::kPoints);
   std::size_t placed = 0;
   for (std::size_t cell = 0; cell < points.placed.size(); ++cell) {
     if (!points.placed[cell]) continue;
@@ -59,7 +59,7 @@ TEST_F(InABox, EveryCellHasTheMotorsAngleAndSpeedOneOffsetAfterItsStamp) {
 }
 
 TEST_F(InABox, LinesOfADirectionLieInTheOrderOfTheirAngle) {
-  const StillPoints points = place_still(grid_, kTruth_s, StillDetail::kAngles);
+  const StillPoints points = place_still(grid_, kBoxTruth_s, StillDetail::kAngles);
   EXPECT_TRUE(points.p_m.empty());
   for (const int turning : {-1, 1}) {
     const LinePool& pool = points.against(-turning);
@@ -79,7 +79,7 @@ TEST_F(InABox, LinesOfADirectionLieInTheOrderOfTheirAngle) {
 
 TEST_F(InABox, PatchesOfTheOtherDirectionLieOnTheWallOfTheirPoint) {
   const StillPatchOptions options = still_patch_options(problem_);
-  const StillPoints points = place_still(grid_, kTruth_s, StillDetail::kPoints);
+  const StillPoints points = place_still(grid_, kBoxTruth_s, StillDetail::kPoints);
   std::size_t found = 0, flat = 0;
   for (std::size_t line = 0; line < points.lines(); ++line) {
     StillNeighbours neighbours(points, points.against(points.direction[line]), line, options);
@@ -101,7 +101,7 @@ TEST_F(InABox, PatchesOfTheOtherDirectionLieOnTheWallOfTheirPoint) {
 
 TEST_F(InABox, ABracketHoldsTheAngleAndBeyondTheLinesThereIsNone) {
   const StillPatchOptions options = still_patch_options(problem_);
-  const StillPoints points = place_still(grid_, kTruth_s, StillDetail::kPoints);
+  const StillPoints points = place_still(grid_, kBoxTruth_s, StillDetail::kPoints);
   const LinePool& pool = points.pool[1];
   StillNeighbours neighbours(points, pool, pool[0], options);
   std::size_t found = 0;

@@ -12,7 +12,7 @@ namespace {
 using Eigen::Vector3d;
 
 // Turns that do not repeat themselves within a minute.
-Pose pose_at(double t_s) {
+Pose turning_pose_at(double t_s) {
   const Vector3d turn_rad(0.2 * std::sin(2.1 * t_s + std::sin(0.3 * t_s)), 0.1 * std::sin(1.3 * t_s),
                           0.5 * std::sin(0.7 * t_s + 0.02 * t_s * t_s));
   return {rotation_from_vector(turn_rad), Vector3d::Zero()};
@@ -21,7 +21,7 @@ Pose pose_at(double t_s) {
 GivenMotion motion(double from_s, double to_s, double shift_s) {
   std::vector<StampedPose> poses;
   for (double t_s = from_s; t_s < to_s; t_s += 0.01)
-    poses.push_back({t_s - shift_s, Vector3d::Zero(), pose_at(t_s).rotation});
+    poses.push_back({t_s - shift_s, Vector3d::Zero(), turning_pose_at(t_s).rotation});
   return GivenMotion(poses, GivenMotion::Parts::kRotation, GivenMotion::Role::kPrior);
 }
 
@@ -36,7 +36,7 @@ std::vector<SweepPose> sweeps(double alternation_rad) {
     const Pose turned{rotation_from_vector((k % 2 == 0 ? 1 : -1) * alternation_rad * Vector3d::UnitX()),
                       Vector3d::Zero()};
     sweep.knots.clear();
-    for (int i = 0; i <= 20; ++i) sweep.knots.push_back(pose_at(sweep.begin_s + 0.025 * i) * turned);
+    for (int i = 0; i <= 20; ++i) sweep.knots.push_back(turning_pose_at(sweep.begin_s + 0.025 * i) * turned);
   }
   return tracked;
 }

@@ -10,7 +10,7 @@
 namespace sweepscope::ui {
 namespace {
 
-constexpr std::string_view kToken = "0123456789abcdef";
+constexpr std::string_view kPolicyToken = "0123456789abcdef";
 
 Request socket_request() {
   return {.method = "GET",
@@ -23,7 +23,7 @@ Request socket_request() {
 }
 
 unsigned status_of(const Request& request, const HostPolicy& policy = {}) {
-  const Answer answer = answer_to(request, policy, kToken);
+  const Answer answer = answer_to(request, policy, kPolicyToken);
   return answer.kind == Answer::Kind::kWebSocket ? 101 : answer.status;
 }
 

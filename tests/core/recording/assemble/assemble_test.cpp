@@ -6,10 +6,11 @@
 #include <limits>
 #include <numbers>
 
+#include "core/numbers.hpp"
+
 namespace sweepscope {
 namespace {
 
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr std::int64_t kStart_ns = 1'500'000'000 * kSecond_ns;
 
 std::int64_t at_ns(double since_s) {

@@ -13,11 +13,11 @@ namespace {
 using test::as_span, test::LivoxBytes, test::MessageBytes;
 
 constexpr std::uint32_t kStep_ns = 100'000;
-constexpr double kStep_rad = 0.01;
+constexpr double kLineStep_rad = 0.01;
 
 /// The point of a line that was fired `beam` steps after the base time, `range_m` away.
 LivoxBytes::Point point(int beam, std::uint8_t line = 0, double range_m = 5) {
-  const double azimuth = -1 + beam * kStep_rad, elevation = line * 0.1;
+  const double azimuth = -1 + beam * kLineStep_rad, elevation = line * 0.1;
   return {static_cast<float>(range_m * std::cos(elevation) * std::cos(azimuth)),
           static_cast<float>(range_m * std::cos(elevation) * std::sin(azimuth)),
           static_cast<float>(range_m * std::sin(elevation)), static_cast<std::uint32_t>(beam) * kStep_ns,

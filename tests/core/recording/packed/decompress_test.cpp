@@ -26,7 +26,7 @@ Bytes pack(Compression compression, const Bytes& plain) {
   return packed;
 }
 
-Bytes sample(std::size_t bytes) {
+Bytes sample_bytes(std::size_t bytes) {
   Bytes plain(bytes);
   std::uint32_t state = 1;
   for (std::byte& byte : plain) byte = static_cast<std::byte>((state = state * 1664525 + 1013904223) >> 29);
@@ -37,7 +37,7 @@ class Decompress : public testing::TestWithParam<Compression> {};
 INSTANTIATE_TEST_SUITE_P(Each, Decompress, testing::Values(Compression::kBz2, Compression::kLz4));
 
 TEST_P(Decompress, GivesBackWhatWasPacked) {
-  const Bytes plain = sample(3'000'000);
+  const Bytes plain = sample_bytes(3'000'000);
   Bytes buffer;
   const auto result = decompress(GetParam(), pack(GetParam(), plain), 6'000'000, buffer);
   EXPECT_EQ(result.problem, "");
@@ -45,7 +45,7 @@ TEST_P(Decompress, GivesBackWhatWasPacked) {
 }
 
 TEST_P(Decompress, AcceptsExactlyTheLimit) {
-  const Bytes plain = sample(100'000);
+  const Bytes plain = sample_bytes(100'000);
   Bytes buffer;
   const auto result = decompress(GetParam(), pack(GetParam(), plain), plain.size(), buffer);
   EXPECT_EQ(result.problem, "");
@@ -64,7 +64,7 @@ TEST_P(Decompress, NeverTakesMoreThanTheLimit) {
 }
 
 TEST_P(Decompress, GivesWhatCameBeforeTheCut) {
-  const Bytes plain = sample(3'000'000);
+  const Bytes plain = sample_bytes(3'000'000);
   Bytes packed = pack(GetParam(), plain);
   packed.resize(packed.size() / 2);
   Bytes buffer;
@@ -76,7 +76,7 @@ TEST_P(Decompress, GivesWhatCameBeforeTheCut) {
 
 TEST_P(Decompress, SaysWhatIsNoCompressedData) {
   Bytes buffer;
-  const auto result = decompress(GetParam(), sample(1000), 6'000'000, buffer);
+  const auto result = decompress(GetParam(), sample_bytes(1000), 6'000'000, buffer);
   EXPECT_NE(result.problem.find("is damaged"), std::string::npos);
   const auto empty = decompress(GetParam(), Bytes(), 6'000'000, buffer);
   EXPECT_NE(empty.problem.find("ends too early"), std::string::npos);

@@ -12,7 +12,7 @@ namespace sweepscope {
 namespace {
 
 /// Random enough not to shrink to nothing.
-std::string sample(std::size_t bytes) {
+std::string sample_text(std::size_t bytes) {
   std::string text(bytes, '\0');
   std::uint32_t state = 1;
   for (char& c : text) c = static_cast<char>((state = state * 1664525 + 1013904223) >> 28);
@@ -38,7 +38,7 @@ class UnpackedFiles : public testing::Test {
 };
 
 TEST_F(UnpackedFiles, HoldWhatWasPackedAndGoWithTheirObject) {
-  const std::string plain = sample(3'000'000);
+  const std::string plain = sample_text(3'000'000);
   {
     const auto file = unpack(test::packed_by_zstd(plain));
     ASSERT_TRUE(file) << file.error().message;
@@ -51,7 +51,7 @@ TEST_F(UnpackedFiles, HoldWhatWasPackedAndGoWithTheirObject) {
 
 TEST_F(UnpackedFiles, AreWholeWhereTheyFillTheBufferToItsEnd) {
   for (const std::size_t buffers : {1, 2, 24}) {
-    const std::string plain = sample(buffers * ZSTD_DStreamOutSize());
+    const std::string plain = sample_text(buffers * ZSTD_DStreamOutSize());
     const auto file = unpack(test::packed_by_zstd(plain));
     ASSERT_TRUE(file);
     EXPECT_EQ(file->problem(), "") << buffers;
@@ -67,7 +67,7 @@ TEST_F(UnpackedFiles, FramesFollowEachOther) {
 }
 
 TEST_F(UnpackedFiles, WhatComesBeforeTheDamageIsThere) {
-  const std::string plain = sample(3'000'000), packed = test::packed_by_zstd(plain);
+  const std::string plain = sample_text(3'000'000), packed = test::packed_by_zstd(plain);
   const auto cut = unpack(packed.substr(0, packed.size() / 2));
   ASSERT_TRUE(cut);
   EXPECT_EQ(cut->problem(), "its zstd data ends too early; what is there was read");
@@ -117,7 +117,7 @@ TEST_F(UnpackedFiles, AFolderThatIsNotThereIsNamed) {
 TEST_F(UnpackedFiles, ACancelledJobLeavesNothing) {
   Job job;
   job.cancel();
-  const auto refused = unpack(test::packed_by_zstd(sample(100'000)), job);
+  const auto refused = unpack(test::packed_by_zstd(sample_text(100'000)), job);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, ExitCode::kInterrupted);
   EXPECT_TRUE(nothing_left());

@@ -11,17 +11,17 @@ namespace {
 
 using test::MessageBytes, test::TestDatabase;
 
-constexpr int kScans = 40, kSamples = 120;
+constexpr int kBagScans = 40, kBagSamples = 120;
 
 /// One second of scans on /scan and of a motor's joint on /joint_states.
 void write_sample(TestDatabase& database) {
   database.topic(1, "/scan", "sensor_msgs/msg/LaserScan");
   database.topic(2, "/joint_states", "sensor_msgs/msg/JointState");
-  for (int i = 0; i < kScans; ++i)
+  for (int i = 0; i < kBagScans; ++i)
     database.message(
         1, 10'005'000'000 + 25'000'000 * i,
         test::scan_bytes(MessageBytes::kCdr, 10, 25'000'000U * unsigned(i), {1, 2, float(3 + i)}));
-  for (int i = 0; i < kSamples; ++i) {
+  for (int i = 0; i < kBagSamples; ++i) {
     const std::int64_t ns = 9'900'000'000 + 10'000'000 * i;
     database.message(2, ns + 5'000'000,
                      test::joint_bytes(MessageBytes::kCdr, std::uint32_t(ns / 1'000'000'000),
@@ -31,7 +31,7 @@ void write_sample(TestDatabase& database) {
 
 /// More scans, after those of write_sample().
 void write_sample_again(TestDatabase& database) {
-  for (int i = 0; i < kScans; ++i)
+  for (int i = 0; i < kBagScans; ++i)
     database.message(1, 11'005'000'000 + 25'000'000 * i,
                      test::scan_bytes(MessageBytes::kCdr, 11, 25'000'000U * unsigned(i), {1, 2, 3}));
 }
@@ -59,8 +59,8 @@ TEST_F(SqliteBag, IsReadInFullWhateverItsName) {
     const auto recording = read(name);
     ASSERT_TRUE(recording) << recording.error().message;
     EXPECT_EQ(recording->name, name);
-    ASSERT_EQ(recording->scans.size(), std::size_t{kScans});
-    ASSERT_EQ(recording->motor.time_s.size(), std::size_t{kSamples});
+    ASSERT_EQ(recording->scans.size(), std::size_t{kBagScans});
+    ASSERT_EQ(recording->motor.time_s.size(), std::size_t{kBagSamples});
     EXPECT_EQ(recording->epoch_ns, 10'000'000'000);
     EXPECT_NEAR(recording->scans[10].first_beam_s, 0.25, 1e-12);
     EXPECT_EQ(recording->ranges(recording->scans[10])[2], 13);
@@ -89,11 +89,11 @@ TEST_F(SqliteBag, AFoldersFilesAreReadInTheOrderOfItsMetadata) {
     const auto recording = read(name);
     ASSERT_TRUE(recording) << recording.error().message;
     EXPECT_EQ(recording->name, "bag");
-    EXPECT_EQ(recording->scans.size(), std::size_t{kScans + 1});
+    EXPECT_EQ(recording->scans.size(), std::size_t{kBagScans + 1});
     EXPECT_TRUE(recording->report.warnings.empty());
   }
   describe("  relative_file_paths: [bag_0.db3]\n");
-  EXPECT_EQ(read("bag")->scans.size(), std::size_t{kScans});
+  EXPECT_EQ(read("bag")->scans.size(), std::size_t{kBagScans});
   describe("  relative_file_paths: [../../bag_2.db3]\n");
   EXPECT_NE(refusal("bag").find("bag/bag_2.db3: no such file"), std::string::npos) << refusal("bag");
   describe("  relative_file_paths: []\n");
@@ -105,7 +105,7 @@ TEST_F(SqliteBag, AFoldersFilesAreReadInTheOrderOfItsMetadata) {
   std::filesystem::remove(folder_ / "bag/metadata.yaml");
   const auto without = read("bag");
   ASSERT_TRUE(without) << without.error().message;
-  EXPECT_EQ(without->scans.size(), std::size_t{kScans + 1});
+  EXPECT_EQ(without->scans.size(), std::size_t{kBagScans + 1});
   EXPECT_EQ(without->report.warnings.at(0),
             "the folder has no metadata.yaml; its bags were read in the order of their names");
 }
@@ -121,7 +121,7 @@ TEST_F(SqliteBag, ARecorderThatWasNotEndedLeavesItsJournal) {
   }
   const auto recording = read("left.db3");
   ASSERT_TRUE(recording) << recording.error().message;
-  EXPECT_EQ(recording->scans.size(), std::size_t{kScans});
+  EXPECT_EQ(recording->scans.size(), std::size_t{kBagScans});
 }
 
 TEST_F(SqliteBag, ReadingLeavesTheFolderAsItWas) {
@@ -142,7 +142,7 @@ TEST_F(SqliteBag, ReadingLeavesTheFolderAsItWas) {
     const auto before = test::files_in(folder_ / folder);
     const auto recording = read(std::string(folder) + "/a.db3");
     ASSERT_TRUE(recording) << folder << ": " << recording.error().message;
-    EXPECT_EQ(recording->scans.size(), std::size_t{kScans}) << folder;
+    EXPECT_EQ(recording->scans.size(), std::size_t{kBagScans}) << folder;
     EXPECT_TRUE(recording->report.warnings.empty()) << folder;
     EXPECT_TRUE(test::files_in(folder_ / folder) == before) << folder;
   }
