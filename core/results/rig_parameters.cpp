@@ -67,7 +67,7 @@ int decimals_of(const RigParameter& parameter) {
   const double size =
       parameter.sigma.value_or(0) > 0 ? *parameter.sigma / 10 : std::abs(parameter.found) / 100;
   if (!(size > 0)) return 2;
-  return std::clamp(-static_cast<int>(std::floor(std::log10(size))), 0, 4);
+  return std::clamp(-static_cast<int>(std::floor(std::log10(size) + 1e-9)), 0, 4);
 }
 
 }  // namespace

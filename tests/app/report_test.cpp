@@ -77,8 +77,9 @@ TEST_F(ReportCommand, SolvesForTheRigAsEstimateDoes) {
   const auto of = [&](const std::string& file) {
     return nlohmann::json::parse(test::contents_of(folder_ / file));
   };
-  ASSERT_EQ(run("estimate r.bag --solve offset,mount,play --prior mount_deg=5 --no-timing --json e.json").exit_code,
-            0);
+  ASSERT_EQ(
+      run("estimate r.bag --solve offset,mount,play --prior mount_deg=5 --no-timing --json e.json").exit_code,
+      0);
   EXPECT_EQ(of("out/estimate.json").at("parameters"), of("e.json").at("parameters"));
   EXPECT_EQ(run("report r.bag -o out --solve offset,axis").exit_code, 2);
 }

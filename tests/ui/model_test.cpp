@@ -342,7 +342,7 @@ TEST_F(InARoom, ARigThatWasNotSolvedForIsNotExported) {
 
 TEST(OverTime, AnEstimateInWindowsHasOneOffsetForEach) {
   Explorer explorer;
-  perform(explorer, "sample room-1 30");
+  perform(explorer, "sample room-1 32");
   rest(explorer);
   perform(explorer, "search over-time");
   perform(explorer, "estimate");

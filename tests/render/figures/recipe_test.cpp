@@ -106,10 +106,9 @@ TEST_F(RecipeTest, RefusalsSayLineColumnAndWhatIsWrong) {
   EXPECT_EQ(
       refusal(kData + "figure: {}\n"),
       "3:1: unknown key \"figure\" in the recipe; known are: estimates, figures, look, recordings, tables");
-  EXPECT_EQ(
-      refusal(kData + "figures: {a: {kind: pie}}\n"),
-      "3:21: figure a: kind must be one of: curves, interactive, maps, over-time, profile, residuals, "
-      "scan, trend");
+  EXPECT_EQ(refusal(kData + "figures: {a: {kind: pie}}\n"),
+            "3:21: figure a: kind must be one of: curves, interactive, maps, over-time, profile, residuals, "
+            "scan, trend");
   EXPECT_EQ(refusal(kData + "figures: {a: {kind: curves, estimates: hall}}\n"),
             "3:40: there is no estimate \"hall\"; there are: room");
   EXPECT_EQ(refusal("recordings: {r: {simulate: moon}}\n").substr(0, 36),

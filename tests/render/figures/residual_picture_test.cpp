@@ -17,7 +17,8 @@ ResidualGrid grid_of(double residual_m) {
 
 const TextMark* text_with(const Drawing& drawing, const std::string& part) {
   for (const auto& mark : drawing.marks())
-    if (const auto* text = std::get_if<TextMark>(&mark); text != nullptr && text->text.find(part) != part.npos)
+    if (const auto* text = std::get_if<TextMark>(&mark);
+        text != nullptr && text->text.find(part) != part.npos)
       return text;
   return nullptr;
 }
