@@ -65,7 +65,7 @@ void add_axes(Drawing& drawing, const PixelRect& plot, const HeatMap& map, const
 void add_heat_map(Drawing& drawing, const PixelRect& place, const HeatMap& map, const Style& style,
                   double scale) {
   const PixelRect plot = plot_of(place, scale);
-  drawing.fill(plot, style.panel);
+  drawing.fill(plot, style.frame);  // where no value is: unlike the middle of a diverging table
   add_cells(drawing, plot, map);
   add_axes(drawing, plot, map, style, scale);
   drawing.frame(plot, scale, style.frame);

@@ -12,7 +12,7 @@ struct HeatMap {
   std::string title, x_title, y_title;  // with units
   AxisRange x, y;                       // of the outer edges of the cells
   std::size_t columns = 0, rows = 0;
-  std::vector<double> values;  // row by row, the row of the least y first; NaN: no value
+  std::vector<double> values;  // row by row, the row of the least y first; NaN: no value, grey
   ColourScale colours;
 };
 

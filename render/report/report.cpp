@@ -221,7 +221,7 @@ Result<std::string> rig_part(const ReportContent& content) {
                "residuals", pictures,
                "How far the points lie from flat surfaces, over the motor's angle and the direction of the "
                "beam. A wrong mount or encoder shows as a pattern; what is left is the range noise. Orange: "
-               "beyond the surface; violet: before it.");
+               "beyond the surface; violet: before it; grey: too few points.");
   });
 }
 
