@@ -11,8 +11,7 @@
 #include "app/progress.hpp"
 #include "app/say.hpp"
 #include "core/io/trajectory_file.hpp"
-#include "core/recording/rig/detect_rig.hpp"
-#include "core/rig_solve/rig_solve.hpp"
+#include "core/results/found_rig.hpp"
 
 namespace sweepscope::app {
 namespace {
@@ -77,12 +76,7 @@ ExitCode conclude_interrupted(const Options& options, const Estimate& found,
 /// The rig as it was solved for.
 Result<void> write_rig(const Options& options, const Estimate& found) {
   if (options.rig_out.empty() || !found.rig) return {};
-  DetectedRig detected;
-  detected.rig = found.rig->rig;
-  detected.recording = found.recording;
-  detected.mount_note = found.rig->mount.identifiable ? "solved for" : "as it was";
-  detected.stamp_at_note = "as it was";
-  return write_text(options.rig_out, rig_file_text(detected));
+  return write_text(options.rig_out, found_rig_file(*found.rig, found.recording));
 }
 
 ExitCode conclude_search(const Options& options, const Estimate& found, CandidateFile* candidates,

@@ -114,8 +114,12 @@ void print_answer(const Estimate& estimate) {
   for (const std::string& warning : estimate.warnings) say("warning: {}\n", warning);
 }
 
-void declare_options(CLI::App& command, EstimateOptions& estimate) {
+}  // namespace
+
+void declare_estimate_options(CLI::App& command, EstimateOptions& estimate,
+                              std::initializer_list<std::string_view> names) {
   for (const EstimateOption& option : estimate_options()) {
+    if (names.size() > 0 && std::ranges::find(names, option.name) == names.end()) continue;
     const auto set = [&estimate, &option](const std::vector<std::string>& texts) {
       for (const std::string& text : texts)
         if (const auto done = option.set(estimate, text); !done)
@@ -132,18 +136,16 @@ void declare_options(CLI::App& command, EstimateOptions& estimate) {
   }
 }
 
-}  // namespace
-
 void EstimateInput::declare(CLI::App& app) {
   recording.declare(app);
   recording.declare_computing(app);
-  declare_options(app, estimate);
+  declare_estimate_options(app, estimate);
 }
 
 void EstimateInput::declare_search(CLI::App& app) {
   recording.declare_reading(app);
   recording.declare_computing(app);
-  declare_options(app, estimate);
+  declare_estimate_options(app, estimate);
 }
 
 void EstimateOutput::declare(CLI::App& app) {

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <filesystem>
+#include <initializer_list>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/recording_options.hpp"
@@ -22,6 +24,11 @@ struct EstimateInput {
   /// The same without REC, for a subcommand that takes several.
   void declare_search(CLI::App& app);
 };
+
+/// Declares the options of an estimate that have these names, or all of them if there are none. They write to
+/// `estimate`, which must outlive the parsing.
+void declare_estimate_options(CLI::App& command, EstimateOptions& estimate,
+                              std::initializer_list<std::string_view> names = {});
 
 /// The outputs of the result.
 struct EstimateOutput {

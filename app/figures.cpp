@@ -51,6 +51,8 @@ std::string recipe_keys() {
       "    kind: profile  maps; at_m: [X, Y], normal_deg, length_m, heights_m: [FROM, TO] above the path\n"
       "                   (without at_m: the wall that shows the offset best)\n"
       "    kind: scan     recording, at_s\n"
+      "    kind: over-time  estimate: one with over-time\n"
+      "    kind: residuals  estimate: one with solve\n"
       "    kind: trend    table: the JSON file of estimate --table\n"
       "    kind: interactive  two maps of one recording, estimate, points: a page to turn the offset in\n"
       "  tables:     {NAME: {title, estimates: [NAME, ...], columns: [{title, unit, decimals, and\n"

@@ -21,6 +21,7 @@ namespace {
 struct Options {
   RecordingOptions recording;
   std::string folder;
+  EstimateOptions estimate;  // of it, what is solved for beside the offset
   std::size_t points = kDefaultLivePoints;
   std::string quoted;              // the options that decide, as the report quotes them
   std::vector<std::string> given;  // the options, as they were given
@@ -40,8 +41,8 @@ Result<ReportContent> make(const Options& options) {
   const auto kept = keep_while_working(kept_candidates(options), options.recording, options.given);
   if (!kept) return tl::unexpected(kept.error());
   auto content = prepare(*recording, FeatureOptions(), progress.job()).and_then([&](const auto& prepared) {
-    return gather_report(prepared, {options.recording.assumed_kind(), options.points}, kept->get(),
-                         progress.job());
+    const ReportOptions wanted{options.recording.assumed_kind(), options.estimate.solve, options.points};
+    return gather_report(prepared, wanted, kept->get(), progress.job());
   });
   if (!content) return tl::unexpected(ended(content.error(), **kept));
   content->command = report_command(recording->name, options.quoted);
@@ -91,6 +92,7 @@ void add_report(CLI::App& app, ExitCode& exit_code) {
   auto options = std::make_shared<Options>();
   options->recording.declare(*command);
   options->recording.declare_computing(*command);
+  declare_estimate_options(*command, options->estimate, {"solve", "prior"});
   command->add_option("-o,--output", options->folder, "The folder for report.html and estimate.json")
       ->type_name("DIR")
       ->required();

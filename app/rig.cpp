@@ -11,8 +11,10 @@
 #include "app/progress.hpp"
 #include "app/recording_options.hpp"
 #include "core/apply/rig_snippet.hpp"
+#include "core/io/atomic_file.hpp"
 #include "core/recording/formats/read_raw_recording.hpp"
 #include "core/recording/rig/detect_rig.hpp"
+#include "core/results/found_rig.hpp"
 
 namespace sweepscope::app {
 namespace {
@@ -49,17 +51,40 @@ Result<DetectedRig> detect(const Options& options) {
   return detect_rig(options.recording, reading, progress.job());
 }
 
-/// The rig that a snippet is made of: of a rig file, or of a recording.
-Result<Rig> rig_of(const Options& options) {
-  if (is_rig_file(options)) return read_rig(options.recording);
-  return detect(options).map([](const DetectedRig& detected) { return detected.rig; });
+/// The rig with what the estimate found of it, if one is given.
+Result<DetectedRig> with_estimate(DetectedRig detected, const Options& options) {
+  if (!options.estimate) return detected;
+  const std::string name = options.estimate->string();
+  return read_file(*options.estimate)
+      .and_then([&](const std::string& json) { return parse_found_rig(json, name); })
+      .and_then([&](const FoundRig& found) -> Result<DetectedRig> {
+        if (!options.system && !found.any())
+          return failure(ExitCode::kWrongUsage,
+                         name + " holds nothing of the rig: make it with estimate --solve offset,mount");
+        return with_found(std::move(detected), found,
+                          "estimate --solve in " + options.estimate->filename().string());
+      });
+}
+
+/// The rig of a rig file or of a recording, and of the estimate.
+Result<DetectedRig> rig_of(const Options& options) {
+  const auto known = [&]() -> Result<DetectedRig> {
+    if (!is_rig_file(options)) return detect(options);
+    return read_rig(options.recording).map([](const Rig& rig) {
+      DetectedRig detected;
+      detected.rig = rig;
+      return detected;
+    });
+  };
+  return known().and_then(
+      [&](DetectedRig&& detected) { return with_estimate(std::move(detected), options); });
 }
 
 Result<std::string> snippet_text(const Options& options) {
   RigSnippet snippet;
   const auto rig = rig_of(options);
   if (!rig) return tl::unexpected(rig.error());
-  snippet.rig = *rig;
+  snippet.rig = rig->rig;
   const auto offset = applied_offset(options.estimate, options.offset_ms);
   if (!offset) return tl::unexpected(offset.error());
   snippet.offset = *offset;
@@ -72,10 +97,9 @@ Result<std::string> snippet_text(const Options& options) {
 
 Result<void> check_options(const Options& options) {
   const auto refuse = [](const char* why) { return failure(ExitCode::kWrongUsage, why); };
-  const bool has_offset = options.estimate || options.offset_ms;
   if (options.system && options.estimate.has_value() == options.offset_ms.has_value())
     return refuse("--as writes the offset as well: give one of --estimate and --offset-ms");
-  if (!options.system && has_offset) return refuse("--estimate and --offset-ms belong to --as");
+  if (!options.system && options.offset_ms) return refuse("--offset-ms belongs to --as");
   if (is_rig_file(options) && (options.rig.rig || options.rig.streams.any() || options.stamps))
     return refuse("--rig, --laser, --motor, --joint and --stamps belong to a recording, not to a rig file");
   return {};
@@ -93,7 +117,7 @@ ExitCode run(const Options& options) {
   const auto checked =
       check_options(options).and_then([&] { return check_outputs({options.output}, input_files(options)); });
   if (!checked) return fail(checked.error());
-  const auto text = options.system ? snippet_text(options) : detect(options).map(rig_file_text);
+  const auto text = options.system ? snippet_text(options) : rig_of(options).map(rig_file_text);
   if (!text) return fail(text.error());
   const auto written = write_text(options.output, *text);
   return written ? ExitCode::kDone : fail(written.error());
@@ -110,7 +134,10 @@ void declare_snippet(CLI::App& command, Options& options) {
           "Write the mount and the offset for this system instead")
       ->type_name("SYSTEM")
       ->check(CLI::IsMember(rig_system_names()));
-  command.add_option("--estimate", options.estimate, "Estimate (JSON) whose offset --as writes")
+  command
+      .add_option(
+          "--estimate", options.estimate,
+          "Estimate (JSON): what its --solve found goes into the rig file, and its offset into that of --as")
       ->type_name("E.json");
   command.add_option("--offset-ms", options.offset_ms, "The offset, where there is no estimate")
       ->check(finite_number());

@@ -113,6 +113,8 @@ nlohmann::ordered_json rig_parameters_json(const SolvedRig& solved) {
   object["correlation"] = correlation_json(solved);
   object["residual_before_m"] = tidy(solved.residual_before_m);
   object["residual_after_m"] = tidy(solved.residual_after_m);
+  object["pattern_before_m"] = tidy(solved.residuals.before.rms_m());
+  object["pattern_after_m"] = tidy(solved.residuals.after.rms_m());
   object["unevenness_m"] = tidy(solved.unevenness_m);
   object["points"] = solved.points;
   object["surfaces"] = solved.surfaces;

@@ -7,80 +7,11 @@
 #include "core/loam/least_squares.hpp"
 #include "core/numbers.hpp"
 #include "core/parallel.hpp"
+#include "core/rig_solve/rig_cloud.hpp"
 #include "core/uncertainty.hpp"
 
 namespace sweepscope {
 namespace {
-
-struct Cloud {
-  std::vector<RigGeometry::Placed> placed;
-  std::vector<Eigen::Vector3d> p_m;
-};
-
-// The encoder's angle by cubic interpolation, at mostly ascending times. Linear interpolation errs by up to
-// 0.05 deg for a motor that follows a sine.
-class SmoothAngle {
- public:
-  explicit SmoothAngle(const MotorTrack& track) : track_(track) {}
-
-  double at(double motor_s) {
-    const auto& t = track_.time_s;
-    const auto& a = track_.angle_rad;
-    while (next_ + 3 < t.size() && t[next_ + 1] <= motor_s) ++next_;
-    while (next_ > 1 && t[next_] > motor_s) --next_;
-    if (t.size() < 4) return track_.angle_at(std::clamp(motor_s, t.front(), t.back()));
-    double sum = 0;
-    for (std::size_t i = next_ - 1; i < next_ + 3; ++i) {
-      double part = a[i];
-      for (std::size_t j = next_ - 1; j < next_ + 3; ++j)
-        if (j != i) part *= (motor_s - t[j]) / (t[i] - t[j]);
-      sum += part;
-    }
-    return sum;
-  }
-
- private:
-  const MotorTrack& track_;
-  std::size_t next_ = 1;
-};
-
-// Whether an instant is used. Play shows best where the motor is slow, so that all instants are used for it
-// except those in which the gear is between its flanks.
-bool counts(const Sweep& sweep, double motor_s, double turned_rad, const RigUnknowns& rig,
-            bool near_reversals) {
-  if (!near_reversals) return motor_s >= sweep.steady_begin_s && motor_s <= sweep.steady_end_s;
-  constexpr double kBeyondPlay_rad = 0.2 * kRadPerDeg;  // two steps of the usual encoder
-  return motor_s >= sweep.begin_s && motor_s <= sweep.end_s &&
-         turned_rad > 1.2 * std::abs(rig.play_rad) + kBeyondPlay_rad;
-}
-
-Cloud place(const OffsetProblem& problem, const RigUnknowns& rig, bool near_reversals,
-            std::size_t max_points) {
-  const Recording& recording = *problem.recording;
-  const RigGeometry geometry(recording.rig.mount, rig);
-  const std::vector<std::size_t> sweep_of =
-      assign_sweeps(recording.scans, problem.motor.sweeps, rig.offset_s);
-  const FeatureList& planes = problem.features->planes;
-  MotorSpeedReader speed(recording.motor);
-  SmoothAngle motor(recording.motor);
-  const std::size_t stride = planes.features.size() / std::max<std::size_t>(1, max_points) + 1;
-  Cloud cloud;
-  for (std::size_t scan = 0; scan < recording.scans.size(); ++scan) {
-    if (!problem.scan_used[scan] || sweep_of[scan] == kNoSweep) continue;
-    const Sweep& sweep = problem.motor.sweeps[sweep_of[scan]];
-    const double begin_rad = recording.motor.angle_at(sweep.begin_s);
-    for (std::size_t i = planes.scan_begin[scan]; i < planes.scan_begin[scan + 1]; i += stride) {
-      const Feature& feature = planes.features[i];
-      const double motor_s = feature.time_s + rig.offset_s;
-      const double angle_rad = motor.at(motor_s);
-      if (!counts(sweep, motor_s, std::abs(angle_rad - begin_rad), rig, near_reversals)) continue;
-      cloud.placed.push_back(geometry.place(feature.p_in_motor_m.cast<double>(),
-                                            {angle_rad, speed.speed_rad_s(motor_s), sweep.direction}));
-      cloud.p_m.push_back(cloud.placed.back().p_in_base_m);
-    }
-  }
-  return cloud;
-}
 
 using PlaneRow = Eigen::Vector3d;  // derivative of a distance by the two tilts and the shift of its plane
 
@@ -109,7 +40,7 @@ struct Equations {
   RigVector g = RigVector::Zero();
 };
 
-Sums of_cell(const Cloud& cloud, const PlaneCell& cell, const Surface& surface, double loss_width_m) {
+Sums of_cell(const RigCloud& cloud, const PlaneCell& cell, const Surface& surface, double loss_width_m) {
   const Eigen::Matrix<double, 3, 2> along = across_axis(surface.normal);
   Sums sums;
   for (const std::uint32_t i : cell.points) {
@@ -170,7 +101,7 @@ struct Scene {
   Unevenness unevenness;
 };
 
-double robust_deviation_m(const Cloud& cloud, const Scene& scene) {
+double robust_deviation_m(const RigCloud& cloud, const Scene& scene) {
   std::vector<float> sizes_m;
   for (const PlaneCell& cell : scene.cells)
     for (const std::uint32_t i : cell.points)
@@ -199,7 +130,7 @@ double cells_deviation_m(const Scene& scene, double noise_m, double points_per_i
   return std::sqrt(std::max(kFlattest_m * kFlattest_m, seen_m2 - median(std::move(of_noise_m2))));
 }
 
-Scene scene_of(const Cloud& cloud, const PlaneCellOptions& options, double reach_m, double loss_width_m,
+Scene scene_of(const RigCloud& cloud, const PlaneCellOptions& options, double reach_m, double loss_width_m,
                double points_per_independent) {
   Scene scene;
   scene.cells = plane_cells(cloud.p_m, options);
@@ -317,7 +248,7 @@ RigFit solve_rig_planes(const OffsetProblem& problem, const RigUnknowns& first, 
   RigPriors begun_with = priors;
   begun_with.tail<3>().setZero();
   for (; fit.iterations < options.max_iterations && !job.cancelled(); ++fit.iterations) {
-    const Cloud cloud = place(problem, fit.rig, priors[kPlay] > 0, options.max_points);
+    const RigCloud cloud = place_with_rig(problem, fit.rig, {priors[kPlay] > 0, options.max_points});
     PlaneCellOptions cells_options;
     cells_options.levels = options.max_levels;
     cells_options.flatness_m = options.flatness * loss_width_m;
@@ -341,7 +272,7 @@ RigFit solve_rig_planes(const OffsetProblem& problem, const RigUnknowns& first, 
       fit.covariance = solver.covariance(sum) + scatter(scene, solver, x);
       break;
     }
-    const double width_m = std::max(options.min_loss_width_m, options.loss_widths * fit.residual_m);
+    const double width_m = options.loss_width_m(fit.residual_m);
     narrowed = width_m > 0.9 * loss_width_m;
     loss_width_m = std::min(loss_width_m, std::max(0.6 * loss_width_m, width_m));
   }

@@ -2,6 +2,7 @@
 
 // The mathematics: docs/algorithms.md, section 16.
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -23,6 +24,11 @@ struct RigLeastSquaresOptions {
   std::size_t max_points = 120'000;  // of more points every n-th is used
   int max_levels = 4;                // of PlaneCellOptions: cells of at most 4 m
   double flatness = 0.5, reach = 1;  // in widths of the loss
+
+  /// The width of the loss for residuals of this deviation.
+  double loss_width_m(double residual_m) const {
+    return std::max(min_loss_width_m, loss_widths * residual_m);
+  }
 };
 
 /// The rig that makes flat surfaces flattest.

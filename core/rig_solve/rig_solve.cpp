@@ -131,7 +131,12 @@ SolvedRig solved_with(const OffsetProblem& problem, const RigFit& fit, const Rig
   solved.encoder = finding(what.encoder, determined(fit, priors, {kEncoderSine, kEncoderCosine}),
                            "The surfaces in view do not determine the encoder's first harmonic.");
   solved.found = fit.rig;
-  if (!what.encoder) solved.found.encoder_rad.setZero();
+  if (!solved.mount.identifiable) {
+    solved.found.turn_rad.setZero();
+    solved.found.shift_m.setZero();
+  }
+  if (!solved.play.identifiable) solved.found.play_rad = 0;
+  if (!solved.encoder.identifiable) solved.found.encoder_rad.setZero();
   solved.priors = priors_of(what);
   solved.covariance = fit.covariance;
   solved.residual_after_m = fit.residual_m;
@@ -140,7 +145,7 @@ SolvedRig solved_with(const OffsetProblem& problem, const RigFit& fit, const Rig
   solved.surfaces = fit.planes;
   solved.converged = fit.converged;
   solved.iterations = fit.iterations;
-  solved.rig = problem.recording->rig;
+  solved.given = solved.rig = problem.recording->rig;
   solved.rig.mount = changed(solved.rig.mount, solved.found);
   set_gear(solved.rig.gear, solved.found.gear());
   return solved;
@@ -180,6 +185,9 @@ SolvedRig solve_rig(const OffsetProblem& problem, double first_offset_s, const R
   const RigFit fit = fit_at_two_scales(problem, first, priors, job);
   SolvedRig solved = solved_with(problem, fit, priors, what);
   solved.residual_before_m = before.residual_m;
+  ResidualGridOptions grid;
+  grid.loss_width_m = RigLeastSquaresOptions().loss_width_m(fit.residual_m);
+  solved.residuals = rig_residuals(problem, before.rig, solved.found, grid);
   solved.offset_sigma_s = added_sigma_s(fit.covariance, priors);
   if (one_speed)
     leave_play_open(solved, what.play_deg, problem.motor.median_speed_rad_s,

@@ -9,6 +9,7 @@
 #include "core/job.hpp"
 #include "core/loam/sweep_features.hpp"
 #include "core/rig_solve/rig_least_squares.hpp"
+#include "core/rig_solve/rig_residuals.hpp"
 
 namespace sweepscope {
 
@@ -33,7 +34,8 @@ struct RigFinding {
 
 /// The rig found from a recording.
 struct SolvedRig {
-  Rig rig;  // the recording's, with what was found
+  Rig given;  // the recording's
+  Rig rig;    // the same with what was found
   RigFinding mount, play, encoder;
   RigUnknowns found;     // about the recording's rig
   RigPriors priors;      // standard deviations; 0: not solved for
@@ -43,6 +45,7 @@ struct SolvedRig {
   double offset_sigma_s = 0;
   double residual_before_m = 0, residual_after_m = 0;  // robust deviation from flat surfaces
   double unevenness_m = 0;                             // deviation of the parts of a wall from its plane
+  RigResiduals residuals;                              // over the motor's angle and the beam
   std::size_t points = 0, surfaces = 0;
   bool converged = false;
   int iterations = 0;

@@ -180,6 +180,26 @@ Result<const Estimate*> FigureData::estimate(const std::string& name) {
   return &estimates_.emplace(name, std::move(*found)).first->second;
 }
 
+Result<std::shared_ptr<const SolvedRig>> FigureData::solved_rig(const std::string& name) {
+  const EstimateSpec& spec = recipe_.estimates.at(name);
+  if (!spec.file.empty() || !spec.options.solve.any())
+    return failure(ExitCode::kWrongUsage,
+                   fmt::format("{}: estimate {} needs solve, such as solve: \"offset,mount\", and no file",
+                               recipe_.path.string(), name));
+  const auto data = recording(spec.recording);
+  if (!data) return tl::unexpected(data.error());
+  said_("solve for the rig of " + name);
+  const auto found = sweepscope::estimate(**data, spec.options, job_);
+  if (!found) return tl::unexpected(found.error());
+  if (found->interrupted) return failure(ExitCode::kInterrupted, "interrupted in estimate " + name);
+  if (!found->rig)
+    return failure(
+        ExitCode::kNotIdentifiable,
+        fmt::format("estimate {}: {}", name,
+                    found->reasons.empty() ? "the rig could not be solved for" : found->reasons[0]));
+  return found->rig;
+}
+
 Result<void> FigureData::build(const std::string& name, bool true_poses, bool with_features,
                                std::span<const MapSpec> specs, std::vector<ComparedMap>& maps) {
   const auto data = source(name);

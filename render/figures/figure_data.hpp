@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -12,6 +13,7 @@
 #include "core/job.hpp"
 #include "core/offset/estimate.hpp"
 #include "core/recording/recording.hpp"
+#include "core/rig_solve/rig_solve.hpp"
 #include "render/figures/recipe.hpp"
 
 namespace sweepscope {
@@ -30,6 +32,8 @@ class FigureData {
 
   Result<const Recording*> recording(const std::string& name);
   Result<const Estimate*> estimate(const std::string& name);
+  /// The rig that an estimate with `solve` found, computed each time: files of estimates hold no residuals.
+  Result<std::shared_ptr<const SolvedRig>> solved_rig(const std::string& name);
   /// Maps of one recording are built from the same scans. `with_features`: with each point's kind.
   Result<std::vector<ComparedMap>> maps(std::span<const MapSpec> specs, bool with_features);
   /// The maps of a page and what draws them at any offset.

@@ -19,6 +19,7 @@
 #include "render/figures/figure_data.hpp"
 #include "render/figures/figure_pictures.hpp"
 #include "render/figures/figure_table.hpp"
+#include "render/figures/residual_picture.hpp"
 #include "render/figures/trend_picture.hpp"
 #include "render/page/html.hpp"
 #include "render/page/page.hpp"
@@ -187,6 +188,14 @@ Result<Made> make(const OverTimeFigure& figure, const ComparisonOptions& look, F
   if (!estimate) return tl::unexpected(estimate.error());
   return over_time_chart(**estimate, style_of(look.background)).map([&](const Chart& chart) {
     return Made{charts_picture(std::span(&chart, 1), look), figure.estimate};
+  });
+}
+
+Result<Made> make(const ResidualsFigure& figure, const ComparisonOptions& look, FigureData& data) {
+  return data.solved_rig(figure.estimate).and_then([&](const auto& rig) -> Result<Made> {
+    if (rig->residuals.before.empty())
+      return failure(ExitCode::kNotIdentifiable, figure.estimate + ": no flat surface is in view");
+    return Made{residual_picture(rig->residuals, look), figure.estimate};
   });
 }
 

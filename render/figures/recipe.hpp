@@ -80,6 +80,11 @@ struct OverTimeFigure {
   std::string estimate;
 };
 
+/// Distances from flat surfaces over motor angle and beam, before and after, of an estimate with `solve`.
+struct ResidualsFigure {
+  std::string estimate;
+};
+
 /// The offsets of many recordings, from a table that `estimate --table` wrote as JSON.
 struct TrendFigure {
   std::filesystem::path table;
@@ -94,8 +99,8 @@ struct InteractiveFigure {
 
 struct FigureSpec {
   std::string name;  // of the files
-  std::variant<MapsFigure, CurvesFigure, ProfileFigure, ScanFigure, OverTimeFigure, TrendFigure,
-               InteractiveFigure>
+  std::variant<MapsFigure, CurvesFigure, ProfileFigure, ScanFigure, OverTimeFigure, ResidualsFigure,
+               TrendFigure, InteractiveFigure>
       what;
   ComparisonOptions look;
   std::vector<PictureFormat> formats;  // empty for a page

@@ -102,6 +102,12 @@ void add_members(Members& members, OverTimeFigure& figure, const std::string&, c
   };
 }
 
+void add_members(Members& members, ResidualsFigure& figure, const std::string&, const Recipe& recipe) {
+  members["estimate"] = [&recipe, &figure](const Node& v) {
+    figure.estimate = read_reference(v, recipe.estimates, "estimate");
+  };
+}
+
 void add_members(Members& members, TrendFigure& figure, const std::string& name, const Recipe& recipe) {
   members["table"] = [&recipe, &figure, name](const Node& v) {
     figure.table = recipe.path.parent_path() / read_text(v, name + ": table");
@@ -112,17 +118,15 @@ using Shown = decltype(FigureSpec::what);
 
 /// The figure as it is before its members are read: the kind alone.
 Shown read_kind(const Node& node, const std::string& name) {
-  static const std::map<std::string, Shown> kinds{{"maps", MapsFigure{}},
-                                                  {"curves", CurvesFigure{}},
-                                                  {"profile", ProfileFigure{}},
-                                                  {"scan", ScanFigure{}},
-                                                  {"over-time", OverTimeFigure{}},
-                                                  {"trend", TrendFigure{}},
-                                                  {"interactive", InteractiveFigure{}}};
+  static const std::map<std::string, Shown> kinds{
+      {"maps", MapsFigure{}},   {"curves", CurvesFigure{}},          {"profile", ProfileFigure{}},
+      {"scan", ScanFigure{}},   {"over-time", OverTimeFigure{}},     {"residuals", ResidualsFigure{}},
+      {"trend", TrendFigure{}}, {"interactive", InteractiveFigure{}}};
   if (!node.IsMap()) refuse(node, name + " must be a map of keys to values");
   const Node kind = node["kind"];
   if (!kind.IsDefined())
-    refuse(node, name + " needs a kind: maps, curves, profile, scan, over-time, trend or interactive");
+    refuse(node,
+           name + " needs a kind: maps, curves, profile, scan, over-time, residuals, trend or interactive");
   return read_choice<Shown>(kind, name + ": kind", kinds);
 }
 
@@ -144,6 +148,10 @@ void check_complete(const ScanFigure& figure, const Node& node, const std::strin
 }
 
 void check_complete(const OverTimeFigure& figure, const Node& node, const std::string& name) {
+  if (figure.estimate.empty()) refuse(node, name + " needs an estimate");
+}
+
+void check_complete(const ResidualsFigure& figure, const Node& node, const std::string& name) {
   if (figure.estimate.empty()) refuse(node, name + " needs an estimate");
 }
 

@@ -80,6 +80,32 @@ Result<ColourTable> colour_table(std::string_view name) {
                  fmt::format("There is no colour table \"{}\"; there are {}", name, fmt::join(kNames, ", ")));
 }
 
+/// PuOr of eleven classes (Brewer, ColorBrewer 2.0), reversed, with straight lines between.
+ColourTable diverging_table() {
+  constexpr std::array<Colour, 11> kClasses{{{45, 0, 75},
+                                             {84, 39, 136},
+                                             {128, 115, 172},
+                                             {178, 171, 210},
+                                             {216, 218, 235},
+                                             {247, 247, 247},
+                                             {254, 224, 182},
+                                             {253, 184, 99},
+                                             {224, 130, 20},
+                                             {179, 88, 6},
+                                             {127, 59, 8}}};
+  ColourTable table;
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    const double at = static_cast<double>(i) / 255 * (kClasses.size() - 1);
+    const auto below = std::min(static_cast<std::size_t>(at), kClasses.size() - 2);
+    const auto between = [&](std::uint8_t from, std::uint8_t to) {
+      return to_byte(std::lerp(from / 255.0, to / 255.0, at - static_cast<double>(below)));
+    };
+    const Colour &from = kClasses[below], &to = kClasses[below + 1];
+    table[i] = {between(from.red, to.red), between(from.green, to.green), between(from.blue, to.blue)};
+  }
+  return table;
+}
+
 Colour ColourScale::at(double value) const {
   if (std::isnan(value)) return no_value;
   const double t = to > from ? (value - from) / (to - from) : 0.5;

@@ -23,6 +23,10 @@ std::span<const std::string_view> colour_table_names();
 /// An unknown name is ExitCode::kWrongUsage; the message lists the known names.
 Result<ColourTable> colour_table(std::string_view name);
 
+/// For values about 0, which is nearly white in the middle: violet below, orange above. Safe for colour-blind
+/// eyes.
+ColourTable diverging_table();
+
 /// The mapping from values to colours: [from, to] is spread over the table; values beyond get the colours of
 /// its ends, and NaN a separate one.
 struct ColourScale {

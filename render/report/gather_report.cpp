@@ -83,6 +83,16 @@ Result<void> add_over_time(ReportContent& content, const PreparedRecording& prep
   return {};
 }
 
+/// All that stands beside the answer; `prepared` has the rig that the answer was found with.
+Result<void> add_evidence(ReportContent& content, const PreparedRecording& prepared,
+                          const ReportOptions& wanted, CandidateStore* kept, const Job& job) {
+  if (auto followed = add_over_time(content, prepared, wanted.assume, job); !followed) return followed;
+  if (!content.estimate.identifiable) return {};
+  return add_criteria(content, prepared, kept, job).and_then([&] {
+    return add_maps(content, prepared, wanted.live_points, job);
+  });
+}
+
 }  // namespace
 
 Result<ReportContent> gather_report(const PreparedRecording& prepared, const ReportOptions& wanted,
@@ -93,15 +103,18 @@ Result<ReportContent> gather_report(const PreparedRecording& prepared, const Rep
   if (motion.answered()) content.recording.motion = motion.moving() ? "moving" : "stationary";
   EstimateOptions options;
   options.assume = wanted.assume;
+  options.solve = wanted.solve;
   auto found = estimate(prepared, options, {}, job);
   if (!found) return tl::unexpected(found.error());
   if (found->interrupted) return failure(ExitCode::kInterrupted, "interrupted while looking for the offset");
   content.estimate = std::move(*found);
-  if (auto followed = add_over_time(content, prepared, wanted.assume, job); !followed)
-    return tl::unexpected(followed.error());
-  if (!content.estimate.identifiable) return content;
-  return add_criteria(content, prepared, kept, job)
-      .and_then([&] { return add_maps(content, prepared, wanted.live_points, job); })
+  if (!content.estimate.rig)
+    return add_evidence(content, prepared, wanted, kept, job).map([&] { return std::move(content); });
+  const Recording corrected = with_rig(*prepared.recording, *content.estimate.rig);
+  return prepare(corrected, prepared.feature_options, job)
+      .and_then([&](const PreparedRecording& as_found) {
+        return add_evidence(content, as_found, wanted, kept, job);
+      })
       .map([&] { return std::move(content); });
 }
 

@@ -7,10 +7,12 @@
 #include <string_view>
 
 #include "core/io/printable_text.hpp"
+#include "core/results/rig_parameters.hpp"
 #include "render/charts/curve_charts.hpp"
 #include "render/charts/over_time_chart.hpp"
 #include "render/comparison/comparison.hpp"
 #include "render/figures/figure_pictures.hpp"
+#include "render/figures/residual_picture.hpp"
 #include "render/page/html.hpp"
 #include "render/page/page.hpp"
 #include "render/vector/vector_file.hpp"
@@ -175,6 +177,54 @@ Result<std::string> curves(const ReportContent& content) {
       still_class(content), html::element("h2", "The criteria over the offset"), pictures);
 }
 
+std::string parameter_row(const RigParameter& parameter) {
+  const std::string unit = parameter.unit == "deg" ? "°" : " " + parameter.unit;
+  const std::string prior = parameter.prior ? fmt::format("± {:.4g}{}", *parameter.prior, unit) : "";
+  return fmt::format(
+      "<tr><td>{}</td><td class=\"number-cell\">{:.4g}{}</td><td class=\"number-cell\">{}</td><td "
+      "class=\"number-cell\">{}</td></tr>\n",
+      html::escape(parameter.name), parameter.given + 0.0, unit, in_words(parameter), prior);
+}
+
+std::string rig_table(const SolvedRig& solved) {
+  std::string rows =
+      "<tr><th></th><th class=\"number-cell\">rig file</th><th class=\"number-cell\">found</th><th "
+      "class=\"number-cell\">prior</th></tr>\n";
+  for (const RigParameter& parameter : rig_parameters(solved)) rows += parameter_row(parameter);
+  std::string reasons;
+  for (const std::string& reason : reasons_of(solved)) reasons += html::element("li", html::escape(reason));
+  if (!reasons.empty()) reasons = "<ul>" + reasons + "</ul>\n";
+  return in_table(rows) + reasons +
+         fmt::format(
+             "<p class=\"caption\">One standard deviation each. Kept: turning the laser about the motor's axis "
+             "and shifting it along the axis have no effect on a map. Points lie {:.2f} mm from flat surfaces "
+             "with the rig file and {:.2f} mm with the rig found; {} points on {} surfaces.</p>\n",
+             solved.residual_before_m * 1e3, solved.residual_after_m * 1e3, solved.points, solved.surfaces);
+}
+
+/// What was solved for beside the offset, and how it shows.
+Result<std::string> rig_part(const ReportContent& content) {
+  if (!content.estimate.rig) return std::string();
+  const SolvedRig& solved = *content.estimate.rig;
+  const std::string table = html::element("h2", "The rig") + rig_table(solved);
+  if (solved.residuals.before.empty()) return table;
+  const auto svg_of = [&](int width_px, int height_px) {
+    ComparisonOptions look;
+    look.background = Background::kWhite;
+    look.width_px = width_px;
+    look.height_px = height_px;
+    return encode_svg(residual_picture(solved.residuals, look));
+  };
+  return both_widths(svg_of(1100, 520), svg_of(460, 800)).map([&](const std::string& pictures) {
+    return table +
+           figure(
+               "residuals", pictures,
+               "How far the points lie from flat surfaces, over the motor's angle and the direction of the "
+               "beam. A wrong mount or encoder shows as a pattern; what is left is the range noise. Orange: "
+               "beyond the surface; violet: before it; grey: too few points.");
+  });
+}
+
 Result<std::string> over_time_strip(const ReportContent& content) {
   if (!content.over_time || !content.over_time->over_time) return std::string();
   const auto chart = over_time_chart(*content.over_time, style_of(Background::kWhite));
@@ -256,18 +306,19 @@ std::string report_command(const std::string& recording_name, const std::string&
 }
 
 Result<std::string> report_html(const ReportContent& content) {
+  const auto rig = rig_part(content);
   const auto strip = over_time_strip(content);
   const auto curve_part = curves(content), map_part = maps(content), profile_part = profile(content);
   const auto data = content.live ? live_map_data(*content.live) : Result<std::string>();
-  for (const auto* part : {&strip, &curve_part, &map_part, &profile_part, &data}) {
+  for (const auto* part : {&rig, &strip, &curve_part, &map_part, &profile_part, &data}) {
     if (!*part) return tl::unexpected(part->error());
   }
   const std::string name = html::escape(content.recording.name);
   const std::string body = fmt::format(
       "<h1>{0}</h1>\n<p>Offset between the laser scanner's clock and its motor's.</p>\n{1}{2}"
-      "<h2>Warnings</h2>\n{3}{4}{5}{6}{7}{8}<h2>What was recorded</h2>\n{9}"
-      "<h2>How this was made</h2>\n<p>{10} sweeps, {11} scans; sweepscope {12}.</p>\n<pre>{13}</pre>\n",
-      name, answer(content.estimate), criteria_table(content), warnings_list(content), *strip,
+      "<h2>Warnings</h2>\n{3}{4}{5}{6}{7}{8}{9}<h2>What was recorded</h2>\n{10}"
+      "<h2>How this was made</h2>\n<p>{11} sweeps, {12} scans; sweepscope {13}.</p>\n<pre>{14}</pre>\n",
+      name, answer(content.estimate), criteria_table(content), warnings_list(content), *rig, *strip,
       content.live ? live_map_part(*content.live) : "", *curve_part, *map_part, *profile_part,
       recorded(content.recording), content.estimate.sweeps, content.estimate.scans, SWEEPSCOPE_VERSION,
       html::escape(content.command));

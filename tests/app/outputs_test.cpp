@@ -60,6 +60,10 @@ constexpr Slot kSlots[] = {
     {"view_cloud", "view {REC} --rig {RIG} --poses {POSES} --headless --run 'export-cloud a {OUT}'", ".ply"},
     {"view_curve", "view {SESSION} --rig {RIG} --headless --script {SCRIPT} --run 'export-curve {OUT}'",
      ".json"},
+    {"view_rig",
+     "view {REC} --rig {RIG} --headless --run 'solve-for offset,mount; estimate; wait estimated; export-rig "
+     "{OUT}'",
+     ".yaml"},
     {"view_report", "view {REC} --rig {RIG} --headless --run 'export-report {OUT}'", "", "report.html"},
 };
 

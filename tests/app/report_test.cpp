@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "tests/program.hpp"
 
 namespace sweepscope {
@@ -63,6 +65,23 @@ TEST_F(ReportCommand, IsTheSameToTheByteWhereverFilesLieAndForAnyNumberOfThreads
   for (const char* file : {"report.html", "estimate.json"})
     EXPECT_EQ(test::contents_of(folder_ / "far/other" / file), test::contents_of(folder_ / "out" / file))
         << file;
+}
+
+TEST_F(ReportCommand, SolvesForTheRigAsEstimateDoes) {
+  ASSERT_EQ(run("simulate room-2 --duration-s 4 --mount-error-deg 0,3,-4 -o r.bag").exit_code, 0);
+  const Outcome outcome = run("report r.bag -o out --points 0 --solve offset,mount,play --prior mount_deg=5");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(page().find("sweepscope report r.bag --solve offset,mount,play --prior mount_deg=5 -o report"),
+            std::string::npos);
+  EXPECT_NE(page().find("The motor turns at one speed only"), std::string::npos);
+  const auto of = [&](const std::string& file) {
+    return nlohmann::json::parse(test::contents_of(folder_ / file));
+  };
+  ASSERT_EQ(
+      run("estimate r.bag --solve offset,mount,play --prior mount_deg=5 --no-timing --json e.json").exit_code,
+      0);
+  EXPECT_EQ(of("out/estimate.json").at("parameters"), of("e.json").at("parameters"));
+  EXPECT_EQ(run("report r.bag -o out --solve offset,axis").exit_code, 2);
 }
 
 TEST_F(ReportCommand, ARecordingThatCannotAnswerGetsThePageWithTheReasons) {

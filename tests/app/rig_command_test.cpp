@@ -46,6 +46,35 @@ TEST_F(RigCommand, WhatEstimateSolvesForIsWrittenAndReadBack) {
               document.at("offset_ms").get<double>(), 0.002);
   const Outcome again = run("rig room.bag --rig rig.yaml");
   EXPECT_NE(again.out.find("encoder: {amplitude_deg: "), std::string::npos) << again.out;
+  EXPECT_NE(again.out.find("; from the given rig file"), std::string::npos) << again.out;
+  EXPECT_NE(test::contents_of(folder_ / "rig.yaml").find("mount:  # found by estimate --solve: +- "),
+            std::string::npos);
+
+  const Outcome of_estimate = run("rig room.bag --estimate solved.json -o of-estimate.yaml");
+  ASSERT_EQ(of_estimate.exit_code, 0) << of_estimate.err;
+  const std::string text = test::contents_of(folder_ / "of-estimate.yaml");
+  EXPECT_NE(text.find("mount:  # found by estimate --solve in solved.json: +- "), std::string::npos) << text;
+  EXPECT_EQ(run("estimate room.bag --rig of-estimate.yaml --no-timing --json -").out, with.out);
+  const std::string urdf = " --as urdf --estimate solved.json";
+  EXPECT_EQ(run("rig room.bag" + urdf).out, run("rig room.bag --rig rig.yaml" + urdf).out);
+}
+
+TEST_F(RigCommand, WhatTheRecordingDoesNotDetermineIsNamedInTheRigFile) {
+  ASSERT_EQ(run("simulate room-1 --duration-s 4 -o room.bag").exit_code, 0);
+  ASSERT_EQ(run("estimate room.bag --solve offset,play --json E.json --rig-out rig.yaml").exit_code, 0);
+  const Outcome said = run("rig room.bag --estimate E.json");
+  for (const std::string& text : {said.out, test::contents_of(folder_ / "rig.yaml")}) {
+    EXPECT_NE(text.find("# play_deg: 0"), std::string::npos) << text;
+    EXPECT_NE(text.find("as it was: The motor turns at one speed only"), std::string::npos) << text;
+  }
+}
+
+TEST_F(RigCommand, AnEstimateThatSolvedForNothingHasNoRig) {
+  ASSERT_EQ(run("simulate room-1 --duration-s 3 -o room.bag").exit_code, 0);
+  ASSERT_EQ(run("estimate room.bag --json E.json").exit_code, 0);
+  const Outcome said = run("rig room.bag --estimate E.json");
+  EXPECT_EQ(said.exit_code, 2);
+  EXPECT_NE(said.err.find("--solve"), std::string::npos) << said.err;
 }
 
 TEST_F(RigCommand, SolveTakesTheNamesOfPartsAndPriorsAboveZero) {

@@ -315,6 +315,47 @@ TEST_F(InARoom, AnotherRecordingForgetsWhatWasAskedOfTheOneBefore) {
   EXPECT_EQ(explorer_.settings().profile_from_m, explorer_.settings().profile_to_m);
 }
 
+TEST_F(InARoom, WhatIsSolvedForIsFoundWithTheOffsetAndSavedAsARigFile) {
+  perform(explorer_, "solve-for offset,mount");
+  perform(explorer_, "estimate");
+  rest(explorer_);
+  const std::string found = explorer_.observe("found-rig").value();
+  EXPECT_TRUE(found.starts_with("mount roll 0.00°, kept; mount pitch ")) << found;
+  EXPECT_NE(found.find("±"), std::string::npos) << found;
+  EXPECT_NE(explorer_.command_line(800, 600).find("solve-for offset,mount"), std::string::npos);
+  const std::string path = scratch("found-rig.yaml").string();
+  perform(explorer_, "export-rig " + path);
+  const auto rig = read_rig(path);
+  ASSERT_TRUE(rig) << rig.error().message;
+  EXPECT_EQ(rig->mount.axis, Eigen::Vector3d::UnitX());
+  EXPECT_NE(rig->mount.laser_in_motor_rpy_deg, Eigen::Vector3d(Eigen::Vector3d::Zero()));
+}
+
+TEST_F(InARoom, ARigThatWasNotSolvedForIsNotExported) {
+  perform(explorer_, "estimate");
+  rest(explorer_);
+  EXPECT_EQ(explorer_.observe("found-rig"), "");
+  const auto done = explorer_.perform("export-rig " + scratch("none.yaml").string());
+  ASSERT_FALSE(done);
+  EXPECT_NE(done.error().message.find("solve for"), std::string::npos) << done.error().message;
+}
+
+TEST(OverTime, AnEstimateInWindowsHasOneOffsetForEach) {
+  Explorer explorer;
+  perform(explorer, "sample room-1 32");
+  rest(explorer);
+  perform(explorer, "search over-time");
+  perform(explorer, "estimate");
+  rest(explorer);
+  EXPECT_EQ(explorer.observe("estimate"), "found");
+  EXPECT_EQ(explorer.observe("found-windows"), "3");
+  EXPECT_NEAR(std::stod(explorer.observe("found-ms").value()), 24, 0.2);
+  perform(explorer, "search-window 15");
+  perform(explorer, "estimate");
+  rest(explorer);
+  EXPECT_EQ(explorer.observe("found-windows"), "2");
+}
+
 TEST(WallProfile, ALineAcrossATownIsDrawnAsFarAsAWallReachesAndWithAChartsWorthOfPoints) {
   Settings settings;
   settings.profile_from_m = {-4000, 10};
@@ -411,7 +452,7 @@ TEST(Failures, ASessionOpensRecordingsAndDoesNothingElse) {
 TEST(Failures, WhatCannotBeDoneNowIsRefused) {
   Explorer explorer;
   for (const char* line : {"estimate", "take-found", "fit-view", "export-curve a.csv", "export-cloud a a.pcd",
-                           "export-report a"}) {
+                           "export-rig a.yaml", "export-report a"}) {
     const auto done = explorer.perform(line);
     ASSERT_FALSE(done) << line;
     EXPECT_EQ(done.error().code, ExitCode::kWrongUsage);

@@ -19,19 +19,6 @@ bool moves_view(const std::string& command) {
   return command.starts_with("camera") || command == "zoom" || command == "pan" || command == "turn";
 }
 
-EstimateOptions estimate_options(const Settings& settings, std::optional<RigKind> assume) {
-  EstimateOptions options;
-  options.assume = assume;
-  // Commands take no other values than these options do.
-  if (settings.method != "automatic") (void)find_estimate_option("method")->set(options, settings.method);
-  if (settings.fit != "automatic") (void)find_estimate_option("fit")->set(options, settings.fit);
-  if (settings.search == Search::kRange) {
-    options.ranges = {
-        {settings.search_from_ms * 1e-3, settings.search_to_ms * 1e-3, settings.search_step_ms * 1e-3}};
-  }
-  return options;
-}
-
 }  // namespace
 
 Explorer::Explorer(Options options) : options_(std::move(options)), input_files_(options_.input_files) {}
@@ -161,6 +148,7 @@ Result<void> Explorer::act(const Call& call) {
          return self.export_cloud(c.text(0) == "a" ? Side::kA : Side::kB, c.text(1));
        }},
       {"export-curve", [](Explorer& self, const Call& c) { return self.export_curve(c.text(0)); }},
+      {"export-rig", [](Explorer& self, const Call& c) { return self.export_rig(c.text(0)); }},
       {"export-report", [](Explorer& self, const Call& c) { return self.export_report(c.text(0)); }}};
   if (auto inside = check_roots(call); !inside) return inside;
   if (auto checked = check_outputs_of(call); !checked) return checked;
@@ -192,10 +180,28 @@ Result<void> Explorer::take_found() {
   return {};
 }
 
+EstimateOptions Explorer::wanted_estimate() const {
+  const Settings& settings = settings_;
+  EstimateOptions options;
+  options.assume = options_.assume;
+  // Commands take no other values than these options do.
+  (void)find_estimate_option("solve")->set(options, settings.solve_for);
+  if (settings.search == Search::kOverTime)
+    (void)find_estimate_option("over-time")
+        ->set(options, settings.window_s < 1 ? std::string() : to_word(Value(settings.window_s)));
+  if (settings.method != "automatic") (void)find_estimate_option("method")->set(options, settings.method);
+  if (settings.fit != "automatic") (void)find_estimate_option("fit")->set(options, settings.fit);
+  if (settings.search == Search::kRange) {
+    options.ranges = {
+        {settings.search_from_ms * 1e-3, settings.search_to_ms * 1e-3, settings.search_step_ms * 1e-3}};
+  }
+  return options;
+}
+
 Result<void> Explorer::start_estimate() {
   if (!loaded_) return not_now("There is no recording to estimate from.");
   background_.cancel("estimate");
-  const EstimateOptions options = estimate_options(settings_, options_.assume);
+  const EstimateOptions options = wanted_estimate();
   growing_ = std::make_shared<GrowingCurve>();
   background_.start(
       "estimate", "estimate", "Estimating the offset",

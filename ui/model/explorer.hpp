@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/offset/estimate.hpp"
+#include "core/offset/estimate_options.hpp"
 #include "ui/model/background.hpp"
 #include "ui/model/file_roots.hpp"
 #include "ui/model/growing_curve.hpp"
@@ -239,11 +240,13 @@ class Explorer {
   void cancel();
   void solve();
   Result<void> take_found();
+  EstimateOptions wanted_estimate() const;
   Result<void> start_estimate();
   void take(Estimate estimate);
   Result<void> save_session(const std::string& path);
   Result<void> export_cloud(Side side, const std::string& path);
   Result<void> export_curve(const std::string& path);
+  Result<void> export_rig(const std::string& path);
   Result<void> export_report(const std::string& folder);
   void change_settings(Settings next, const std::string& gesture);
   Settings with_fitted_view() const;

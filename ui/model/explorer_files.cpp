@@ -8,6 +8,7 @@
 #include "core/io/output_check.hpp"
 #include "core/recording/formats/read_raw_recording.hpp"
 #include "core/results/estimate_json.hpp"
+#include "core/results/found_rig.hpp"
 #include "render/report/gather_report.hpp"
 #include "ui/model/explorer.hpp"
 #include "ui/model/task_plans.hpp"
@@ -50,10 +51,18 @@ std::string found_beside(const std::string& path, const std::filesystem::path& s
 }
 
 /// The options that a report quotes: files without their folders.
-std::string report_options(const Loaded& loaded, const std::optional<RigKind>& assume) {
+std::string report_options(const Loaded& loaded, const std::optional<RigKind>& assume,
+                           const std::string& solve_for) {
   std::string words = shell_options(loaded.choices, false);
+  if (solve_for != Settings().solve_for) words += " --solve " + solve_for;
   if (assume) words += *assume == RigKind::kMoving ? " --assume moving" : " --assume stationary";
   return words;
+}
+
+/// Whether the command writes the file of its first argument.
+bool writes_one_file(const std::string& command) {
+  return command == "save-session" || command == "export-curve" || command == "export-picture" ||
+         command == "export-rig";
 }
 
 /// How a session's recording is read: what the program was started with goes before what the session says.
@@ -240,7 +249,7 @@ std::string Explorer::replaced_by(std::string_view line) const {
   if (!call) return {};
   const std::string& name = call->command->name;
   std::filesystem::path path;
-  if (name == "save-session" || name == "export-curve" || name == "export-picture") path = call->text(0);
+  if (writes_one_file(name)) path = call->text(0);
   if (name == "export-cloud") path = call->text(1);
   if (name == "export-report") path = std::filesystem::path(call->text(0)) / "report.html";
   std::error_code failed;
@@ -256,6 +265,7 @@ std::string Explorer::suggested_file(const std::string& command, const std::stri
   if (command == "save-session") return name + ".session.json";
   if (command == "export-picture") return name + (what == "maps" ? "-maps.png" : ".png");
   if (command == "export-curve") return name + "-criteria.csv";
+  if (command == "export-rig") return name + "-rig.yaml";
   if (command == "export-report") return name + "-report";
   const double offset_ms = what == "a" ? settings_.offset_a_ms : settings_.offset_b_ms;
   return fmt::format("{}-{}ms.pcd", name, offset_ms);
@@ -279,7 +289,7 @@ Result<void> Explorer::check_outputs_of(const Call& call) const {
   std::error_code ignored;
   const bool saves = name == "save-session";
   if (saves && std::filesystem::equivalent(call.text(0), session_file_, ignored)) return {};
-  if (saves || name == "export-curve" || name == "export-picture") return check_outputs({call.text(0)});
+  if (writes_one_file(name)) return check_outputs({call.text(0)});
   if (name == "export-cloud") return check_outputs({call.text(1)});
   return {};
 }
@@ -299,8 +309,7 @@ Result<void> Explorer::check_roots(const Call& call) const {
       if (auto inside = roots.check_write(file); !inside) return inside;
     return roots.check_write(call.text(0));
   }
-  if (name == "save-session" || name == "export-curve" || name == "export-picture")
-    return roots.check_write(call.text(0));
+  if (writes_one_file(name)) return roots.check_write(call.text(0));
   if (name == "export-cloud") return roots.check_write(call.text(1));
   return {};
 }
@@ -362,17 +371,28 @@ Result<void> Explorer::export_curve(const std::string& path) {
   return written;
 }
 
+Result<void> Explorer::export_rig(const std::string& path) {
+  if (!estimate_ || !estimate_->rig)
+    return not_now("No rig has been solved for: choose what to solve for, and estimate the offset.");
+  auto written = write_file(path, found_rig_file(*estimate_->rig, estimate_->recording));
+  if (!written) return written;
+  say(Message::Kind::kNote, fmt::format("The rig file is saved in {}.", whole_path(path)));
+  tell_written(path);
+  return written;
+}
+
 Result<void> Explorer::export_report(const std::string& folder) {
   if (!loaded_) return not_now("There is no recording to report on.");
   const std::string command =
-      report_command(loaded_->recording.name, report_options(*loaded_, options_.assume));
+      report_command(loaded_->recording.name, report_options(*loaded_, options_.assume, settings_.solve_for));
+  ReportOptions wanted{.assume = options_.assume};
+  wanted.solve = wanted_estimate().solve;
   const std::filesystem::path page = std::filesystem::path(folder) / "report.html";
   start_export({.title = "Writing a report",
                 .done = fmt::format("The report is saved in {}.", whole_path(page)),
                 .file = page,
-                .write = [loaded = loaded_, assume = options_.assume, folder,
-                          command](const Job& job) -> Result<void> {
-                  auto content = gather_report(loaded->prepared, {.assume = assume}, nullptr, job);
+                .write = [loaded = loaded_, wanted, folder, command](const Job& job) -> Result<void> {
+                  auto content = gather_report(loaded->prepared, wanted, nullptr, job);
                   if (!content) return tl::unexpected(content.error());
                   content->command = command;
                   job.report("drawing", 0);

@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/io/printable_text.hpp"
+#include "core/results/rig_parameters.hpp"
 #include "render/charts/curve_charts.hpp"
 #include "ui/model/explorer.hpp"
 
@@ -46,6 +48,21 @@ std::string state_word(const Pane& pane) {
 std::string estimate_word(const Estimate* estimate) {
   if (estimate == nullptr) return "none";
   return estimate->identifiable ? "found" : "refused";
+}
+
+std::string windows_found(const Estimate* estimate) {
+  if (estimate == nullptr || !estimate->over_time) return "";
+  const auto& windows = estimate->over_time->windows;
+  return std::to_string(
+      std::ranges::count_if(windows, [](const OffsetWindow& window) { return window.offset_s.has_value(); }));
+}
+
+std::string rig_found(const Estimate* estimate) {
+  if (estimate == nullptr || !estimate->rig) return "";
+  std::string words;
+  for (const RigParameter& parameter : rig_parameters(*estimate->rig))
+    words += fmt::format("{}{} {}", words.empty() ? "" : "; ", parameter.name, in_words(parameter));
+  return words;
 }
 
 std::string thickness_words(const Pane& pane) {
@@ -98,6 +115,8 @@ std::vector<std::pair<std::string, std::string>> Explorer::observables() {
           {"estimate", "none, found or refused"},
           {"candidates", "how many candidates the charts show"},
           {"found-ms", "the offset found"},
+          {"found-windows", "how many windows have an offset of their own; empty unless it was over time"},
+          {"found-rig", "what was solved for beside the offset: \"mount pitch 3.002 ± 0.004°; ...\""},
           {"message", "the message in front; empty without one"},
           {"status", "the status line"},
           {"jobs", "how many jobs run or are queued"},
@@ -129,6 +148,8 @@ std::optional<std::string> Explorer::observe(std::string_view name) const {
   if (name == "candidates") return std::to_string(charted() != nullptr ? charted()->curve.size() : 0);
   if (name == "found-ms")
     return estimate_ && estimate_->offset_s ? fmt::format("{:.4f}", *estimate_->offset_s * 1e3) : "";
+  if (name == "found-windows") return windows_found(estimate());
+  if (name == "found-rig") return rig_found(estimate());
   if (name == "message") return message_ ? message_->text : "";
   if (name == "status") return status();
   if (name == "jobs") return std::to_string(background_.status().size());

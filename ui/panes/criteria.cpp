@@ -9,6 +9,7 @@
 #include "ui/host/paint.hpp"
 #include "ui/panes/chart_mouse.hpp"
 #include "ui/panes/closer.hpp"
+#include "ui/panes/over_time_strip.hpp"
 #include "ui/panes/widgets.hpp"
 
 namespace sweepscope::ui {
@@ -159,11 +160,12 @@ void draw_criteria(const PaneContext& context, const PixelRect& place) {
   const bool scan = context.settings().scan_view;
   const bool profile = !scan && (context.settings().tool == Tool::kProfile ||
                                  context.settings().profile_from_m != context.settings().profile_to_m);
+  const bool windows = !scan && !profile && has_windows(context);
+  const bool closer = scan || profile || windows;
   const double margin = context.px(12), gap = context.px(22), least = context.px(250);
   const double room = place.width - 2 * margin;
   const auto fitting = std::max<std::size_t>(1, static_cast<std::size_t>((room + gap) / (least + gap)));
-  const std::size_t parts =
-      scan || profile ? std::min<std::size_t>(fitting, 3) : std::min(charts.size(), fitting);
+  const std::size_t parts = closer ? std::min<std::size_t>(fitting, 3) : std::min(charts.size(), fitting);
   const double width = (room - gap * static_cast<double>(parts - 1)) / static_cast<double>(parts);
   const auto part = [&](std::size_t from, std::size_t count) {
     const double left = place.left + margin + static_cast<double>(from) * (width + gap);
@@ -172,10 +174,11 @@ void draw_criteria(const PaneContext& context, const PixelRect& place) {
                      place.height - context.px(10)};
   };
   // A closer look takes the place of all charts but the first, whose handles stay at hand.
-  const std::size_t shown = scan || profile ? std::min<std::size_t>(parts - 1, 1) : parts;
+  const std::size_t shown = closer ? std::min<std::size_t>(parts - 1, 1) : parts;
   for (std::size_t i = 0; i < shown; ++i) draw_one(context, charts[i], part(i, 1), i);
   if (scan) draw_scan_view(context, part(shown, parts - shown));
   if (profile) draw_profile_chart(context, part(shown, parts - shown));
+  if (windows) draw_over_time_strip(context, part(shown, parts - shown));
   end_panel();
 }
 

@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/io/printable_text.hpp"
+#include "core/results/rig_parameters.hpp"
 #include "render/charts/curve_charts.hpp"
 #include "ui/panes/widgets.hpp"
 
@@ -57,12 +59,21 @@ void notes(const PaneContext& context, const Loaded& loaded) {
   ImGui::PopFont();
 }
 
+/// Whether an estimate is one of the paper's: only these are fitted, and only the direct method solves for
+/// more than the offset.
+bool is_of_the_paper(const Settings& settings) {
+  const bool direct = settings.method == "automatic" || settings.method == "direct";
+  return !direct || settings.search == Search::kRange || settings.fit != "automatic";
+}
+
 void search(const PaneContext& context) {
+  const Settings& settings = context.settings();
   heading(context, "Search");
   field(context, "method");
   field(context, "search");
-  if (context.settings().search == Search::kRange) field(context, "search-range");
-  field(context, "fit");
+  if (settings.search == Search::kRange) field(context, "search-range");
+  if (settings.search == Search::kOverTime) field(context, "search-window");
+  field(context, is_of_the_paper(settings) ? "fit" : "solve-for");
   ImGui::Dummy({0, context.pxf(2)});
   if (context.explorer.background().has("estimate"))
     button(context, "Cancel", "cancel");
@@ -132,6 +143,64 @@ std::string meaning_of(const Estimate& estimate) {
              sigma_ms, 2 * sigma_ms);
 }
 
+/// The windows of an estimate over time, and the course through them.
+void course_rows(const PaneContext& context, const OffsetOverTime& over_time) {
+  const auto found = std::ranges::count_if(
+      over_time.windows, [](const OffsetWindow& window) { return window.offset_s.has_value(); });
+  row(context, "windows", fmt::format("{} of {} have an offset", found, over_time.windows.size()));
+  if (!over_time.course) return;
+  const OffsetCourse& course = *over_time.course;
+  row(context, "course", course.constant() ? "constant" : "changes; the offset is that at the middle");
+  if (course.rate_sigma > 0)
+    row(context, "drift", fmt::format("{:.2f} ± {:.2f} ppm", course.rate * 1e6, course.rate_sigma * 1e6));
+  for (const OffsetJump& jump : course.jumps)
+    row(context, "jump",
+        fmt::format("{:+.2f} ± {:.2f} ms near {:.0f} s", jump.size_s * 1e3, jump.sigma_s * 1e3,
+                    (jump.begin_s + jump.end_s) / 2));
+}
+
+/// "pitch" of "mount pitch", in a row that names the mount once.
+std::string name_within(const RigParameter& parameter) {
+  const bool has_part = parameter.name.starts_with(parameter.part + " ");
+  return has_part ? parameter.name.substr(parameter.part.size() + 1) + " " : "";
+}
+
+std::string meaning_of(const RigParameter& parameter) {
+  const std::string unit = parameter.unit == "deg" ? "°" : " " + parameter.unit;
+  const std::string by_file = fmt::format("By the rig file {:.4g}{}.", parameter.given + 0.0, unit);
+  switch (parameter.state) {
+    case RigParameter::State::kGauge:
+      return by_file + " Kept: it has no effect but to turn or shift the whole map.";
+    case RigParameter::State::kNotDetermined:
+      return by_file + " The recording does not determine it.";
+    case RigParameter::State::kFound:
+      break;
+  }
+  return by_file + (parameter.sigma ? " ± is one standard deviation (1 sigma)." : "");
+}
+
+/// What was solved for beside the offset.
+void rig_rows(const PaneContext& context, const SolvedRig& solved) {
+  std::string part;
+  for (const RigParameter& parameter : rig_parameters(solved)) {
+    const std::string shown = parameter.part == "play" ? "gear play" : parameter.part;
+    row(context, shown == part ? "" : shown.c_str(), name_within(parameter) + in_words(parameter));
+    context.anchor_last("found " + parameter.name);
+    tooltip(context, meaning_of(parameter));
+    part = shown;
+  }
+  row(context, "surfaces",
+      fmt::format("{:.1f} mm thick, {:.1f} mm with the rig file", solved.residual_after_m * 1e3,
+                  solved.residual_before_m * 1e3));
+  ImGui::PushFont(context.fonts.small);
+  ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(context.style.faint_text));
+  ImGui::TextWrapped(
+      "The maps are drawn with the rig file. Open the recording with the rig found to see its map.");
+  ImGui::PopStyleColor();
+  ImGui::PopFont();
+  button(context, "Export the rig found …", "ask export-rig");
+}
+
 void answer(const PaneContext& context, const Estimate& estimate) {
   heading(context, "Offset found");
   if (estimate.identifiable && estimate.offset_s) {
@@ -146,6 +215,8 @@ void answer(const PaneContext& context, const Estimate& estimate) {
     ImGui::SetCursorPosY(ImGui::GetCursorPosY() + context.pxf(10));
     ImGui::TextDisabled("ms");
     criterion_rows(context, estimate);
+    if (estimate.over_time) course_rows(context, *estimate.over_time);
+    if (estimate.rig) rig_rows(context, *estimate.rig);
     row(context, "from", fmt::format("{} sweeps, {} scans", estimate.sweeps, estimate.scans));
     ImGui::Dummy({0, context.pxf(2)});
     button(context, "Use it for map B", "take-found");

@@ -95,6 +95,10 @@ void add_actions(std::vector<Command>& all) {
                        {choice_of("MAP", {"a", "b"}), text_of("FILE")}));
   all.push_back(action({"export-curve", "Export the criteria", "As CSV or JSON, by the file's ending."},
                        {text_of("FILE")}));
+  all.push_back(action({"export-rig", "Export the rig found",
+                        "The rig file with what was solved for beside the offset, as `estimate --rig-out` "
+                        "writes it."},
+                       {text_of("FILE")}));
   all.push_back(action({"export-report", "Export a report",
                         "One HTML page into a folder: the offset, its evidence and the maps, as `sweepscope "
                         "report` writes it."},
@@ -103,14 +107,14 @@ void add_actions(std::vector<Command>& all) {
   all.push_back(action({"help", "Keys", "The list of keys."}));
   all.push_back(
       action({"dismiss", "Close what is in front", "The palette, a dialog, a message, or the tool."}));
-  all.push_back(
-      action({"ask", "Ask for a file", "Shows the dialog that asks for a command's file."},
-             {choice_of("COMMAND", {"open", "choose", "choose-rig", "choose-poses", "save-session",
-                                    "export-picture", "export-cloud", "export-curve", "export-report"}),
-              {.name = "WHAT",
-               .kind = Kind::kChoice,
-               .choices = {"a", "b", "everything", "maps"},
-               .optional = true}}));
+  all.push_back(action(
+      {"ask", "Ask for a file", "Shows the dialog that asks for a command's file."},
+      {choice_of("COMMAND", {"open", "choose", "choose-rig", "choose-poses", "save-session", "export-picture",
+                             "export-cloud", "export-curve", "export-rig", "export-report"}),
+       {.name = "WHAT",
+        .kind = Kind::kChoice,
+        .choices = {"a", "b", "everything", "maps"},
+        .optional = true}}));
   all.push_back(action({"menu", "Open a menu", "Shows it, for the arrow keys, Enter and Escape."},
                        {choice_of("MENU", {"file", "edit", "offset", "view", "tools", "help"})}));
   all.push_back(

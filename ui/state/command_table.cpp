@@ -17,7 +17,8 @@ Need need_of(const std::string& name) {
       {"export-picture", Need::kRecording}, {"export-report", Need::kRecording},
       {"play", Need::kRecording},           {"next-place", Need::kPlaces},
       {"look-at-place", Need::kPlaces},     {"take-found", Need::kEstimate},
-      {"export-curve", Need::kEstimate},    {"export-cloud", Need::kPoints}};
+      {"export-curve", Need::kEstimate},    {"export-rig", Need::kEstimate},
+      {"export-cloud", Need::kPoints}};
   const auto need = kNeeds.find(name);
   return need == kNeeds.end() ? Need::kNothing : need->second;
 }

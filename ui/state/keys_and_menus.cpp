@@ -93,6 +93,7 @@ std::span<const MenuItem> menu_items() {
       {"File", "Export the points of map A …", "ask export-cloud a"},
       {"File", "Export the points of map B …", "ask export-cloud b"},
       {"File", "Export the criteria …", "ask export-curve"},
+      {"File", "Export the rig found …", "ask export-rig"},
       {"File", "Export a report …", "ask export-report"},
       {"File", "", ""},
       {"File", "Close the recording", "close"},

@@ -92,6 +92,26 @@ Command estimate_choice(const CommandWords& words, std::string Settings::*field)
           [field](Settings& s, const Values& v) { s.*field = std::get<std::string>(v[0]); }};
 }
 
+/// Every value of the option "solve" in which each part is named once.
+std::vector<std::string> parts_to_solve_for() {
+  std::vector<std::string> choices{"offset"};
+  for (const char* part : {"mount", "play", "encoder"}) {
+    const std::vector<std::string> without = choices;
+    for (const std::string& parts : without) choices.push_back(parts + "," + part);
+  }
+  return choices;
+}
+
+Command solve_for() {
+  return {"solve-for",
+          "Solve for",
+          "Parts of a stationary rig beside the offset: how the laser is mounted on the motor, the play of "
+          "the gear, the encoder's eccentricity. By the direct method.",
+          {choice_of("WHICH", parts_to_solve_for())},
+          [](const Settings& s) { return Values{s.solve_for}; },
+          [](Settings& s, const Values& v) { s.solve_for = std::get<std::string>(v[0]); }};
+}
+
 Command camera(const CommandWords& words, ViewPoint Settings::*field) {
   return {words.name,
           words.title,
@@ -319,9 +339,17 @@ void add_fields_of_tools(std::vector<Command>& all) {
                         "Which place the close-up shows: 1 is where the maps differ most. Long walls come "
                         "after compact objects, which differ in all directions."},
                        &Settings::place, number_of("NUMBER", "", 1, 12, 1)));
-  all.push_back(choice(
-      {"search", "Search", "Automatic: coarse to fine about 0 ms. Range: the candidates that you specify."},
-      &Settings::search, {"automatic", "range"}));
+}
+
+void add_fields_of_estimates(std::vector<Command>& all) {
+  all.push_back(
+      choice({"search", "Search",
+              "Automatic: coarse to fine about 0 ms. Range: the candidates that you specify. Over time: the "
+              "offset in windows, and its course: constant, drifting or with jumps."},
+             &Settings::search, {"automatic", "range", "over-time"}));
+  all.push_back(number({"search-window", "Windows",
+                        "The length of the windows of a search over time. 0: 10 s, and at least 12 sweeps."},
+                       &Settings::window_s, number_of("LENGTH", "s", 0, 86400, 1)));
   all.push_back(
       Command{"search-range",
               "Candidates",
@@ -336,6 +364,7 @@ void add_fields_of_tools(std::vector<Command>& all) {
                 s.search_to_ms = std::get<double>(v[1]);
                 s.search_step_ms = std::get<double>(v[2]);
               }});
+  all.push_back(solve_for());
   all.push_back(estimate_choice(
       {"method", "Method",
        "Stationary: the offset at which odometry registers the least motion d (equation 3). Moving: the "
@@ -400,6 +429,7 @@ void add_settings(std::vector<Command>& all) {
   add_fields_of_maps(all);
   add_fields_of_display(all);
   add_fields_of_tools(all);
+  add_fields_of_estimates(all);
   add_edits(all);
 }
 

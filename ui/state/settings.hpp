@@ -24,7 +24,7 @@ enum class Heights { kSharp, kAll, kSlab };
 enum class Theme { kDark, kLight };
 enum class Backdrop { kTheme, kBlack, kWhite };
 enum class Tool { kLook, kPick, kMeasure, kProfile };
-enum class Search { kAutomatic, kRange };
+enum class Search { kAutomatic, kRange, kOverTime };
 
 /// Everything that a person can set in the explorer, and that a session keeps. Data alone; each field has
 /// one command (commands.hpp) that sets it.
@@ -65,6 +65,8 @@ struct Settings {
 
   Search search = Search::kAutomatic;
   double search_from_ms = 19, search_to_ms = 29, search_step_ms = 1;
+  double window_s = 0;               // of a search over time; below 1: chosen by the program
+  std::string solve_for = "offset";  // as the option "solve" takes it
   std::string method = "automatic",
               fit = "automatic";  // or a value of the option of that name (EstimateOption)
 

@@ -188,6 +188,9 @@ Result<DetectedRig> detect_rig(const std::filesystem::path& path, const ReadOpti
   } else if (evidence->mount) {
     take_mount(*evidence->mount, *recording, detected);
   }
+  // Nothing in a recording shows the gear.
+  if (detected.rig.gear.play_deg > 0) detected.play_note = "from the given rig file";
+  if (detected.rig.gear.encoder_amplitude_deg > 0) detected.encoder_note = "from the given rig file";
   return detected;
 }
 

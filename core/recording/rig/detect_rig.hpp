@@ -16,6 +16,7 @@ struct DetectedRig {
   Rig rig;
   std::string recording;
   std::string laser_note, stamp_at_note, increment_note, motor_note, scale_note, mount_note;
+  std::string play_note, encoder_note;       // of the gear
   bool mount_found = false;                  // in the recording's transforms
   std::vector<RecordedTopic> motion_topics;  // of sensor_msgs/Imu and nav_msgs/Odometry
 };

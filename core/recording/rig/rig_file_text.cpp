@@ -69,14 +69,25 @@ std::string mount_text(const DetectedRig& detected) {
                      vector_text(mount.laser_in_motor_xyz_m), vector_text(mount.laser_in_motor_rpy_deg));
 }
 
-std::string gear_text(const Rig::Gear& gear) {
+std::string noted(const std::string& meaning, const std::string& note) {
+  return note.empty() ? meaning : meaning + "; " + note;
+}
+
+/// A part that is perfect is not written; why it was not determined is.
+std::string gear_text(const DetectedRig& detected) {
+  const Rig::Gear& gear = detected.rig.gear;
   std::string text;
   if (gear.play_deg > 0)
-    text += line(fmt::format("play_deg: {:.6g}", gear.play_deg), "between the flanks of the motor's gear");
+    text += line(fmt::format("play_deg: {:.6g}", gear.play_deg),
+                 noted("between the flanks of the motor's gear", detected.play_note));
+  else if (!detected.play_note.empty())
+    text += line("# play_deg: 0", detected.play_note);
   if (gear.encoder_amplitude_deg > 0)
     text += line(fmt::format("encoder: {{amplitude_deg: {:.6g}, phase_deg: {:.6g}}}",
                              gear.encoder_amplitude_deg, gear.encoder_phase_deg),
-                 "shows the shaft's angle + amplitude sin(angle + phase)");
+                 noted("shows the shaft's angle + amplitude sin(angle + phase)", detected.encoder_note));
+  else if (!detected.encoder_note.empty())
+    text += line("# encoder: {amplitude_deg: 0, phase_deg: 0}", detected.encoder_note);
   return text;
 }
 
@@ -106,7 +117,7 @@ std::string motion_text(const DetectedRig& detected) {
 std::string rig_file_text(const DetectedRig& detected) {
   return "# The rig of " + printable_line(detected.recording) +
          ", as detected. Give it with --rig; what is deleted here is detected again.\n" +
-         laser_text(detected) + motor_text(detected) + mount_text(detected) + gear_text(detected.rig.gear) +
+         laser_text(detected) + motor_text(detected) + mount_text(detected) + gear_text(detected) +
          motion_text(detected);
 }
 

@@ -36,6 +36,23 @@ TEST(FigureData, EveryOptionOfAnEstimateMakesAnotherOneOfIt) {
   EXPECT_EQ(lines.size(), options);
 }
 
+TEST(FigureData, ResidualsNeedAnEstimateThatSolvesForThemHere) {
+  Recipe recipe;
+  SimulationOptions room;
+  room.scene = "room-1";
+  room.duration_s = 1;
+  recipe.recordings["room"].source = room;
+  recipe.estimates["offset alone"].recording = "room";
+  recipe.estimates["of a file"] = {"room", {}, "room.json"};
+  FigureData data(recipe, "", Job(), [](const std::string&) {});
+  for (const char* name : {"offset alone", "of a file"}) {
+    const auto rig = data.solved_rig(name);
+    ASSERT_FALSE(rig);
+    EXPECT_EQ(rig.error().code, ExitCode::kWrongUsage);
+    EXPECT_NE(rig.error().message.find("needs solve"), std::string::npos) << rig.error().message;
+  }
+}
+
 class InterruptedFigures : public test::FolderTest {
  protected:
   /// The names in the cache that end so.

@@ -62,6 +62,18 @@ TEST_F(RecipeTest, ReadsAFigureOfTheOffsetOverTime) {
   EXPECT_EQ(refusal(kData + "figures: {a: {kind: over-time}}\n"), "3:14: figure a needs an estimate");
 }
 
+TEST_F(RecipeTest, ReadsAFigureOfTheResidualsOfARig) {
+  const auto recipe = read(
+      "recordings: {room: {simulate: room-1}}\n"
+      "estimates: {room: {recording: room, solve: \"offset,mount\", prior: mount_deg=2}}\n"
+      "figures: {a: {kind: residuals, estimate: room}}\n");
+  ASSERT_TRUE(recipe) << recipe.error().message;
+  EXPECT_TRUE(recipe->estimates.at("room").options.solve.mount);
+  EXPECT_EQ(recipe->estimates.at("room").options.solve.mount_deg, 2);
+  EXPECT_EQ(std::get<ResidualsFigure>(recipe->figures.at(0).what).estimate, "room");
+  EXPECT_EQ(refusal(kData + "figures: {a: {kind: residuals}}\n"), "3:14: figure a needs an estimate");
+}
+
 TEST_F(RecipeTest, ReadsAPageThatIsInteractive) {
   const std::string maps = "maps: [{recording: room, offset_ms: 2}, {recording: room, offset_ms: 7}]";
   const auto recipe = read(kData + "figures: {a: {kind: interactive, " + maps + ", points: 5000}}\n");
@@ -94,9 +106,9 @@ TEST_F(RecipeTest, RefusalsSayLineColumnAndWhatIsWrong) {
   EXPECT_EQ(
       refusal(kData + "figure: {}\n"),
       "3:1: unknown key \"figure\" in the recipe; known are: estimates, figures, look, recordings, tables");
-  EXPECT_EQ(
-      refusal(kData + "figures: {a: {kind: pie}}\n"),
-      "3:21: figure a: kind must be one of: curves, interactive, maps, over-time, profile, scan, trend");
+  EXPECT_EQ(refusal(kData + "figures: {a: {kind: pie}}\n"),
+            "3:21: figure a: kind must be one of: curves, interactive, maps, over-time, profile, residuals, "
+            "scan, trend");
   EXPECT_EQ(refusal(kData + "figures: {a: {kind: curves, estimates: hall}}\n"),
             "3:40: there is no estimate \"hall\"; there are: room");
   EXPECT_EQ(refusal("recordings: {r: {simulate: moon}}\n").substr(0, 36),

@@ -31,5 +31,28 @@ TEST(GatherReport, ItsAnswerIsThatOfAnEstimateAndTheCriteriaStandBesideIt) {
   ASSERT_EQ(content.maps.size(), 2U);
 }
 
+TEST(GatherReport, ARigThatIsSolvedForIsShownAndItsMapsAreThoseOfTheRigFound) {
+  SimulationOptions tilted;
+  tilted.scene = "room-2";
+  tilted.offset_s = 0.024;
+  tilted.duration_s = 4.5;
+  tilted.mount_error_deg = {0, 3, -3};
+  const Recording recording = simulate(tilted, Job()).value().recording;
+  const PreparedRecording prepared = prepare(recording, FeatureOptions(), Job()).value();
+  const ReportContent with_file = gather_report(prepared, {.live_points = 0}, nullptr, Job()).value();
+  const ReportContent with_found =
+      gather_report(prepared, {.solve = {.mount = true}, .live_points = 0}, nullptr, Job()).value();
+  ASSERT_TRUE(with_found.estimate.rig);
+  const auto thickness_m = [](const ReportContent& content) {
+    return content.maps.at(1).thickness->map->median_m;
+  };
+  EXPECT_LT(thickness_m(with_found), 0.8 * thickness_m(with_file));
+  const std::string html = report_html(with_found).value();
+  for (const char* part :
+       {"<h2>The rig</h2>", "mount pitch", "0.00°, kept", "With the rig file: ", "With the rig found: "})
+    EXPECT_NE(html.find(part), std::string::npos) << part;
+  EXPECT_EQ(report_html(with_file).value().find("<h2>The rig</h2>"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace sweepscope

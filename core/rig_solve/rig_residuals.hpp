@@ -1,0 +1,50 @@
+#pragma once
+
+// The mathematics: docs/algorithms.md, section 16.
+
+#include <cstddef>
+#include <vector>
+
+#include "core/loam/sweep_features.hpp"
+#include "core/rig_solve/rig_unknowns.hpp"
+
+namespace sweepscope {
+
+struct AngleRange {
+  double from_rad = 0, to_rad = 0;
+};
+
+/// How far points lie from the flat surfaces that they belong to, over the motor's angle and the direction of
+/// the beam in the laser's frame. A wrong mount shows as a pattern, range noise as a grey field.
+struct ResidualGrid {
+  AngleRange motor, beam;   // the edges of the grid
+  std::size_t columns = 0;  // along the motor's angle; 0: nothing could be compared
+  std::size_t rows = 0;     // along the beam's direction, the least first
+  /// The median of each bin, row by row; positive beyond the surface as the laser sees it. NaN in a bin with
+  /// too few points.
+  std::vector<double> residual_m;
+
+  bool empty() const { return residual_m.empty(); }
+  double at(std::size_t column, std::size_t row) const { return residual_m[row * columns + column]; }
+  /// Root mean square over the bins that have points: the pattern without the noise of single points.
+  double rms_m() const;
+};
+
+/// The same points and surfaces with two rigs.
+struct RigResiduals {
+  ResidualGrid before, after;
+};
+
+struct ResidualGridOptions {
+  std::size_t columns = 30, rows = 30;  // 6 deg of a half turn and of a scan of 180 deg
+  std::size_t min_points = 8;           // in a bin
+  double loss_width_m = 0.03;           // of the fit that found `after`
+};
+
+/// The residuals of a stationary rig with `before` and with `after`, which deviate from the rig file as in
+/// RigUnknowns. The surfaces are those that `after` shows; each one's plane is fitted anew to the same points
+/// with either rig. Empty grids where `after` shows no surface.
+RigResiduals rig_residuals(const OffsetProblem& problem, const RigUnknowns& before, const RigUnknowns& after,
+                           const ResidualGridOptions& options);
+
+}  // namespace sweepscope
