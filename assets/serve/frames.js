@@ -7,12 +7,13 @@ function decodeFrame(buffer) {
   const view = new DataView(buffer);
   const frame = {
     number: view.getUint32(0, true), input: view.getUint32(4, true), wait_us: view.getUint32(8, true),
-    draw_us: view.getUint32(12, true), width: view.getUint16(16, true), height: view.getUint16(18, true),
-    exact: (view.getUint16(20, true) & 1) !== 0, atRest: (view.getUint16(20, true) & 2) !== 0,
+    draw_us: view.getUint32(12, true), held_us: view.getUint32(16, true), encode_us: view.getUint32(20, true),
+    width: view.getUint16(24, true), height: view.getUint16(26, true),
+    exact: (view.getUint16(28, true) & 1) !== 0, atRest: (view.getUint16(28, true) & 2) !== 0,
     bytes: buffer.byteLength, parts: [],
   };
-  let at = 24;
-  for (let count = view.getUint16(22, true); count > 0; --count) {
+  let at = 32;
+  for (let count = view.getUint16(30, true); count > 0; --count) {
     const [left, top, width, height, format] = [0, 2, 4, 6, 8].map((offset) => view.getUint16(at + offset, true));
     const size = view.getUint32(at + 10, true);
     frame.parts.push({left, top, width, height, blob: new Blob([new Uint8Array(buffer, at + 14, size)],
@@ -33,9 +34,13 @@ class FramePainter {
 
   paint(buffer) {
     const frame = decodeFrame(buffer);
+    frame.cameAt = performance.now();
     const options = {colorSpaceConversion: 'none', premultiplyAlpha: 'none'};
     const bitmaps = Promise.all(frame.parts.map((part) => createImageBitmap(part.blob, options)));
-    this.last = this.last.then(() => bitmaps).then((pictures) => this.draw(frame, pictures));
+    this.last = this.last.then(() => bitmaps).then((pictures) => {
+      frame.decodedAt = performance.now();
+      this.draw(frame, pictures);
+    });
     return this.last;
   }
 

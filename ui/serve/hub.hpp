@@ -36,6 +36,7 @@ struct ServedPicture {
   SharedImage image;
   std::uint32_t input_number = 0, wait_us = 0, draw_us = 0;  // see Frame
   bool at_rest = false;
+  std::chrono::steady_clock::time_point drawn_at{};
 };
 
 /// What the pages show beside the picture.

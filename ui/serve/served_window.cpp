@@ -83,9 +83,10 @@ void ServedWindow::hand_on(const InputEvent& event) {
 void ServedWindow::present() {
   if (!server_.has_viewers()) return;
   auto image = std::make_shared<const Image>(gl::read_default_framebuffer(*context_));
-  const auto draw = std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - taken_);
+  const auto drawn = Clock::now();
+  const auto draw = std::chrono::duration_cast<std::chrono::microseconds>(drawn - taken_);
   server_.show({std::move(image), input_number_, wait_us_, static_cast<std::uint32_t>(draw.count()),
-                at_rest && at_rest()});
+                at_rest && at_rest(), drawn});
 }
 
 void ServedWindow::set_title(const std::string& title) {

@@ -80,11 +80,11 @@ TEST(PageMessages, WhatIsNotInTheProtocolIsRefused) {
 
 TEST(Frames, BytesAreAsThePageReadsThem) {
   const std::string bytes = to_bytes(
-      {1, 0x01020304, 3, 4, 1280, 720, true, false, {{{32, 64, 5, 6}, FramePart::Format::kPng, "abc"}}});
-  ASSERT_EQ(bytes.size(), 24U + 14 + 3);
+      {1, 0x01020304, 3, 4, 5, 6, 1280, 720, true, false, {{{32, 64, 5, 6}, FramePart::Format::kPng, "abc"}}});
+  ASSERT_EQ(bytes.size(), 32U + 14 + 3);
   EXPECT_EQ(bytes.substr(4, 4), std::string("\x04\x03\x02\x01"));
-  EXPECT_EQ(bytes.substr(16, 8), std::string("\x00\x05\xd0\x02\x01\x00\x01\x00", 8));
-  EXPECT_EQ(bytes.substr(24), std::string("\x20\0\x40\0\x05\0\x06\0\x01\0\x03\0\0\0abc", 17));
+  EXPECT_EQ(bytes.substr(24, 8), std::string("\x00\x05\xd0\x02\x01\x00\x01\x00", 8));
+  EXPECT_EQ(bytes.substr(32), std::string("\x20\0\x40\0\x05\0\x06\0\x01\0\x03\0\0\0abc", 17));
 }
 
 }  // namespace
