@@ -19,6 +19,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
     if (!possible(wanted->width_px) || !possible(wanted->height_px)) __builtin_trap();
   }
   const auto* upload = std::get_if<UploadMessage>(&*message);
-  if (upload != nullptr && (upload->size_bytes > 1'000'000'000'000'000 || upload->name.size() > 1024)) __builtin_trap();
+  if (upload != nullptr && (upload->size_bytes > 1'000'000'000'000'000 || upload->name.size() > 1024))
+    __builtin_trap();
   return 0;
 }

@@ -17,7 +17,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   const Answer answer = answer_to(request, {false, {"robot.example"}}, "secret");
   const bool named = request.protocols.find("token.secret") != request.protocols.npos;
   if (answer.kind == Answer::Kind::kWebSocket && (!named || request.origin.empty())) __builtin_trap();
-  if (answer.kind == Answer::Kind::kUpload && (request.method != "PUT" || request.origin.empty())) __builtin_trap();
+  if (answer.kind == Answer::Kind::kUpload && (request.method != "PUT" || request.origin.empty()))
+    __builtin_trap();
   if (answer.status == 421 || answer.status == 403) return 0;
   if (security_policy(request.host).find_first_of("\r\n\"") != std::string::npos) __builtin_trap();
   return 0;
