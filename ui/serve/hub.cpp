@@ -248,10 +248,9 @@ void Hub::send_frame(Viewer& viewer, Time now) {
                     viewer.told_exact == exact;
   if (parts.empty() && told) return;
   if (viewer.in_flight() == 0) viewer.waits_since = now;
-  std::string bytes =
-      to_bytes({++viewer.sent, picture_.input_number, picture_.wait_us, picture_.draw_us,
-                microseconds(picture_.drawn_at, begun), encode_us, picture_.image->width_px,
-                picture_.image->height_px, exact, picture_.at_rest, std::move(parts)});
+  std::string bytes = to_bytes({++viewer.sent, picture_.input_number, picture_.wait_us, picture_.draw_us,
+                                microseconds(picture_.drawn_at, begun), encode_us, picture_.image->width_px,
+                                picture_.image->height_px, exact, picture_.at_rest, std::move(parts)});
   viewer.told_input = picture_.input_number;
   viewer.told_rest = picture_.at_rest;
   viewer.told_exact = exact;
@@ -289,6 +288,15 @@ std::optional<Hub::Time> Hub::next_wake(Time now) {
       at(viewer.coder.rested_at());
   }
   return first;
+}
+
+std::optional<Hub::Time> Hub::sendable_at(Time now) {
+  const auto driver = viewers_.find(crew_.driver());
+  if (driver == viewers_.end() || driver->second.closing) return Time();
+  Viewer& viewer = driver->second;
+  if (viewer.in_flight() >= kMaxInFlight || viewer.link->is_sending()) return std::nullopt;
+  const Time free = viewer.pace.free_at(now);
+  return free > now ? free : Time();
 }
 
 void Hub::close(Viewer& viewer, std::string_view why) {

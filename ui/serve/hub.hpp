@@ -89,6 +89,10 @@ class Hub {
   /// When pump has something to do by itself; nothing while everything rests.
   std::optional<Time> next_wake(Time now);
 
+  /// When the driver's next picture can be sent, in the past if at once; nothing as long as that depends on
+  /// the page.
+  std::optional<Time> sendable_at(Time now);
+
   std::size_t viewers() const { return viewers_.size(); }
   bool is_over(Time now) const { return over_at_ && now >= *over_at_; }
 
