@@ -204,7 +204,10 @@ for (const what of ['ask', 'give', 'keep']) element(what).onclick = () => tell({
 for (const button of document.querySelectorAll('[data-chord]')) {
   const parts = button.dataset.chord.split('+');
   const modifiers = (parts.includes('Shift') ? 1 : 0) | (parts.includes('Ctrl') ? 2 : 0);
-  button.onclick = () => sender.stroke(parts[parts.length - 1], modifiers);
+  button.onclick = () => {
+    sender.stroke(parts[parts.length - 1], modifiers);
+    button.blur();  // keys are the explorer's again
+  };
 }
 element('keyboard').onclick = () => keys.focus();
 // A tablet may get or lose its mouse.
