@@ -92,11 +92,14 @@ class ClipboardLink {
   void before(gl::Window& window, Ui& ui, std::span<const InputEvent> events) {
     const auto has = [&](Key key) {
       return std::any_of(events.begin(), events.end(), [&](const InputEvent& event) {
-        return event.what == InputEvent::What::kKey && event.key == key && (event.modifiers & kCtrl) != 0;
+        return event.what == InputEvent::What::kKey && event.down && event.key == key &&
+               (event.modifiers & kCtrl) != 0;
       });
     };
     if (has('V')) ui.clipboard() = last_ = window.clipboard();
-    if (has('C')) last_.clear();  // the same text may be copied again, over what the system has by now
+    // The same text may be copied again, over what the system has by now. What was copied before is not: the
+    // key may be used frames later.
+    if (has('C')) ui.clipboard() = last_ = "";
   }
   void after(gl::Window& window, Ui& ui) {
     if (ui.clipboard() != last_) window.set_clipboard(last_ = ui.clipboard());

@@ -142,12 +142,16 @@ function hear(message) {
   changed();
 }
 
-async function tokenHolds() {
+/** Why the program will never let this page in; empty if it may. */
+async function refusal() {
   try {
-    const answer = await fetch('check', {headers: {Authorization: `Bearer ${token}`}, cache: 'no-store'});
-    return answer.status !== 403;
+    const headers = {'Authorization': `Bearer ${token}`, 'X-Page-Origin': location.origin};
+    const answer = await fetch('check', {headers, cache: 'no-store'});
+    if (answer.status === 403)
+      return 'The token of this address is not valid. Use the address that the program printed when it was started.';
+    return answer.status === 409 || answer.status === 421 ? await answer.text() : '';
   } catch {
-    return true;  // nobody answers: it may come back
+    return '';  // nobody answers: it may come back
   }
 }
 
@@ -156,8 +160,8 @@ async function lost(event) {
   socket = null;
   changed();
   if (event.code === 1008) return note(`The program ended the connection: ${event.reason}. Load the page again to go on.`);
-  if (!await tokenHolds())
-    return note('The token of this address is not valid. Use the address that the program printed when it was started.');
+  const why = await refusal();
+  if (why) return note(why);
   note(event.code === 1013 ? 'Too many viewers. Trying again.' : 'The connection is lost. Trying again.');
   setTimeout(connect, retry_ms);
   retry_ms = Math.min(5000, retry_ms * 1.6);
@@ -200,10 +204,20 @@ for (const what of ['ask', 'give', 'keep']) element(what).onclick = () => tell({
 for (const button of document.querySelectorAll('[data-chord]')) {
   const parts = button.dataset.chord.split('+');
   const modifiers = (parts.includes('Shift') ? 1 : 0) | (parts.includes('Ctrl') ? 2 : 0);
-  button.onclick = () => sender.stroke(parts[parts.length - 1], modifiers);
+  button.onclick = () => {
+    sender.stroke(parts[parts.length - 1], modifiers);
+    button.blur();  // keys are the explorer's again
+  };
 }
 element('keyboard').onclick = () => keys.focus();
-element('touch').hidden = !matchMedia('(pointer: coarse)').matches;
+// A tablet may get or lose its mouse.
+const coarse = matchMedia('(pointer: coarse)');
+function showTouch() {
+  element('touch').hidden = !coarse.matches;
+  changed();
+}
+coarse.addEventListener('change', showTouch);
+showTouch();
 // For tests, and for who looks under the hood.
 window.sweepscope = {status, until, sender, uploader, canvas, connect, drop: () => socket && socket.close()};
 

@@ -9,6 +9,7 @@ class Touch {
     this.keys = keys;
     this.sender = sender;
     this.fingers = new Map();
+    this.long_ms = LONG_MS;
     this.state = 'none';  // none, waiting (for what one finger does), drag, pinch, over
     canvas.addEventListener('pointerdown', (event) => this.down(event));
     canvas.addEventListener('pointermove', (event) => this.moved(event));
@@ -25,7 +26,7 @@ class Touch {
       this.state = 'waiting';
       this.from = this.keys.at(event);
       this.slop = SLOP_PX * this.canvas.width / this.canvas.getBoundingClientRect().width;
-      this.timer = setTimeout(() => this.rested(), LONG_MS);
+      this.timer = setTimeout(() => this.rested(), this.long_ms);
     } else if (this.fingers.size === 2) {
       this.beginPinch();
     }

@@ -15,6 +15,9 @@ def executable():
 
 
 class Chromium:
+    def __init__(self, *flags):
+        self.flags = flags
+
     def __enter__(self):
         self.profile = tempfile.mkdtemp()
         from_us, to_browser = os.pipe()
@@ -25,7 +28,7 @@ class Chromium:
             os.dup2(commands, 3)
             os.dup2(answers, 4)
 
-        self.process = subprocess.Popen([executable(), *FLAGS, f"--user-data-dir={self.profile}", "about:blank"],
+        self.process = subprocess.Popen([executable(), *FLAGS, *self.flags, f"--user-data-dir={self.profile}", "about:blank"],
                                         preexec_fn=hand_over, close_fds=False, stdout=subprocess.DEVNULL,
                                         stderr=subprocess.DEVNULL)
         os.close(from_us)
@@ -93,7 +96,7 @@ class Page:
         self.send("Emulation.setScriptExecutionDisabled", value=not scripts)
         self.send("Emulation.setEmulatedMedia", media=media,
                   features=[{"name": "prefers-color-scheme", "value": "dark" if dark else "light"}])
-        self.send("Page.navigate", url=path if path.startswith("http:") else "file://" + os.path.abspath(path))
+        self.send("Page.navigate", url=path if path.startswith(("http:", "https:")) else "file://" + os.path.abspath(path))
         browser.wait("Page.loadEventFired", self.session)
 
     def send(self, method, **params):

@@ -95,6 +95,14 @@ TEST_F(Headless, MouseKeysPaletteAndScriptGiveTheSameCommand) {
   expect_runs("theme\nexpect theme is dark");
 }
 
+TEST_F(Headless, ThePanelTurnsEachDepthCueOnAndOff) {
+  expect_runs(kRoom);
+  expect_runs("mouse move colouring\nwheel -50\nframes 3");  // to the panel's end
+  for (const std::string cue : {"lighting", "splats", "grid", "scanner"})
+    for (const std::string choice : {"on", "off", "auto"})
+      expect_runs("click " + cue + "\nclick \"" + cue + " " + choice + "\"\nexpect " + cue + " is " + choice);
+}
+
 TEST_F(Headless, ThePaletteFindsACommandByItsWords) {
   expect_runs(kRoom);
   expect_runs("key Ctrl+P\ntype isomet\nkey Enter\n");

@@ -214,6 +214,8 @@ void draw_display_panel(const PaneContext& context, const PixelRect& place) {
   field(context, "scan-view");
   field(context, "close-up");
   place_field(context);
+  heading(context, "Depth");
+  for (const DepthCueOption& option : depth_cue_options()) field(context, option.name.c_str());
   end_panel();
 }
 

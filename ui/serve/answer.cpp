@@ -27,6 +27,19 @@ std::string_view entry_of(std::string_view list, std::string_view beginning) {
 constexpr std::string_view kWrongToken =
     "The token is wrong. Use the address that this start of the program printed.\n";
 
+/// Whether the token holds, and what else is in the way of the page that asks.
+Answer check(const Request& request, std::string_view token) {
+  constexpr std::string_view kBearer = "Bearer ";
+  const bool bearer = request.authorization.starts_with(kBearer);
+  const std::string_view given = bearer ? request.authorization.substr(kBearer.size()) : std::string_view();
+  if (!equal_in_constant_time(given, token)) return refusal(403, kWrongToken);
+  if (!request.page_origin.empty() && !is_own_origin(request.page_origin, request.host))
+    return refusal(409,
+                   "A proxy between this page and the program changes the Host header. It has to pass it on "
+                   "as it came, with the port: see docs/remote.md.\n");
+  return {.status = 200, .body = "ok\n"};
+}
+
 Answer web_socket(const Request& request, std::string_view token) {
   if (!is_own_origin(request.origin, request.host))
     return refusal(403, "A page of another site may not connect.\n");
@@ -49,7 +62,7 @@ Answer upload(const Request& request, std::string_view id) {
 }  // namespace
 
 Answer answer_to(const Request& request, const HostPolicy& hosts, std::string_view token) {
-  constexpr std::string_view kDownload = "/download/", kUpload = "/upload/", kBearer = "Bearer ";
+  constexpr std::string_view kDownload = "/download/", kUpload = "/upload/";
   if (!is_own_host(request.host, hosts))
     return refusal(421, "This server is not reached by that name. See --host of sweepscope view.\n");
   const std::string_view path = request.target.substr(0, request.target.find('?'));
@@ -59,12 +72,7 @@ Answer answer_to(const Request& request, const HostPolicy& hosts, std::string_vi
     return refusal(405, "Only GET is answered, and PUT for a file that was announced.\n");
   if (request.upgrade) return path == "/socket" ? web_socket(request, token) : refusal(404, "Not found.\n");
   if (path.starts_with(kDownload)) return download(path.substr(kDownload.size()));
-  if (path == "/check") {
-    const bool bearer = request.authorization.starts_with(kBearer);
-    const std::string_view given = bearer ? request.authorization.substr(kBearer.size()) : std::string_view();
-    return equal_in_constant_time(given, token) ? Answer{.status = 200, .body = "ok\n"}
-                                                : refusal(403, kWrongToken);
-  }
+  if (path == "/check") return check(request, token);
   if (const ServedFile* file = find_served_file(path)) return {.type = file->type, .body = file->text};
   return refusal(404, "Not found.\n");
 }

@@ -11,7 +11,8 @@ namespace sweepscope::ui {
 /// A request, as far as it decides what is answered.
 struct Request {
   std::string_view method, target, host, origin, protocols, authorization;
-  bool upgrade = false;  // to a WebSocket
+  bool upgrade = false;               // to a WebSocket
+  std::string_view page_origin = {};  // what the page says of itself, in kPageOriginField
 };
 
 /// What a request gets.
@@ -26,6 +27,9 @@ struct Answer {
 
 /// The WebSocket's subprotocol. A page offers it together with "token." and the token.
 inline constexpr std::string_view kSubprotocol = "sweepscope.1";
+
+/// A page that could not connect asks why with this field.
+inline constexpr std::string_view kPageOriginField = "X-Page-Origin";
 
 /// Decides by method, Host, Origin, token and path. Refusals say in a sentence why.
 Answer answer_to(const Request& request, const HostPolicy& hosts, std::string_view token);

@@ -47,10 +47,11 @@ class Exchange : public std::enable_shared_from_this<Exchange> {
     const auto field = [&](http::field name) { return view(request[name]); };
     const bool upgrade = beast::websocket::is_upgrade(request);
     const std::string_view target = view(request.target());
-    const Answer answer = answer_to({view(request.method_string()), target, field(http::field::host),
-                                     field(http::field::origin), field(http::field::sec_websocket_protocol),
-                                     field(http::field::authorization), upgrade},
-                                    context_->hosts, context_->token);
+    const Answer answer = answer_to(
+        {view(request.method_string()), target, field(http::field::host), field(http::field::origin),
+         field(http::field::sec_websocket_protocol), field(http::field::authorization), upgrade,
+         view(request[beast::string_view(kPageOriginField.data(), kPageOriginField.size())])},
+        context_->hosts, context_->token);
     switch (answer.kind) {
       case Answer::Kind::kWebSocket:
         return take_viewer(std::move(stream_), std::move(context_), parser_.release());

@@ -14,7 +14,7 @@ constexpr int kLittle_px = 128 * 128;
 // Of what rested, so much at once: a person who moves on does not wait behind all of it.
 constexpr int kRested_px = 480 * 320;
 constexpr std::size_t kMaxParts = 24;
-constexpr std::size_t kSmall_bytes = 45000, kLarge_bytes = 90000;
+constexpr std::size_t kSmall_bytes = 28000, kLarge_bytes = 55000;
 constexpr int kQualityStep = 10, kMinQuality = 40, kMaxQuality = 80;
 
 bool differs(const Image& a, const Image& b, const ImageRect& place) {

@@ -14,7 +14,7 @@ using SharedImage = std::shared_ptr<const Image>;
 
 /// What a viewer's page shows, and the parts that it needs to show a newer picture: JPEG where much has
 /// changed, and every pixel as it was drawn once it has rested for 0.2 s, or where little has changed. The
-/// quality of JPEG follows its size, so that a frame is below 100 kB where the picture allows it.
+/// quality of JPEG follows its size, so that a frame is below 55 kB where the picture allows it.
 class FrameCoder {
  public:
   using Time = std::chrono::steady_clock::time_point;

@@ -26,6 +26,12 @@ bool is_release_of(const InputEvent& release, const InputEvent& event) {
   return release.what == event.what && release.button == event.button && release.key == event.key;
 }
 
+/// Limited to what a frame's header holds.
+std::uint32_t microseconds(Hub::Time from, Hub::Time to) {
+  const auto count = std::chrono::duration_cast<std::chrono::microseconds>(to - from).count();
+  return static_cast<std::uint32_t>(std::clamp<decltype(count)>(count, 0, 0xFFFFFFFF));
+}
+
 std::string percent_encoded(const std::string& text) {
   constexpr std::string_view kPlain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._~";
   constexpr std::string_view kDigits = "0123456789ABCDEF";
@@ -234,15 +240,17 @@ void Hub::send_frame(Viewer& viewer, Time now) {
   if (!picture_.image || viewer.closing || viewer.in_flight() >= kMaxInFlight || viewer.link->is_sending() ||
       viewer.pace.free_at(now) > now)
     return;
+  const Time begun = Time::clock::now();
   std::vector<FramePart> parts = viewer.coder.next(picture_.image, now);
+  const std::uint32_t encode_us = microseconds(begun, Time::clock::now());
   const bool exact = viewer.coder.exact();
   const bool told = viewer.told_input == picture_.input_number && viewer.told_rest == picture_.at_rest &&
                     viewer.told_exact == exact;
   if (parts.empty() && told) return;
   if (viewer.in_flight() == 0) viewer.waits_since = now;
   std::string bytes = to_bytes({++viewer.sent, picture_.input_number, picture_.wait_us, picture_.draw_us,
-                                picture_.image->width_px, picture_.image->height_px, exact, picture_.at_rest,
-                                std::move(parts)});
+                                microseconds(picture_.drawn_at, begun), encode_us, picture_.image->width_px,
+                                picture_.image->height_px, exact, picture_.at_rest, std::move(parts)});
   viewer.told_input = picture_.input_number;
   viewer.told_rest = picture_.at_rest;
   viewer.told_exact = exact;
@@ -280,6 +288,15 @@ std::optional<Hub::Time> Hub::next_wake(Time now) {
       at(viewer.coder.rested_at());
   }
   return first;
+}
+
+std::optional<Hub::Time> Hub::sendable_at(Time now) {
+  const auto driver = viewers_.find(crew_.driver());
+  if (driver == viewers_.end() || driver->second.closing) return Time();
+  Viewer& viewer = driver->second;
+  if (viewer.in_flight() >= kMaxInFlight || viewer.link->is_sending()) return std::nullopt;
+  const Time free = viewer.pace.free_at(now);
+  return free > now ? free : Time();
 }
 
 void Hub::close(Viewer& viewer, std::string_view why) {

@@ -36,6 +36,7 @@ struct ServedPicture {
   SharedImage image;
   std::uint32_t input_number = 0, wait_us = 0, draw_us = 0;  // see Frame
   bool at_rest = false;
+  std::chrono::steady_clock::time_point drawn_at{};
 };
 
 /// What the pages show beside the picture.
@@ -87,6 +88,10 @@ class Hub {
   void pump(Time now);
   /// When pump has something to do by itself; nothing while everything rests.
   std::optional<Time> next_wake(Time now);
+
+  /// When the driver's next picture can be sent, in the past if at once; nothing as long as that depends on
+  /// the page.
+  std::optional<Time> sendable_at(Time now);
 
   std::size_t viewers() const { return viewers_.size(); }
   bool is_over(Time now) const { return over_at_ && now >= *over_at_; }

@@ -1,5 +1,6 @@
 #include "ui/serve/mailbox.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace sweepscope::ui {
@@ -60,9 +61,23 @@ void Mailbox::wake() {
   post(std::unique_lock(mutex_));
 }
 
-Mailbox::Arrived Mailbox::wait(double max_s) {
+void Mailbox::set_sendable(std::optional<Clock::time_point> at) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (std::exchange(sendable_, at) == at) return;
+  }
+  came_.notify_one();
+}
+
+Mailbox::Arrived Mailbox::wait(double max_s, Clock::duration drawing) {
   std::unique_lock lock(mutex_);
   came_.wait_for(lock, std::chrono::duration<double>(max_s), [&] { return any_; });
+  const auto latest = Clock::now() + max_held_;
+  for (auto now = Clock::now();; now = Clock::now()) {
+    const auto begin = sendable_ ? std::min(*sendable_ - drawing, latest) : latest;
+    if (now >= begin) break;
+    came_.wait_until(lock, begin);
+  }
   any_ = false;
   const std::uint32_t number = waiting_.input_number;
   if (!waiting_.events.empty())

@@ -24,6 +24,10 @@ class Mailbox {
     std::uint32_t wait_us = 0;       // since the last input came
   };
 
+  using Clock = std::chrono::steady_clock;
+  /// `max_held`: see wait().
+  explicit Mailbox(Clock::duration max_held = std::chrono::milliseconds(100)) : max_held_(max_held) {}
+
   /// Moves in a row count as one. False if the explorer is so far behind that no more is kept.
   bool add(const InputMessage& input);
   void paste(std::string text);
@@ -32,11 +36,15 @@ class Mailbox {
   /// Ends a wait early.
   void wake();
 
-  /// Waits until something comes, at most this long.
-  Arrived wait(double max_s);
+  /// When the driver's next picture can be sent; nothing as long as that depends on the page.
+  void set_sendable(std::optional<Clock::time_point> at);
+
+  /// Waits until something comes, at most this long, and then until a picture that takes `drawing` is ready
+  /// just when it can be sent, but no longer than `max_held`: what comes meanwhile is in that picture, and
+  /// none is drawn for nothing.
+  Arrived wait(double max_s, Clock::duration drawing = {});
 
  private:
-  using Clock = std::chrono::steady_clock;
   void post(std::unique_lock<std::mutex> lock);
 
   std::mutex mutex_;
@@ -44,6 +52,8 @@ class Mailbox {
   Arrived waiting_;
   Clock::time_point last_input_;
   bool any_ = false;
+  Clock::duration max_held_;
+  std::optional<Clock::time_point> sendable_ = Clock::time_point();
 };
 
 }  // namespace sweepscope::ui

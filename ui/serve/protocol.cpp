@@ -179,7 +179,8 @@ Result<PageMessage> parse_page_message(std::string_view text) {
 
 std::string to_bytes(const Frame& frame) {
   std::string out;
-  for (const std::uint32_t number : {frame.number, frame.input_number, frame.wait_us, frame.draw_us})
+  for (const std::uint32_t number :
+       {frame.number, frame.input_number, frame.wait_us, frame.draw_us, frame.held_us, frame.encode_us})
     put(out, number, 4);
   put(out, static_cast<std::uint32_t>(frame.width_px), 2);
   put(out, static_cast<std::uint32_t>(frame.height_px), 2);

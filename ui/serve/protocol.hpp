@@ -67,15 +67,17 @@ struct Frame {
   std::uint32_t input_number = 0;  // of the last input that it shows
   std::uint32_t wait_us = 0;       // from the arrival of that input until the explorer took it
   std::uint32_t draw_us = 0;       // what the explorer needed to draw it
+  std::uint32_t held_us = 0;       // from then until it could be sent
+  std::uint32_t encode_us = 0;     // what its parts needed
   int width_px = 0, height_px = 0;
   bool exact = false;    // after it the page shows every pixel as it was drawn
   bool at_rest = false;  // nothing moves and nothing is computed
   std::vector<FramePart> parts;
 };
 
-/// Little-endian: number, input_number, wait_us, draw_us (32 bits each), width, height (16), flags (8: 1
-/// exact, 2 at rest), 0 (8), count of parts (16); for each left, top, width, height (16 each), format (16),
-/// size in bytes (32), and its bytes.
+/// Little-endian: number, input_number, wait_us, draw_us, held_us, encode_us (32 bits each), width, height
+/// (16), flags (16: 1 exact, 2 at rest), count of parts (16); for each left, top, width, height (16 each),
+/// format (16), size in bytes (32), and its bytes.
 std::string to_bytes(const Frame& frame);
 
 }  // namespace sweepscope::ui

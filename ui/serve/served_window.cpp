@@ -37,7 +37,7 @@ std::vector<unsigned> code_points(const std::string& text) {
 }  // namespace
 
 void ServedWindow::wait(double max_s) {
-  const Mailbox::Arrived arrived = mailbox_.wait(max_s);
+  const Mailbox::Arrived arrived = mailbox_.wait(max_s, drawing_);
   taken_ = Clock::now();
   input_number_ = arrived.input_number;
   wait_us_ = arrived.wait_us;
@@ -83,9 +83,11 @@ void ServedWindow::hand_on(const InputEvent& event) {
 void ServedWindow::present() {
   if (!server_.has_viewers()) return;
   auto image = std::make_shared<const Image>(gl::read_default_framebuffer(*context_));
-  const auto draw = std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - taken_);
+  const auto drawn = Clock::now();
+  const auto draw = std::chrono::duration_cast<std::chrono::microseconds>(drawn - taken_);
+  drawing_ = (3 * drawing_ + (drawn - taken_)) / 4;
   server_.show({std::move(image), input_number_, wait_us_, static_cast<std::uint32_t>(draw.count()),
-                at_rest && at_rest()});
+                at_rest && at_rest(), drawn});
 }
 
 void ServedWindow::set_title(const std::string& title) {

@@ -69,6 +69,7 @@ struct Server::Parts {
   void after() {
     const auto now = Clock::now();
     has_viewers = hub.viewers() > 0;
+    connections_mailbox->set_sendable(hub.sendable_at(now));
     if (hub.is_over(now) && !over.exchange(true)) connections_mailbox->wake();
     const auto next = hub.next_wake(now);
     if (next == wakes_at || over) return;

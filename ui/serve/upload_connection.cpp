@@ -61,8 +61,11 @@ class Receiver : public std::enable_shared_from_this<Receiver> {
 
   void write() {
     const std::size_t size = piece_.size() - parser_.get().body().size;
-    on_disk([this, size] { return file_->write({piece_.data(), size}); },
-            [this] { parser_.is_done() ? finish() : read(); });
+    on_disk(
+        [this, size] {
+          return file_->write({piece_.data(), size});
+        },
+        [this] { parser_.is_done() ? finish() : read(); });
   }
 
   void finish() {

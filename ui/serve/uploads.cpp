@@ -40,10 +40,9 @@ Result<std::filesystem::path> Uploads::place_of(const UploadMessage& message) co
   const auto space = std::filesystem::space(folder, failed);
   if (failed) return refused(fmt::format("{}: {}", folder.string(), failed.message()));
   if (message.size_bytes > space.available || space.available - message.size_bytes < kKeptFree_bytes)
-    return refused(
-        fmt::format("{} has {:.1f} MB and would not leave 256 MB free: {} has {:.1f} MB free.", message.name,
-                    static_cast<double>(message.size_bytes) / 1e6, folder.string(),
-                    static_cast<double>(space.available) / 1e6));
+    return refused(fmt::format("{} has {:.1f} MB and would not leave 256 MB free: {} has {:.1f} MB free.",
+                               message.name, static_cast<double>(message.size_bytes) / 1e6, folder.string(),
+                               static_cast<double>(space.available) / 1e6));
   return path;
 }
 

@@ -29,6 +29,7 @@ class Viewer final : public ViewerLink, public std::enable_shared_from_this<View
     beast::get_lowest_layer(stream_).expires_never();
     limit(kMaxHandshake);
     stream_.read_message_max(kMaxPageMessage_bytes);
+    stream_.auto_fragment(false);  // a frame goes out at once, not in pieces of 4 KiB
     stream_.set_option(websocket::stream_base::decorator([](websocket::response_type& response) {
       response.set(http::field::sec_websocket_protocol, std::string(kSubprotocol));
     }));

@@ -77,6 +77,24 @@ TEST(Access, AProxysNameAndNumbersOfThisMachineCanBeAllowed) {
   EXPECT_EQ(status_of(request, {true, {}}), 101U);
 }
 
+TEST(Access, APageBehindAProxyThatChangesTheHostIsToldSo) {
+  Request request = socket_request();
+  request.upgrade = false;
+  request.target = "/check";
+  request.authorization = "Bearer 0123456789abcdef";
+  EXPECT_EQ(status_of(request), 200U);
+  request.page_origin = "http://127.0.0.1:8717";
+  EXPECT_EQ(status_of(request), 200U);
+  request.page_origin = "https://robot.example:8443";
+  EXPECT_EQ(status_of(request), 409U);
+  request.host = "robot.example";  // without the port
+  EXPECT_EQ(status_of(request, {false, {"robot.example"}}), 409U);
+  request.host = "robot.example:8443";
+  EXPECT_EQ(status_of(request, {false, {"robot.example"}}), 200U);
+  request.authorization = "Bearer 0123";
+  EXPECT_EQ(status_of(request, {false, {"robot.example"}}), 403U) << "who has no token learns nothing";
+}
+
 TEST(Access, OnlyThePagesFilesAreFetched) {
   Request request = socket_request();
   request.upgrade = false;

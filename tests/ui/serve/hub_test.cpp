@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <random>
 
 #include "tests/folder_test.hpp"
 
@@ -27,6 +28,15 @@ struct FakeLink : ViewerLink {
 ServedPicture picture_of(int shade) {
   auto image = std::make_shared<Image>(640, 480);
   std::fill(image->rgba.begin(), image->rgba.end(), static_cast<std::uint8_t>(shade));
+  image->make_opaque();
+  return {image, 0, 0, 0, false};
+}
+
+/// One that no format makes small.
+ServedPicture noise(unsigned seed) {
+  auto image = std::make_shared<Image>(640, 480);
+  std::minstd_rand random(seed);
+  for (std::uint8_t& value : image->rgba) value = static_cast<std::uint8_t>(random() >> 8);
   image->make_opaque();
   return {image, 0, 0, 0, false};
 }
@@ -84,6 +94,27 @@ TEST_F(Hubs, AtRestNothingIsSentAndNothingIsDue) {
   now_ += seconds(100);
   hub_.show(picture_of(1), now_);
   EXPECT_EQ(first_.frames.size(), frames) << "an equal picture is not sent again";
+}
+
+TEST_F(Hubs, APictureCanBeSentAtOnceAfterItsPaceOrWhenThePageHasShownOne) {
+  EXPECT_EQ(hub_.sendable_at(now_), Hub::Time()) << "nobody looks";
+  const int driver = hub_.join(first_, now_).value();
+  (void)hub_.join(second_, now_);
+  now_ += seconds(1);
+  EXPECT_EQ(hub_.sendable_at(now_), Hub::Time());
+  first_.busy = true;
+  EXPECT_EQ(hub_.sendable_at(now_), std::nullopt) << "the network has not taken the last one";
+  first_.busy = false;
+  hub_.show(noise(1), now_);
+  const auto later = hub_.sendable_at(now_);
+  ASSERT_TRUE(later);
+  EXPECT_GT(*later, now_) << "the frame was larger than what may be sent at once";
+  now_ = *later;
+  EXPECT_EQ(hub_.sendable_at(now_), Hub::Time());
+  hub_.show(noise(2), now_);
+  EXPECT_EQ(hub_.sendable_at(now_ + seconds(9)), std::nullopt) << "two frames wait for the page";
+  shown(driver, 1);
+  EXPECT_EQ(hub_.sendable_at(now_ + seconds(9)), Hub::Time());
 }
 
 TEST_F(Hubs, AFloodEndsTheConnection) {

@@ -58,8 +58,12 @@ TEST(PageMessages, WhatIsNotInTheProtocolIsRefused) {
   std::string many = R"({"type":"input","events":[["wheel",1])";
   for (int i = 0; i < 64; ++i) many += R"(,["wheel",1])";
   for (const std::string& text :
-       {std::string(), std::string("[]"), std::string("{}"), std::string(R"({"type":5})"),
-        std::string(R"({"type":"open","file":"/etc/passwd"})"), std::string(R"({"type":"input"})"),
+       {std::string(),
+        std::string("[]"),
+        std::string("{}"),
+        std::string(R"({"type":5})"),
+        std::string(R"({"type":"open","file":"/etc/passwd"})"),
+        std::string(R"({"type":"input"})"),
         std::string(R"({"type":"input","events":[["drop","/etc/passwd"]]})"),
         std::string(R"({"type":"input","events":[["move",1]]})"),
         std::string(R"({"type":"input","events":[["move","1",2]]})"),
@@ -73,18 +77,29 @@ TEST(PageMessages, WhatIsNotInTheProtocolIsRefused) {
         std::string(R"({"type":"upload","name":"a","size_bytes":1.5})"),
         std::string(R"({"type":"upload","name":"a","size_bytes":1e300})"),
         R"({"type":"upload","name":")" + std::string(2000, 'a') + R"(","size_bytes":1})",
-        R"({"type":"paste","text":")" + std::string(40000, 'a') + "\"}", many + "]}",
-        std::string(kMaxPageMessage_bytes + 1, ' '), std::string(60000, '[')})
+        R"({"type":"paste","text":")" + std::string(40000, 'a') + "\"}",
+        many + "]}",
+        std::string(kMaxPageMessage_bytes + 1, ' '),
+        std::string(60000, '[')})
     EXPECT_FALSE(parse_page_message(text)) << text.substr(0, 80);
 }
 
 TEST(Frames, BytesAreAsThePageReadsThem) {
-  const std::string bytes = to_bytes(
-      {1, 0x01020304, 3, 4, 1280, 720, true, false, {{{32, 64, 5, 6}, FramePart::Format::kPng, "abc"}}});
-  ASSERT_EQ(bytes.size(), 24U + 14 + 3);
+  const std::string bytes = to_bytes({1,
+                                      0x01020304,
+                                      3,
+                                      4,
+                                      5,
+                                      6,
+                                      1280,
+                                      720,
+                                      true,
+                                      false,
+                                      {{{32, 64, 5, 6}, FramePart::Format::kPng, "abc"}}});
+  ASSERT_EQ(bytes.size(), 32U + 14 + 3);
   EXPECT_EQ(bytes.substr(4, 4), std::string("\x04\x03\x02\x01"));
-  EXPECT_EQ(bytes.substr(16, 8), std::string("\x00\x05\xd0\x02\x01\x00\x01\x00", 8));
-  EXPECT_EQ(bytes.substr(24), std::string("\x20\0\x40\0\x05\0\x06\0\x01\0\x03\0\0\0abc", 17));
+  EXPECT_EQ(bytes.substr(24, 8), std::string("\x00\x05\xd0\x02\x01\x00\x01\x00", 8));
+  EXPECT_EQ(bytes.substr(32), std::string("\x20\0\x40\0\x05\0\x06\0\x01\0\x03\0\0\0abc", 17));
 }
 
 }  // namespace

@@ -28,13 +28,15 @@ constexpr const char* kToken = "secret";
 
 class Serving : public test::FolderTest {
  protected:
-  void SetUp() override {
+  void SetUp() override { start(std::chrono::milliseconds(300)); }
+
+  void start(std::chrono::milliseconds max_request) {
     Server::Options options;
     options.address = {"127.0.0.1", 0, true};
     options.token = kToken;
     options.hub.max_viewers = 2;
     options.hub.roots = FileRoots::of({{folder_}}).value();
-    options.max_request = std::chrono::milliseconds(300);
+    options.max_request = max_request;
     server_ = Server::start(options, mailbox_).value();
   }
 
@@ -148,6 +150,45 @@ TEST_F(Serving, AMessageThatIsTooLongEndsTheConnection) {
   beast::error_code failed;
   socket->write(asio::buffer(std::string(kMaxPageMessage_bytes + 1, ' ')), failed);
   EXPECT_EQ(next_frame(*socket), "");
+}
+
+TEST_F(Serving, AMessageThatIsNoTextEndsTheConnection) {
+  auto socket = viewer();
+  socket->binary(true);
+  socket->write(asio::buffer(std::string(R"({"type":"blur"})")));
+  EXPECT_EQ(next_frame(*socket), "");
+  EXPECT_EQ(socket->reason().code, websocket::close_code::policy_error);
+}
+
+TEST_F(Serving, HalfAMessageHoldsNobodyUp) {
+  auto half = viewer();
+  // A text of 126 bytes by its header, of which the mask and one byte come.
+  asio::write(half->next_layer(), asio::buffer(std::string("\x81\xfe\x00\x7e\x01\x02\x03\x04{", 9)));
+  auto good = viewer();
+  server_->show(picture(30));
+  EXPECT_GT(next_frame(*good).size(), 24U);
+  EXPECT_GT(next_frame(*half).size(), 24U);
+}
+
+TEST_F(Serving, ConnectionsBeyondTheLimitAreClosedAtOnce) {
+  start(std::chrono::hours(1));  // those that send nothing stay
+  constexpr std::size_t kMaxConnections = 64;
+  std::vector<Tcp::socket> silent;
+  while (silent.size() < kMaxConnections) silent.push_back(connected());
+  Tcp::socket one_more = connected();
+  char byte = 0;
+  beast::error_code ended;
+  EXPECT_EQ(asio::read(one_more, asio::buffer(&byte, 1), ended), 0U);
+  EXPECT_TRUE(ended);
+  silent.pop_back();
+  std::string answer;  // a place is free as soon as the server has noticed
+  while (answer.empty()) {
+    beast::error_code refused;
+    Tcp::socket socket = connected();
+    asio::write(socket, asio::buffer(std::string("GET / HTTP/1.1\r\nHost: localhost\r\n\r\n")), refused);
+    asio::read(socket, asio::dynamic_buffer(answer), refused);
+  }
+  EXPECT_TRUE(answer.starts_with("HTTP/1.1 200 ")) << answer;
 }
 
 TEST_F(Serving, AViewerThatReadsNothingHoldsNobodyUp) {
