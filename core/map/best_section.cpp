@@ -163,8 +163,9 @@ std::vector<SectionCandidate> candidates(const Surfaces& map, double points_each
     if (candidate) found.push_back(*candidate);
     begin = end;
   }
-  std::stable_sort(found.begin(), found.end(),
-                   [](const SectionCandidate& a, const Candidate& b) { return a.promise > b.promise; });
+  std::stable_sort(found.begin(), found.end(), [](const SectionCandidate& a, const SectionCandidate& b) {
+    return a.promise > b.promise;
+  });
   if (found.size() > kMaxCandidates) found.resize(kMaxCandidates);
   return found;
 }

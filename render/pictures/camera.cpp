@@ -45,8 +45,8 @@ std::span<const std::string_view> viewpoint_names() {
 }
 
 Result<Viewpoint> viewpoint(std::string_view name) {
-  const auto found = std::find(kViewpointNames.begin(), kNames.end(), name);
-  if (found != kViewpointNames.end()) return static_cast<Viewpoint>(found - kNames.begin());
+  const auto found = std::find(kViewpointNames.begin(), kViewpointNames.end(), name);
+  if (found != kViewpointNames.end()) return static_cast<Viewpoint>(found - kViewpointNames.begin());
   return failure(ExitCode::kWrongUsage, fmt::format("There is no viewpoint \"{}\"; there are {}", name,
                                                     fmt::join(kViewpointNames, ", ")));
 }

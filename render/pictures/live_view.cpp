@@ -43,12 +43,12 @@ struct Slices {
     }
     splats = wants_splats && next && next->spacing_m.size() == next->size();
     points = std::move(next);
-    actors.assign(points ? (points->size() + kActorPoints - 1) / kSlicePoints : 0, nullptr);
+    actors.assign(points ? (points->size() + kActorPoints - 1) / kActorPoints : 0, nullptr);
   }
   /// Stays in the renderer, unseen between drawings: VTK uploads an actor's points anew once it was away.
   vtkActor* at(std::size_t slice, const SplatSizes& sizes, vtkRenderer& renderer) {
     if (!actors[slice]) {
-      const std::size_t from = slice * kActorPoints, count = std::min(kSlicePoints, points->size() - from);
+      const std::size_t from = slice * kActorPoints, count = std::min(kActorPoints, points->size() - from);
       vtkNew<vtkPolyDataMapper> mapper;
       const std::span<const float> spacing_m =
           splats ? std::span(points->spacing_m).subspan(from, count) : std::span<const float>();
