@@ -107,6 +107,7 @@ std::size_t bin_of(double angle_rad, const AngleRange& range, std::size_t count)
 // Where each point belongs in the grid, the same for both rigs.
 struct Places {
   AngleRange motor, beam;
+  std::size_t columns = 1;
   std::vector<std::size_t> bins;
 };
 
@@ -119,19 +120,23 @@ Places places_of(const OffsetProblem& problem, const RigCloud& cloud, std::span<
     beams_rad.push_back(beam_rad(problem.recording->rig.mount,
                                  problem.features->planes.features[cloud.feature[point.after]]));
   }
-  Places places{range_of(angles_rad), range_of(beams_rad), {}};
+  Places places{range_of(angles_rad), range_of(beams_rad), 1, {}};
+  // Narrower columns would be empty where every sweep sees the same angles.
+  const double scans =
+      (places.motor.to_rad - places.motor.from_rad) / std::max(1e-3, problem.line_spacing_rad);
+  places.columns = std::clamp<std::size_t>(static_cast<std::size_t>(scans), 1, options.columns);
   for (std::size_t i = 0; i < points.size(); ++i)
-    places.bins.push_back(bin_of(beams_rad[i], places.beam, options.rows) * options.columns +
-                          bin_of(angles_rad[i], places.motor, options.columns));
+    places.bins.push_back(bin_of(beams_rad[i], places.beam, options.rows) * places.columns +
+                          bin_of(angles_rad[i], places.motor, places.columns));
   return places;
 }
 
 ResidualGrid grid_of(const Places& places, const std::vector<double>& residuals_m,
                      const ResidualGridOptions& options) {
-  std::vector<std::vector<double>> in_bin_m(options.columns * options.rows);
+  std::vector<std::vector<double>> in_bin_m(places.columns * options.rows);
   for (std::size_t i = 0; i < residuals_m.size(); ++i)
     if (!std::isnan(residuals_m[i])) in_bin_m[places.bins[i]].push_back(residuals_m[i]);
-  ResidualGrid grid{places.motor, places.beam, options.columns, options.rows, {}};
+  ResidualGrid grid{places.motor, places.beam, places.columns, options.rows, {}};
   for (auto& values_m : in_bin_m)
     grid.residual_m.push_back(values_m.size() < options.min_points ? std::numeric_limits<double>::quiet_NaN()
                                                                    : median(std::move(values_m)));

@@ -36,8 +36,8 @@ struct RigResiduals {
 };
 
 struct ResidualGridOptions {
-  std::size_t columns = 30, rows = 30;  // 6 deg of a half turn and of a scan of 180 deg
-  std::size_t min_points = 8;           // in a bin
+  std::size_t columns = 30, rows = 30;  // at most: a column is at least as wide as the motor turns in a scan
+  std::size_t min_points = 4;           // in a bin
   double loss_width_m = 0.03;           // of the fit that found `after`
 };
 
