@@ -210,24 +210,27 @@ Answer of_walk(const OffsetSearch& search, const MappingOptions& mapping,
       FitEvidence{solved->converged, 0, walk.features, walk.matches, e_m, walk.lever_m, walk.reach_m};
   judge_convergence(answer, solved->converged, walk.step_s, walk.sigma_s);
   add(answer.reasons, lever_reason(walk.lever_m, walk.reach_m));
-  add(answer.reasons, clearest_reason(solved->curve));
   if (!source || !source->motion.is_truth()) add(answer.warnings, sway_warning(solved->sway_rad));
-  add(answer.warnings,
-      long_sweeps_warning(*problem.recording, problem.motor, walk.unseen_sigma_s, walk.sigma_s));
-  add(answer.warnings, smooth_motor_warning(walk.sway_sigma_s, walk.sigma_s));
   const bool may_change = search.options.over_time_s.has_value();
   const double encoder_s = unseen_sigma_s(*problem.recording, problem.motor, walk.offset_s),
                sigma_of_walk_s = may_change ? sigma_of_parts(walk) : walk.sigma_s,
                of_walk_s = std::hypot(walk.unseen_sigma_s, walk.sway_sigma_s);
   const std::optional<double> sigma_s = std::hypot(sigma_of_walk_s, encoder_s);
+  const bool tells = !sigma_reason(sigma_s, scale);
+  // What warns of the uncertainty of an answer is the reason where it is too large for one.
+  std::vector<std::string>& limits = tells ? answer.warnings : answer.reasons;
+  add(limits, long_sweeps_warning(*problem.recording, problem.motor, walk.unseen_sigma_s, walk.sigma_s));
+  add(limits, smooth_motor_warning(walk.sway_sigma_s, walk.sigma_s));
   answer.sigma_parts = {
       {"statistical", std::sqrt(std::max(0.0, sigma_of_walk_s * sigma_of_walk_s - of_walk_s * of_walk_s))},
       {"path", walk.unseen_sigma_s},
       {"sway", walk.sway_sigma_s},
       {"encoder", encoder_s}};
   answer.rig_effects = rig_effects(problem.motor);
-  // Parts that tell nothing scatter as if the clocks drifted apart.
-  const auto drift = sigma_reason(sigma_s, scale) ? std::nullopt : drift_of(walk);
+  // Parts that tell nothing scatter as if the clocks drifted apart, and their mean is not where the map is
+  // sharpest.
+  if (tells) add(answer.reasons, clearest_reason(solved->curve));
+  const auto drift = tells ? drift_of(walk) : std::nullopt;
   if (drift) {
     answer.drift_ppm = drift->slope * 1e6;
     if (!may_change) add(answer.reasons, drift_reason(*drift, search.recorded_s(), walk.sigma_s));

@@ -21,11 +21,11 @@ struct PointOnSurface {
   std::size_t before, after, surface;
 };
 
-struct Plane {
+struct SurfacePlane {
   Eigen::Vector3d centre_m, normal;
 };
 
-Plane fitted(std::span<const Eigen::Vector3d> points_m) {
+SurfacePlane plane_through(std::span<const Eigen::Vector3d> points_m) {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& p : points_m) mean += p;
   mean /= double(points_m.size());
@@ -78,7 +78,7 @@ std::vector<double> residuals_m(const RigCloud& cloud, std::span<const PointOnSu
     for (; end < points.size() && points[end].surface == points[begin].surface; ++end)
       of_surface_m.push_back(cloud.p_m[points[end].*place]);
     if (of_surface_m.size() < kMinPoints) continue;
-    const Plane plane = fitted(of_surface_m);
+    const SurfacePlane plane = plane_through(of_surface_m);
     // The laser is near the origin of the base frame compared with any wall.
     const double outwards = plane.normal.dot(plane.centre_m) < 0 ? -1 : 1;
     for (std::size_t i = begin; i < end; ++i)

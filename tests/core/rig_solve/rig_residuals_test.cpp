@@ -12,12 +12,12 @@
 namespace sweepscope {
 namespace {
 
-constexpr double kOffset_s = 0.017;
+constexpr double kFoundOffset_s = 0.017;
 
 Recording in_room(const Eigen::Vector3d& mount_error_deg) {
   SimulationOptions options;
   options.scene = "room-2";
-  options.offset_s = kOffset_s;
+  options.offset_s = kFoundOffset_s;
   options.duration_s = 6;
   options.mount_error_deg = mount_error_deg;
   return simulate(options, Job()).value().recording;
@@ -25,7 +25,7 @@ Recording in_room(const Eigen::Vector3d& mount_error_deg) {
 
 RigUnknowns at_offset() {
   RigUnknowns rig;
-  rig.offset_s = kOffset_s;
+  rig.offset_s = kFoundOffset_s;
   return rig;
 }
 
@@ -35,7 +35,7 @@ RigResiduals residuals_of_turn(const Eigen::Vector2d& turn_rad) {
   const PreparedRecording prepared = prepare(recording, FeatureOptions(), Job()).value();
   RigUnknowns wrong = at_offset();
   wrong.turn_rad = turn_rad;
-  return rig_residuals(problem_for(prepared, kOffset_s, kOffset_s), wrong, at_offset(),
+  return rig_residuals(problem_for(prepared, kFoundOffset_s, kFoundOffset_s), wrong, at_offset(),
                        {.loss_width_m = 0.012});
 }
 
@@ -84,7 +84,7 @@ TEST(RigResiduals, AreTheSameToTheByteForOneAndForManyThreads) {
 TEST(RigResiduals, WithoutAnySurfaceThereIsNoGrid) {
   const Recording recording = in_room({0, 0, 0});
   PreparedRecording prepared = prepare(recording, FeatureOptions(), Job()).value();
-  OffsetProblem problem = problem_for(prepared, kOffset_s, kOffset_s);
+  OffsetProblem problem = problem_for(prepared, kFoundOffset_s, kFoundOffset_s);
   std::ranges::fill(problem.scan_used, 0);
   EXPECT_TRUE(rig_residuals(problem, at_offset(), at_offset(), {}).before.empty());
 }
