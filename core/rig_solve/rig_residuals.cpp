@@ -71,13 +71,13 @@ std::vector<PointOnSurface> points_on_surfaces(const RigCloud& before, const Rig
 // positive on the far side.
 std::vector<double> residuals_m(const RigCloud& cloud, std::span<const PointOnSurface> points,
                                 std::size_t PointOnSurface::*place) {
-  constexpr std::size_t kMinPoints = 30;  // as of PlaneCellOptions
+  constexpr std::size_t kMinOnSurface = 30;  // as of PlaneCellOptions
   std::vector<double> result(points.size(), std::numeric_limits<double>::quiet_NaN());
   for (std::size_t begin = 0, end = 0; begin < points.size(); begin = end) {
     std::vector<Eigen::Vector3d> of_surface_m;
     for (; end < points.size() && points[end].surface == points[begin].surface; ++end)
       of_surface_m.push_back(cloud.p_m[points[end].*place]);
-    if (of_surface_m.size() < kMinPoints) continue;
+    if (of_surface_m.size() < kMinOnSurface) continue;
     const SurfacePlane plane = plane_through(of_surface_m);
     // The laser is near the origin of the base frame compared with any wall.
     const double outwards = plane.normal.dot(plane.centre_m) < 0 ? -1 : 1;

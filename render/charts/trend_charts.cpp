@@ -4,6 +4,8 @@
 #include <functional>
 #include <optional>
 
+#include "core/numbers.hpp"
+
 namespace sweepscope {
 namespace {
 
@@ -42,8 +44,6 @@ Chart chart_over(const Campaign& campaign, const Place& place, const Style& styl
                              campaign.expected->offset_ms + campaign.expected->tolerance_ms, style.maps[1]});
   return chart;
 }
-
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
 /// The earliest date, in whole seconds since 1970, if there are two different ones.
 std::optional<std::int64_t> first_date_s(const Campaign& campaign) {
