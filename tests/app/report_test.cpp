@@ -71,7 +71,8 @@ TEST_F(ReportCommand, SolvesForTheRigAsEstimateDoes) {
   ASSERT_EQ(run("simulate room-2 --duration-s 4 --mount-error-deg 0,3,-4 -o r.bag").exit_code, 0);
   const Outcome outcome = run("report r.bag -o out --points 0 --solve offset,mount,play --prior mount_deg=5");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_NE(page().find("sweepscope report r.bag --solve offset,mount,play --prior mount_deg=5 -o report"),
+  EXPECT_NE(page().find(
+                "sweepscope report r.bag --solve offset,mount,play --prior mount_deg=5 --points 0 -o report"),
             std::string::npos);
   EXPECT_NE(page().find("The motor turns at one speed only"), std::string::npos);
   const auto of = [&](const std::string& file) {

@@ -182,6 +182,17 @@ TEST(DirectRefuses, AWalkThatIsTreatedAsStationary) {
                  "too far from sweep to sweep");
 }
 
+TEST(DirectRefuses, AWalkWithASlowMotorThatSlowsDownAndSaysWhatWouldHelp) {
+  SimulationOptions options{.scene = "metro-station", .offset_s = 0.012, .duration_s = 26};
+  options.motor = simulation::MotorKind::kSine;
+  options.sweep_s = 1.1;
+  const Estimate found = directly(made(options));
+  expect_refused(found, "Sweeps of 0.5 s would leave");
+  expect_refused(found, "reverses at once does not have this limit");
+  expect_refused(found, "There is too little information");
+  EXPECT_EQ(found.reasons.size(), 3U) << testing::PrintToString(found.reasons);
+}
+
 TEST(DirectRefuses, ClocksThatDriftApartAndSaysByHowMuch) {
   SimulationOptions options;
   options.duration_s = 10;

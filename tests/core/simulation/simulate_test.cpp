@@ -95,11 +95,11 @@ INSTANTIATE_TEST_SUITE_P(BothSigns, OffsetsSign, testing::Values(0.024, -0.037))
 
 TEST(Simulate, TheMotorSwingsAboutTheMiddleAskedFor) {
   SimulationOptions options = clean();
-  options.motor_middle_deg = 45;
+  options.motor_middle_deg = 20;
   const auto& angles_rad = simulated(options).recording.motor.angle_rad;
   const auto [least, most] = std::ranges::minmax(angles_rad);
-  EXPECT_NEAR(degrees(least), -45, 1);
-  EXPECT_NEAR(degrees(most), 135, 1);
+  EXPECT_NEAR(degrees(least), -70, 1);
+  EXPECT_NEAR(degrees(most), 110, 1);
   expect_angles_of_the_floor(options, 4);
 }
 
