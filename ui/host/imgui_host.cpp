@@ -92,6 +92,7 @@ void ImGuiHost::use(Theme theme, double scale) {
   ImGui::SetCurrentContext(imgui_);
   if (theme == theme_ && scale == scale_) return;
   if (scale != scale_) {
+    context_.make_current();  // a window that was resized meanwhile is not
     fonts_ = load_fonts(scale);
     ImGui_ImplOpenGL3_DestroyFontsTexture();  // made again with the next frame
     ImGui_ImplOpenGL3_CreateFontsTexture();
