@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct ApplyArguments {
   fs::path recording, output;
   std::optional<fs::path> estimate;
   RigOptions rig;
@@ -32,14 +32,14 @@ struct Options {
 };
 
 /// Whether the output may be written, before anything is read.
-Result<void> check_files(const Options& options) {
+Result<void> check_files(const ApplyArguments& options) {
   std::vector<fs::path> others;
   for (const auto& file : {options.estimate, options.rig.rig, options.poses})
     if (file) others.push_back(*file);
   return check_apply_files(options.recording, options.output, options.clouds_only, std::move(others));
 }
 
-Result<ApplyOptions> apply_options(const Options& options) {
+Result<ApplyOptions> apply_options(const ApplyArguments& options) {
   ApplyOptions result;
   const auto offset = applied_offset(options.estimate, options.offset_ms);
   if (!offset) return tl::unexpected(offset.error());
@@ -61,7 +61,7 @@ Result<ApplyOptions> apply_options(const Options& options) {
 }
 
 /// What contradicts itself, whatever the files hold.
-Result<void> check_options(const Options& options) {
+Result<void> check_options(const ApplyArguments& options) {
   const auto refuse = [](const char* why) { return failure(ExitCode::kWrongUsage, why); };
   if (options.estimate.has_value() == options.offset_ms.has_value())
     return refuse("apply needs the offset: one of --estimate and --offset-ms");
@@ -75,7 +75,7 @@ Result<void> check_options(const Options& options) {
   return {};
 }
 
-Result<void> write_clouds(const Options& options, const ApplyOptions& apply_options,
+Result<void> write_clouds(const ApplyArguments& options, const ApplyOptions& apply_options,
                           const Progress& progress) {
   const auto written = write_applied_sweeps(options.recording, apply_options, *options.clouds_only,
                                             "." + options.clouds_format, progress.job());
@@ -86,7 +86,7 @@ Result<void> write_clouds(const Options& options, const ApplyOptions& apply_opti
   return {};
 }
 
-Result<Applied> write_recording(const Options& options, const ApplyOptions& apply_options,
+Result<Applied> write_recording(const ApplyArguments& options, const ApplyOptions& apply_options,
                                 const Progress& progress) {
   auto applied = apply_offset(options.recording, options.output, apply_options, progress.job());
   if (!applied) return applied;
@@ -105,7 +105,7 @@ void print_applied(const Applied& applied, const fs::path& output) {
         done.added.empty() ? "" : "; added: ", fmt::format("{}", fmt::join(done.added, ", ")));
 }
 
-Result<void> run_checked(const Options& options) {
+Result<void> run_checked(const ApplyArguments& options) {
   if (const auto checked = check_options(options); !checked) return checked;
   if (const auto checked = check_files(options); !checked) return checked;
   const auto apply_options = app::apply_options(options);
@@ -119,7 +119,7 @@ Result<void> run_checked(const Options& options) {
   });
 }
 
-ExitCode run(const Options& options) {
+ExitCode run(const ApplyArguments& options) {
   const auto done = run_checked(options);
   return done ? ExitCode::kDone : fail(done.error());
 }
@@ -129,7 +129,7 @@ ExitCode run(const Options& options) {
 void add_apply(CLI::App& app, ExitCode& exit_code) {
   CLI::App* command =
       app.add_subcommand("apply", "Write the recording with the offset applied to the stamps");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ApplyArguments>();
   command->add_option("REC", options->recording, "The recording: a ROS 1 or ROS 2 bag, or an MCAP file")
       ->required();
   command

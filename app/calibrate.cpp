@@ -18,7 +18,7 @@
 namespace sweepscope::app {
 namespace {
 
-struct Options {
+struct CalibrateArguments {
   std::string source, address;  // the address: of a Foxglove server
   RecordingOptions recording;   // --rig, --laser, --motor, --joint, --stamps and --threads
   CalibrationOptions calibration;
@@ -39,7 +39,7 @@ constexpr const char* kLines =
     "range_min_m, range_max_m, topic]; angle_rad, angle_deg or position [topic, joint]. Empty lines and "
     "lines that begin with # are ignored.";
 
-Result<std::unique_ptr<LiveSource>> open_source(const Options& options) {
+Result<std::unique_ptr<LiveSource>> open_source(const CalibrateArguments& options) {
   if (options.source == "-")
     return std::make_unique<StreamSource>(STDIN_FILENO, "standard input", options.calibration.rig);
   if (options.source == "foxglove") return open_foxglove_source(options.address, options.calibration.rig);
@@ -54,7 +54,7 @@ Result<RecordingFormat> record_format(const std::filesystem::path& output) {
                   output.string()));
 }
 
-Result<void> keep(const RawRecording& heard, const Options& options, RecordingFormat format) {
+Result<void> keep(const RawRecording& heard, const CalibrateArguments& options, RecordingFormat format) {
   const auto laser = choose_laser(heard, options.calibration.rig);
   if (!laser) return tl::unexpected(laser.error());
   const auto joint = choose_joint(heard, options.calibration.rig);
@@ -98,7 +98,7 @@ std::string words_of(ListeningEnd end, const HeardSoFar& heard, const Calibratio
 }
 
 /// Lines may come from a file that is standard input.
-Result<void> check_files(const Options& options, RecordingFormat format) {
+Result<void> check_files(const CalibrateArguments& options, RecordingFormat format) {
   std::vector<std::filesystem::path> inputs;
   if (options.source == "-") inputs.emplace_back("/dev/stdin");
   if (options.recording.rig) inputs.push_back(*options.recording.rig);
@@ -116,7 +116,7 @@ bool is_a_reason(ListeningEnd end) {
 }
 
 /// `kept`: whether what was heard could be recorded.
-Result<Estimate> run_calibration(Options& options, Result<void>& kept) {
+Result<Estimate> run_calibration(CalibrateArguments& options, Result<void>& kept) {
   if ((options.source == "foxglove") == options.address.empty())
     return failure(ExitCode::kWrongUsage,
                    options.address.empty()
@@ -152,7 +152,7 @@ Result<Estimate> run_calibration(Options& options, Result<void>& kept) {
   return found;
 }
 
-ExitCode run(Options& options) {
+ExitCode run(CalibrateArguments& options) {
   const auto threads = options.recording.limit_threads();
   Result<void> kept;
   const auto found = run_calibration(options, kept);
@@ -166,7 +166,7 @@ ExitCode run(Options& options) {
 void add_calibrate(CLI::App& app, ExitCode& exit_code) {
   CLI::App* command = app.add_subcommand(
       "calibrate", "Find the offset of a running, stationary rig: t_motor = t_laser + offset");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CalibrateArguments>();
   const bool ros = ros_source_is_built();
   const std::string sources =
       ros ? "- for lines on standard input, or ros for a running ROS 1 system, or foxglove with an address"

@@ -13,13 +13,13 @@
 namespace sweepscope::app {
 namespace {
 
-struct Options {
+struct ConvertArguments {
   std::filesystem::path recording, output;
   RigOptions rig;
   std::string to, compression = "none";
 };
 
-Result<RecordingFormat> format_of(const Options& options) {
+Result<RecordingFormat> format_of(const ConvertArguments& options) {
   const auto format = options.to.empty() ? recording_format_of(options.output) : recording_format(options.to);
   if (!format) {
     return failure(ExitCode::kWrongUsage, fmt::format("{}: unknown format; name it OUT.bag, OUT.mcap, or OUT "
@@ -33,7 +33,7 @@ Result<RecordingFormat> format_of(const Options& options) {
   return *format;
 }
 
-Result<void> check_files(const Options& options, RecordingFormat format) {
+Result<void> check_files(const ConvertArguments& options, RecordingFormat format) {
   std::vector<std::filesystem::path> inputs = recording_files(options.recording);
   if (options.rig.rig) inputs.push_back(*options.rig.rig);
   return check_outputs(written_files(options.output, format), std::move(inputs),
@@ -41,7 +41,7 @@ Result<void> check_files(const Options& options, RecordingFormat format) {
 }
 
 /// Converts, and gives the line that says so.
-Result<std::string> convert(const Options& options) {
+Result<std::string> convert(const ConvertArguments& options) {
   const auto format = format_of(options);
   if (!format) return tl::unexpected(format.error());
   if (const auto checked = check_files(options, *format); !checked) return tl::unexpected(checked.error());
@@ -68,7 +68,7 @@ Result<std::string> convert(const Options& options) {
                      motor.topic);
 }
 
-ExitCode run(const Options& options) {
+ExitCode run(const ConvertArguments& options) {
   const auto said = convert(options);
   if (!said) return fail(said.error());
   print("{}\n", *said);
@@ -80,7 +80,7 @@ ExitCode run(const Options& options) {
 void add_convert(CLI::App& app, ExitCode& exit_code) {
   CLI::App* command =
       app.add_subcommand("convert", "Convert the scans and the motor samples to another recording format");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ConvertArguments>();
   command->add_option("REC", options->recording, std::string("The recording: ") + kRecordings)->required();
   command
       ->add_option("-o,--output", options->output,

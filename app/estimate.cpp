@@ -16,7 +16,7 @@
 namespace sweepscope::app {
 namespace {
 
-struct Options {
+struct EstimateArguments {
   CampaignOptions campaign;
   EstimateInput input;  // its recording: the single one
   EstimateOutput output;
@@ -39,12 +39,13 @@ std::optional<Shard> parse_shard(const std::string& text) {
 }
 
 /// "walk.2-of-4.candidates", in the folder that the command runs in.
-std::string shard_file(const Options& options) {
+std::string shard_file(const EstimateArguments& options) {
   return fmt::format("{}.{}-of-{}.candidates", options.input.recording.recording.stem().string(),
                      options.shard->number, options.shard->count);
 }
 
-Result<std::unique_ptr<CandidateFile>> open_candidates(const Options& options, const std::string& path,
+Result<std::unique_ptr<CandidateFile>> open_candidates(const EstimateArguments& options,
+                                                       const std::string& path,
                                                        std::vector<std::string> deciding) {
   return candidate_search(options.input.recording, std::move(deciding))
       .and_then([&](CandidateSearch&& search) {
@@ -53,8 +54,8 @@ Result<std::unique_ptr<CandidateFile>> open_candidates(const Options& options, c
       });
 }
 
-ExitCode say_shard(const Options& options, const Estimate& estimate, const CandidateFile& candidates,
-                   const std::string& path) {
+ExitCode say_shard(const EstimateArguments& options, const Estimate& estimate,
+                   const CandidateFile& candidates, const std::string& path) {
   for (const std::string& reason : estimate.reasons) print("nothing to compute: {}\n", reason);
   print(
       "{}: {} candidates, {} of them computed now; shard {} of {}; combine the shards with `sweepscope "
@@ -64,7 +65,7 @@ ExitCode say_shard(const Options& options, const Estimate& estimate, const Candi
   return ExitCode::kDone;
 }
 
-ExitCode conclude_interrupted(const Options& options, const Estimate& found,
+ExitCode conclude_interrupted(const EstimateArguments& options, const Estimate& found,
                               const CandidateFile* candidates) {
   if (!options.shard) {
     if (const auto written = options.output.write(found); !written) return fail(written.error());
@@ -74,12 +75,12 @@ ExitCode conclude_interrupted(const Options& options, const Estimate& found,
 }
 
 /// The rig as it was solved for.
-Result<void> write_rig(const Options& options, const Estimate& found) {
+Result<void> write_rig(const EstimateArguments& options, const Estimate& found) {
   if (options.rig_out.empty() || !found.rig) return {};
   return write_text(options.rig_out, found_rig_file(*found.rig, found.recording));
 }
 
-ExitCode conclude_search(const Options& options, const Estimate& found, CandidateFile* candidates,
+ExitCode conclude_search(const EstimateArguments& options, const Estimate& found, CandidateFile* candidates,
                          const std::string& path) {
   if (found.interrupted) return conclude_interrupted(options, found, candidates);
   const auto ordered = candidates == nullptr ? Result<void>() : candidates->put_in_order();
@@ -91,12 +92,12 @@ ExitCode conclude_search(const Options& options, const Estimate& found, Candidat
   return ordered ? code : fail(ordered.error());
 }
 
-bool keeps(const Options& options) {
+bool keeps(const EstimateArguments& options) {
   return options.shard || !options.resume.empty();
 }
 
 /// What makes no sense together is refused before a file for candidates is begun.
-Result<void> check_options(const Options& options) {
+Result<void> check_options(const EstimateArguments& options) {
   const EstimateOptions& search = options.input.estimate;
   const auto refuse = [](const char* why) { return failure(ExitCode::kWrongUsage, why); };
   if (options.trust_poses && options.poses.empty()) return refuse("--trust-poses needs --poses T.tum");
@@ -119,21 +120,21 @@ Result<void> check_options(const Options& options) {
   return {};
 }
 
-Result<std::optional<GivenPoses>> read_poses(const Options& options, const Recording& recording) {
+Result<std::optional<GivenPoses>> read_poses(const EstimateArguments& options, const Recording& recording) {
   if (options.poses.empty()) return std::nullopt;
   auto poses = read_tum(options.poses, recording.epoch_ns);
   if (!poses) return tl::unexpected(poses.error());
   return GivenPoses{options.poses, std::move(*poses), options.trust_poses};
 }
 
-std::vector<std::filesystem::path> input_files(const Options& options) {
+std::vector<std::filesystem::path> input_files(const EstimateArguments& options) {
   std::vector<std::filesystem::path> files = options.input.recording.input_files();
   if (!options.poses.empty()) files.emplace_back(options.poses);
   return files;
 }
 
 /// What makes no sense for several recordings, which share one table.
-Result<void> check_campaign(const Options& options) {
+Result<void> check_campaign(const EstimateArguments& options) {
   const auto refuse = [](const char* option, const char* instead) {
     return failure(
         ExitCode::kWrongUsage,
@@ -148,13 +149,14 @@ Result<void> check_campaign(const Options& options) {
   return {};
 }
 
-Result<std::optional<DatedEstimate>> from_parts(const Options& options, const EstimateOptions& search) {
+Result<std::optional<DatedEstimate>> from_parts(const EstimateArguments& options,
+                                                const EstimateOptions& search) {
   if (keeps(options) || !options.poses.empty()) return std::nullopt;
   const Progress progress;
   return estimate_from_parts(options.input.recording, search, progress.job());
 }
 
-ExitCode run_single(const Options& options, std::vector<std::string> deciding) {
+ExitCode run_single(const EstimateArguments& options, std::vector<std::string> deciding) {
   const std::string path = options.resume.empty() && options.shard ? shard_file(options) : options.resume;
   if (const auto checked = options.output.check(input_files(options), {path, options.rig_out}); !checked)
     return fail(checked.error());
@@ -185,7 +187,7 @@ ExitCode run_single(const Options& options, std::vector<std::string> deciding) {
   return conclude_search(options, *found, candidates.get(), path);
 }
 
-ExitCode run(Options& options, std::vector<std::string> deciding) {
+ExitCode run(EstimateArguments& options, std::vector<std::string> deciding) {
   const auto threads = options.input.recording.limit_threads();
   const bool campaign = options.campaign.is_campaign();
   const auto checked =
@@ -196,7 +198,7 @@ ExitCode run(Options& options, std::vector<std::string> deciding) {
   return run_single(options, std::move(deciding));
 }
 
-void declare_poses(CLI::App& command, Options& options) {
+void declare_poses(CLI::App& command, EstimateArguments& options) {
   command
       .add_option(
           "--poses", options.poses,
@@ -207,7 +209,7 @@ void declare_poses(CLI::App& command, Options& options) {
                    "Treat --poses as the truth: the offset and the time shift are the only unknowns");
 }
 
-void declare_candidates(CLI::App& command, Options& options) {
+void declare_candidates(CLI::App& command, EstimateArguments& options) {
   command
       .add_option("--resume", options.resume,
                   "Keep finished candidates in F; those already in F are not computed again")
@@ -227,7 +229,7 @@ void declare_candidates(CLI::App& command, Options& options) {
 
 void add_estimate(CLI::App& app, ExitCode& exit_code) {
   CLI::App* command = app.add_subcommand("estimate", "Find the offset: t_motor = t_laser + offset");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<EstimateArguments>();
   options->input.recording.keep_intensities = false;
   options->campaign.declare(*command);
   options->input.declare_search(*command);

@@ -15,12 +15,12 @@
 namespace sweepscope::app {
 namespace {
 
-struct Options {
+struct FiguresArguments {
   std::string recipe, folder, draw_in = "offscreen";
   int threads = 0;
 };
 
-ExitCode run(const Options& options) {
+ExitCode run(const FiguresArguments& options) {
   std::unique_ptr<tbb::global_control> limit;
   if (options.threads > 0) limit = limit_threads(static_cast<std::size_t>(options.threads));
   const auto recipe = read_recipe(options.recipe);
@@ -71,7 +71,7 @@ std::string recipe_keys() {
 void add_figures(CLI::App& app, ExitCode& exit_code) {
   CLI::App* command = app.add_subcommand("figures", "Make the figures and tables of a recipe");
   command->footer(recipe_keys);
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<FiguresArguments>();
   command->add_option("RECIPE", options->recipe, "A recipe (YAML), such as assets/figures/quick.yaml")
       ->required();
   command

@@ -14,7 +14,7 @@
 namespace sweepscope::app {
 namespace {
 
-struct Options {
+struct MapArguments {
   RecordingOptions recording;
   double offset_ms = 0;
   std::string output, trajectory, poses;
@@ -27,7 +27,7 @@ struct Built {
   std::int64_t epoch_ns = 0;
 };
 
-Result<Built> build(const Options& options) {
+Result<Built> build(const MapArguments& options) {
   const Progress progress;
   const auto recording = options.recording.read(progress.job());
   if (!recording) return tl::unexpected(recording.error());
@@ -45,7 +45,7 @@ Result<Built> build(const Options& options) {
   return Built{std::move(maps->front()), recording->epoch_ns};
 }
 
-ExitCode run(const Options& options) {
+ExitCode run(const MapArguments& options) {
   const auto threads = options.recording.limit_threads();
   std::vector<std::filesystem::path> inputs = options.recording.input_files();
   if (!options.poses.empty()) inputs.emplace_back(options.poses);
@@ -72,7 +72,7 @@ ExitCode run(const Options& options) {
 
 void add_map(CLI::App& app, ExitCode& exit_code) {
   CLI::App* command = app.add_subcommand("map", "Write the map at an offset, as PCD or PLY");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<MapArguments>();
   options->recording.declare(*command);
   options->recording.declare_computing(*command);
   command->add_option("--offset-ms", options->offset_ms, "t_motor = t_laser + offset")

@@ -10,7 +10,7 @@
 namespace sweepscope::app {
 namespace {
 
-struct Options {
+struct MergeArguments {
   std::vector<std::filesystem::path> parts;
   std::string recording, rig;  // empty: where the parts say
   int threads = 0;
@@ -18,7 +18,8 @@ struct Options {
 };
 
 /// The options with which the parts were computed, read by the same declarations.
-Result<std::unique_ptr<EstimateInput>> input_of(const CandidateSearch& search, const Options& options) {
+Result<std::unique_ptr<EstimateInput>> input_of(const CandidateSearch& search,
+                                                const MergeArguments& options) {
   auto input = std::make_unique<EstimateInput>();
   CLI::App reader;
   input->declare(reader);
@@ -37,7 +38,7 @@ Result<std::unique_ptr<EstimateInput>> input_of(const CandidateSearch& search, c
 }
 
 /// Hashes of what was found must be those that the parts name.
-Result<void> check(const EstimateInput& input, const CandidateSearch& search, const Options& options) {
+Result<void> check(const EstimateInput& input, const CandidateSearch& search, const MergeArguments& options) {
   return candidate_search(input.recording, search.options).and_then([&](const CandidateSearch& here) {
     const std::string differs = difference(search, here);
     if (differs.empty()) return Result<void>();
@@ -46,7 +47,7 @@ Result<void> check(const EstimateInput& input, const CandidateSearch& search, co
   });
 }
 
-Result<Estimate> merge(const Options& options, MergedCandidates& candidates) {
+Result<Estimate> merge(const MergeArguments& options, MergedCandidates& candidates) {
   const CandidateSearch& search = candidates.search();
   const auto input = input_of(search, options);
   if (!input) return tl::unexpected(input.error());
@@ -68,7 +69,7 @@ Result<Estimate> merge(const Options& options, MergedCandidates& candidates) {
   return found;
 }
 
-ExitCode run(const Options& options) {
+ExitCode run(const MergeArguments& options) {
   if (const auto checked = options.output.check(options.parts); !checked) return fail(checked.error());
   auto candidates = MergedCandidates::read(options.parts);
   if (!candidates) return fail(candidates.error());
@@ -81,7 +82,7 @@ ExitCode run(const Options& options) {
 
 void add_merge(CLI::App& app, ExitCode& exit_code) {
   CLI::App* command = app.add_subcommand("merge", "Combine the parts of `estimate --shard` into one result");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<MergeArguments>();
   command->add_option("PART", options->parts, "Candidate files of one search")->required()->expected(-1);
   command
       ->add_option("--recording", options->recording,

@@ -18,7 +18,7 @@
 namespace sweepscope::app {
 namespace {
 
-struct Options {
+struct ReportArguments {
   RecordingOptions recording;
   std::string folder;
   EstimateOptions estimate;  // of it, what is solved for beside the offset
@@ -27,12 +27,12 @@ struct Options {
   std::vector<std::string> given;  // the options, as they were given
 };
 
-std::filesystem::path kept_candidates(const Options& options) {
+std::filesystem::path kept_candidates(const ReportArguments& options) {
   return std::filesystem::path(options.folder) / "report.candidates";
 }
 
 /// Finished candidates are kept in the report's folder until the report is there.
-Result<ReportContent> make(const Options& options) {
+Result<ReportContent> make(const ReportArguments& options) {
   if (const auto drawable = gl::check_offscreen(); !drawable) return tl::unexpected(drawable.error());
   const Progress progress;
   const auto recording = options.recording.read(progress.job());
@@ -52,13 +52,13 @@ Result<ReportContent> make(const Options& options) {
   return content;
 }
 
-Result<void> check_files(const Options& options) {
+Result<void> check_files(const ReportArguments& options) {
   std::vector<std::string> outputs{kept_candidates(options).string()};
   for (const auto& file : report_files(options.folder)) outputs.push_back(file.string());
   return check_outputs(outputs, options.recording.input_files(), options.folder);
 }
 
-ExitCode run(const Options& options) {
+ExitCode run(const ReportArguments& options) {
   const auto threads = options.recording.limit_threads();
   if (const auto checked = check_files(options); !checked) return fail(checked.error());
   const auto content = make(options);
@@ -68,8 +68,8 @@ ExitCode run(const Options& options) {
   return content->estimate.identifiable ? ExitCode::kDone : ExitCode::kNotIdentifiable;
 }
 
-/// Options as a shell would take them, files by their names. What does not change the report is left out, so
-/// that its bytes are the same wherever files lie and however many threads there are.
+/// ReportArguments as a shell would take them, files by their names. What does not change the report is left
+/// out, so that its bytes are the same wherever files lie and however many threads there are.
 std::string quoted_options(const CLI::App& command) {
   std::string text;
   for (const CLI::Option* option : command.get_options()) {
@@ -89,7 +89,7 @@ std::string quoted_options(const CLI::App& command) {
 void add_report(CLI::App& app, ExitCode& exit_code) {
   CLI::App* command =
       app.add_subcommand("report", "Write a self-contained HTML page: the offset, its evidence and the maps");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ReportArguments>();
   options->recording.declare(*command);
   options->recording.declare_computing(*command);
   declare_estimate_options(*command, options->estimate, {"solve", "prior"});

@@ -19,7 +19,7 @@
 namespace sweepscope::app {
 namespace {
 
-struct Options {
+struct RigArguments {
   std::filesystem::path recording;
   RigOptions rig;
   std::optional<StampSource> stamps;
@@ -31,7 +31,7 @@ struct Options {
 };
 
 /// --as takes rig files too. They are text, and recordings are not.
-bool is_rig_file(const Options& options) {
+bool is_rig_file(const RigArguments& options) {
   std::error_code unknown;
   if (!options.system || !std::filesystem::is_regular_file(options.recording, unknown)) return false;
   std::array<char, 4096> begin{};
@@ -41,7 +41,7 @@ bool is_rig_file(const Options& options) {
   return !bytes.empty() && bytes.find('\0') == bytes.npos;
 }
 
-Result<DetectedRig> detect(const Options& options) {
+Result<DetectedRig> detect(const RigArguments& options) {
   ReadOptions reading;
   reading.stamps = options.stamps;
   auto given = options.rig.rig_given();
@@ -52,7 +52,7 @@ Result<DetectedRig> detect(const Options& options) {
 }
 
 /// The rig with what the estimate found of it, if one is given.
-Result<DetectedRig> with_estimate(DetectedRig detected, const Options& options) {
+Result<DetectedRig> with_estimate(DetectedRig detected, const RigArguments& options) {
   if (!options.estimate) return detected;
   const std::string name = options.estimate->string();
   return read_file(*options.estimate)
@@ -67,7 +67,7 @@ Result<DetectedRig> with_estimate(DetectedRig detected, const Options& options) 
 }
 
 /// The rig of a rig file or of a recording, and of the estimate.
-Result<DetectedRig> rig_of(const Options& options) {
+Result<DetectedRig> rig_of(const RigArguments& options) {
   const auto known = [&]() -> Result<DetectedRig> {
     if (!is_rig_file(options)) return detect(options);
     return read_rig(options.recording).map([](const Rig& rig) {
@@ -80,7 +80,7 @@ Result<DetectedRig> rig_of(const Options& options) {
       [&](DetectedRig&& detected) { return with_estimate(std::move(detected), options); });
 }
 
-Result<std::string> snippet_text(const Options& options) {
+Result<std::string> snippet_text(const RigArguments& options) {
   RigSnippet snippet;
   const auto rig = rig_of(options);
   if (!rig) return tl::unexpected(rig.error());
@@ -95,7 +95,7 @@ Result<std::string> snippet_text(const Options& options) {
   return rig_snippet(snippet, *options.system);
 }
 
-Result<void> check_options(const Options& options) {
+Result<void> check_options(const RigArguments& options) {
   const auto refuse = [](const char* why) { return failure(ExitCode::kWrongUsage, why); };
   if (options.system && options.estimate.has_value() == options.offset_ms.has_value())
     return refuse("--as writes the offset as well: give one of --estimate and --offset-ms");
@@ -105,7 +105,7 @@ Result<void> check_options(const Options& options) {
   return {};
 }
 
-std::vector<std::filesystem::path> input_files(const Options& options) {
+std::vector<std::filesystem::path> input_files(const RigArguments& options) {
   std::vector<std::filesystem::path> files = recording_files(options.recording);
   if (is_rig_file(options)) files.push_back(options.recording);
   if (options.rig.rig) files.push_back(*options.rig.rig);
@@ -113,7 +113,7 @@ std::vector<std::filesystem::path> input_files(const Options& options) {
   return files;
 }
 
-ExitCode run(const Options& options) {
+ExitCode run(const RigArguments& options) {
   const auto checked =
       check_options(options).and_then([&] { return check_outputs({options.output}, input_files(options)); });
   if (!checked) return fail(checked.error());
@@ -123,7 +123,7 @@ ExitCode run(const Options& options) {
   return written ? ExitCode::kDone : fail(written.error());
 }
 
-void declare_snippet(CLI::App& command, Options& options) {
+void declare_snippet(CLI::App& command, RigArguments& options) {
   command
       .add_option_function<std::string>(
           "--as",
@@ -159,7 +159,7 @@ void add_rig(CLI::App& app, ExitCode& exit_code) {
       "rig",
       "Write a rig file with what was detected in a recording, to edit and to give with --rig; or the mount "
       "and the offset as other systems read them");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<RigArguments>();
   command
       ->add_option("REC", options->recording,
                    std::string("The recording: ") + kRecordings + "; with --as also a rig file")

@@ -41,7 +41,7 @@ void expect_interrupted_at_every_look(std::uint64_t between, const Work& work) {
     ASSERT_TRUE(answer);
     ASSERT_GT(all.looks(), 0U);
     // On two threads the looks come in any order: the last ones are no other than those before.
-    for (const std::uint64_t look : chosen_looks(all.looks(), between, threads == 1 ? 50 : 5)) {
+    for (const std::uint64_t look : chosen_looks(all.looks(), between, threads == 1 ? 25 : 5)) {
       LookCount looks(look);
       Job job;
       job.obey(looks);

@@ -35,7 +35,7 @@ TEST_P(JointWalkFrom, FindsTheTruth) {
 INSTANTIATE_TEST_SUITE_P(Starts, JointWalkFrom, testing::Values(-1.5 * kMs, 0.0, 1.5 * kMs));
 
 TEST(JointWalk, PosesAreContinuousAndOneForEverySweep) {
-  const Recording& recording = test::simulated("metro-station", 0.024, 40).recording;
+  const Recording& recording = test::simulated("metro-station", 0.024, 20).recording;
   const OffsetProblem problem = test::problem_of(recording);
   const TrackedWalk tracked = track(problem, 0.024, MappingOptions(), Job()).value();
   JointWalkOptions options;

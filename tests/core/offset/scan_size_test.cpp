@@ -65,7 +65,7 @@ TEST(ScanSize, AFieldOfViewBeyondAFullTurnIsWorkedWith) {
 }
 
 TEST(ScanSize, AFewLongScansAmongShortOnesTakeNoRoomInAllOfThem) {
-  std::vector<std::uint32_t> beams(3000, 12);
+  std::vector<std::uint32_t> beams(600, 12);
   beams[7] = kMaxBeamsAScan;
   const Recording recording = recording_of(beams, 3);
   const OffsetProblem problem = problem_for(prepare(recording, FeatureOptions(), Job()).value(), 0, 0);
