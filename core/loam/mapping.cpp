@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/loam/given_motion.hpp"
+#include "core/loam/relocalisation.hpp"
 #include "core/loam/tracker.hpp"
 
 namespace sweepscope {
@@ -56,9 +57,9 @@ class Walk {
   // False where the job was cancelled.
   bool track(Range range) {
     if (range.size() < min_sweeps()) return true;  // they stay lost
-    Stretch best;
+    Tracked best;
     for (const std::size_t start : starts(range)) {
-      Stretch found = follow(start, range);
+      Tracked found = follow(start, range);
       if (job_.cancelled()) return false;
       if (best.poses.empty() || better(found, best)) best = std::move(found);
       if (best.range.size() == range.size() && best.well) break;
@@ -84,14 +85,14 @@ class Walk {
   std::size_t min_sweeps() const { return std::size_t(options_.first_sweeps); }
 
   // Sweeps tracked on one map.
-  struct Stretch {
+  struct Tracked {
     Range range{0, 0};
     std::size_t start = 0;
     std::vector<SweepPose> poses;
     MatchCount count;
     bool alternates = false, well = false;
   };
-  static bool better(const Stretch& a, const Stretch& b) {
+  static bool better(const Tracked& a, const Tracked& b) {
     return a.alternates != b.alternates ? b.alternates : a.count.matches > b.count.matches;
   }
   struct Start {
@@ -158,9 +159,9 @@ class Walk {
   }
 
   // From the start to the range's end, then back to its first sweep, each until track is lost for good.
-  Stretch follow(std::size_t start, Range range) {
+  Tracked follow(std::size_t start, Range range) {
     Tracker tracker(options_, first_pose(start, range));
-    Stretch found;
+    Tracked found;
     found.start = start;
     const auto add = [&](const PlacedSweep& sweep) {
       SweepPose pose = tracker.add(sweep);
@@ -187,32 +188,78 @@ class Walk {
     return found;
   }
 
-  void judge(Stretch& found) const {
+  void judge(Tracked& found) const {
     const Eigen::Vector3d motor_axis = source_.place(found.start).turned_rad.normalized();
     found.alternates = alternating_sway_rad(found.poses, motor_axis) > options_.max_alternation_rad;
     found.well = found.count.matched_part() >= options_.well_tracked && !found.alternates;
   }
 
-  // Each stretch goes on from where the one before it ended, at its velocity; so do sweeps that were not
-  // tracked at all.
+  // Puts the stretches into one frame, each where it was found on the map of those before it; one that is not
+  // found goes on from where the one before it ended, at its velocity. So do sweeps that were not tracked.
   void join_stretches() {
+    Relocaliser relocaliser(options_);
     Pose map_from_stretch;
-    for (std::size_t i = 0; i < poses_.size(); ++i) {
-      SweepPose& pose = poses_[i];
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < poses_.size(); i = next) {
+      for (next = i + 1; next < poses_.size() && poses_[next].stretch == poses_[i].stretch;) ++next;
       const SweepPose* last = i > 0 ? &poses_[i - 1] : nullptr;
-      const bool tracked = pose.stretch > 0;
-      if (!tracked) {
-        pose = pose_of(source_.place(i));
-        pose.lost = true;
-        if (last != nullptr) pose.knots = {last->end(), last->at(2)};
+      if (poses_[i].stretch == 0) {
+        carry_on(i, next);
         continue;
       }
-      if (last != nullptr && last->stretch != pose.stretch)
-        map_from_stretch = last->end() * pose.begin().inverse();
-      else if (last == nullptr)
-        map_from_stretch = pose.begin().inverse();
-      for (Pose& knot : pose.knots) knot = map_from_stretch * knot;
+      const auto found = last != nullptr ? relocated(relocaliser, {i, next}) : std::nullopt;
+      if (found)
+        map_from_stretch = *found;
+      else
+        map_from_stretch = (last != nullptr ? last->end() : Pose()) * poses_[i].begin().inverse();
+      for (std::size_t k = i; k < next; ++k)
+        for (Pose& knot : poses_[k].knots) knot = map_from_stretch * knot;
+      if (found) fill_gap(i);
+      if (stretches_ > 1 && (last == nullptr || found))
+        for (std::size_t k = i; k < next; ++k)
+          if (!poses_[k].lost) relocaliser.insert(source_.place(k), poses_[k]);
     }
+  }
+
+  void carry_on(std::size_t first, std::size_t end) {
+    for (std::size_t i = first; i < end; ++i) {
+      poses_[i] = pose_of(source_.place(i));
+      poses_[i].lost = true;
+      if (i > 0) poses_[i].knots = {poses_[i - 1].end(), poses_[i - 1].at(2)};
+    }
+  }
+
+  // map_from_stretch, of these sweeps, by what they see.
+  std::optional<Pose> relocated(const Relocaliser& relocaliser, Range range) const {
+    constexpr std::size_t kSweeps = 8;  // a full turn of the head, and cheap enough to try in several places
+    const std::size_t before = last_tracked(range.first);
+    if (before == range.first) return std::nullopt;
+    Stretch stretch;
+    for (std::size_t i = range.first; i < range.end && stretch.sweeps.size() < kSweeps; ++i) {
+      if (poses_[i].lost) continue;
+      stretch.sweeps.push_back(source_.place(i));
+      stretch.poses.push_back(poses_[i]);
+    }
+    if (stretch.sweeps.empty()) return std::nullopt;
+    const SweepPose& last = poses_[before];
+    return relocaliser.find(stretch, last.end(), stretch.poses.front().begin_s - last.end_s);
+  }
+
+  // The last sweep before this one that was tracked; this one where there is none.
+  std::size_t last_tracked(std::size_t i) const {
+    for (std::size_t k = i; k-- > 0;)
+      if (!poses_[k].lost) return k;
+    return i;
+  }
+
+  // The sweeps before this one that were not tracked, evenly from where the rig was to where it is.
+  void fill_gap(std::size_t i) {
+    const std::size_t before = last_tracked(i);
+    const Pose from = poses_[before].end(), to = poses_[i].begin();
+    const double from_s = poses_[before].end_s, lasted_s = poses_[i].begin_s - from_s;
+    for (std::size_t k = before + 1; k < i; ++k)
+      poses_[k].knots = {interpolate(from, to, (poses_[k].begin_s - from_s) / lasted_s),
+                         interpolate(from, to, (poses_[k].end_s - from_s) / lasted_s)};
   }
 
   const SweepSource& source_;

@@ -103,6 +103,28 @@ TEST_F(SteadyWalk, WhereTheMapDoesNotFitTheRigIsLostAndBeginsAnew) {
         << k;
 }
 
+// The rig is carried on unseen and turned; what it sees then is the same hall.
+TEST_F(SteadyWalk, AfterAGapTheRigIsFoundOnItsMap) {
+  const Pose turned{rotation_from_vector({0.05, -0.1, 2.1}), Vector3d(0.4, -0.3, 0.1)};
+  std::vector<PlacedSweep> sweeps = place_sweeps(problem_, 0);
+  const std::size_t half = sweeps.size() / 2;
+  for (std::size_t k = half; k < sweeps.size(); ++k) {
+    sweeps[k].begin_s += 3;
+    sweeps[k].end_s += 3;
+    sweeps[k].turned_rad = turned.rotation * sweeps[k].turned_rad;
+    for (auto* features : {&sweeps[k].edges, &sweeps[k].planes})
+      for (PlacedFeature& feature : *features) feature.p_in_base_m = turned * feature.p_in_base_m;
+  }
+  const TrackedWalk walk = track(sweeps, MappingOptions(), Job()).value();
+  EXPECT_NE(walk.sweeps.front().stretch, walk.sweeps.back().stretch);
+  const auto way = [](const Pose& from, const Pose& to) { return from.inverse() * to; };
+  const std::size_t last = sweeps.size() - 2;  // the last sweep is not whole
+  const Pose found = way(walk.sweeps[2].middle(), walk.sweeps[last].middle()),
+             truth = way(walk_.sweeps[2].middle(), walk_.sweeps[last].middle() * turned.inverse());
+  EXPECT_NEAR((found.translation_m - truth.translation_m).norm(), 0, 0.05);
+  EXPECT_NEAR(turn_between(truth.rotation, found.rotation).norm(), 0, 1 * test::kDegree);
+}
+
 TEST(LostIntervals, AreRunsOfLostSweeps) {
   std::vector<SweepPose> sweeps(7);
   for (std::size_t k = 0; k < sweeps.size(); ++k) {
