@@ -211,7 +211,7 @@ class Walk {
       if (found)
         map_from_stretch = *found;
       else
-        map_from_stretch = (last != nullptr ? last->end() : Pose()) * poses_[i].begin().inverse();
+        map_from_stretch = carried_to(last, poses_[i].begin_s) * poses_[i].begin().inverse();
       for (std::size_t k = i; k < next; ++k)
         for (Pose& knot : poses_[k].knots) knot = map_from_stretch * knot;
       if (found) fill_gap(i);
@@ -219,6 +219,13 @@ class Walk {
         for (std::size_t k = i; k < next; ++k)
           if (!poses_[k].lost) relocaliser.insert(source_.place(k), poses_[k]);
     }
+  }
+
+  // Where a rig gets to that goes on after a sweep, or the map's origin.
+  static Pose carried_to(const SweepPose* last, double time_s) {
+    constexpr double kLongest_s = 0.5;  // as the tracker carries it
+    if (last == nullptr) return {};
+    return last->at(1 + std::min(time_s - last->end_s, kLongest_s) / (last->end_s - last->begin_s));
   }
 
   void carry_on(std::size_t first, std::size_t end) {
@@ -242,7 +249,8 @@ class Walk {
     }
     if (stretch.sweeps.empty()) return std::nullopt;
     const SweepPose& last = poses_[before];
-    return relocaliser.find(stretch, last.end(), stretch.poses.front().begin_s - last.end_s);
+    const double gap_s = stretch.poses.front().begin_s - last.end_s;
+    return relocaliser.find(std::move(stretch), last.end(), gap_s);
   }
 
   // The last sweep before this one that was tracked; this one where there is none.
@@ -271,6 +279,22 @@ class Walk {
   MatchCount count_;
 };
 
+// Sweeps without long gaps between them. After a longer one a rig that moves is beyond the reach of the next
+// sweep's matches, or within that of wrong ones.
+std::vector<Range> without_gaps(const SweepSource& source, const MappingOptions& options) {
+  constexpr double kLongest_s = 1;
+  if (options.given) return {{0, source.count}};  // which bridges them
+  std::vector<Range> ranges;
+  double last_s = 0;
+  for (std::size_t i = 0; i < source.count; ++i) {
+    const PlacedSweep sweep = source.place(i);
+    if (i == 0 || sweep.begin_s - last_s > kLongest_s) ranges.push_back({i, i});
+    ranges.back().end = i + 1;
+    last_s = sweep.end_s;
+  }
+  return ranges;
+}
+
 // Along a given motion that is the truth; sweeps that it does not cover are lost.
 TrackedWalk follow_given(const SweepSource& source, const MappingOptions& options) {
   TrackedWalk walk;
@@ -288,8 +312,9 @@ TrackedWalk follow_given(const SweepSource& source, const MappingOptions& option
 Result<TrackedWalk> track(const SweepSource& source, const MappingOptions& options, const Job& job) {
   if (options.given && options.given->is_truth()) return follow_given(source, options);
   Walk walk(source, options, job);
-  if (job.cancelled() || !walk.track({0, source.count}))
-    return failure(ExitCode::kInterrupted, "interrupted while tracking");
+  for (const Range& range : without_gaps(source, options))
+    if (job.cancelled() || !walk.track(range))
+      return failure(ExitCode::kInterrupted, "interrupted while tracking");
   return walk.result();
 }
 

@@ -29,7 +29,7 @@ class Relocaliser {
   /// map_from_stretch: the rig may have walked and turned about the map's z axis for `gap_s` since it was at
   /// `last` (map_from_base), and is tilted by about as much as then. Absent where too few of the features
   /// match the map anywhere, or where they match it in several places.
-  std::optional<Pose> find(const Stretch& stretch, const Pose& last, double gap_s) const;
+  std::optional<Pose> find(Stretch stretch, const Pose& last, double gap_s) const;
 
  private:
   struct Found {
