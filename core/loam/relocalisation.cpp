@@ -22,8 +22,8 @@ constexpr double kTilt_rad = 0.2;  // to either side; the registration finds hal
 constexpr std::size_t kPoints = 150;    // that a place is judged by
 constexpr std::size_t kLikely = 16;     // places that are registered beside where the rig was
 constexpr std::size_t kMatched = 1200;  // features of a registration
-// On walks of tuning/ in tests/benchmark/walks with gaps of 4 and 8 s the right place has 0.57 to 0.9, wrong
-// others 0.2 to 0.5. On a bare floor all have 0.5.
+// On the walks of tests/benchmark/gaps the right place has 0.57 to 0.9, wrong
+// ones have up to 0.5, as all have on a bare floor.
 constexpr double kMinMatchedPart = 0.5, kMaxRivalPart = 0.8;
 
 // Which cells about a place hold a point of the map. Walls count more than floors, which a rig is above

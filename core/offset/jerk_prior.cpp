@@ -40,11 +40,9 @@ bool turns_back_smoothly(const OffsetProblem& problem) {
 
 Eigen::Vector2d jerk_sigma(const OffsetProblem& problem, const std::vector<SweepPose>& sweeps,
                            const JointWalkOptions& options) {
-  const auto parts_of_sweep =
-      std::max<std::size_t>(2, std::size_t(std::lround(problem.motor.median_sweep_s / options.jerk_part_s)));
   const Eigen::Vector2d seen = turns_back_smoothly(problem)
                                    ? options.jerk_factor_of_smooth_motors * jerk(sweeps, 1)
-                                   : options.jerk_factor * jerk(sweeps, parts_of_sweep);
+                                   : options.jerk_factor * jerk(sweeps, 2);
   return seen.cwiseMax(options.min_jerk);
 }
 

@@ -24,10 +24,9 @@ struct JointWalkOptions {
   MappingOptions mapping;  // how the maps are searched
   double part_s = 10;      // about how long a part is
   double knot_s = 0.06;    // between knots of the walk
-  // How freely the acceleration changes: this times what is seen over parts of a sweep, at least two, of about
-  // so long. A wrong offset of a motor that turns back at once shows in jumps, which no body can imitate: the
-  // walk may be as free as that.
-  double jerk_factor = 10, jerk_part_s = 0.25;
+  // How freely the acceleration changes: this times what is seen over half sweeps. A wrong offset of a motor
+  // that turns back at once shows in jumps, which no body can imitate: the walk may be as free as that.
+  double jerk_factor = 10;
   // That of a motor that slows down before shows in a roll as smooth as a body's sway: this times what is
   // seen over whole sweeps, which tracking errs less in.
   double jerk_factor_of_smooth_motors = 10;
