@@ -257,13 +257,24 @@ namespace {
 
 constexpr double kShortSweep_s = 0.5;  // shorter ones leave no less in doubt
 
-// By how much more the path may bend within a sweep than within a short one: a motor of sweeps of 0.7 s and
-// more goes to and fro as slowly as people sway. The power rests on the last 126 walks of
-// tests/benchmark/random_walks 200 1, of which 99 % lie within 3 sigma with it, and 93 % with a square.
-double bending(const Recording& recording, const MotorMotion& motor) {
-  constexpr double kPower = 3.5;
-  if (has_rings(recording)) return 1;
-  return std::pow(std::max(1.0, motor.median_sweep_s / kShortSweep_s), kPower);
+// Of about 10 s, see JointWalkOptions.
+std::size_t sweeps_of_part(const MotorMotion& motor) {
+  return std::size_t(10 / motor.median_sweep_s);
+}
+
+// How much longer than those, as far as that matters.
+double longer_than_short(const Recording& recording, const MotorMotion& motor) {
+  return has_rings(recording) ? 1 : std::max(1.0, motor.median_sweep_s / kShortSweep_s);
+}
+
+// By how much a sweep may turn about the motor's axis unseen. The constants: what the scatter of the parts of
+// the 14 walks of tuning/ in tests/benchmark/walks leaves unexplained. The power: a motor of sweeps of 0.7 s
+// and more goes to and fro as slowly as people sway; of the last 126 walks of tests/benchmark/random_walks
+// 200 1, 99 % lie within 3 sigma with it, and 93 % with a square.
+double unseen_rad(double longer, bool same_angles) {
+  constexpr double kUnseen_rad = 0.6e-3, kPower = 3.5, kUnseenOfSameAngles_rad = 1.7e-3;
+  const double bent_rad = kUnseen_rad * std::pow(longer, kPower);
+  return same_angles ? std::max(bent_rad, kUnseenOfSameAngles_rad * longer * longer) : bent_rad;
 }
 
 }  // namespace
@@ -275,14 +286,15 @@ bool has_rings(const Recording& recording) {
 
 Remark long_sweeps_warning(const Recording& recording, const MotorMotion& motor, double unseen_s,
                            double sigma_s) {
-  const double longer = motor.median_sweep_s / kShortSweep_s;
-  if (has_rings(recording) || longer < 1.2 || unseen_s < sigma_s / 2) return std::nullopt;
-  // The motor would turn faster, too.
+  const double longer = longer_than_short(recording, motor);
+  if (longer < 1.2 || unseen_s < sigma_s / 2) return std::nullopt;
+  const bool same_angles = sees_same_angles(recording, motor, sweeps_of_part(motor));
+  const double short_s = unseen_s * unseen_rad(1, same_angles) / unseen_rad(longer, same_angles) /
+                         longer;  // the motor would turn faster, too
   return fmt::format(
       "A sweep takes {:.2f} s, long enough for the rig to sway within it: that alone leaves +- {:.2f} ms. "
       "Sweeps of {:.1f} s would leave +- {:.2f} ms.",
-      motor.median_sweep_s, unseen_s * 1e3, kShortSweep_s,
-      unseen_s / (longer * bending(recording, motor)) * 1e3);
+      motor.median_sweep_s, unseen_s * 1e3, kShortSweep_s, short_s * 1e3);
 }
 
 Remark smooth_motor_warning(double sway_s, double sigma_s) {
@@ -295,10 +307,8 @@ Remark smooth_motor_warning(double sway_s, double sigma_s) {
 }
 
 double unseen_of_part_s(const Recording& recording, const MotorMotion& motor, std::size_t sweeps) {
-  // What the scatter of the parts of the 14 walks of tuning/ in tests/benchmark/walks leaves unexplained.
-  constexpr double kUnseen_rad = 0.6e-3, kUnseenOfSameAngles_rad = 1.7e-3;
-  return (sees_same_angles(recording, motor, sweeps) ? kUnseenOfSameAngles_rad : kUnseen_rad) *
-         bending(recording, motor) / motor.median_speed_rad_s;
+  const bool same_angles = sees_same_angles(recording, motor, sweeps);
+  return unseen_rad(longer_than_short(recording, motor), same_angles) / motor.median_speed_rad_s;
 }
 
 Remark encoder_warning(const MotorTrack& track) {
