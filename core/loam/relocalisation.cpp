@@ -22,7 +22,7 @@ constexpr double kTilt_rad = 0.2;  // to either side; the registration finds hal
 constexpr std::size_t kPoints = 150;    // that a place is judged by
 constexpr std::size_t kLikely = 16;     // places that are registered beside where the rig was
 constexpr std::size_t kMatched = 1200;  // features of a registration
-// On the walks of tests/benchmark/gaps the right place has 0.57 to 0.9, wrong
+// On the walks of tests/benchmark/gaps the right place has 0.57 or more, wrong
 // ones have up to 0.5, as all have on a bare floor.
 constexpr double kMinMatchedPart = 0.5, kMaxRivalPart = 0.8;
 

@@ -39,7 +39,7 @@ class Roots : public test::FolderTest {
             folder_ / "inside-not/x",
             folder_ / "in/none/../../out/x",
             "/etc/passwd",
-            "/proc/self/root/etc/passwd",
+            fs::path("/proc/self/root") / "etc/passwd",
             "",
             "/",
             "../../../etc/passwd"};
