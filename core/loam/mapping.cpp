@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "core/loam/given_motion.hpp"
-#include "core/loam/relocalisation.hpp"
 #include "core/loam/tracker.hpp"
 
 namespace sweepscope {
@@ -57,9 +56,9 @@ class Walk {
   // False where the job was cancelled.
   bool track(Range range) {
     if (range.size() < min_sweeps()) return true;  // they stay lost
-    Tracked best;
+    Stretch best;
     for (const std::size_t start : starts(range)) {
-      Tracked found = follow(start, range);
+      Stretch found = follow(start, range);
       if (job_.cancelled()) return false;
       if (best.poses.empty() || better(found, best)) best = std::move(found);
       if (best.range.size() == range.size() && best.well) break;
@@ -85,14 +84,14 @@ class Walk {
   std::size_t min_sweeps() const { return std::size_t(options_.first_sweeps); }
 
   // Sweeps tracked on one map.
-  struct Tracked {
+  struct Stretch {
     Range range{0, 0};
     std::size_t start = 0;
     std::vector<SweepPose> poses;
     MatchCount count;
     bool alternates = false, well = false;
   };
-  static bool better(const Tracked& a, const Tracked& b) {
+  static bool better(const Stretch& a, const Stretch& b) {
     return a.alternates != b.alternates ? b.alternates : a.count.matches > b.count.matches;
   }
   struct Start {
@@ -144,24 +143,15 @@ class Walk {
     std::vector<PlacedSweep> sweeps;
     for (std::size_t i = start; i < range.end && sweeps.size() < min_sweeps(); ++i) {
       sweeps.push_back(source_.place(i));
-      match_half(sweeps.back());
+      thin(sweeps.back(), 2);  // enough for a first guess
     }
     return find_first_pose(sweeps, options_);
   }
 
-  // Leaves every other feature to the map alone: enough for a first guess.
-  static void match_half(PlacedSweep& sweep) {
-    for (std::vector<PlacedFeature>* features : {&sweep.edges, &sweep.planes}) {
-      bool keep = false;
-      for (PlacedFeature& feature : *features)
-        if (feature.sharp) feature.sharp = keep = !keep;
-    }
-  }
-
   // From the start to the range's end, then back to its first sweep, each until track is lost for good.
-  Tracked follow(std::size_t start, Range range) {
+  Stretch follow(std::size_t start, Range range) {
     Tracker tracker(options_, first_pose(start, range));
-    Tracked found;
+    Stretch found;
     found.start = start;
     const auto add = [&](const PlacedSweep& sweep) {
       SweepPose pose = tracker.add(sweep);
@@ -188,86 +178,32 @@ class Walk {
     return found;
   }
 
-  void judge(Tracked& found) const {
+  void judge(Stretch& found) const {
     const Eigen::Vector3d motor_axis = source_.place(found.start).turned_rad.normalized();
     found.alternates = alternating_sway_rad(found.poses, motor_axis) > options_.max_alternation_rad;
     found.well = found.count.matched_part() >= options_.well_tracked && !found.alternates;
   }
 
-  // Puts the stretches into one frame, each where it was found on the map of those before it; one that is not
-  // found goes on from where the one before it ended, at its velocity. So do sweeps that were not tracked.
+  // Each stretch goes on from where the one before it ended, at its velocity; so do sweeps that were not
+  // tracked at all.
   void join_stretches() {
-    Relocaliser relocaliser(options_);
     Pose map_from_stretch;
-    std::size_t next = 0;
-    for (std::size_t i = 0; i < poses_.size(); i = next) {
-      for (next = i + 1; next < poses_.size() && poses_[next].stretch == poses_[i].stretch;) ++next;
+    for (std::size_t i = 0; i < poses_.size(); ++i) {
+      SweepPose& pose = poses_[i];
       const SweepPose* last = i > 0 ? &poses_[i - 1] : nullptr;
-      if (poses_[i].stretch == 0) {
-        carry_on(i, next);
+      const bool tracked = pose.stretch > 0;
+      if (!tracked) {
+        pose = pose_of(source_.place(i));
+        pose.lost = true;
+        if (last != nullptr) pose.knots = {last->end(), last->at(2)};
         continue;
       }
-      const auto found = last != nullptr ? relocated(relocaliser, {i, next}) : std::nullopt;
-      if (found)
-        map_from_stretch = *found;
-      else
-        map_from_stretch = carried_to(last, poses_[i].begin_s) * poses_[i].begin().inverse();
-      for (std::size_t k = i; k < next; ++k)
-        for (Pose& knot : poses_[k].knots) knot = map_from_stretch * knot;
-      if (found) fill_gap(i);
-      if (stretches_ > 1 && (last == nullptr || found))
-        for (std::size_t k = i; k < next; ++k)
-          if (!poses_[k].lost) relocaliser.insert(source_.place(k), poses_[k]);
+      if (last != nullptr && last->stretch != pose.stretch)
+        map_from_stretch = last->end() * pose.begin().inverse();
+      else if (last == nullptr)
+        map_from_stretch = pose.begin().inverse();
+      for (Pose& knot : pose.knots) knot = map_from_stretch * knot;
     }
-  }
-
-  // Where a rig gets to that goes on after a sweep, or the map's origin.
-  static Pose carried_to(const SweepPose* last, double time_s) {
-    constexpr double kLongest_s = 0.5;  // as the tracker carries it
-    if (last == nullptr) return {};
-    return last->at(1 + std::min(time_s - last->end_s, kLongest_s) / (last->end_s - last->begin_s));
-  }
-
-  void carry_on(std::size_t first, std::size_t end) {
-    for (std::size_t i = first; i < end; ++i) {
-      poses_[i] = pose_of(source_.place(i));
-      poses_[i].lost = true;
-      if (i > 0) poses_[i].knots = {poses_[i - 1].end(), poses_[i - 1].at(2)};
-    }
-  }
-
-  // map_from_stretch, of these sweeps, by what they see.
-  std::optional<Pose> relocated(const Relocaliser& relocaliser, Range range) const {
-    constexpr std::size_t kSweeps = 8;  // a full turn of the head, and cheap enough to try in several places
-    const std::size_t before = last_tracked(range.first);
-    if (before == range.first) return std::nullopt;
-    Stretch stretch;
-    for (std::size_t i = range.first; i < range.end && stretch.sweeps.size() < kSweeps; ++i) {
-      if (poses_[i].lost) continue;
-      stretch.sweeps.push_back(source_.place(i));
-      stretch.poses.push_back(poses_[i]);
-    }
-    if (stretch.sweeps.empty()) return std::nullopt;
-    const SweepPose& last = poses_[before];
-    const double gap_s = stretch.poses.front().begin_s - last.end_s;
-    return relocaliser.find(std::move(stretch), last.end(), gap_s);
-  }
-
-  // The last sweep before this one that was tracked; this one where there is none.
-  std::size_t last_tracked(std::size_t i) const {
-    for (std::size_t k = i; k-- > 0;)
-      if (!poses_[k].lost) return k;
-    return i;
-  }
-
-  // The sweeps before this one that were not tracked, evenly from where the rig was to where it is.
-  void fill_gap(std::size_t i) {
-    const std::size_t before = last_tracked(i);
-    const Pose from = poses_[before].end(), to = poses_[i].begin();
-    const double from_s = poses_[before].end_s, lasted_s = poses_[i].begin_s - from_s;
-    for (std::size_t k = before + 1; k < i; ++k)
-      poses_[k].knots = {interpolate(from, to, (poses_[k].begin_s - from_s) / lasted_s),
-                         interpolate(from, to, (poses_[k].end_s - from_s) / lasted_s)};
   }
 
   const SweepSource& source_;
@@ -278,22 +214,6 @@ class Walk {
   bool well_ = false;
   MatchCount count_;
 };
-
-// Sweeps without long gaps between them. After a longer one a rig that moves is beyond the reach of the next
-// sweep's matches, or within that of wrong ones.
-std::vector<Range> without_gaps(const SweepSource& source, const MappingOptions& options) {
-  constexpr double kLongest_s = 1;
-  if (options.given) return {{0, source.count}};  // which bridges them
-  std::vector<Range> ranges;
-  double last_s = 0;
-  for (std::size_t i = 0; i < source.count; ++i) {
-    const PlacedSweep sweep = source.place(i);
-    if (i == 0 || sweep.begin_s - last_s > kLongest_s) ranges.push_back({i, i});
-    ranges.back().end = i + 1;
-    last_s = sweep.end_s;
-  }
-  return ranges;
-}
 
 // Along a given motion that is the truth; sweeps that it does not cover are lost.
 TrackedWalk follow_given(const SweepSource& source, const MappingOptions& options) {
@@ -312,9 +232,8 @@ TrackedWalk follow_given(const SweepSource& source, const MappingOptions& option
 Result<TrackedWalk> track(const SweepSource& source, const MappingOptions& options, const Job& job) {
   if (options.given && options.given->is_truth()) return follow_given(source, options);
   Walk walk(source, options, job);
-  for (const Range& range : without_gaps(source, options))
-    if (job.cancelled() || !walk.track(range))
-      return failure(ExitCode::kInterrupted, "interrupted while tracking");
+  if (job.cancelled() || !walk.track({0, source.count}))
+    return failure(ExitCode::kInterrupted, "interrupted while tracking");
   return walk.result();
 }
 

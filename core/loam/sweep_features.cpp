@@ -67,4 +67,12 @@ std::vector<PlacedSweep> place_sweeps(const OffsetProblem& problem, double offse
   return all;
 }
 
+void thin(PlacedSweep& sweep, std::size_t stride) {
+  for (std::vector<PlacedFeature>* features : {&sweep.edges, &sweep.planes}) {
+    std::size_t i = 0;
+    for (PlacedFeature& feature : *features)
+      if (feature.sharp) feature.sharp = i++ % stride == 0;
+  }
+}
+
 }  // namespace sweepscope

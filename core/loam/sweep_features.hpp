@@ -30,6 +30,9 @@ struct PlacedSweep {
   std::vector<PlacedFeature> edges, planes;
 };
 
+/// Keeps one in `stride` of the sharp edges and planes to be matched; the others only build the map.
+void thin(PlacedSweep& sweep, std::size_t stride);
+
 /// The input of every candidate: everything that does not depend on the offset.
 struct OffsetProblem {
   const Recording* recording = nullptr;

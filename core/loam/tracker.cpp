@@ -17,6 +17,10 @@ constexpr double kWhole = 2;
 // sweep of most recordings, and about half a stride.
 constexpr double kLongestCarriedGap_s = 0.5;
 
+// Without scans for longer, a rig that moves may be where other surfaces match: the next sweep must match
+// better.
+constexpr double kLongGap_s = 1;
+
 std::size_t steps_of(const PlacedSweep& sweep, const MappingOptions& options) {
   return std::max<std::size_t>(1, std::size_t(std::lround((sweep.end_s - sweep.begin_s) / options.knot_s)));
 }
@@ -80,6 +84,7 @@ SweepPose Tracker::add(const PlacedSweep& sweep) {
     path_ = first_.knots;
     step_s_ = duration_s / double(path_.size() - 1);
   } else {
+    if (sweep.begin_s - end_s_ > kLongGap_s) after_gap_ = true;
     if (!begin_along_given(sweep, steps)) begin_path(sweep, steps);
     Solved best = solved(sweep, steps);
     path_ = std::move(best.path);
@@ -107,6 +112,7 @@ void Tracker::turn_back(const SweepPose& first) {
   time_sign_ = -time_sign_;
   last_twist_per_s_ = deviation_twists_per_s(back, 2, options_.given.get(), time_sign_).back();
   lost_in_a_row_ = 0;
+  after_gap_ = false;
 }
 
 Pose Tracker::given_move(double from_s, double to_s) const {
@@ -221,8 +227,10 @@ double Tracker::improve(std::vector<Pose>& path, PathEquations& equations, doubl
 void Tracker::judge(const MatchCount& count) {
   const double part = count.matched_part();
   if (grown()) usual_part_ += 0.1 * (part - usual_part_);
-  const bool lost = grown() && part < options_.lost_below * usual_part_;
+  const double lost_below = after_gap_ ? options_.doubtful_below : options_.lost_below;
+  const bool lost = grown() && part < lost_below * usual_part_;
   lost_in_a_row_ = lost ? lost_in_a_row_ + 1 : 0;
+  after_gap_ = after_gap_ && lost;
 }
 
 // From the velocities of half sweeps: the map tells those, whatever was expected of them.

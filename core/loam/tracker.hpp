@@ -68,6 +68,7 @@ class Tracker {
   int learned_ = 0;
   double usual_part_ = 0.8;  // of the features that find a match; at first MappingOptions::well_tracked
   int sweeps_ = 0, lost_in_a_row_ = 0;
+  bool after_gap_ = false;  // until a sweep matches again
   MatchCount last_count_;
   SweepMaps maps_;
 };

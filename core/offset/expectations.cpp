@@ -48,7 +48,7 @@ std::string accuracy(const Recording& recording, const MotorMotion& motor) {
         "The motor turns one way, at speeds that are {:.3g} deg/s apart: expect an offset good to about {:.2g} "
         "ms of a stationary rig. A moving one is refused.",
         motor.speeds_apart_rad_s() / kRadPerDeg, 1e3 * std::max(stationary_s, 0.01e-3));
-  const double of_part_s = unseen_of_part_s(recording, motor, std::size_t(10 / motor.median_sweep_s));
+  const double of_part_s = unseen_of_part_s(recording, motor, sweeps_of_part(motor));
   return fmt::format(
       "Expect an accuracy of about {:.2g} ms for a stationary rig and {:.2g} ms for a moving one (40 s).",
       1e3 * std::max(stationary_s, 0.01e-3), 1e3 * std::hypot(stationary_s, of_part_s / std::sqrt(kParts)));

@@ -257,11 +257,6 @@ namespace {
 
 constexpr double kShortSweep_s = 0.5;  // shorter ones leave no less in doubt
 
-// Of about 10 s, see JointWalkOptions.
-std::size_t sweeps_of_part(const MotorMotion& motor) {
-  return std::size_t(10 / motor.median_sweep_s);
-}
-
 // How much longer than those, as far as that matters.
 double longer_than_short(const Recording& recording, const MotorMotion& motor) {
   return has_rings(recording) ? 1 : std::max(1.0, motor.median_sweep_s / kShortSweep_s);
@@ -278,6 +273,10 @@ double unseen_rad(double longer, bool same_angles) {
 }
 
 }  // namespace
+
+std::size_t sweeps_of_part(const MotorMotion& motor) {
+  return std::size_t(10 / motor.median_sweep_s);
+}
 
 bool has_rings(const Recording& recording) {
   return std::any_of(recording.scans.begin(), recording.scans.end(),

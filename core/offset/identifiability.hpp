@@ -70,12 +70,13 @@ double unseen_sigma_s(const Recording& recording, const MotorMotion& motor, doub
 /// Sigma is larger than the motor's speed should allow.
 Remark sigma_reason(std::optional<double> sigma_s, const SearchScale& scale);
 
-/// The error of a part of a walk beside its own sigma, from the scatter of the parts of the walks of tuning/
-/// in tests/benchmark/walks scatter. Where all its sweeps see the same few angles, a path that is bent alike
+/// The error of a part of a walk beside its own sigma, from how the parts of the walks of tuning/ in
+/// tests/benchmark/walks scatter. Where all its sweeps see the same few angles, a path that is bent alike
 /// in each of them fits nearly as well as the true one. The longer a sweep, the more a path may bend within
-/// it: the first 55 walks of tests/benchmark/random_walks err like the square of a sweep's duration beyond
-/// 0.5 s.
+/// it: walks of tests/benchmark/random_walks err like the power 3.5 of a sweep's duration beyond 0.5 s.
 double unseen_of_part_s(const Recording& recording, const MotorMotion& motor, std::size_t sweeps);
+/// Of a part of a walk, which is about 10 s long (JointWalkOptions::part_s).
+std::size_t sweeps_of_part(const MotorMotion& motor);
 /// The sweeps of a moving rig are so long that they dominate the uncertainty; with the uncertainty for
 /// shorter ones. `unseen_s`: what bends of the path within the sweeps leave uncertain, of `sigma_s`.
 Remark long_sweeps_warning(const Recording& recording, const MotorMotion& motor, double unseen_s,

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/loam/given_motion.hpp"
+#include "core/loam/relocalisation.hpp"
 #include "core/offset/coarse_search.hpp"
 
 namespace sweepscope {
@@ -20,8 +21,10 @@ WalkOptions walk_options(const MappingOptions& mapping, const SearchScale& scale
   return options;
 }
 
-std::optional<SolvedWalk> solve_walk(const OffsetProblem& problem, double first_offset_s,
-                                     const WalkOptions& options, const Job& job) {
+namespace {
+
+std::optional<SolvedWalk> iterate(const OffsetProblem& problem, double first_offset_s,
+                                  const WalkOptions& options, const Job& job) {
   SolvedWalk walk;
   double offset_s = first_offset_s;
   MappingOptions mapping = options.mapping;
@@ -52,6 +55,22 @@ std::optional<SolvedWalk> solve_walk(const OffsetProblem& problem, double first_
     offset_s += std::clamp(step_s, -options.max_step_s, options.max_step_s);
   }
   return walk;
+}
+
+}  // namespace
+
+std::optional<SolvedWalk> solve_walk(const OffsetProblem& problem, double first_offset_s,
+                                     const WalkOptions& options, const Job& job) {
+  auto walk = iterate(problem, first_offset_s, options, job);
+  if (!walk) return walk;
+  SweepPlacer placer(problem, walk->tracked_at_s);
+  const auto place = [&](std::size_t i) {
+    PlacedSweep sweep;
+    placer.place(i, sweep);
+    return sweep;
+  };
+  walk->sweeps = relocalised(std::move(walk->sweeps), place, options.mapping, job);
+  return job.cancelled() ? std::nullopt : std::move(walk);
 }
 
 std::optional<SolvedWalk> find_walk(const OffsetProblem& problem, double middle_s,

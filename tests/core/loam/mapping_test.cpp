@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/loam/relocalisation.hpp"
 #include "core/offset/direct_moving.hpp"
 #include "core/offset/moving.hpp"
 #include "tests/core/engine_fixtures.hpp"
@@ -115,11 +116,13 @@ TEST_F(SteadyWalk, AfterAGapTheRigIsFoundOnItsMap) {
     for (auto* features : {&sweeps[k].edges, &sweeps[k].planes})
       for (PlacedFeature& feature : *features) feature.p_in_base_m = turned * feature.p_in_base_m;
   }
-  const TrackedWalk walk = track(sweeps, MappingOptions(), Job()).value();
-  EXPECT_NE(walk.sweeps.front().stretch, walk.sweeps.back().stretch);
+  const TrackedWalk tracked = track(sweeps, MappingOptions(), Job()).value();
+  EXPECT_NE(tracked.sweeps.front().stretch, tracked.sweeps.back().stretch);
+  const std::vector<SweepPose> walk = relocalised(
+      tracked.sweeps, [&](std::size_t i) { return sweeps[i]; }, MappingOptions(), Job());
   const auto way = [](const Pose& from, const Pose& to) { return from.inverse() * to; };
   const std::size_t last = sweeps.size() - 2;  // the last sweep is not whole
-  const Pose found = way(walk.sweeps[2].middle(), walk.sweeps[last].middle()),
+  const Pose found = way(walk[2].middle(), walk[last].middle()),
              truth = way(walk_.sweeps[2].middle(), walk_.sweeps[last].middle() * turned.inverse());
   EXPECT_NEAR((found.translation_m - truth.translation_m).norm(), 0, 0.05);
   EXPECT_NEAR(turn_between(truth.rotation, found.rotation).norm(), 0, 1 * test::kDegree);
