@@ -41,20 +41,21 @@ std::string part_line(const char* name, const RigFinding& finding, const std::st
   return fmt::format("{:<8} {}", name, finding.identifiable ? value : "cannot be determined");
 }
 
+std::string mount_text(const SolvedRig& solved) {
+  const Eigen::Vector3d &rpy_deg = solved.rig.mount.laser_in_motor_rpy_deg,
+                        &xyz_m = solved.rig.mount.laser_in_motor_xyz_m;
+  const MountSigma sigma = mount_sigma(solved);
+  const std::string turn =
+      fmt::format("roll, pitch, yaw {:.4f}, {:.4f}, {:.4f} deg (+- {:.4f}, {:.4f}, {:.4f})", rpy_deg.x(),
+                  rpy_deg.y(), rpy_deg.z(), sigma.rpy_deg.x(), sigma.rpy_deg.y(), sigma.rpy_deg.z());
+  if (solved.along_walk) return turn + "; x, y, z as in the rig file";
+  return turn + fmt::format("; x, y, z {:.5f}, {:.5f}, {:.5f} m (+- {:.5f}, {:.5f}, {:.5f})", xyz_m.x(),
+                            xyz_m.y(), xyz_m.z(), sigma.xyz_m.x(), sigma.xyz_m.y(), sigma.xyz_m.z());
+}
+
 void print_rig(const SolvedRig& solved) {
   const auto sigma_deg = [&](RigUnknown i) { return std::sqrt(solved.covariance(i, i)) * kDegPerRad; };
-  if (solved.mount.solved) {
-    const Eigen::Vector3d &rpy_deg = solved.rig.mount.laser_in_motor_rpy_deg,
-                          &xyz_m = solved.rig.mount.laser_in_motor_xyz_m;
-    const MountSigma sigma = mount_sigma(solved);
-    print("{}\n",
-          part_line("mount", solved.mount,
-                    fmt::format("roll, pitch, yaw {:.4f}, {:.4f}, {:.4f} deg (+- {:.4f}, {:.4f}, {:.4f}); x, "
-                                "y, z {:.5f}, {:.5f}, {:.5f} m (+- {:.5f}, {:.5f}, {:.5f})",
-                                rpy_deg.x(), rpy_deg.y(), rpy_deg.z(), sigma.rpy_deg.x(), sigma.rpy_deg.y(),
-                                sigma.rpy_deg.z(), xyz_m.x(), xyz_m.y(), xyz_m.z(), sigma.xyz_m.x(),
-                                sigma.xyz_m.y(), sigma.xyz_m.z())));
-  }
+  if (solved.mount.solved) print("{}\n", part_line("mount", solved.mount, mount_text(solved)));
   if (solved.play.solved)
     print("{}\n", part_line("play", solved.play,
                             fmt::format("{:.4f} deg +- {:.4f}", solved.rig.gear.play_deg, sigma_deg(kPlay))));
@@ -64,8 +65,12 @@ void print_rig(const SolvedRig& solved) {
                     fmt::format("shows the angle + {:.4f} deg sin(angle + {:.1f} deg); +- {:.4f} deg",
                                 solved.rig.gear.encoder_amplitude_deg, solved.rig.gear.encoder_phase_deg,
                                 std::max(sigma_deg(kEncoderSine), sigma_deg(kEncoderCosine)))));
-  print("surfaces {:.2f} mm thick before, {:.2f} mm after; {} of them, {} points\n",
-        solved.residual_before_m * 1e3, solved.residual_after_m * 1e3, solved.surfaces, solved.points);
+  if (solved.along_walk)
+    print("matches  {:.2f} mm apart before, {:.2f} mm after\n", solved.residual_before_m * 1e3,
+          solved.residual_after_m * 1e3);
+  else
+    print("surfaces {:.2f} mm thick before, {:.2f} mm after; {} of them, {} points\n",
+          solved.residual_before_m * 1e3, solved.residual_after_m * 1e3, solved.surfaces, solved.points);
 }
 
 // What a rig that is not as its file says would add: play of 0.1 deg and a tilt of 1 deg are usual.

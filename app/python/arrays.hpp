@@ -16,9 +16,8 @@ template <typename Scalar>
 py::array view(const Scalar* first, std::vector<py::ssize_t> shape, std::vector<py::ssize_t> strides,
                std::shared_ptr<const void> owner) {
   auto held = std::make_unique<std::shared_ptr<const void>>(std::move(owner));
-  const py::capsule capsule(held.get(),
+  const py::capsule capsule(held.release(),
                             [](void* pointer) { delete static_cast<std::shared_ptr<const void>*>(pointer); });
-  (void)held.release();  // the capsule's from here
   py::array array(py::dtype::of<Scalar>(), std::move(shape), std::move(strides), first, capsule);
   array.attr("setflags")(py::arg("write") = false);
   return array;

@@ -62,6 +62,13 @@ Remark flat_reason(const std::vector<CurvePoint>& coarse, std::size_t best) {
       0.15;  // 0.68 to 0.86 of simulated rooms and walks, see tests/benchmark/thresholds
   const double min_m = *coarse[best].capped_cost_m, median_m = median_cost(coarse);
   if (median_m - min_m > kMinDepth * median_m) return std::nullopt;
+  // A third of the most that a distance counts for: not noise.
+  constexpr double kFitsNowhere_m = 0.1;
+  if (min_m > kFitsNowhere_m)
+    return fmt::format(
+        "Sweeps of opposite directions fit each other at no offset ({:.0f} mm apart at best): the rig or the scene "
+        "moved, or its surfaces are too rough.",
+        min_m * 1e3);
   return fmt::format(
       "The scene does not constrain the offset: sweeps of opposite directions fit each other about equally "
       "well at every offset ({:.1f} mm apart at best, {:.1f} mm at the median).",

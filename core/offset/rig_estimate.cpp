@@ -1,12 +1,18 @@
 #include "core/offset/rig_estimate.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
 
+#include "core/offset/walk.hpp"
 #include "core/rig_solve/rig_solve.hpp"
 
 namespace sweepscope {
 namespace {
+
+// The estimate of a recording with another rig.
+using Answering = std::function<Result<Estimate>(const Recording&)>;
 
 // The answer with the solved rig; its sigma contains that of the rig.
 Estimate with(Estimate found, std::shared_ptr<const SolvedRig> solved) {
@@ -31,20 +37,66 @@ std::optional<double> offset_seen_s(const Estimate& found) {
   return best == nullptr ? std::nullopt : std::optional(best->offset_s);
 }
 
-// On a walk, a wrong mount looks like a body that sways with the motor, and the trajectory absorbs it.
-Estimate refused_as_moving(const Estimate& found) {
-  Estimate result;
-  result.recording = found.recording;
-  result.method = found.method;
-  result.kind = found.kind;
-  result.kind_reason = found.kind_reason;
-  result.sweeps = found.sweeps;
-  result.scans = found.scans;
-  result.warnings = found.warnings;
-  result.reasons = {
-      "The rig moved, and its parts are solved for from a stationary recording only: record 8 s without motion, "
-      "or choose such a part with --window."};
-  return result;
+// A rig that stood still: the rig from flat surfaces, then the offset with it.
+Result<Estimate> with_rig_of_surfaces(const PreparedRecording& prepared, const EstimateOptions& options,
+                                      Estimate found, const Answering& estimated, const Job& job) {
+  const auto offset_s = offset_seen_s(found);
+  if (!offset_s) return found;
+  auto solved = std::make_shared<SolvedRig>(
+      solve_rig(problem_for(prepared, *offset_s, *offset_s), *offset_s, options.solve, job));
+  if (job.cancelled()) return found;
+  return estimated(with_rig(*prepared.recording, *solved)).map([&](Estimate&& answer) {
+    return with(std::move(answer), std::move(solved));
+  });
+}
+
+std::optional<WalkTurn> turn_seen(const Recording& recording, const Estimate& found) {
+  if (!found.walk || !found.walk->joint) return std::nullopt;
+  return turn_of_walk(recording, found.walk->joint->sweeps, found.walk->joint->offset_s);
+}
+
+// The part of a turn that is not known: 1 where it may as well be none.
+double unsure_of_turn(const WalkTurn& turn) {
+  return std::min(1.0, std::sqrt(turn.covariance.trace()) / turn.turn_rad.norm());
+}
+
+// A walk: the turn that its path shows, and the walk anew with it, until nothing more shows.
+Result<Estimate> with_turn_of_walk(const PreparedRecording& prepared, const EstimateOptions& options,
+                                   Estimate found, const Answering& estimated) {
+  constexpr int kMaxPasses = 5;     // a bound
+  constexpr double kSettled = 0.3;  // of sigma
+  const OffsetProblem problem = problem_for(prepared, 0, 0);
+  const double first_residual_m = found.fit ? found.fit->residual_m : 0;
+  const double first_offset_s = found.walk && found.walk->joint ? found.walk->joint->offset_s : 0;
+  Recording recording = *prepared.recording;
+  WalkTurn total{Eigen::Vector2d::Zero(), Eigen::Matrix2d::Zero()};
+  auto solved = std::make_shared<SolvedRig>();
+  for (int pass = 0; pass < kMaxPasses; ++pass) {
+    const auto seen = turn_seen(recording, found);
+    if (!seen) {
+      found.warnings.push_back("The rig was not solved for: it takes 10 s of a walk that `direct` solved.");
+      return found;
+    }
+    total = {total.turn_rad + seen->turn_rad, seen->covariance};
+    *solved = rig_of_walk(problem, total, options.solve);
+    recording = with_rig(*prepared.recording, *solved);
+    auto again = estimated(recording);
+    if (!again || again->interrupted) return again;
+    found = std::move(*again);
+    if (!options.solve.mount ||
+        seen->turn_rad.norm() < kSettled * std::sqrt(seen->covariance.diagonal().minCoeff()))
+      break;
+  }
+  solved->residual_before_m = first_residual_m;
+  if (found.fit) {
+    solved->residual_after_m = found.fit->residual_m;
+    solved->points = found.fit->matches;
+  }
+  if (found.walk && found.walk->joint)
+    solved->offset_sigma_s =
+        std::hypot(solved->offset_sigma_s,
+                   unsure_of_turn(total) * std::abs(found.walk->joint->offset_s - first_offset_s));
+  return with(std::move(found), std::move(solved));
 }
 
 }  // namespace
@@ -57,18 +109,14 @@ Result<Estimate> estimate_with_rig(const PreparedRecording& prepared, const Esti
   offset_only.solve = {};
   auto found = estimate(prepared, offset_only, kept, job);
   if (!found || job.cancelled() || !found->kind) return found;
-  if (found->kind == RigKind::kMoving) return refused_as_moving(std::move(*found));
-  const auto offset_s = offset_seen_s(*found);
-  if (!offset_s) return found;
-  auto solved = std::make_shared<SolvedRig>(
-      solve_rig(problem_for(prepared, *offset_s, *offset_s), *offset_s, options.solve, job));
-  if (job.cancelled()) return found;
-  const Recording corrected = with_rig(*prepared.recording, *solved);
-  const auto again = prepare(corrected, options.features, job);
-  if (!again) return found;
-  return estimate(*again, offset_only, kept, job).map([&](Estimate&& answer) {
-    return with(std::move(answer), std::move(solved));
-  });
+  const Answering estimated = [&](const Recording& recording) {
+    return prepare(recording, options.features, job).and_then([&](const PreparedRecording& again) {
+      return estimate(again, offset_only, kept, job);
+    });
+  };
+  if (found->kind == RigKind::kMoving)
+    return with_turn_of_walk(prepared, options, std::move(*found), estimated);
+  return with_rig_of_surfaces(prepared, options, std::move(*found), estimated, job);
 }
 
 }  // namespace sweepscope

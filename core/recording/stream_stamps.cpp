@@ -14,6 +14,11 @@ namespace {
 constexpr double kSecondsPerNanosecond = 1e-9;
 constexpr double kShortestSpan_s = 1.0;  // over less, the two kinds of stamps are not compared
 constexpr double kSpeedTolerance = 1.25;
+// A link that stalls delays by the time until TCP sends again, some 40 to 200 ms; what is usual is within
+// some deviations.
+constexpr double kLate_s = 0.01, kLateDeviations = 8;
+// Faster than any clock drifts: the header stamps are in another unit.
+constexpr double kMaxDrift = 1e-3;
 
 double span_s(std::span<const MessageStamps> stamps, StampSource source) {
   std::int64_t first = INT64_MAX, last = INT64_MIN;
@@ -53,6 +58,21 @@ void measure_delay(std::span<const MessageStamps> stamps, StreamStamps& stream) 
   stream.receive_jitter_s = kSigmaPerMedianDeviation * median(std::move(delays_s));
 }
 
+// By how much the delay changed from the first quarter of the messages to the last.
+double clocks_apart(const std::vector<double>& delays_s) {
+  const auto quarter = std::ssize(delays_s) / 4;
+  return std::abs(median(std::vector<double>(delays_s.end() - quarter, delays_s.end())) -
+                  median(std::vector<double>(delays_s.begin(), delays_s.begin() + quarter)));
+}
+
+// The two clocks may drift apart, so the usual delay is that of the messages around.
+double median_around(const std::vector<double>& delays_s, std::size_t i) {
+  constexpr std::size_t kAround = 25;
+  const std::size_t from = i - std::min(i, kAround), to = std::min(i + kAround + 1, delays_s.size());
+  return median(
+      std::vector<double>(delays_s.begin() + std::ptrdiff_t(from), delays_s.begin() + std::ptrdiff_t(to)));
+}
+
 }  // namespace
 
 std::int64_t stamp_ns(const MessageStamps& stamps, StampSource source) {
@@ -77,6 +97,33 @@ StreamStamps choose_stamps(std::span<const MessageStamps> stamps, StampSource wa
   warn_of_wrong_unit(stamps, topic, warnings);
   measure_delay(stamps, stream);
   return stream;
+}
+
+LateMessages correct_late(std::span<MessageStamps> stamps) {
+  std::vector<std::size_t> both;
+  std::vector<double> delays_s;
+  for (std::size_t i = 0; i < stamps.size(); ++i) {
+    if (stamps[i].header_ns == 0 || stamps[i].receive_ns == 0) continue;
+    both.push_back(i);
+    delays_s.push_back(static_cast<double>(stamps[i].receive_ns - stamps[i].header_ns) *
+                       kSecondsPerNanosecond);
+  }
+  if (clocks_apart(delays_s) > kMaxDrift * span_s(stamps, StampSource::kHeader)) return {};
+  std::vector<double> excess_s, deviations_s;
+  for (std::size_t i = 0; i < delays_s.size(); ++i) {
+    excess_s.push_back(delays_s[i] - median_around(delays_s, i));
+    deviations_s.push_back(std::abs(excess_s.back()));
+  }
+  const double limit_s =
+      std::max(kLate_s, kLateDeviations * kSigmaPerMedianDeviation * median(std::move(deviations_s)));
+  LateMessages late;
+  for (std::size_t i = 0; i < both.size(); ++i) {
+    if (excess_s[i] <= limit_s) continue;
+    ++late.count;
+    late.latest_s = std::max(late.latest_s, excess_s[i]);
+    stamps[both[i]].receive_ns -= std::llround(excess_s[i] / kSecondsPerNanosecond);
+  }
+  return late;
 }
 
 TimeOrder order_by_time(std::span<const double> times_s) {

@@ -16,6 +16,16 @@ namespace sweepscope {
 StreamStamps choose_stamps(std::span<const MessageStamps> stamps, StampSource wanted,
                            const std::string& topic, std::vector<std::string>& warnings);
 
+/// Corrects the receive times of messages that a stalled link delivered late, often several at once: a delay
+/// (receive minus header stamp) that exceeds the median delay of the messages around it by more than 10 ms
+/// and 8 times their robust deviation becomes that median. Messages without one of the stamps keep theirs,
+/// and all do if the two clocks run at different speeds.
+struct LateMessages {
+  std::size_t count = 0;
+  double latest_s = 0;  // the largest excess
+};
+LateMessages correct_late(std::span<MessageStamps> stamps);
+
 /// The stamp of that source in ns; 0 if the message has none.
 std::int64_t stamp_ns(const MessageStamps& stamps, StampSource source);
 

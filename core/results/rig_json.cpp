@@ -40,6 +40,7 @@ Json mount_json(const SolvedRig& solved) {
   object["prior_m"] = tidy(solved.priors[kShiftU]);
   object["gauge"] = "the turn about the motor's axis and the shift along it are the rig file's";
   add_finding(object, solved.mount);
+  if (solved.mount.identifiable) object["shift_identifiable"] = !solved.along_walk;
   return object;
 }
 

@@ -42,6 +42,12 @@ void add_mount(std::vector<RigParameter>& all, const SolvedRig& solved) {
     all.push_back(of_mount(solved, kShifts[std::size_t(i)], "mm", given.laser_in_motor_xyz_m[i] * 1e3,
                            found.laser_in_motor_xyz_m[i] * 1e3, sigma.xyz_m[i] * 1e3,
                            solved.priors[kShiftU] * 1e3));
+  if (!solved.along_walk) return;
+  for (RigParameter& parameter : all)
+    if (parameter.unit == "mm" && parameter.state == State::kFound) {
+      parameter.state = State::kNotDetermined;
+      parameter.sigma.reset();
+    }
 }
 
 void add_encoder(std::vector<RigParameter>& all, const SolvedRig& solved) {
@@ -95,6 +101,15 @@ std::string in_words(const RigParameter& parameter) {
   if (parameter.state == State::kGauge) return number(parameter.found) + unit + ", kept";
   if (!parameter.sigma) return number(parameter.found) + unit;
   return number(parameter.found) + " ± " + number(*parameter.sigma) + unit;
+}
+
+std::string residual_text(const SolvedRig& solved) {
+  const std::string sizes = fmt::format("{:.2f} mm with the rig file and {:.2f} mm with the rig found",
+                                        solved.residual_before_m * 1e3, solved.residual_after_m * 1e3);
+  if (solved.along_walk)
+    return fmt::format("Points lie {} from their matches; {} matches.", sizes, solved.points);
+  return fmt::format("Points lie {} from flat surfaces; {} points on {} surfaces.", sizes, solved.points,
+                     solved.surfaces);
 }
 
 std::vector<std::string> reasons_of(const SolvedRig& solved) {

@@ -31,6 +31,9 @@ std::vector<RigParameter> rig_parameters(const SolvedRig& solved);
 /// The value in words: "3.002 ± 0.004°", "0.00 mm, kept" or "not determined".
 std::string in_words(const RigParameter& parameter);
 
+/// How well the points fit before and after: a sentence.
+std::string residual_text(const SolvedRig& solved);
+
 /// Why parts of the rig are not determined: a sentence for each.
 std::vector<std::string> reasons_of(const SolvedRig& solved);
 

@@ -196,6 +196,35 @@ SolvedRig solve_rig(const OffsetProblem& problem, double first_offset_s, const R
   return solved;
 }
 
+SolvedRig rig_of_walk(const OffsetProblem& problem, const WalkTurn& turn, const RigSolve& what) {
+  SolvedRig solved;
+  solved.along_walk = true;
+  solved.given = solved.rig = problem.recording->rig;
+  solved.priors = priors_of(what);
+  solved.covariance.diagonal() = solved.priors.cwiseProduct(solved.priors);
+  if (what.mount) {
+    const Eigen::Matrix2d prior = solved.covariance.block<2, 2>(kTurnU, kTurnU);
+    const Eigen::Matrix2d gain = prior * (prior + turn.covariance).inverse();
+    solved.found.turn_rad = gain * turn.turn_rad;
+    solved.covariance.block<2, 2>(kTurnU, kTurnU) = gain * turn.covariance;
+    solved.rig.mount = changed(solved.rig.mount, solved.found);
+  }
+  solved.mount = {
+      what.mount, what.mount,
+      what.mount ? "A walk shows how the laser is turned, but not where it sits: its shift is the rig file's."
+                 : ""};
+  solved.encoder =
+      finding(what.encoder, false,
+              "A walk does not determine the encoder's first harmonic: record 8 s without motion.");
+  if (what.play) {
+    solved.play.solved = true;
+    leave_play_open(
+        solved, what.play_deg, problem.motor.median_speed_rad_s,
+        "A walk does not determine the gear play: record 8 s without motion at two motor speeds.");
+  }
+  return solved;
+}
+
 Recording with_rig(Recording recording, const SolvedRig& solved) {
   recording.rig = solved.rig;
   recording.motor = laser_angles(recording.motor, solved.found.gear());

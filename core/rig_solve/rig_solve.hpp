@@ -10,6 +10,7 @@
 #include "core/loam/sweep_features.hpp"
 #include "core/rig_solve/rig_least_squares.hpp"
 #include "core/rig_solve/rig_residuals.hpp"
+#include "core/rig_solve/walk_turn.hpp"
 
 namespace sweepscope {
 
@@ -34,6 +35,8 @@ struct RigFinding {
 
 /// The rig found from a recording.
 struct SolvedRig {
+  // Of a walk: the turn of the mount is all that is determined, and the residuals are distances per match.
+  bool along_walk = false;
   Rig given;  // the recording's
   Rig rig;    // the same with what was found
   RigFinding mount, play, encoder;
@@ -55,6 +58,10 @@ struct SolvedRig {
 /// that are not determined keep the value of the rig file.
 SolvedRig solve_rig(const OffsetProblem& problem, double first_offset_s, const RigSolve& what,
                     const Job& job);
+
+/// The rig with the turn of its mount as a walk shows it, from the given rig on, and the priors taken into
+/// account. The mount's shift, gear play and encoder are not determined from a walk.
+SolvedRig rig_of_walk(const OffsetProblem& problem, const WalkTurn& turn, const RigSolve& what);
 
 /// The recording with the mount and the motor angles of the solved rig.
 Recording with_rig(Recording recording, const SolvedRig& solved);

@@ -197,6 +197,10 @@ Result<std::shared_ptr<const SolvedRig>> FigureData::solved_rig(const std::strin
         ExitCode::kNotIdentifiable,
         fmt::format("estimate {}: {}", name,
                     found->reasons.empty() ? "the rig could not be solved for" : found->reasons[0]));
+  if (found->rig->along_walk)
+    return failure(
+        ExitCode::kNotIdentifiable,
+        fmt::format("estimate {}: residuals over motor angle and beam need a rig that stood still", name));
   return found->rig;
 }
 

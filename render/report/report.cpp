@@ -197,9 +197,8 @@ std::string rig_table(const SolvedRig& solved) {
   return in_table(rows) + reasons +
          fmt::format(
              "<p class=\"caption\">One standard deviation each. Kept: turning the laser about the motor's axis "
-             "and shifting it along the axis have no effect on a map. Points lie {:.2f} mm from flat surfaces "
-             "with the rig file and {:.2f} mm with the rig found; {} points on {} surfaces.</p>\n",
-             solved.residual_before_m * 1e3, solved.residual_after_m * 1e3, solved.points, solved.surfaces);
+             "and shifting it along the axis have no effect on a map. {}</p>\n",
+             residual_text(solved));
 }
 
 /// What was solved for beside the offset, and how it shows.

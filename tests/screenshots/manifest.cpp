@@ -1,6 +1,6 @@
 #include "tests/screenshots/manifest.hpp"
 
-#include <cstdio>
+#include <charconv>
 
 #include "core/io/yaml_members.hpp"
 
@@ -19,10 +19,12 @@ Screenshot read_screenshot(const std::string& name, const Node& node) {
                 {"made", [&](const Node& v) { picture.made = read_text(v, name + ": made"); }},
                 {"size", [&](const Node& v) {
                    const std::string size = read_text(v, name + ": size");
-                   int end = 0;
-                   const int read =
-                       std::sscanf(size.c_str(), "%4dx%4d%n", &picture.width_px, &picture.height_px, &end);
-                   if (read != 2 || end != static_cast<int>(size.size()) || picture.width_px < 1 ||
+                   const char* const end = size.data() + size.size();
+                   const auto [x, first] = std::from_chars(size.data(), end, picture.width_px);
+                   const bool separated = first == std::errc() && x != end && *x == 'x';
+                   const auto [after, second] = separated ? std::from_chars(x + 1, end, picture.height_px)
+                                                          : std::from_chars_result{x, first};
+                   if (!separated || second != std::errc() || after != end || picture.width_px < 1 ||
                        picture.height_px < 1) {
                      refuse(v, name + ": size needs WIDTHxHEIGHT, such as 800x500");
                    }

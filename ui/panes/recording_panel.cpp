@@ -189,9 +189,9 @@ void rig_rows(const PaneContext& context, const SolvedRig& solved) {
     tooltip(context, meaning_of(parameter));
     part = shown;
   }
-  row(context, "surfaces",
-      fmt::format("{:.1f} mm thick, {:.1f} mm with the rig file", solved.residual_after_m * 1e3,
-                  solved.residual_before_m * 1e3));
+  row(context, solved.along_walk ? "matches" : "surfaces",
+      fmt::format("{:.1f} mm {}, {:.1f} mm with the rig file", solved.residual_after_m * 1e3,
+                  solved.along_walk ? "apart" : "thick", solved.residual_before_m * 1e3));
   ImGui::PushFont(context.fonts.small);
   ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(context.style.faint_text));
   ImGui::TextWrapped(

@@ -376,8 +376,20 @@ void warn_of_source(const RawJoint& joint, Recording& recording) {
                   joint.topic, recording.rig.motor.scale));
 }
 
+/// Receive times of messages that came late are corrected, if receive times are used.
+void correct_late(std::span<MessageStamps> stamps, const StreamStamps& stream, const std::string& topic,
+                  std::vector<std::string>& warnings) {
+  if (stream.used != StampSource::kReceive) return;
+  const LateMessages late = correct_late(stamps);
+  if (late.count == 0) return;
+  warnings.push_back(
+      fmt::format("{} of {} messages on {} were received up to {:.0f} ms late: their header stamps tell when "
+                  "they would have come",
+                  late.count, stamps.size(), topic, late.latest_s * 1e3));
+}
+
 /// The stamps of both streams, and the rig completed by them.
-void choose_both_stamps(const RawLaser& laser, const RawJoint& joint, std::optional<StampSource> stamps,
+void choose_both_stamps(RawLaser& laser, RawJoint& joint, std::optional<StampSource> stamps,
                         Recording& recording) {
   Rig& rig = recording.rig;
   ReadReport& report = recording.report;
@@ -388,6 +400,9 @@ void choose_both_stamps(const RawLaser& laser, const RawJoint& joint, std::optio
   };
   report.laser_stamps = choose_stamps(of_scans, wanted(rig.laser.stamp), laser.topic, report.warnings);
   report.motor_stamps = choose_stamps(joint.stamps, wanted(rig.motor.stamp), joint.topic, report.warnings);
+  correct_late(of_scans, report.laser_stamps, laser.topic, report.warnings);
+  for (std::size_t i = 0; i < of_scans.size(); ++i) laser.scans[i].stamps = of_scans[i];
+  correct_late(joint.stamps, report.motor_stamps, joint.topic, report.warnings);
   rig.laser.topic = laser.topic;
   rig.laser.stamp = report.laser_stamps.used;
   rig.motor.topic = joint.topic;
@@ -404,7 +419,7 @@ Result<Recording> assemble(RawRecording raw, const Rig& rig, std::optional<Stamp
   if (!joint) return tl::unexpected(joint.error());
   RawLaser& raw_laser = raw.lasers[*laser];
   if (auto error = too_many_beams(raw, raw_laser)) return tl::unexpected(std::move(*error));
-  const RawJoint& raw_joint = raw.joints[*joint];
+  RawJoint& raw_joint = raw.joints[*joint];
 
   Recording recording;
   recording.name = raw.name;

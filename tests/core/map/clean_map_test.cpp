@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace sweepscope {
 namespace {
@@ -34,7 +35,7 @@ TEST(CleanMap, ThinningKeepsOnePointPerVoxelWithItsOwnTimeAndSweep) {
   for (const MapPoint& point : *kept) {
     if (point.x < 3) continue;
     ++of_wall;
-    EXPECT_EQ(point.sweep, static_cast<std::uint32_t>(point.time_s * 1e3 + 0.5) / 100);
+    EXPECT_EQ(point.sweep, std::uint32_t(std::lround(point.time_s * 1e3)) / 100);
   }
   EXPECT_GT(of_wall, 90U);
   EXPECT_TRUE(std::is_sorted(kept->begin(), kept->end(),

@@ -55,6 +55,14 @@ TEST(FlatReason, IsGivenWhereTheValleyIsShallow) {
   EXPECT_FALSE(flat_reason(curve_of([](double ms) { return 0.3 + valley(ms, 0, 0.1); }), 30));
 }
 
+TEST(FlatReason, TellsAPoorFitFromASceneThatDoesNotTell) {
+  const auto flat_at = [](double level) {
+    return curve_of([=](double ms) { return level + valley(ms, 0, 0.001); });
+  };
+  EXPECT_NE(flat_reason(flat_at(0.02), 30)->find("does not constrain"), std::string::npos);
+  EXPECT_NE(flat_reason(flat_at(0.17), 30)->find("the rig or the scene moved"), std::string::npos);
+}
+
 /// Scans every 25 ms, the fifth to come missing, each received later than it was made by `late_s`.
 Recording received(const std::function<double(int i)>& late_s) {
   Recording recording;

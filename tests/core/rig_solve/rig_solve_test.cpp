@@ -113,15 +113,24 @@ TEST(RigSolve, IsTheSameForAnyNumberOfThreads) {
   EXPECT_EQ(found[0], found[1]);
 }
 
-TEST(RigSolve, ARigThatMovedIsRefusedWithWhatToDo) {
-  EstimateOptions options;
-  options.solve.mount = true;
+TEST(RigSolve, AWalkTellsHowTheMountIsTurnedAndNothingElse) {
+  SimulationOptions simulated;
+  simulated.scene = "metro-station";
+  simulated.offset_s = kOffset_s;
+  simulated.duration_s = 20;
+  simulated.mount_error_deg = {0, 1.2, -0.9};
   const Estimate found =
-      estimate(test::simulated("metro-station", kOffset_s, 12).recording, options, Job()).value();
-  EXPECT_FALSE(found.identifiable);
-  EXPECT_FALSE(found.offset_s);
-  ASSERT_FALSE(found.reasons.empty());
-  EXPECT_NE(found.reasons.back().find("--window"), std::string::npos) << found.reasons.back();
+      solved(simulate(simulated, Job()).value().recording, {.mount = true, .play = true, .encoder = true});
+  ASSERT_TRUE(found.identifiable) << testing::PrintToString(found.reasons);
+  ASSERT_TRUE(found.rig && found.rig->along_walk);
+  ASSERT_TRUE(found.rig->mount.identifiable);
+  EXPECT_FALSE(found.rig->play.identifiable);
+  EXPECT_FALSE(found.rig->encoder.identifiable);
+  const Mount &given = found.rig->given.mount, &mount = found.rig->rig.mount;
+  EXPECT_LT(axis_apart_deg(mount.laser_in_motor_rpy_deg, simulated.mount_error_deg), 0.3);
+  EXPECT_GT(axis_apart_deg(given.laser_in_motor_rpy_deg, simulated.mount_error_deg), 1.4);
+  EXPECT_EQ(mount.laser_in_motor_xyz_m, given.laser_in_motor_xyz_m);
+  EXPECT_LT(std::abs(*found.offset_s - kOffset_s), 3 * *found.sigma_s);
 }
 
 }  // namespace

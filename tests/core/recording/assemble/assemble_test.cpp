@@ -152,6 +152,36 @@ TEST(Assemble, MeasuresTheReceiveDelayAndItsJitter) {
   EXPECT_NEAR(*report.motor_stamps.receive_jitter_s, 0.0014826, 1e-9);
 }
 
+// A stalled link keeps messages back and delivers them at once.
+TEST(Assemble, ReceiveTimesOfMessagesThatCameLateAreCorrected) {
+  RawRecording raw = sample();
+  raw.lasers[0].scans[7].stamps.receive_ns += 204'000'000;
+  raw.lasers[0].scans[8].stamps.receive_ns += 104'000'000;
+  raw.lasers[0].scans[20].stamps.receive_ns += 6'000'000;  // as late as messages are now and then
+  raw.joints[0].stamps[30].receive_ns += 50'000'000;
+  const Recording usual = assembled(sample(), {}, StampSource::kReceive),
+                  received = assembled(raw, {}, StampSource::kReceive);
+  ASSERT_EQ(received.scans.size(), usual.scans.size());
+  for (std::size_t i = 0; i < usual.scans.size(); ++i)
+    EXPECT_NEAR(received.scans[i].first_beam_s, usual.scans[i].first_beam_s + (i == 20 ? 0.006 : 0), 1e-8);
+  for (std::size_t i = 0; i < usual.motor.time_s.size(); ++i)
+    EXPECT_NEAR(received.motor.time_s[i], usual.motor.time_s[i], 1e-8);
+  EXPECT_TRUE(warns(received, "2 of 40 messages on /scan were received up to 204 ms late"));
+  EXPECT_TRUE(warns(received, "messages on /joints were received up to 50 ms late"));
+  EXPECT_FALSE(warns(assembled(raw), "late"));
+}
+
+TEST(Assemble, NoMessageIsLateByHeaderStampsInAnotherUnit) {
+  RawRecording raw = sample();
+  for (MessageStamps& stamps : raw.joints[0].stamps)
+    stamps.header_ns = kStart_ns + (stamps.header_ns - kStart_ns) / 1000;
+  const Recording received = assembled(raw, {}, StampSource::kReceive);
+  EXPECT_FALSE(warns(received, "late"));
+  EXPECT_NEAR(received.motor.time_s[3] - received.motor.time_s[0],
+              assembled(sample(), {}, StampSource::kReceive).motor.time_s[3] - received.motor.time_s[0],
+              1e-8);
+}
+
 TEST(Assemble, HeaderStampsInAnotherUnitWarn) {
   RawRecording raw = sample();
   for (MessageStamps& stamps : raw.joints[0].stamps)

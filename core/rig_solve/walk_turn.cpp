@@ -1,0 +1,126 @@
+#include "core/rig_solve/walk_turn.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/loam/least_squares.hpp"
+#include "core/numbers.hpp"
+#include "core/rig_solve/rig_unknowns.hpp"
+
+namespace sweepscope {
+namespace {
+
+using Across = Eigen::Matrix<double, 3, 2>;
+
+// The knots of a solved walk: nothing is known of faster changes.
+constexpr double kStep_s = 0.06;
+
+// How the rotation of the base changes from one step to the next, and how a turn of the mount by 1 rad would
+// change it.
+struct Change {
+  Eigen::Vector3d seen_rad;
+  Across by_turn;
+  int part;  // of the walk
+};
+
+// The changes along sweeps that follow each other.
+void add_changes(const Recording& recording, std::span<const SweepPose> run, double offset_s,
+                 std::vector<Change>& changes) {
+  constexpr double kPart_s = 2;  // two or more turns of the motor: a body sways alike over less
+  const Eigen::Vector3d axis = recording.rig.mount.axis.normalized();
+  const Across across = across_axis(axis);
+  MotorReader motor(recording.motor);
+  std::vector<Eigen::Quaterniond> rotations;
+  std::vector<Across> turned;
+  auto sweep = run.begin();
+  for (double t_s = run.front().begin_s; t_s < run.back().end_s; t_s += kStep_s) {
+    while (sweep + 1 < run.end() && sweep->end_s < t_s) ++sweep;
+    const double u = (t_s - sweep->begin_s) / (sweep->end_s - sweep->begin_s);
+    rotations.push_back(sweep->at(std::clamp(u, 0.0, 1.0)).rotation);
+    turned.push_back(Eigen::AngleAxisd(motor.angle_at(t_s + offset_s), axis).toRotationMatrix() * across);
+    const std::size_t n = rotations.size();
+    if (n < 3) continue;
+    changes.push_back(
+        {turn_between(rotations[n - 2], rotations[n - 1]) - turn_between(rotations[n - 3], rotations[n - 2]),
+         turned[n - 1] - 2 * turned[n - 2] + turned[n - 3], int(t_s / kPart_s)});
+  }
+}
+
+std::vector<Change> changes_along(const Recording& recording, const std::vector<SweepPose>& sweeps,
+                                  double offset_s) {
+  std::vector<Change> changes;
+  const auto follows = [](const SweepPose& before, const SweepPose& sweep) {
+    return !before.lost && !sweep.lost && before.stretch == sweep.stretch && before.sweep + 1 == sweep.sweep;
+  };
+  for (std::size_t first = 0, next = 1; first < sweeps.size(); first = next, ++next) {
+    while (next < sweeps.size() && follows(sweeps[next - 1], sweeps[next])) ++next;
+    if (!sweeps[first].lost)
+      add_changes(recording, std::span(sweeps).subspan(first, next - first), offset_s, changes);
+  }
+  return changes;
+}
+
+// Least squares with a Cauchy loss about twice the median change: a stumble counts little.
+class TurnFit {
+ public:
+  explicit TurnFit(const std::vector<Change>& changes) : changes_(changes) {
+    constexpr int kIterations = 10;
+    for (int i = 0; i < kIterations; ++i) {
+      set_width();
+      Eigen::Vector2d pull = Eigen::Vector2d::Zero();
+      normal_.setZero();
+      for (const Change& change : changes_) {
+        const double weight = weight_of(change);
+        normal_ += weight * change.by_turn.transpose() * change.by_turn;
+        pull += weight * change.by_turn.transpose() * change.seen_rad;
+      }
+      turn_rad_ = normal_.ldlt().solve(pull);
+    }
+  }
+
+  const Eigen::Vector2d& turn_rad() const { return turn_rad_; }
+
+  // From how the parts of the walk pull (White 1980, with clusters).
+  Eigen::Matrix2d covariance() const {
+    std::map<int, Eigen::Vector2d> pulls;
+    for (const Change& change : changes_)
+      pulls.try_emplace(change.part, Eigen::Vector2d::Zero()).first->second +=
+          weight_of(change) * change.by_turn.transpose() * left_rad(change);
+    Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();
+    for (const auto& [part, pull] : pulls) scatter += pull * pull.transpose();
+    const Eigen::Matrix2d inverse = normal_.inverse();
+    return inverse * scatter * inverse;
+  }
+
+ private:
+  Eigen::Vector3d left_rad(const Change& change) const {
+    return change.seen_rad - change.by_turn * turn_rad_;
+  }
+  double weight_of(const Change& change) const { return cauchy_weight(left_rad(change).norm(), width_rad_); }
+  void set_width() {
+    std::vector<double> left;
+    for (const Change& change : changes_) left.push_back(left_rad(change).norm());
+    width_rad_ = 2 * median(std::move(left));
+  }
+
+  const std::vector<Change>& changes_;
+  Eigen::Vector2d turn_rad_ = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d normal_;
+  double width_rad_ = 0;
+};
+
+}  // namespace
+
+std::optional<WalkTurn> turn_of_walk(const Recording& recording, const std::vector<SweepPose>& sweeps,
+                                     double offset_s) {
+  constexpr double kMin_s = 10;
+  // What a sway in step with the motor adds on the walks of tests/benchmark/walks.
+  constexpr double kSway_rad = 0.12 * kRadPerDeg;
+  const std::vector<Change> changes = changes_along(recording, sweeps, offset_s);
+  if (double(changes.size()) * kStep_s < kMin_s) return std::nullopt;
+  const TurnFit fit(changes);
+  return WalkTurn{fit.turn_rad(), fit.covariance() + kSway_rad * kSway_rad * Eigen::Matrix2d::Identity()};
+}
+
+}  // namespace sweepscope
