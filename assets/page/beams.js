@@ -20,7 +20,6 @@ function readBeams() {
   };
   const data = {head};
   data.words = array(Uint32Array, 'beams');
-  data.intensity = array(Uint8Array, 'intensity');
   data.scans = array(Float64Array, 'scans');
   data.counts = array(Uint32Array, 'counts');
   data.motor = array(Float64Array, 'motor');
@@ -28,7 +27,36 @@ function readBeams() {
   data.path = array(Float64Array, 'path');
   data.knots = array(Float32Array, 'knots');
   data.count = data.words.length / 3;
+  data.poseOfSweep = new Map();
+  for (let i = 0; i < data.path.length; i += 4) data.poseOfSweep.set(data.path[i], i / 4 + 1);
+  for (const one of head.colourings) {
+    one.colours = decodeBase64(one.table);
+    for (const level of one.given) {
+      const bytes = array(Uint8Array, level.array);
+      level.indices = one.by === 'features' ? featureIndices(bytes, data.count) : bytes;
+    }
+  }
   return data;
+}
+
+// Of each beam its place in the table of colours, from four kinds a byte: none, edge, plane.
+function featureIndices(packed, count) {
+  const indices = new Uint8Array(count);
+  for (let i = 0; i < count; ++i) indices[i] = Math.floor(((packed[i >> 2] >> 2 * (i & 3) & 3) + 0.5) * 256 / 3);
+  return indices;
+}
+
+// Of each beam its place in the table of colours, for a colouring that the program computed. Of several offsets those
+// next to this one count, between them in proportion; place 0 is for what has no value.
+function givenIndices({given}, offset_ms, indices) {
+  const next = given.findIndex((level) => level.offset_ms >= offset_ms);
+  if (given.length === 1 || next === 0) return indices.set(given[0].indices);
+  if (next < 0) return indices.set(given[given.length - 1].indices);
+  const [a, b] = [given[next - 1], given[next]], part = (offset_ms - a.offset_ms) / (b.offset_ms - a.offset_ms);
+  for (let i = 0; i < indices.length; ++i) {
+    const from = a.indices[i], to = b.indices[i];
+    indices[i] = from > 0 && to > 0 ? Math.round(from + part * (to - from)) : part < 0.5 ? from : to;
+  }
 }
 
 function makeProgram(gl, vertex, fragment, outputs) {
@@ -148,8 +176,6 @@ class Placer {
   constructor(gl, data) {
     this.gl = gl;
     this.data = data;
-    data.poseOfSweep = new Map();
-    for (let i = 0; i < data.path.length; i += 4) data.poseOfSweep.set(data.path[i], i / 4 + 1);
     this.shader = makeProgram(gl, document.getElementById('place-shader').textContent,
                               '#version 300 es\nvoid main() {}', ['v_point_m', 'v_height_m', 'v_direction']);
     this.makeTextures();

@@ -234,13 +234,13 @@ class LivePage {
   showLegend() {
     if (this.legend.dataset.colouring === String(this.scene.colouring)) return;
     this.legend.dataset.colouring = this.scene.colouring;
-    const one = this.data.head.colourings[this.scene.colouring], bytes = decodeBase64(one.table);
+    const one = this.data.head.colourings[this.scene.colouring], bytes = one.colours;
     const colour = (i) => `rgb(${bytes[4 * i]}, ${bytes[4 * i + 1]}, ${bytes[4 * i + 2]})`;
     this.legend.replaceChildren();
     if (one.classes.length > 0) {
-      one.classes.forEach((name, i) => {
+      one.classes.forEach(({name, colour: [red, green, blue]}) => {
         const chip = htmlElement('span', {class: 'live-chip'}, this.legend);
-        chip.style.background = colour(Math.floor((i + 0.5) * 256 / one.classes.length));
+        chip.style.background = `rgb(${red}, ${green}, ${blue})`;
         htmlElement('span', {}, this.legend, `${one.title} ${name}`);
       });
       return;
@@ -248,9 +248,13 @@ class LivePage {
     const number = (value) => value.toFixed(1).replace('-', '\u2212') + (one.unit ? `\u00a0${one.unit}` : '');
     htmlElement('span', {}, this.legend, `${one.title} ${number(one.from)}`);
     const bar = htmlElement('span', {class: 'live-colour-bar'}, this.legend);
-    const stops = Array.from({length: 17}, (_, i) => colour(Math.round(i * 255 / 16)));
+    // Place 0 of a table may be for what has no value.
+    const stops = Array.from({length: 17}, (_, i) => colour(Math.max(1, Math.round(i * 255 / 16))));
     bar.style.background = `linear-gradient(to right, ${stops.join(', ')})`;
     htmlElement('span', {}, this.legend, number(one.to));
+    if (one.given.length < 2) return;
+    const offsets = one.given.map((level) => level.offset_ms.toFixed(2).replace('-', '\u2212')).join(', ');
+    htmlElement('span', {class: 'live-measured'}, this.legend, `measured at ${offsets}\u00a0ms, in proportion between them`);
   }
 
   // Back to the pictures that stand still.
@@ -259,18 +263,27 @@ class LivePage {
     this.section.hidden = true;
   }
 
-  // The points as the card placed them: of each beam x, y, z (m, map frame), its time (s, laser clock), and the height
+  // The points as they were placed: of each beam x, y, z (m, map frame), its time (s, laser clock), and the height
   // above the sensor's path (1e30: not placed at this offset).
   pointsAt(offset_ms) {
     const {scene, data} = this;
     scene.setOffset(1, offset_ms);
-    const placed = scene.placer.read(scene.buffers[1]), points = [];
+    const placed = scene.pointsOf(1), points = [];
     for (let i = 0; i < data.count; ++i) {
       const time_s = data.head.laser_origin_s + data.words[3 * i + 2] * data.head.tick_s;
       points.push([placed[5 * i], placed[5 * i + 1], placed[5 * i + 2], time_s, placed[5 * i + 3]]);
     }
     this.changed();
     return points;
+  }
+
+  // The colour of each point at an offset, where a loop draws them: red, green, blue.
+  coloursAt(offset_ms, colouring) {
+    const {scene, data} = this, {colours} = data.head.colourings[colouring];
+    scene.setOffset(1, offset_ms);
+    scene.splatter.colourise(scene.splatter.maps[1], colouring);
+    this.changed();
+    return Array.from(scene.splatter.maps[1].indices, (i) => [...colours.subarray(4 * i, 4 * i + 3)]);
   }
 }
 

@@ -2,6 +2,7 @@
 // Draws placed points without the graphics card's points: where WebGL is software, one of them takes microseconds, and
 // a loop over all takes nanoseconds each. Same points, sizes, colours and depths as draw.vert.
 
+const kComputed = ['elevation', 'direction', 'time'];  // the other colours are given with each beam
 const kSoftware = /swiftshader|llvmpipe|softpipe|software|basic render/i;
 
 function isSoftware(gl) {
@@ -13,6 +14,7 @@ class Splatter {
   constructor(gl, data) {
     this.gl = gl;
     this.data = data;
+    this.placer = new LoopPlacer(data);
     this.maps = [{}, {}];
     this.shader = makeProgram(gl, `#version 300 es
 void main() { gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0); }`,
@@ -27,19 +29,27 @@ void main() { colour = texelFetch(u_picture, ivec2(gl_FragCoord.xy), 0); }`);
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, gl.NEAREST);
   }
 
-  setPoints(map, points) { this.maps[map] = {points, colouring: -1}; }
+  // The points of a map, at its new offset.
+  setOffset(map, offset_ms) {
+    const one = this.maps[map];
+    one.points = one.points ?? new Float32Array(5 * this.data.count);
+    this.placer.place(offset_ms, one.points);
+    one.offset_ms = offset_ms;
+    one.colouring = -1;
+  }
 
   // The place of each point in the table of colours.
   colourise(map, colouring) {
     if (map.colouring === colouring) return;
-    const {head, words, intensity, count} = this.data, one = head.colourings[colouring], {points} = map;
-    const by = kColourBy.indexOf(one.by), scale = 255 / (one.to - one.from);
+    const {head, words, count} = this.data, one = head.colourings[colouring], {points} = map;
+    const by = kComputed.indexOf(one.by), zero_s = head.laser_origin_s - head.time_origin_s;
     map.colouring = colouring;
     map.indices = map.indices ?? new Uint8Array(count);
+    if (by < 0) return givenIndices(one, map.offset_ms, map.indices);
     for (let i = 0; i < count; ++i) {
-      const value = by === 0 ? points[5 * i + 2] : by === 1 ? points[5 * i + 4] : words[3 * i + 2] * head.tick_s;
-      map.indices[i] =
-          by === 3 ? intensity[i] : Math.floor(Math.min(255, Math.max(0, (value - one.from) * scale)) + 0.5);
+      const value = by === 0 ? points[5 * i + 2] : by === 1 ? points[5 * i + 4] : words[3 * i + 2] * head.tick_s + zero_s;
+      const part = one.to > one.from ? (value - one.from) / (one.to - one.from) : 0.5;
+      map.indices[i] = Math.floor(255 * Math.min(1, Math.max(0, part)) + 0.5);
     }
   }
 

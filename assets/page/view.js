@@ -8,7 +8,6 @@ const kViews = {  // as the program names its keys; angles of the direction to t
   9: {name: 'Oblique', yaw: -45, pitch: 35.264},
 };
 const kRoom = 1.06;  // around what is shown
-const kColourBy = ['elevation', 'direction', 'time', 'intensity'];
 const kFragment = `#version 300 es
 precision mediump float;
 flat in vec4 v_colour;
@@ -40,31 +39,47 @@ class Scene {
     const gl = canvas.getContext('webgl2', {antialias: false, alpha: false, powerPreference: 'high-performance'});
     if (!gl) throw new Error('no WebGL 2');
     this.gl = gl;
-    this.placer = new Placer(gl, data);
-    this.buffers = [this.placer.makeBuffer(), this.placer.makeBuffer()];
+    this.placed = [NaN, NaN];
     if (isSoftware(gl)) this.splatter = new Splatter(gl, data);
     else this.useCard();
-    this.placed = [NaN, NaN];
     this.layout = 'side';
     this.divider = 0.5;
     this.colouring = 0;
     this.camera = {middle: [0, 0, 0], ...kViews[7], height: 10, fitted: 7};
   }
 
-  // Draws by the graphics card from here on.
+  // Places and draws by the graphics card from here on.
   useCard() {
     const {gl, data} = this;
     this.splatter = null;
+    this.placed = [NaN, NaN];
+    this.placer = new Placer(gl, data);
+    this.buffers = [this.placer.makeBuffer(), this.placer.makeBuffer()];
     this.shader = makeProgram(gl, document.getElementById('draw-shader').textContent, kFragment);
-    this.tables = data.head.colourings.map((one) => this.makeColours(one.table));
-    this.intensity = gl.createBuffer();
-    gl.bindBuffer(gl.ARRAY_BUFFER, this.intensity);
-    gl.bufferData(gl.ARRAY_BUFFER, data.intensity.length ? data.intensity : new Uint8Array(data.count),
-                  gl.STATIC_DRAW);
-    this.arrays = this.buffers.map((points) => this.makeArray(points));
+    this.tables = data.head.colourings.map((one) => this.makeColours(one.colours));
+    this.given = this.buffers.map(() => this.makeGiven());
+    this.arrays = this.buffers.map((points, map) => this.makeArray(points, this.given[map].buffer));
   }
 
-  makeArray(points) {
+  // What colours a map's points where the program computed it.
+  makeGiven() {
+    const {gl, data} = this, one = {indices: new Uint8Array(data.count), buffer: gl.createBuffer(), of: ''};
+    gl.bindBuffer(gl.ARRAY_BUFFER, one.buffer);
+    gl.bufferData(gl.ARRAY_BUFFER, one.indices, gl.DYNAMIC_DRAW);
+    return one;
+  }
+
+  giveColours(map, colouring) {
+    const {gl} = this, one = this.given[map], of = `${this.colouring} ${this.placed[map]}`;
+    if (colouring.given.length === 0 || one.of === of) return;
+    one.of = of;
+    givenIndices(colouring, this.placed[map], one.indices);
+    gl.bindBuffer(gl.ARRAY_BUFFER, one.buffer);
+    gl.bufferSubData(gl.ARRAY_BUFFER, 0, one.indices);
+    gl.bindBuffer(gl.ARRAY_BUFFER, null);
+  }
+
+  makeArray(points, given) {
     const {gl, shader, placer} = this, array = gl.createVertexArray();
     const use = (name, call) => {
       const at = gl.getAttribLocation(shader.program, name);
@@ -79,28 +94,31 @@ class Scene {
     use('a_direction', (at) => gl.vertexAttribPointer(at, 1, gl.FLOAT, false, Placer.kStride, 16));
     gl.bindBuffer(gl.ARRAY_BUFFER, placer.words);
     use('a_tick', (at) => gl.vertexAttribIPointer(at, 1, gl.UNSIGNED_INT, 12, 8));
-    gl.bindBuffer(gl.ARRAY_BUFFER, this.intensity);
-    use('a_intensity', (at) => gl.vertexAttribPointer(at, 1, gl.UNSIGNED_BYTE, true, 1, 0));
+    gl.bindBuffer(gl.ARRAY_BUFFER, given);
+    use('a_given', (at) => gl.vertexAttribPointer(at, 1, gl.UNSIGNED_BYTE, true, 1, 0));
     gl.bindVertexArray(null);
     gl.bindBuffer(gl.ARRAY_BUFFER, null);
     return array;
   }
 
-  makeColours(table) {
+  makeColours(colours) {
     const {gl} = this, texture = gl.createTexture();
     gl.bindTexture(gl.TEXTURE_2D, texture);
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.NEAREST);
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, gl.NEAREST);
-    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, 256, 1, 0, gl.RGBA, gl.UNSIGNED_BYTE, decodeBase64(table));
+    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, 256, 1, 0, gl.RGBA, gl.UNSIGNED_BYTE, colours);
     return texture;
   }
 
   setOffset(map, offset_ms) {
     if (this.placed[map] === offset_ms) return;
-    this.placer.place(offset_ms, this.buffers[map]);
+    if (this.splatter) this.splatter.setOffset(map, offset_ms);
+    else this.placer.place(offset_ms, this.buffers[map]);
     this.placed[map] = offset_ms;
-    if (this.splatter) this.splatter.setPoints(map, this.placer.read(this.buffers[map]));
   }
+
+  // The points of a map as they were placed, 5 floats each.
+  pointsOf(map) { return this.splatter ? this.splatter.maps[map].points : this.placer.read(this.buffers[map]); }
 
   // Where the maps are in the canvas, in CSS pixels: `view` is what the camera fills, `clip` what is drawn of it.
   panes() {
@@ -205,18 +223,19 @@ class Scene {
     gl.activeTexture(gl.TEXTURE0);
     gl.bindTexture(gl.TEXTURE_2D, this.tables[this.colouring]);
     gl.uniform1i(shader.at('u_table'), 0);
-    gl.uniform1i(shader.at('u_colour_by'), kColourBy.indexOf(one.by));
+    gl.uniform1i(shader.at('u_colour_by'), one.given.length > 0 ? 3 : kComputed.indexOf(one.by));
     gl.uniform2f(shader.at('u_range'), one.from, one.to);
     gl.uniform1f(shader.at('u_tick_s'), this.data.head.tick_s);
+    gl.uniform1f(shader.at('u_zero_s'), this.data.head.laser_origin_s - this.data.head.time_origin_s);
     this.setCamera();
+    this.buffers.forEach((_, map) => this.giveColours(map, one));
     this.panes().forEach(({view, clip}, map) => this.drawMap(view, clip, this.arrays[map]));
     gl.bindVertexArray(null);
   }
 
   drawInSoftware() {
     const {splatter, camera, canvas} = this, pixels = (bytes) => new Uint32Array(new Uint8Array(bytes).buffer)[0];
-    const table = decodeBase64(this.data.head.colourings[this.colouring].table);
-    const colours = new Uint32Array(table.buffer);
+    const colours = new Uint32Array(this.data.head.colourings[this.colouring].colours.buffer);
     splatter.begin(canvas.width, canvas.height, pixels([48, 55, 65, 255]));
     this.panes().forEach(({view, clip}, map) => {
       const [seen, drawn] = [view, clip].map((place) => this.inPixels(place));

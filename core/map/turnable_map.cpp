@@ -135,6 +135,26 @@ std::vector<std::array<float, 3>> positions_at(const TurnableMap& map, double of
   return positions_m;
 }
 
+MapCloud cloud_at(const TurnableMap& map, double offset_s) {
+  MapCloud cloud;
+  const auto positions_m = positions_at(map, offset_s);
+  const std::vector<std::size_t> sweep_of = sweep_of_scans(map, offset_s);
+  std::size_t first = 0;
+  for (std::size_t s = 0; s < map.scans.size(); first += map.scans[s++].beams) {
+    for (std::size_t i = first; i < first + map.scans[s].beams; ++i) {
+      if (std::isnan(positions_m[i][0])) continue;
+      MapPoint point{};
+      point.getVector3fMap() = Eigen::Vector3f::Map(positions_m[i].data());
+      point.data[3] = 1.0F;
+      point.intensity = map.beams[i].intensity;
+      point.sweep = static_cast<std::uint32_t>(sweep_of[s]);
+      point.time_s = map.beams[i].time_s;
+      cloud.push_back(point);
+    }
+  }
+  return cloud;
+}
+
 std::vector<std::uint32_t> evenly_in_space(std::span<const std::array<float, 3>> points_m,
                                            std::size_t count) {
   const std::vector<MortonKey> keys = along_curve(points_m);

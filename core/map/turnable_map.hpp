@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/geometry/map_cloud.hpp"
 #include "core/loam/sweep_pose.hpp"
 #include "core/offset/prepared.hpp"
 
@@ -49,6 +50,9 @@ TurnableMap turnable_map(const PreparedRecording& prepared, const std::vector<Sw
 /// The position of each beam in the map frame at an offset, as build_maps() places it along the same
 /// trajectory; NaN where it belongs to no sweep.
 std::vector<std::array<float, 3>> positions_at(const TurnableMap& map, double offset_s);
+
+/// The same as a cloud, without the beams that belong to no sweep.
+MapCloud cloud_at(const TurnableMap& map, double offset_s);
 
 /// At most `count` of the points, evenly distributed in space, as ascending indices: one for each cube of the
 /// finest edge (in steps of 2) for which that is not too many, and of the next finer cubes every n-th. What

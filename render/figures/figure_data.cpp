@@ -264,8 +264,10 @@ Result<LiveMap> FigureData::live(const InteractiveFigure& figure) {
     still[i].path = std::move((*built)[i].trajectory);
   }
   const auto& walk = built->front().walk;
-  return live_map(*prepared, walk ? &walk->sweeps : nullptr, std::move(still), std::move(criteria),
-                  figure.points);
+  LiveMap live = live_map(*prepared, walk ? &walk->sweeps : nullptr, std::move(still), std::move(criteria),
+                          figure.points, job_);
+  if (job_.cancelled()) return failure(ExitCode::kInterrupted, "interrupted while measuring the map");
+  return live;
 }
 
 Result<std::vector<ComparedMap>> FigureData::maps(std::span<const MapSpec> specs, bool with_features) {

@@ -40,7 +40,7 @@ std::string table_bytes(const ColourTable& table) {
 }
 
 /// What colours the points, as make_colouring() has it for the maps at first.
-Result<Json> colouring_json(const LiveMap& live, ColourBy by, const std::vector<HeightRange>& slabs) {
+Result<Colouring> colouring_of(const LiveMap& live, ColourBy by, const std::vector<HeightRange>& slabs) {
   std::vector<SlabPoints> shown;
   std::vector<std::span<const float>> values;
   for (const ComparedMap& map : live.still) {
@@ -49,29 +49,94 @@ Result<Json> colouring_json(const LiveMap& live, ColourBy by, const std::vector<
     shown.push_back(points_in_slabs(map, *of_map, slabs));
   }
   for (const SlabPoints& points : shown) values.push_back(points.points.values);
-  return make_colouring(by, "viridis", values, std::nullopt).map([&](const Colouring& colouring) {
-    Json classes = Json::array();
-    for (const ColourClass& one : colouring.classes) classes.push_back(one.name);
-    return Json{{"by", colour_by_names()[static_cast<std::size_t>(by)]},
-                {"title", colouring.title},
-                {"unit", colouring.unit},
-                {"from", colouring.scale.from},
-                {"to", colouring.scale.to},
-                {"classes", classes},
-                {"table", html::base64(table_bytes(colouring.scale.table))}};
-  });
+  return make_colouring(by, "viridis", values, std::nullopt);
 }
 
-Result<Json> colourings_json(const LiveMap& live, const std::vector<HeightRange>& slabs, bool intensity) {
-  std::vector<ColourBy> all{ColourBy::kElevation, ColourBy::kDirection, ColourBy::kTime};
-  if (intensity) all.push_back(ColourBy::kIntensity);
-  Json list = Json::array();
-  for (const ColourBy by : all) {
-    auto one = colouring_json(live, by, slabs);
-    if (!one) return one;
-    list.push_back(std::move(*one));
+Json json_of(const Colouring& colouring, ColourBy by) {
+  Json classes = Json::array();
+  for (const ColourClass& one : colouring.classes)
+    classes.push_back({{"name", one.name}, {"colour", {one.colour.red, one.colour.green, one.colour.blue}}});
+  return {{"by", colour_by_names()[static_cast<std::size_t>(by)]},
+          {"title", colouring.title},
+          {"unit", colouring.unit},
+          {"from", colouring.scale.from},
+          {"to", colouring.scale.to},
+          {"classes", classes},
+          {"table", html::base64(table_bytes(colouring.scale.table))},
+          {"given", Json::array()}};
+}
+
+/// The place of a value in the colouring's table.
+std::uint8_t table_index(const ColourScale& scale, double value) {
+  const double part = scale.to > scale.from ? (value - scale.from) / (scale.to - scale.from) : 0.5;
+  return static_cast<std::uint8_t>(std::isnan(part) ? 0 : std::lround(255 * std::clamp(part, 0.0, 1.0)));
+}
+
+/// The colours that a page offers, and of those that it cannot compute itself an array of each beam's place
+/// in the table. Such colourings list the arrays as `given`, with the offset that they hold for.
+struct PageColours {
+  Json colourings = Json::array();
+  std::vector<NamedBytes> arrays;
+
+  void add_given(Json& colouring, std::string name, Json offset_ms, std::vector<std::uint8_t> indices) {
+    colouring["given"].push_back({{"array", name}, {"offset_ms", std::move(offset_ms)}});
+    arrays.push_back({std::move(name), std::move(indices)});
   }
-  return list;
+};
+
+void add_intensity(PageColours& colours, const LiveMap& live, const Colouring& colouring) {
+  if (!(colouring.scale.to > colouring.scale.from)) return;  // the laser has none
+  Json one = json_of(colouring, ColourBy::kIntensity);
+  std::vector<std::uint8_t> indices;
+  for (const TurnableBeam& beam : live.map.beams)
+    indices.push_back(table_index(colouring.scale, double(beam.intensity)));
+  colours.add_given(one, "intensity", nullptr, std::move(indices));
+  colours.colourings.push_back(std::move(one));
+}
+
+/// Four beams a byte.
+void add_features(PageColours& colours, const LiveMap& live, const Colouring& colouring) {
+  Json one = json_of(colouring, ColourBy::kFeatures);
+  const std::vector<FeatureKind>& kinds = live.colours.kinds;
+  std::vector<std::uint8_t> packed((kinds.size() + 3) / 4);
+  for (std::size_t i = 0; i < kinds.size(); ++i)
+    packed[i / 4] |= static_cast<std::uint8_t>(static_cast<unsigned>(kinds[i]) << 2 * (i % 4));
+  colours.add_given(one, "features", nullptr, std::move(packed));
+  colours.colourings.push_back(std::move(one));
+}
+
+/// Place 0 of the table is for what has no thickness.
+void add_blur(PageColours& colours, const LiveMap& live, Colouring colouring) {
+  colouring.scale.table[0] = colouring.scale.no_value;
+  Json one = json_of(colouring, ColourBy::kBlur);
+  for (const BeamBlur& blur : live.colours.blur) {
+    std::vector<std::uint8_t> indices;
+    for (const float thickness_m : blur.thickness_m) {
+      const std::uint8_t index = table_index(colouring.scale, double(thickness_m * 1e3F));
+      indices.push_back(std::isnan(thickness_m) ? std::uint8_t{0} : std::max(index, std::uint8_t{1}));
+    }
+    colours.add_given(one, "blur" + std::to_string(one["given"].size()), in_ms(blur.offset_s),
+                      std::move(indices));
+  }
+  colours.colourings.push_back(std::move(one));
+}
+
+Result<PageColours> page_colours(const LiveMap& live, const std::vector<HeightRange>& slabs) {
+  PageColours colours;
+  for (const ColourBy by : {ColourBy::kElevation, ColourBy::kDirection, ColourBy::kTime, ColourBy::kIntensity,
+                            ColourBy::kFeatures, ColourBy::kBlur}) {
+    const auto colouring = colouring_of(live, by, slabs);
+    if (!colouring) return tl::unexpected(colouring.error());
+    if (by == ColourBy::kIntensity)
+      add_intensity(colours, live, *colouring);
+    else if (by == ColourBy::kFeatures)
+      add_features(colours, live, *colouring);
+    else if (by == ColourBy::kBlur)
+      add_blur(colours, live, *colouring);
+    else
+      colours.colourings.push_back(json_of(*colouring, by));
+  }
+  return colours;
 }
 
 std::vector<SlabPoints> shown_in(const std::vector<HeightRange>& slabs, const LiveMap& live) {
@@ -153,6 +218,31 @@ std::string what_is_drawn(const TurnableMap& map) {
       points, path);
 }
 
+/// The blur of the maps at first, and as far beyond B as A is before it.
+std::vector<BeamBlur> blur_of(const TurnableMap& all, const LiveMap& live, const Job& job) {
+  // With more points, a third blur would take the page above 12 MB.
+  constexpr std::size_t kMaxPointsOfThree = 400'000;
+  std::vector<BeamBlur> blur;
+  for (const ComparedMap& map : live.still) blur.push_back(blur_of_beams(live.map, map));
+  ComparedMap beyond;
+  beyond.offset_s = 2 * live.offset_s[1] - live.offset_s[0];
+  if (live.map.beams.size() <= kMaxPointsOfThree && *beyond.offset_s >= live.span.from_s &&
+      *beyond.offset_s <= live.span.to_s) {
+    beyond.cloud = MapCloud::Ptr(new MapCloud(cloud_at(all, *beyond.offset_s)));
+    measure_thickness(beyond, job);
+    blur.push_back(blur_of_beams(live.map, beyond));
+  }
+  std::ranges::sort(blur, {}, &BeamBlur::offset_s);
+  return blur;
+}
+
+BeamColours beam_colours(const FeatureSet& features, const TurnableMap& all, const LiveMap& live,
+                         const Job& job) {
+  MapCloud times;
+  for (const TurnableBeam& beam : live.map.beams) times.emplace_back().time_s = beam.time_s;
+  return {feature_kinds(features, times), blur_of(all, live, job)};
+}
+
 }  // namespace
 
 OffsetSpan live_span(const PreparedRecording& prepared, double a_s, double b_s) {
@@ -164,14 +254,20 @@ OffsetSpan live_span(const PreparedRecording& prepared, double a_s, double b_s) 
 }
 
 LiveMap live_map(const PreparedRecording& prepared, const std::vector<SweepPose>* path,
-                 std::vector<ComparedMap> still, std::optional<Estimate> criteria, std::size_t points) {
+                 std::vector<ComparedMap> still, std::optional<Estimate> criteria, std::size_t points,
+                 const Job& job) {
   LiveMap live;
   live.offset_s = {still.at(0).offset_s.value(), still.at(1).offset_s.value()};
   live.span = live_span(prepared, live.offset_s[0], live.offset_s[1]);
-  live.map = turnable_map(prepared, path, live.span.from_s, live.span.to_s);
-  live.map = with_beams(live.map, evenly_in_space(positions_at(live.map, live.offset_s[0]), points));
+  const TurnableMap all = turnable_map(prepared, path, live.span.from_s, live.span.to_s);
+  live.map = with_beams(all, evenly_in_space(positions_at(all, live.offset_s[0]), points));
+  for (ComparedMap& map : still) {
+    measure_thickness(map, job);
+    if (map.feature_kinds.empty()) map.feature_kinds = feature_kinds(*prepared.features, *map.cloud);
+  }
   live.still = std::move(still);
   live.criteria = std::move(criteria);
+  live.colours = beam_colours(*prepared.features, all, live, job);
   return live;
 }
 
@@ -186,14 +282,14 @@ std::string live_map_part(const LiveMap& live) {
 }
 
 Result<std::string> live_map_data(const LiveMap& live) {
-  const PackedMap packed = pack_map(live.map);
-  Json head = Json::parse(packed.head_json);
   ComparisonOptions top, oblique;
   oblique.viewpoint = Viewpoint::kIsometric;
   const std::vector<HeightRange> top_slabs = choose_slabs(live.still, top),
                                  all_slabs = choose_slabs(live.still, oblique);
-  auto colourings = colourings_json(live, top_slabs, !head["intensity_range"].is_null());
-  if (!colourings) return tl::unexpected(colourings.error());
+  auto colours = page_colours(live, top_slabs);
+  if (!colours) return tl::unexpected(colours.error());
+  const PackedMap packed = pack_map(live.map, colours->arrays);
+  Json head = Json::parse(packed.head_json);
   head["offset_ms"] = {in_ms(live.offset_s[0]), in_ms(live.offset_s[1])};
   head["span_ms"] = {in_ms(live.span.from_s), in_ms(live.span.to_s)};
   head["slabs_m"] = {{"top", json_of(top_slabs)}, {"other", json_of(all_slabs)}};
@@ -203,7 +299,9 @@ Result<std::string> live_map_data(const LiveMap& live) {
   const Region differs = close_up(top_points, top_box);
   head["close_up"] = {{"centre_m", {differs.centre_m.x(), differs.centre_m.y()}},
                       {"height_m", differs.height_m}};
-  head["colourings"] = std::move(*colourings);
+  head["colourings"] = std::move(colours->colourings);
+  const MapCloud& first = *live.still.front().cloud;
+  head["time_origin_s"] = first.empty() ? 0.0 : first.front().time_s;
   head["charts"] = charts_json(live);
   return html::json_block("live-head", json_text(std::move(head))) +
          html::data_block("live-data", packed.bytes) +

@@ -7,10 +7,12 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/job.hpp"
 #include "core/map/turnable_map.hpp"
 #include "core/offset/estimate.hpp"
 #include "render/comparison/compared_map.hpp"
 #include "render/comparison/comparison.hpp"
+#include "render/page/beam_colours.hpp"
 
 namespace sweepscope {
 
@@ -35,13 +37,17 @@ struct LiveMap {
   /// that stands for the live map on paper.
   std::vector<ComparedMap> still;
   std::optional<Estimate> criteria;
+  BeamColours colours;
 };
 
 /// The live map of a recording, of at most `points` beams: chosen evenly in space in the map at A, which is
 /// off the answer, so that blurred places keep theirs. `path` as for turnable_map(). `still`: the maps at A
-/// and B.
+/// and B. Their blur is measured unless that was done, and that of the map as far beyond B as A is before it,
+/// where the span holds that and the points leave room for it. If `job` is cancelled the result is
+/// unfinished.
 LiveMap live_map(const PreparedRecording& prepared, const std::vector<SweepPose>* path,
-                 std::vector<ComparedMap> still, std::optional<Estimate> criteria, std::size_t points);
+                 std::vector<ComparedMap> still, std::optional<Estimate> criteria, std::size_t points,
+                 const Job& job = {});
 
 /// The part of a page in which the map is drawn, hidden until its script has drawn it. Pictures of the class
 /// `still` are shown until then, and on paper.

@@ -8,7 +8,6 @@
 #include <span>
 
 #include "core/io/printable_text.hpp"
-#include "core/numbers.hpp"
 
 namespace sweepscope {
 namespace {
@@ -19,7 +18,7 @@ constexpr std::uint32_t kMaxStep = (1U << 21) - 1;
 class Arrays {
  public:
   template <typename Number>
-  void add(const char* name, const std::vector<Number>& numbers) {
+  void add(const std::string& name, const std::vector<Number>& numbers) {
     bytes_.append((8 - bytes_.size() % 8) % 8, '\0');
     const std::size_t size = numbers.size() * sizeof(Number);
     places_[name] = {bytes_.size(), size};
@@ -76,28 +75,6 @@ std::vector<std::uint32_t> packed_beams(const TurnableMap& map, const Grid& grid
   return words;
 }
 
-/// The range without the outermost values, which would take the colours from the rest.
-std::optional<std::array<double, 2>> intensity_range(const std::vector<TurnableBeam>& beams) {
-  std::vector<float> values;
-  for (const TurnableBeam& beam : beams)
-    if (std::isfinite(beam.intensity)) values.push_back(beam.intensity);
-  if (values.empty()) return std::nullopt;
-  const std::array<double, 2> range{quantile(values, 0.005), quantile(values, 0.995)};
-  if (!(range[1] > range[0])) return std::nullopt;
-  return range;
-}
-
-std::vector<std::uint8_t> packed_intensities(const std::vector<TurnableBeam>& beams,
-                                             const std::array<double, 2>& range) {
-  std::vector<std::uint8_t> bytes;
-  for (const TurnableBeam& beam : beams) {
-    const double part = (double(beam.intensity) - range[0]) / (range[1] - range[0]);
-    bytes.push_back(
-        static_cast<std::uint8_t>(std::isnan(part) ? 0 : std::lround(255 * std::clamp(part, 0.0, 1.0))));
-  }
-  return bytes;
-}
-
 void add_path(Arrays& arrays, const std::vector<SweepPose>& path) {
   std::vector<double> poses;
   std::vector<float> knots;
@@ -143,7 +120,7 @@ void add_scans(Arrays& arrays, const std::vector<TurnableScan>& scans) {
 
 }  // namespace
 
-PackedMap pack_map(const TurnableMap& map) {
+PackedMap pack_map(const TurnableMap& map, std::span<const NamedBytes> more) {
   const auto [first, last] = std::ranges::minmax_element(map.beams, {}, &TurnableBeam::time_s);
   const double laser_origin_s = map.beams.empty() ? 0 : first->time_s;
   const double laser_s = map.beams.empty() ? 0 : last->time_s - laser_origin_s;
@@ -151,15 +128,13 @@ PackedMap pack_map(const TurnableMap& map) {
   const double motor_s = map.motor.time_s.empty() ? 0 : map.motor.time_s.back() - motor_origin_s;
   const double tick_s = tick_for(std::max(laser_s, motor_s));
   const Grid grid = grid_for(map.beams);
-  const auto intensities = intensity_range(map.beams);
 
   Arrays arrays;
   arrays.add("beams", packed_beams(map, grid, laser_origin_s, tick_s));
-  arrays.add("intensity",
-             intensities ? packed_intensities(map.beams, *intensities) : std::vector<std::uint8_t>());
   add_scans(arrays, map.scans);
   add_motor(arrays, map);
   add_path(arrays, map.path);
+  for (const NamedBytes& one : more) arrays.add(one.name, one.bytes);
   nlohmann::ordered_json head{{"tick_s", tick_s},
                               {"laser_origin_s", laser_origin_s},
                               {"motor_origin_s", motor_origin_s},
@@ -168,9 +143,7 @@ PackedMap pack_map(const TurnableMap& map) {
                               {"step_m", grid.step_m},
                               {"moving", map.moving},
                               {"usable_beams", map.usable_beams},
-                              {"intensity_range", nullptr},
                               {"arrays", arrays.places()}};
-  if (intensities) head["intensity_range"] = *intensities;
   return {arrays.take_bytes(), json_text(std::move(head))};
 }
 

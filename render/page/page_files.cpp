@@ -9,6 +9,7 @@ SWEEPSCOPE_EMBED("sweepscope_page_style", SWEEPSCOPE_PAGE_FOLDER "/page.css");
 SWEEPSCOPE_EMBED("sweepscope_page_place", SWEEPSCOPE_PAGE_FOLDER "/place.vert");
 SWEEPSCOPE_EMBED("sweepscope_page_draw", SWEEPSCOPE_PAGE_FOLDER "/draw.vert");
 SWEEPSCOPE_EMBED("sweepscope_page_beams", SWEEPSCOPE_PAGE_FOLDER "/beams.js");
+SWEEPSCOPE_EMBED("sweepscope_page_loop", SWEEPSCOPE_PAGE_FOLDER "/loop.js");
 SWEEPSCOPE_EMBED("sweepscope_page_splat", SWEEPSCOPE_PAGE_FOLDER "/splat.js");
 SWEEPSCOPE_EMBED("sweepscope_page_view", SWEEPSCOPE_PAGE_FOLDER "/view.js");
 SWEEPSCOPE_EMBED("sweepscope_page_charts", SWEEPSCOPE_PAGE_FOLDER "/charts.js");
@@ -19,6 +20,7 @@ extern const char sweepscope_page_style_begin[], sweepscope_page_style_end[];
 extern const char sweepscope_page_place_begin[], sweepscope_page_place_end[];
 extern const char sweepscope_page_draw_begin[], sweepscope_page_draw_end[];
 extern const char sweepscope_page_beams_begin[], sweepscope_page_beams_end[];
+extern const char sweepscope_page_loop_begin[], sweepscope_page_loop_end[];
 extern const char sweepscope_page_splat_begin[], sweepscope_page_splat_end[];
 extern const char sweepscope_page_view_begin[], sweepscope_page_view_end[];
 extern const char sweepscope_page_charts_begin[], sweepscope_page_charts_end[];
@@ -32,8 +34,9 @@ PageFile page_style() {
 }
 
 std::span<const PageFile> page_scripts() {
-  static const std::array<PageFile, 5> scripts{
+  static const std::array<PageFile, 6> scripts{
       {{{sweepscope_page_beams_begin, sweepscope_page_beams_end}, SWEEPSCOPE_PAGE_HASH_beams_js},
+       {{sweepscope_page_loop_begin, sweepscope_page_loop_end}, SWEEPSCOPE_PAGE_HASH_loop_js},
        {{sweepscope_page_splat_begin, sweepscope_page_splat_end}, SWEEPSCOPE_PAGE_HASH_splat_js},
        {{sweepscope_page_view_begin, sweepscope_page_view_end}, SWEEPSCOPE_PAGE_HASH_view_js},
        {{sweepscope_page_charts_begin, sweepscope_page_charts_end}, SWEEPSCOPE_PAGE_HASH_charts_js},
