@@ -212,7 +212,7 @@ void declare_serving(CLI::App& command, ViewOptions& options, CLI::Option* headl
                   "folder a name lies in the first (default: the working folder)")
       ->type_name("DIR")
       ->needs(serve)
-      ->expected(1)
+      ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command.add_flag("--once", options.once, "With --serve: end when the last viewer left")->needs(serve);
   command
@@ -225,7 +225,7 @@ void declare_serving(CLI::App& command, ViewOptions& options, CLI::Option* headl
                   "repeatable")
       ->type_name("NAME")
       ->needs(serve)
-      ->expected(1)
+      ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 

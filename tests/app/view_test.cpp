@@ -107,6 +107,17 @@ TEST_F(View, AServerIsInterrupted) {
   EXPECT_NE(served.out.find("ssh -N -L "), std::string::npos) << served.out;
 }
 
+TEST_F(View, ARecordingMayFollowTheFoldersAndNamesOfAServer) {
+  for (const char* options : {"--root .", "--root . --root .", "--host a.example --host b.example"}) {
+    const test::SelfSignal when_served{SIGINT, "Ctrl-C ends it", 1};
+    // A trajectory requires a recording, which the option before it must not have taken.
+    const Outcome served =
+        run(std::string("view --serve 127.0.0.1:0 ") + options + " room.bag --poses room.truth.tum",
+            when_served.environment());
+    EXPECT_EQ(served.exit_code, 130) << options << ": " << served.err;
+  }
+}
+
 TEST_F(View, WithoutADisplayTheOtherWaysAreNamed) {
   const Outcome refused = run("view room.bag", "-u DISPLAY -u WAYLAND_DISPLAY");
   EXPECT_EQ(refused.exit_code, 2);
