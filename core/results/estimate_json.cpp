@@ -347,6 +347,9 @@ Estimate estimate_from_json(const Json& document) {
   estimate.lost = intervals_from_json(document, "lost_s");
   estimate.motion = motion_from_json(document);
   estimate.fit = fit_from_json(document);
+  if (const auto parameters = document.find("parameters"); parameters != document.end())
+    if (auto solved = solved_rig_of(*parameters))
+      estimate.rig = std::make_shared<const SolvedRig>(std::move(*solved));
   estimate.warnings = required<std::vector<std::string>>(document, "warnings");
   estimate.reasons = required<std::vector<std::string>>(document, "reasons");
   estimate.criteria = criteria_from_json(member(document, "criteria", ""));

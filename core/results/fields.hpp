@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -29,6 +30,12 @@ inline constexpr std::array<CurveColumn, 7> kCurveColumns{
 /// not 23.900000000000002.
 inline double written_ms(double seconds) {
   return std::round(seconds * 1e12) / 1e9;
+}
+
+/// Three numbers. Throws the library's exception where there are none.
+inline Eigen::Vector3d vector_of(const nlohmann::ordered_json& object, const char* key) {
+  const auto values = object.at(key).get<std::array<double, 3>>();
+  return {values[0], values[1], values[2]};
 }
 
 /// A JSON value as a whole number from `least` to `greatest`; absent for anything else. The library would

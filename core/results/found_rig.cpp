@@ -6,17 +6,13 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/results/fields.hpp"
 #include "core/results/rig_json.hpp"
 
 namespace sweepscope {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Eigen::Vector3d vector_of(const Json& object, const char* key) {
-  const auto values = object.at(key).get<std::array<double, 3>>();
-  return {values[0], values[1], values[2]};
-}
 
 void read_part(const Json& object, FoundRig::Part& part) {
   part.identifiable = object.at("identifiable").get<bool>();
@@ -30,6 +26,7 @@ FoundRig::Mount mount_of(const Json& object) {
   mount.xyz_m = vector_of(object, "xyz_m");
   mount.sigma_rpy_deg = vector_of(object, "sigma_rpy_deg");
   mount.sigma_xyz_m = vector_of(object, "sigma_xyz_m");
+  mount.shift_identifiable = object.value("shift_identifiable", true);
   return mount;
 }
 
@@ -67,6 +64,11 @@ std::string not_determined(const FoundRig::Part& part, const std::string& source
 std::string mount_note(const FoundRig::Mount& mount, const std::string& source) {
   if (!mount.identifiable) return not_determined(mount, source);
   const Eigen::Vector3d &rpy_deg = mount.sigma_rpy_deg, xyz_mm = mount.sigma_xyz_m * 1e3;
+  if (!mount.shift_identifiable)
+    return fmt::format(
+        "turned as found by {}: +- {:.4f}, {:.4f}, {:.4f} deg; 0 about the motor's axis, where a turn has no "
+        "effect. The shift is as it was: {}",
+        source, rpy_deg.x(), rpy_deg.y(), rpy_deg.z(), mount.reason);
   return fmt::format(
       "found by {}: +- {:.4f}, {:.4f}, {:.4f} deg and {:.2f}, {:.2f}, {:.2f} mm; 0 where a turn about the "
       "motor's axis or a shift along it has no effect",

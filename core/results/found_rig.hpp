@@ -20,6 +20,7 @@ struct FoundRig {
   struct Mount : Part {
     Eigen::Vector3d rpy_deg{0, 0, 0}, xyz_m{0, 0, 0};
     Eigen::Vector3d sigma_rpy_deg{0, 0, 0}, sigma_xyz_m{0, 0, 0};
+    bool shift_identifiable = true;  // not from a walk
   };
   struct Play : Part {
     double value_deg = 0, sigma_deg = 0;

@@ -115,12 +115,16 @@ class TurnFit {
 std::optional<WalkTurn> turn_of_walk(const Recording& recording, const std::vector<SweepPose>& sweeps,
                                      double offset_s) {
   constexpr double kMin_s = 10;
-  // What a sway in step with the motor adds on the walks of tests/benchmark/walks.
-  constexpr double kSway_rad = 0.12 * kRadPerDeg;
+  // What a sway in step with the motor adds on the walks of tests/benchmark/walks. Bodies sway more at the
+  // pace of a slow motor.
+  constexpr double kSway_rad = 0.12 * kRadPerDeg, kAtSweep_s = 0.5;
   const std::vector<Change> changes = changes_along(recording, sweeps, offset_s);
   if (double(changes.size()) * kStep_s < kMin_s) return std::nullopt;
   const TurnFit fit(changes);
-  return WalkTurn{fit.turn_rad(), fit.covariance() + kSway_rad * kSway_rad * Eigen::Matrix2d::Identity()};
+  std::vector<double> durations_s;
+  for (const SweepPose& sweep : sweeps) durations_s.push_back(sweep.end_s - sweep.begin_s);
+  const double sway_rad = kSway_rad * std::pow(median(std::move(durations_s)) / kAtSweep_s, 2);
+  return WalkTurn{fit.turn_rad(), fit.covariance() + sway_rad * sway_rad * Eigen::Matrix2d::Identity()};
 }
 
 }  // namespace sweepscope

@@ -331,6 +331,44 @@ TEST_F(InARoom, WhatIsSolvedForIsFoundWithTheOffsetAndSavedAsARigFile) {
   EXPECT_NE(rig->mount.laser_in_motor_rpy_deg, Eigen::Vector3d(Eigen::Vector3d::Zero()));
 }
 
+TEST_F(InARoom, OfASampleTheRigFoundIsNotUsed) {
+  perform(explorer_, "solve-for offset,mount");
+  perform(explorer_, "estimate");
+  rest(explorer_);
+  const std::string path = scratch("sample-rig.yaml").string();
+  const auto done = explorer_.perform("use-rig " + path);
+  ASSERT_FALSE(done);
+  EXPECT_NE(done.error().message.find("sample"), std::string::npos) << done.error().message;
+  EXPECT_FALSE(std::filesystem::exists(path));
+}
+
+// The recording is opened with the rig file that is written, and what was found and chosen stays.
+TEST(TheRigFound, IsUsedForTheMaps) {
+  SimulationOptions tilted;
+  tilted.scene = "room-1";
+  tilted.duration_s = 4.5;
+  tilted.mount_error_deg = {0, 3, -2};
+  const std::string bag = scratch("tilted.bag").string(), rig = scratch("tilted-rig.yaml").string();
+  ASSERT_TRUE(write_bag(*simulate(tilted, Job()), bag, Job()));
+  Explorer explorer;
+  perform(explorer, "open " + bag);
+  rest(explorer);
+  for (const char* line : {"solve-for offset,mount", "priors 10 300 0.5 1", "offset-a 19", "estimate"}) {
+    perform(explorer, line);
+    rest(explorer);
+  }
+  EXPECT_NEAR(explorer.estimate()->rig->priors[kTurnU] * kDegPerRad, 10, 1e-9);
+  const std::string found = explorer.observe("found-rig").value();
+  perform(explorer, "use-rig " + rig);
+  rest(explorer);
+  ASSERT_TRUE(explorer.loaded());
+  EXPECT_NEAR(explorer.loaded()->recording.rig.mount.laser_in_motor_rpy_deg.y(), 3, 0.05);
+  EXPECT_EQ(explorer.loaded()->choices.rig_file, rig);
+  EXPECT_EQ(explorer.settings().offset_a_ms, 19);
+  EXPECT_EQ(explorer.observe("found-rig"), found);
+  EXPECT_NE(explorer.command_line(800, 600).find("--rig " + rig), std::string::npos);
+}
+
 TEST_F(InARoom, ARigThatWasNotSolvedForIsNotExported) {
   perform(explorer_, "estimate");
   rest(explorer_);
@@ -452,7 +490,7 @@ TEST(Failures, ASessionOpensRecordingsAndDoesNothingElse) {
 TEST(Failures, WhatCannotBeDoneNowIsRefused) {
   Explorer explorer;
   for (const char* line : {"estimate", "take-found", "fit-view", "export-curve a.csv", "export-cloud a a.pcd",
-                           "export-rig a.yaml", "export-report a"}) {
+                           "export-rig a.yaml", "use-rig a.yaml", "export-report a"}) {
     const auto done = explorer.perform(line);
     ASSERT_FALSE(done) << line;
     EXPECT_EQ(done.error().code, ExitCode::kWrongUsage);

@@ -149,6 +149,7 @@ Result<void> Explorer::act(const Call& call) {
        }},
       {"export-curve", [](Explorer& self, const Call& c) { return self.export_curve(c.text(0)); }},
       {"export-rig", [](Explorer& self, const Call& c) { return self.export_rig(c.text(0)); }},
+      {"use-rig", [](Explorer& self, const Call& c) { return self.use_rig(c.text(0)); }},
       {"export-report", [](Explorer& self, const Call& c) { return self.export_report(c.text(0)); }}};
   if (auto inside = check_roots(call); !inside) return inside;
   if (auto checked = check_outputs_of(call); !checked) return checked;
@@ -186,6 +187,7 @@ EstimateOptions Explorer::wanted_estimate() const {
   options.assume = options_.assume;
   // Commands take no other values than these options do.
   (void)find_estimate_option("solve")->set(options, settings.solve_for);
+  (void)find_estimate_option("prior")->set(options, settings.prior());
   if (settings.search == Search::kOverTime)
     (void)find_estimate_option("over-time")
         ->set(options, settings.window_s < 1 ? std::string() : to_word(Value(settings.window_s)));

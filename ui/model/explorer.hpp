@@ -247,6 +247,7 @@ class Explorer {
   Result<void> export_cloud(Side side, const std::string& path);
   Result<void> export_curve(const std::string& path);
   Result<void> export_rig(const std::string& path);
+  Result<void> use_rig(const std::string& path);
   Result<void> export_report(const std::string& folder);
   void change_settings(Settings next, const std::string& gesture);
   Settings with_fitted_view() const;

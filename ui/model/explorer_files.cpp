@@ -52,9 +52,12 @@ std::string found_beside(const std::string& path, const std::filesystem::path& s
 
 /// The options that a report quotes: files without their folders.
 std::string report_options(const Loaded& loaded, const std::optional<RigKind>& assume,
-                           const std::string& solve_for) {
+                           const Settings& settings) {
   std::string words = shell_options(loaded.choices, false);
-  if (solve_for != Settings().solve_for) words += " --solve " + solve_for;
+  if (settings.solve_for != Settings().solve_for) {
+    words += " --solve " + settings.solve_for;
+    if (settings.prior() != Settings().prior()) words += " --prior " + settings.prior();
+  }
   if (assume) words += *assume == RigKind::kMoving ? " --assume moving" : " --assume stationary";
   return words;
 }
@@ -62,7 +65,7 @@ std::string report_options(const Loaded& loaded, const std::optional<RigKind>& a
 /// Whether the command writes the file of its first argument.
 bool writes_one_file(const std::string& command) {
   return command == "save-session" || command == "export-curve" || command == "export-picture" ||
-         command == "export-rig";
+         command == "export-rig" || command == "use-rig";
 }
 
 /// How a session's recording is read: what the program was started with goes before what the session says.
@@ -265,7 +268,7 @@ std::string Explorer::suggested_file(const std::string& command, const std::stri
   if (command == "save-session") return name + ".session.json";
   if (command == "export-picture") return name + (what == "maps" ? "-maps.png" : ".png");
   if (command == "export-curve") return name + "-criteria.csv";
-  if (command == "export-rig") return name + "-rig.yaml";
+  if (command == "export-rig" || command == "use-rig") return name + "-rig.yaml";
   if (command == "export-report") return name + "-report";
   const double offset_ms = what == "a" ? settings_.offset_a_ms : settings_.offset_b_ms;
   return fmt::format("{}-{}ms.pcd", name, offset_ms);
@@ -381,10 +384,24 @@ Result<void> Explorer::export_rig(const std::string& path) {
   return written;
 }
 
+Result<void> Explorer::use_rig(const std::string& path) {
+  if (loaded_ && loaded_->choices.file.empty())
+    return not_now("This is a sample, which no rig file is read for: simulate it into a file first.");
+  if (auto written = export_rig(path); !written) return written;
+  ReadingChoices choices = loaded_->choices;
+  choices.rig_file = path;
+  const Settings settings = settings_;
+  auto estimate = estimate_;
+  load(choices);
+  session_settings_ = settings;
+  session_estimate_ = std::move(estimate);
+  return {};
+}
+
 Result<void> Explorer::export_report(const std::string& folder) {
   if (!loaded_) return not_now("There is no recording to report on.");
   const std::string command =
-      report_command(loaded_->recording.name, report_options(*loaded_, options_.assume, settings_.solve_for));
+      report_command(loaded_->recording.name, report_options(*loaded_, options_.assume, settings_));
   ReportOptions wanted{.assume = options_.assume};
   wanted.solve = wanted_estimate().solve;
   const std::filesystem::path page = std::filesystem::path(folder) / "report.html";

@@ -74,6 +74,8 @@ void search(const PaneContext& context) {
   if (settings.search == Search::kRange) field(context, "search-range");
   if (settings.search == Search::kOverTime) field(context, "search-window");
   field(context, is_of_the_paper(settings) ? "fit" : "solve-for");
+  const bool solves = !is_of_the_paper(settings) && settings.solve_for != Settings().solve_for;
+  if (solves) field(context, "priors");
   ImGui::Dummy({0, context.pxf(2)});
   if (context.explorer.background().has("estimate"))
     button(context, "Cancel", "cancel");
@@ -179,6 +181,16 @@ std::string meaning_of(const RigParameter& parameter) {
   return by_file + (parameter.sigma ? " ± is one standard deviation (1 sigma)." : "");
 }
 
+/// Whether the rig that was found is the recording's own, as it is once its rig file was opened.
+bool is_drawn_with(const SolvedRig& solved, const Rig& rig) {
+  constexpr double kRounded = 1e-4;  // files hold fewer digits; m and deg
+  const Mount &found = solved.rig.mount, &used = rig.mount;
+  return (found.laser_in_motor_rpy_deg - used.laser_in_motor_rpy_deg).norm() < kRounded &&
+         (found.laser_in_motor_xyz_m - used.laser_in_motor_xyz_m).norm() < kRounded &&
+         std::abs(solved.rig.gear.play_deg - rig.gear.play_deg) < kRounded &&
+         std::abs(solved.rig.gear.encoder_amplitude_deg - rig.gear.encoder_amplitude_deg) < kRounded;
+}
+
 /// What was solved for beside the offset.
 void rig_rows(const PaneContext& context, const SolvedRig& solved) {
   std::string part;
@@ -194,10 +206,12 @@ void rig_rows(const PaneContext& context, const SolvedRig& solved) {
                   solved.along_walk ? "apart" : "thick", solved.residual_before_m * 1e3));
   ImGui::PushFont(context.fonts.small);
   ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(context.style.faint_text));
-  ImGui::TextWrapped(
-      "The maps are drawn with the rig file. Open the recording with the rig found to see its map.");
+  const bool drawn = is_drawn_with(solved, context.explorer.loaded()->recording.rig);
+  ImGui::TextUnformatted(drawn ? "The maps are drawn with this rig."
+                               : "The maps are drawn with the rig file.");
   ImGui::PopStyleColor();
   ImGui::PopFont();
+  if (!drawn) button(context, "Use the rig found …", "ask use-rig");
   button(context, "Export the rig found …", "ask export-rig");
 }
 

@@ -99,6 +99,10 @@ void add_actions(std::vector<Command>& all) {
                         "The rig file with what was solved for beside the offset, as `estimate --rig-out` "
                         "writes it."},
                        {text_of("FILE")}));
+  all.push_back(action({"use-rig", "Use the rig found",
+                        "Writes the rig file as `export-rig` does, and opens the recording with it: the maps "
+                        "are drawn with that rig."},
+                       {text_of("FILE")}));
   all.push_back(action({"export-report", "Export a report",
                         "One HTML page into a folder: the offset, its evidence and the maps, as `sweepscope "
                         "report` writes it."},
@@ -110,7 +114,7 @@ void add_actions(std::vector<Command>& all) {
   all.push_back(action(
       {"ask", "Ask for a file", "Shows the dialog that asks for a command's file."},
       {choice_of("COMMAND", {"open", "choose", "choose-rig", "choose-poses", "save-session", "export-picture",
-                             "export-cloud", "export-curve", "export-rig", "export-report"}),
+                             "export-cloud", "export-curve", "export-rig", "use-rig", "export-report"}),
        {.name = "WHAT",
         .kind = Kind::kChoice,
         .choices = {"a", "b", "everything", "maps"},

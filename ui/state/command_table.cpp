@@ -18,7 +18,7 @@ Need need_of(const std::string& name) {
       {"play", Need::kRecording},           {"next-place", Need::kPlaces},
       {"look-at-place", Need::kPlaces},     {"take-found", Need::kEstimate},
       {"export-curve", Need::kEstimate},    {"export-rig", Need::kEstimate},
-      {"export-cloud", Need::kPoints}};
+      {"use-rig", Need::kEstimate},         {"export-cloud", Need::kPoints}};
   const auto need = kNeeds.find(name);
   return need == kNeeds.end() ? Need::kNothing : need->second;
 }

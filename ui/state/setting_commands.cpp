@@ -105,11 +105,33 @@ std::vector<std::string> parts_to_solve_for() {
 Command solve_for() {
   return {"solve-for",
           "Solve for",
-          "Parts of a stationary rig beside the offset: how the laser is mounted on the motor, the play of "
+          "Parts of the rig beside the offset: how the laser is mounted on the motor, the play of "
           "the gear, the encoder's eccentricity. By the direct method.",
           {choice_of("WHICH", parts_to_solve_for())},
           [](const Settings& s) { return Values{s.solve_for}; },
           [](Settings& s, const Values& v) { s.solve_for = std::get<std::string>(v[0]); }};
+}
+
+Command priors() {
+  const auto above_0 = [](const char* name, const char* unit, double greatest) {
+    return number_of(name, unit, 0.001, greatest, 0.1);
+  };
+  return {
+      "priors",
+      "Priors",
+      "How far the parts that are solved for may be from the rig file: standard deviations of the mount's "
+      "turn and shift, the gear's play and the encoder's eccentricity.",
+      {above_0("TURN", "°", 180), above_0("SHIFT", "mm", 1e5), above_0("PLAY", "°", 90),
+       above_0("ENCODER", "°", 90)},
+      [](const Settings& s) {
+        return Values{s.prior_mount_deg, s.prior_mount_mm, s.prior_play_deg, s.prior_encoder_deg};
+      },
+      [](Settings& s, const Values& v) {
+        s.prior_mount_deg = std::get<double>(v[0]);
+        s.prior_mount_mm = std::get<double>(v[1]);
+        s.prior_play_deg = std::get<double>(v[2]);
+        s.prior_encoder_deg = std::get<double>(v[3]);
+      }};
 }
 
 Command camera(const CommandWords& words, ViewPoint Settings::*field) {
@@ -365,6 +387,7 @@ void add_fields_of_estimates(std::vector<Command>& all) {
                 s.search_step_ms = std::get<double>(v[2]);
               }});
   all.push_back(solve_for());
+  all.push_back(priors());
   all.push_back(estimate_choice(
       {"method", "Method",
        "Stationary: the offset at which odometry registers the least motion d (equation 3). Moving: the "

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <Eigen/Core>
 #include <string>
 
@@ -67,6 +69,8 @@ struct Settings {
   double search_from_ms = 19, search_to_ms = 29, search_step_ms = 1;
   double window_s = 0;               // of a search over time; below 1: chosen by the program
   std::string solve_for = "offset";  // as the option "solve" takes it
+  // How far these parts may be from the rig file: standard deviations. The defaults are those of RigSolve.
+  double prior_mount_deg = 20, prior_mount_mm = 500, prior_play_deg = 0.5, prior_encoder_deg = 1;
   std::string method = "automatic",
               fit = "automatic";  // or a value of the option of that name (EstimateOption)
 
@@ -77,6 +81,11 @@ struct Settings {
   double ui_scale = 0;                        // 0: the display's scale
   double left_width_px = 0, right_width_px = 0, charts_height_px = 0;  // at 100 %; 0: by the window's size
 
+  /// The priors as the option "prior" takes them.
+  std::string prior() const {
+    return fmt::format("mount_deg={},mount_mm={},play_deg={},encoder_deg={}", prior_mount_deg, prior_mount_mm,
+                       prior_play_deg, prior_encoder_deg);
+  }
   bool has_box() const { return box_from_m != box_to_m; }
 
   bool operator==(const Settings&) const = default;

@@ -16,7 +16,7 @@ const Simulation& walk() {
   static const Simulation made = [] {
     SimulationOptions options;
     options.scene = "metro-station";
-    options.duration_s = 40;
+    options.duration_s = 26;
     options.imu = true;
     options.imu_shift_s = kShift_s;
     return simulate(options, Job()).value();

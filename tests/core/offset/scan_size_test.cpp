@@ -56,16 +56,16 @@ void expect_ends(const Recording& recording) {
 }
 
 TEST(ScanSize, TheMostBeamsAScanAreWorkedWith) {
-  expect_ends(recording_of(std::vector<std::uint32_t>(45, kMaxBeamsAScan), 1.5 * std::numbers::pi));
+  expect_ends(recording_of(std::vector<std::uint32_t>(30, kMaxBeamsAScan), 1.5 * std::numbers::pi));
 }
 
 TEST(ScanSize, AFieldOfViewBeyondAFullTurnIsWorkedWith) {
-  expect_ends(recording_of(std::vector<std::uint32_t>(60, 1600), 400 * kRadPerDeg));
-  expect_ends(recording_of(std::vector<std::uint32_t>(60, 1600), 40'000 * kRadPerDeg));
+  expect_ends(recording_of(std::vector<std::uint32_t>(45, 1600), 400 * kRadPerDeg));
+  expect_ends(recording_of(std::vector<std::uint32_t>(45, 1600), 40'000 * kRadPerDeg));
 }
 
 TEST(ScanSize, AFewLongScansAmongShortOnesTakeNoRoomInAllOfThem) {
-  std::vector<std::uint32_t> beams(600, 12);
+  std::vector<std::uint32_t> beams(300, 12);
   beams[7] = kMaxBeamsAScan;
   const Recording recording = recording_of(beams, 3);
   const OffsetProblem problem = problem_for(prepare(recording, FeatureOptions(), Job()).value(), 0, 0);

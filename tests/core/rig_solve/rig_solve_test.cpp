@@ -117,7 +117,7 @@ TEST(RigSolve, AWalkTellsHowTheMountIsTurnedAndNothingElse) {
   SimulationOptions simulated;
   simulated.scene = "metro-station";
   simulated.offset_s = kOffset_s;
-  simulated.duration_s = 20;
+  simulated.duration_s = 14;
   simulated.mount_error_deg = {0, 1.2, -0.9};
   const Estimate found =
       solved(simulate(simulated, Job()).value().recording, {.mount = true, .play = true, .encoder = true});

@@ -97,7 +97,7 @@ TEST_F(Roots, EveryCommandWithAFileIsConfined) {
     for (const std::string& line :
          {"open " + file, "open " + quoted((folder_ / "in/own.bag").string()) + " " + file,
           "save-session " + file, "export-picture " + file, "export-cloud a " + file, "export-curve " + file,
-          "export-rig " + file, "export-report " + file, "choose " + file}) {
+          "export-rig " + file, "use-rig " + file, "export-report " + file, "choose " + file}) {
       const bool optional = line.starts_with("choose ") || (line.starts_with("open ") && line.size() > 10);
       if (path.empty() && optional) continue;
       const auto done = explorer.perform(line);
