@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "core/numbers.hpp"
+#include "core/recording/sweeps.hpp"
+#include "core/uncertainty.hpp"
 
 namespace sweepscope {
 namespace {
@@ -104,18 +106,43 @@ RigFit solved_from_around(const OffsetProblem& problem, RigFit fit, const RigPri
   return fit;
 }
 
+// The scatter of what groups of sweeps find by themselves. Errors of whole scans, such as those of their
+// stamps, are alike on all surfaces, and do not show when parts of the scene are left out.
+RigMatrix scatter_over_time(const OffsetProblem& problem, const RigFit& fit, const RigPriors& priors,
+                            const RigLeastSquaresOptions& options, const Job& job) {
+  constexpr std::size_t kGroups = 4;  // of pairs of sweeps, one of each direction: 2 pairs each in 8 s
+  const auto sweep_of = assign_sweeps(problem.recording->scans, problem.motor.sweeps, fit.rig.offset_s);
+  std::vector<RigVector> found;
+  for (std::size_t group = 0; group < kGroups && problem.motor.sweeps.size() >= 2 * kGroups; ++group) {
+    OffsetProblem part = problem;
+    for (std::size_t i = 0; i < sweep_of.size(); ++i)
+      if (sweep_of[i] == kNoSweep || sweep_of[i] / 2 % kGroups != group) part.scan_used[i] = 0;
+    const RigFit by_itself = solve_rig_planes(part, fit.rig, priors, options, job);
+    if (nearly_converged(by_itself)) found.push_back(by_itself.rig.vector());
+  }
+  RigMatrix sum = RigMatrix::Zero();
+  if (found.size() < 3) return sum;
+  const auto n = double(found.size());
+  RigVector mean = RigVector::Zero();
+  for (const RigVector& x : found) mean += x / n;
+  for (const RigVector& x : found) sum += (x - mean) * (x - mean).transpose();
+  const double factor = student_factor(n - 1);
+  return sum / (n * (n - 1)) * factor * factor;
+}
+
 // Bent walls look like a wrong rig, the more the larger the cells. The difference to a fit with smaller cells
 // enters the covariance.
 RigFit fit_at_two_scales(const OffsetProblem& problem, const RigUnknowns& first, const RigPriors& priors,
                          const Job& job) {
   RigFit fit = solve_rig_planes(problem, first, priors, {}, job);
   if (!fit.converged) fit = solved_from_around(problem, std::move(fit), priors, job);
-  RigLeastSquaresOptions smaller;
+  RigLeastSquaresOptions nearby;
+  nearby.first_loss_width_m = 0.03;
+  RigLeastSquaresOptions smaller = nearby;
   smaller.max_levels = 1;  // cells of 0.5 m instead of 4 m at most
-  smaller.first_loss_width_m = 0.03;
   const RigFit other = solve_rig_planes(problem, fit.rig, priors, smaller, job);
   const RigVector apart = other.rig.vector() - fit.rig.vector();
-  fit.covariance += apart * apart.transpose();
+  fit.covariance += apart * apart.transpose() + scatter_over_time(problem, fit, priors, nearby, job);
   return fit;
 }
 
