@@ -303,6 +303,7 @@ std::vector<SweepPose> relocalised(std::vector<SweepPose> sweeps, const PlaceSwe
   std::optional<Pose> by;  // what moved the latest stretch: one that is not found stays behind it
   const SweepPose* last = nullptr;
   Sweeps gap, run;
+  std::size_t of_map = 0;  // the first stretch
   for (std::size_t first = 0; first < sweeps.size() && !job.cancelled(); first += run.size()) {
     run = run_from(first, sweeps);
     const bool tracked = run.front().stretch > 0;
@@ -315,8 +316,10 @@ std::vector<SweepPose> relocalised(std::vector<SweepPose> sweeps, const PlaceSwe
     }
     if (found) bridge(gap, *last, run.front());
     gap = {};
+    if (map.empty()) of_map = run.front().stretch;
     const bool fits = found || map.empty();
     for (std::size_t i = 0; i < run.size(); ++i) {
+      if (fits) run[i].stretch = of_map;
       if (run[i].lost) continue;
       if (fits) map.insert(place(first + i), run[i]);
       last = &run[i];

@@ -19,7 +19,7 @@ struct SweepPose {
   std::vector<Pose> knots{2};
   std::size_t features = 0, matches = 0;
   bool lost = false;        // too few features matched the map: the pose is a guess
-  std::size_t stretch = 0;  // sweeps of one stretch were tracked on one map
+  std::size_t stretch = 0;  // sweeps of one stretch lie on one map; 0: not tracked
 
   const Pose& begin() const { return knots.front(); }
   const Pose& end() const { return knots.back(); }

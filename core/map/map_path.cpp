@@ -56,10 +56,13 @@ Result<MapPath> find_map_path(const OffsetProblem& problem, double from_s, doubl
     path.warning = std::move(*covered);
     return path;
   }
-  if (!path.moving || path.walk) return path;
-  auto solved = find_walk(problem, (from_s + to_s) / 2, options.mapping, job);
-  if (!solved) return failure(ExitCode::kInterrupted, "interrupted while building the map");
-  path.walk = std::make_shared<const SolvedWalk>(std::move(*solved));
+  if (!path.moving) return path;
+  if (!path.walk) {
+    auto solved = find_walk(problem, (from_s + to_s) / 2, options.mapping, job);
+    if (!solved) return failure(ExitCode::kInterrupted, "interrupted while building the map");
+    path.walk = std::make_shared<const SolvedWalk>(std::move(*solved));
+  }
+  path.warning = pieces_warning(path.walk->sweeps, *problem.recording).value_or("");
   return path;
 }
 

@@ -39,7 +39,7 @@ struct OffsetMap {
   std::shared_ptr<const SolvedWalk> walk;  // of a moving rig whose trajectory was solved for
   bool moving = false;
   bool lost = false;    // LOAM lost track: the map is not to be trusted
-  std::string warning;  // of poses that do not cover every scan; empty where they do
+  std::string warning;  // of poses that do not cover every scan, or of a map in pieces; else empty
 };
 
 /// Builds the map at each of the offsets from the same scans: every beam is placed with the motor angle of

@@ -122,6 +122,24 @@ std::optional<std::string> lost_warning(const std::vector<Interval>& lost) {
   return fmt::format("Track was lost for {:.1f} s, which are left out: {}.", length_s(lost), when);
 }
 
+std::optional<std::string> pieces_warning(const std::vector<SweepPose>& sweeps, const Recording& recording) {
+  std::vector<std::size_t> pieces;
+  std::string from;
+  constexpr std::size_t kMax = 5;  // a sentence holds no more
+  for (const SweepPose& sweep : sweeps) {
+    if (sweep.stretch == 0 || std::ranges::find(pieces, sweep.stretch) != pieces.end()) continue;
+    pieces.push_back(sweep.stretch);
+    if (pieces.size() == 1 || pieces.size() > kMax + 1) continue;
+    const double begins_s = sweep.begin_s - recording.scans.front().first_beam_s;
+    from += fmt::format("{}{:.1f} s", from.empty() ? "" : ", ", begins_s);
+  }
+  if (pieces.size() < 2) return std::nullopt;
+  return fmt::format(
+      "The map is in {} pieces that do not fit each other: track was lost, and what was seen from {} on lies where "
+      "the rig may have been.",
+      pieces.size(), from);
+}
+
 std::string lost_reason(const SolvedWalk& walk, const Recording& recording) {
   const std::vector<Interval> lost = lost_times(walk.sweeps, recording);
   std::string text = fmt::format("LOAM lost track for {:.1f} s", length_s(lost));

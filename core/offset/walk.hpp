@@ -53,6 +53,8 @@ std::optional<SolvedWalk> find_walk(const OffsetProblem& problem, double middle_
 std::vector<Interval> lost_times(const std::vector<SweepPose>& sweeps, const Recording& recording);
 /// The warning about those intervals; absent if there are none.
 std::optional<std::string> lost_warning(const std::vector<Interval>& lost);
+/// The warning about a map whose stretches do not fit each other; absent if they do.
+std::optional<std::string> pieces_warning(const std::vector<SweepPose>& sweeps, const Recording& recording);
 /// Why a walk whose track was lost has no answer, and what would help.
 std::string lost_reason(const SolvedWalk& walk, const Recording& recording);
 

@@ -98,6 +98,9 @@ TEST_F(SteadyWalk, WhereTheMapDoesNotFitTheRigIsLostAndBeginsAnew) {
   const TrackedWalk walk = track(twice, MappingOptions(), Job()).value();
   ASSERT_EQ(walk.sweeps.size(), 2 * sweeps.size());
   EXPECT_NE(walk.sweeps.front().stretch, walk.sweeps.back().stretch);
+  const std::vector<SweepPose> apart = relocalised(
+      walk.sweeps, [&](std::size_t i) { return twice[i]; }, MappingOptions(), Job());
+  EXPECT_NE(apart.front().stretch, apart.back().stretch);
   EXPECT_GT(walk.tracked(), walk.sweeps.size() - 8);
   for (std::size_t k = 1; k < walk.sweeps.size(); ++k)
     EXPECT_LT((walk.sweeps[k].begin().translation_m - walk.sweeps[k - 1].end().translation_m).norm(), 0.3)
@@ -120,12 +123,31 @@ TEST_F(SteadyWalk, AfterAGapTheRigIsFoundOnItsMap) {
   EXPECT_NE(tracked.sweeps.front().stretch, tracked.sweeps.back().stretch);
   const std::vector<SweepPose> walk = relocalised(
       tracked.sweeps, [&](std::size_t i) { return sweeps[i]; }, MappingOptions(), Job());
+  EXPECT_EQ(walk.front().stretch, walk.back().stretch);
   const auto way = [](const Pose& from, const Pose& to) { return from.inverse() * to; };
   const std::size_t last = sweeps.size() - 2;  // the last sweep is not whole
   const Pose found = way(walk[2].middle(), walk[last].middle()),
              truth = way(walk_.sweeps[2].middle(), walk_.sweeps[last].middle() * turned.inverse());
   EXPECT_NEAR((found.translation_m - truth.translation_m).norm(), 0, 0.05);
   EXPECT_NEAR(turn_between(truth.rotation, found.rotation).norm(), 0, 1 * test::kDegree);
+}
+
+TEST(PiecesWarning, NamesWhereStretchesBeginThatDoNotFit) {
+  Recording recording;
+  recording.scans.resize(1);
+  recording.scans[0].first_beam_s = 1;
+  std::vector<SweepPose> sweeps(9);
+  for (std::size_t k = 0; k < sweeps.size(); ++k) {
+    sweeps[k].begin_s = 1 + double(k);
+    sweeps[k].stretch = k < 4 ? 1 : 0;
+  }
+  EXPECT_FALSE(pieces_warning(sweeps, recording));
+  sweeps[6].stretch = sweeps[7].stretch = 2;
+  sweeps[8].stretch = 1;
+  const auto warning = pieces_warning(sweeps, recording);
+  ASSERT_TRUE(warning);
+  EXPECT_NE(warning->find("2 pieces"), std::string::npos) << *warning;
+  EXPECT_NE(warning->find("from 6.0 s on"), std::string::npos) << *warning;
 }
 
 TEST(LostIntervals, AreRunsOfLostSweeps) {
