@@ -198,7 +198,7 @@ Result<void> view(const ViewOptions& options) {
   if (scripts->empty()) return failure(ExitCode::kWrongUsage, "--headless needs --script F or --run 'LINES'");
   auto context = gl::make_offscreen_context(size->width_px, size->height_px);
   if (!context) return tl::unexpected(context.error());
-  return ui::run_headless(**context, std::move(*with), first, *scripts);
+  return ui::run_headless(**context, std::move(*with), first, *scripts, options.record);
 }
 
 void declare_serving(CLI::App& command, ViewOptions& options, CLI::Option* headless) {
@@ -252,10 +252,11 @@ void declare(CLI::App& command, ViewOptions& options) {
   command.add_option("--run", options.run, "Script lines, separated by ;, run after those of --script")
       ->type_name("LINES");
   command
-      .add_option("--record", options.record,
-                  "Write what is done in the window to a script, line by line as it happens")
-      ->type_name("F")
-      ->excludes(headless);
+      .add_option(
+          "--record", options.record,
+          "Write what is done in the window, or by a script, as a script: line by line as it happens, "
+          "with places in pixels")
+      ->type_name("F");
   declare_serving(command, options, headless);
   command.footer([] { return "\n" + ui::script_help(); });
 }

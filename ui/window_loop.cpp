@@ -223,7 +223,13 @@ bool uses_page(std::span<const Script> scripts) {
 }  // namespace
 
 Result<void> run_headless(gl::Context& context, Ui::Options options, const std::string& first_line,
-                          std::span<const Script> scripts) {
+                          std::span<const Script> scripts, const std::filesystem::path& record) {
+  std::optional<ScriptRecorder> recorder;
+  if (!record.empty()) {
+    auto created = ScriptRecorder::create(record);
+    if (!created) return tl::unexpected(created.error());
+    recorder = std::move(*created);
+  }
   Ui ui(context, std::move(options));
   if (!first_line.empty()) {
     if (auto done = ui.explorer().perform(first_line); !done) return done;
@@ -235,9 +241,9 @@ Result<void> run_headless(gl::Context& context, Ui::Options options, const std::
       return unreadable(ui.explorer().message()->text);
   }
   for (const Script& script : scripts) {
-    if (auto done = run_script(ui, script); !done) return done;
+    if (auto done = run_script(ui, script, kMaxWait_s, recorder ? &*recorder : nullptr); !done) return done;
   }
-  return {};
+  return recorder ? recorder->end() : Result<void>();
 }
 
 }  // namespace sweepscope::ui

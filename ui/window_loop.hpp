@@ -30,8 +30,9 @@ Result<void> run_explorer(gl::Window& window, Ui::Options options, const std::fi
                           const WindowHooks& hooks, const std::string& first_line,
                           std::span<const Script> scripts);
 
-/// Runs the same interface without a window until the scripts end.
+/// Runs the same interface without a window until the scripts end. `record`: what they do goes here, as a
+/// script whose places are in pixels; empty: nowhere.
 Result<void> run_headless(gl::Context& context, Ui::Options options, const std::string& first_line,
-                          std::span<const Script> scripts);
+                          std::span<const Script> scripts, const std::filesystem::path& record = {});
 
 }  // namespace sweepscope::ui

@@ -49,6 +49,29 @@ TEST_F(RecorderTest, WaitsWhereThePersonHadTo) {
   EXPECT_EQ(parse_script(recorded(file), "done.script").value().lines.size(), 4u);
 }
 
+TEST_F(RecorderTest, AScriptIsWrittenWithItsPlacesInPixelsAndDoesTheSameOnceMore) {
+  const auto file = folder_ / "pixels.script";
+  const auto told = [](const std::string& lines, ScriptRecorder* recorder) {
+    const auto context = gl::make_offscreen_context(1200, 800);
+    Ui ui(**context, Ui::Options());
+    const auto done = run_script(ui, parse_script(lines, "test").value(), 120, recorder);
+    EXPECT_TRUE(done) << done.error().message;
+    return ui.explorer().session_json();
+  };
+  auto recorder = ScriptRecorder::create(file);
+  ASSERT_TRUE(recorder);
+  const std::string session = told(
+      "sample room-1\nwait solved\noffset-a 19\ndrag \"map a\" by 40 -20\nkey S\nwheel 2\n"
+      "expect layout is swipe\n",
+      &*recorder);
+  const std::string lines = recorded(file);
+  EXPECT_EQ(lines.find("sample room-1\nwait solved\noffset-a 19\nmouse move "), 0u) << lines;
+  EXPECT_EQ(lines.find("map a"), std::string::npos) << lines;
+  EXPECT_NE(lines.find("mouse up left\nkey S\nwheel 2\nexpect layout is swipe\n"), std::string::npos)
+      << lines;
+  EXPECT_EQ(told(lines, nullptr), session);
+}
+
 TEST_F(RecorderTest, SaysWhyItCannotWrite) {
   const auto recorder = ScriptRecorder::create(folder_ / "no/such.script");
   ASSERT_FALSE(recorder);

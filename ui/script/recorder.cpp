@@ -55,6 +55,16 @@ Result<ScriptRecorder> ScriptRecorder::create(const std::filesystem::path& path)
   return recorder;
 }
 
+void ScriptRecorder::add_line(const std::string& line) {
+  write(line);
+  failed_ |= std::fflush(file_.get()) != 0;
+}
+
+void ScriptRecorder::add_events(std::span<const InputEvent> events) {
+  for (const InputEvent& event : events)
+    if (const std::string line = script_line(event); !line.empty()) add_line(line);
+}
+
 void ScriptRecorder::add_frame(std::span<const InputEvent> events, bool at_rest) {
   for (const InputEvent& event : events)
     if (const std::string line = script_line(event); !line.empty()) write(line);

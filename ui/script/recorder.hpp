@@ -15,8 +15,8 @@ namespace sweepscope::ui {
 /// key. What was held while a button was pressed is a comment: scripts cannot hold a key.
 std::string script_line(const InputEvent& event);
 
-/// Writes what a person does as the lines of a script, as it happens: run with the same --size, it does the
-/// same.
+/// Writes what a person or a script does as the lines of a script, as it happens: run with the same --size,
+/// it does the same. Places are in pixels.
 class ScriptRecorder {
  public:
   /// Replaces the file. ExitCode::kWrongUsage with the system's reason if it cannot be written.
@@ -25,6 +25,10 @@ class ScriptRecorder {
   /// What a frame took in, and whether the interface was at rest after it: where it was busy first, a script
   /// has to wait as well.
   void add_frame(std::span<const InputEvent> events, bool at_rest);
+  /// A line of a script that is no event: a command, or something that it waits for or expects.
+  void add_line(const std::string& line);
+  /// The events of a frame of a script, which says itself where it waits.
+  void add_events(std::span<const InputEvent> events);
   /// After the last frame: whether all of it was written.
   Result<void> end();
 

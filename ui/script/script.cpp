@@ -8,6 +8,7 @@
 #include <functional>
 #include <map>
 #include <random>
+#include <set>
 #include <thread>
 
 #include "render/images/image_difference.hpp"
@@ -36,6 +37,13 @@ std::optional<int> button_named(const std::string& name) {
   if (name == "right") return 1;
   if (name == "middle") return 2;
   return std::nullopt;
+}
+
+/// Lines that stand for events, which are recorded in their place.
+bool sends_events(const std::string& word) {
+  static const std::set<std::string> kWords{"click", "double-click", "drag", "drop",   "hover",
+                                            "key",   "mouse",        "type", "wander", "wheel"};
+  return kWords.contains(word);
 }
 
 /// Words of one line while it is carried out.
@@ -81,7 +89,7 @@ class Film {
 
 class Runner {
  public:
-  Runner(Ui& ui, double max_s) : ui_(ui), max_s_(max_s) {}
+  Runner(Ui& ui, double max_s, ScriptRecorder* recorder) : ui_(ui), max_s_(max_s), recorder_(recorder) {}
 
   Result<void> run(const Script::Line& line) {
     using Step = Result<void> (Runner::*)(Words&);
@@ -95,6 +103,7 @@ class Runner {
         {"expect", &Runner::expect}, {"hover", &Runner::hover},
         {"wander", &Runner::wander}};
     const auto step = kSteps.find(line.words[0]);
+    if (recorder_ != nullptr && !sends_events(line.words[0])) recorder_->add_line(line.text);
     if (step == kSteps.end()) return command(line.text);
     Words words(line.words);
     auto done = (this->*step->second)(words);
@@ -138,6 +147,7 @@ class Runner {
   }
 
   void frame(std::span<const InputEvent> events, double seconds) {
+    if (recorder_ != nullptr) recorder_->add_events(events);
     ui_.frame(events, seconds);
     if (film_) film_->after_frame(ui_);
   }
@@ -423,6 +433,7 @@ class Runner {
 
   Ui& ui_;
   double max_s_;
+  ScriptRecorder* recorder_;
   std::optional<Film> film_;
 };
 
@@ -443,8 +454,8 @@ Result<Script> parse_script(std::string_view text, std::string_view name, bool s
   return script;
 }
 
-Result<void> run_script(Ui& ui, const Script& script, double max_s) {
-  Runner runner(ui, max_s);
+Result<void> run_script(Ui& ui, const Script& script, double max_s, ScriptRecorder* recorder) {
+  Runner runner(ui, max_s, recorder);
   ui.frame({}, kFrame_s);
   for (const Script::Line& line : script.lines) {
     const auto done = runner.run(line);
