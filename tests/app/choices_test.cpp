@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "core/io/atomic_file.hpp"
@@ -9,6 +10,8 @@
 #include "core/recording/formats/read_raw_recording.hpp"
 #include "core/recording/formats/recording_writer.hpp"
 #include "tests/core/cloud_bench.hpp"
+#include "tests/core/recording/test_bag.hpp"
+#include "tests/core/recording/written_message.hpp"
 #include "tests/program.hpp"
 
 namespace sweepscope {
@@ -36,6 +39,24 @@ class Choices : public test::ProgramTest {
   }
   void add_laser() const { repeat_with("scans.csv", "/scan", "/back"); }
   void add_joint() const { repeat_with("motor.csv", "roll_motor", "wheel"); }
+
+  /// A ROS 1 bag as a Livox driver and a motor's would have it recorded, and livox.yaml with how the scanner
+  /// is mounted.
+  void write_livox(const test::CloudBench& bench, bool with_motor = true) const {
+    const std::map<std::string, std::string> md5sums{
+        {"sensor_msgs/JointState", "3066dcd76a6cfaef579bd0f34173e9fd"},
+        {"livox_ros_driver/CustomMsg", "e4d6829bdfe657cb6c21a746c86b21a6"}};
+    test::TestBag bag(folder_ / "livox.bag");
+    bench.play(test::MessageBytes::kRos1,
+               [&](const char* topic, const char* type, std::int64_t receive_ns, const std::string& bytes) {
+                 if (!with_motor && std::string_view(type) == "sensor_msgs/JointState") return;
+                 bag.write(topic, static_cast<double>(receive_ns) * 1e-9,
+                           test::WrittenMessage{type, md5sums.at(type), bytes});
+               });
+    bag.close();
+    std::ofstream(folder_ / "livox.yaml")
+        << "mount: {axis: [0, 1, 0], laser_in_motor: {xyz_m: [0.05, 0, 0.08]}}\n";
+  }
 
   void view(const std::string& script, int exit_code = 0, const std::string& options = "") const {
     std::ofstream(folder_ / "test.script") << script;
@@ -195,6 +216,51 @@ TEST_F(Choices, CloudsOfA3dScannerAreListedAndOpenWithTheirMount) {
       "choose clouds.bag\nwait loaded\nexpect chosen-laser is /points\nchoose-rig rig.yaml\nwait loaded\n"
       "expect chosen-problem is\nopen-chosen\nwait loaded\nexpect page is maps\nexpect recording is clouds.bag\n"
       "copy-command\nexpect message contains view clouds.bag --rig rig.yaml\n");
+}
+
+test::CloudBench livox_bench() {
+  test::CloudBench bench;
+  bench.driver = test::CloudBench::Driver::kLivox;
+  bench.rings = 4;
+  bench.duration_s = 9;
+  return bench;
+}
+
+TEST_F(Choices, ALivoxScannersBagIsOpenedEstimatedAndShown) {
+  const test::CloudBench bench = livox_bench();
+  write_livox(bench);
+  view(
+      "choose livox.bag\nwait loaded\nexpect chosen-laser is /points\nexpect chosen-motor is tilt\n"
+      "expect chosen-problem is\nchoose-rig livox.yaml\nwait loaded\nopen-chosen\nwait solved\n"
+      "expect page is maps\nexpect kind is stationary\nexpect state-a is solved\nexpect points-a above 10000\n"
+      "estimate\nwait solved\nexpect estimate is found\nexpect found-ms near 24.3 0.5\n"
+      "expect offset-b near 24.3 0.5\nexpect state-b is solved\nexpect points-b above 10000\n");
+}
+
+TEST_F(Choices, ALivoxPatternThatDoesNotRepeatItselfIsAnsweredByTheStationaryMethod) {
+  test::CloudBench bench = livox_bench();
+  bench.rosette = true;
+  bench.rings = 2;
+  bench.beams = 1000;
+  bench.duration_s = 14;
+  write_livox(bench);
+  view(
+      "wait solved\nexpect page is maps\nestimate\nwait solved\nexpect estimate is refused\n"
+      "method stationary\nsearch range\nsearch-range 18 30 2\nestimate\nwait solved\n"
+      "expect estimate is found\nexpect found-ms near 24.3 1\nexpect points-b above 10000\n",
+      0, "livox.bag --rig livox.yaml");
+}
+
+TEST_F(Choices, ABagWithoutAMotorGivesThePageThatSaysSo) {
+  write_livox(livox_bench(), false);
+  const std::string problem =
+      "No topic holds the angle of a motor: joint states, numbers or transforms. Topics: /points (CustomMsg).";
+  view(
+      "open livox.bag\nwait loaded\nexpect page is choices\nexpect chosen-laser is /points\n"
+      "expect chosen-motor is\nexpect chosen-problem is " +
+      problem +
+      "\nclick \"button open-chosen\"\nwait loaded\nexpect page is choices\nexpect chosen-problem is " +
+      problem + "\nkey Escape\nexpect page is start\n");
 }
 
 }  // namespace

@@ -240,10 +240,14 @@ void beginning(const PaneContext& context, const Explorer::Choosing& choosing) {
   } else if (const auto problems = problems_of(choosing); problems.empty()) {
     ImGui::TextDisabled("It can be opened like this.");
   } else {
-    const bool missing = !choosing.survey->streams.complete();
+    const RecordingSurvey& streams = choosing.survey->streams;
+    const bool nothing_to_choose = streams.lasers.empty() || streams.joints.empty();
+    const std::string incomplete = nothing_to_choose
+                                       ? "Something is missing in this recording. It is marked below."
+                                       : "Something has to be chosen first. It is marked below.";
     ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(colour_of_a(context.style)));
-    ImGui::TextWrapped("%s", missing ? "Something has to be chosen first. It is marked below."
-                                     : printable_message(problems.front()).c_str());
+    ImGui::TextWrapped(
+        "%s", !streams.complete() ? incomplete.c_str() : printable_message(problems.front()).c_str());
     ImGui::PopStyleColor();
   }
 }

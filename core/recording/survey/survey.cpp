@@ -49,21 +49,25 @@ std::string topics_in_words(const std::vector<RecordedTopic>& topics) {
   return words.empty() ? "none" : words;
 }
 
-std::string why_no_laser(const RecordingSurvey& survey, const Rig& rig) {
+/// The topics of a file, and why one that looks right is not used.
+std::string topics_instead(const RawRecording& raw) {
+  const std::string topics = fmt::format("Topics: {}.", topics_in_words(raw.topics));
+  return raw.warnings.empty() ? topics : fmt::format("{} Also: {}.", topics, raw.warnings.front());
+}
+
+std::string why_no_laser(const RecordingSurvey& survey, const RawRecording& raw, const Rig& rig) {
   if (survey.lasers.empty())
-    return fmt::format("No topic holds scans or clouds with a time per point. Topics: {}.",
-                       topics_in_words(survey.topics));
+    return fmt::format("No topic holds scans or clouds with a time per point. {}", topics_instead(raw));
   const auto named = [&](const LaserChoice& laser) { return laser.topic == rig.laser.topic; };
   if (rig.laser.topic && std::ranges::none_of(survey.lasers, named))
     return fmt::format("There are no scans on {}.", *rig.laser.topic);
   return fmt::format("{} topics hold scans. Choose the scanner that the motor turns.", survey.lasers.size());
 }
 
-std::string why_no_joint(const RecordingSurvey& survey, const Rig& rig) {
+std::string why_no_joint(const RecordingSurvey& survey, const RawRecording& raw, const Rig& rig) {
   if (survey.joints.empty())
-    return fmt::format(
-        "No topic holds the angle of a motor: joint states, numbers or transforms. Topics: {}.",
-        topics_in_words(survey.topics));
+    return fmt::format("No topic holds the angle of a motor: joint states, numbers or transforms. {}",
+                       topics_instead(raw));
   const auto named = [&](const JointChoice& joint) {
     return (!rig.motor.topic || joint.topic == *rig.motor.topic) &&
            (!rig.motor.joint || joint.joint == *rig.motor.joint);
@@ -135,8 +139,8 @@ RecordingSurvey survey(const RawRecording& raw, const Rig& rig) {
       return c.topic == chosen.topic && c.joint == chosen.joint;
     });
   }
-  if (!found.laser) found.laser_problem = why_no_laser(found, rig);
-  if (!found.joint) found.joint_problem = why_no_joint(found, rig);
+  if (!found.laser) found.laser_problem = why_no_laser(found, raw, rig);
+  if (!found.joint) found.joint_problem = why_no_joint(found, raw, rig);
   return found;
 }
 

@@ -83,6 +83,15 @@ TEST(Survey, SaysWhatTheFileHoldsInsteadOfAMotor) {
             "(LaserScan), /odom (Odometry).");
 }
 
+TEST(Survey, SaysWhyATopicThatLooksRightIsNotUsed) {
+  RawRecording raw = recording({laser("/front", 721)}, {});
+  raw.warnings = {"a.bag: topic /joints holds another version of sensor_msgs/JointState and is not used"};
+  EXPECT_EQ(survey(raw, {}).joint_problem,
+            "No topic holds the angle of a motor: joint states, numbers or transforms. Topics: /front "
+            "(LaserScan), /odom (Odometry). Also: a.bag: topic /joints holds another version of "
+            "sensor_msgs/JointState and is not used.");
+}
+
 TEST(Survey, ReadsEveryStreamWhateverTheRigNames) {
   Rig rig;
   rig.laser.topic = "/front";
