@@ -26,7 +26,7 @@ void begin_default_framebuffer(Context& context, Colour colour) {
   glViewport(0, 0, context.width_px(), context.height_px());
   glClearColor(static_cast<float>(colour.red) / 255, static_cast<float>(colour.green) / 255,
                static_cast<float>(colour.blue) / 255, 1);
-  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  glClear(GL_COLOR_BUFFER_BIT);  // nothing that is drawn here has a depth
 }
 
 std::string renderer_of_current() {

@@ -148,9 +148,9 @@ struct LiveView::Parts {
     window->Finalize();
   }
 
-  /// One slice, or an empty picture: `actor` may be null.
-  void render(vtkActor* actor, bool clear) {
-    if (actor != nullptr) actor->VisibilityOn();
+  /// Some slices, or an empty picture if there are none.
+  void render(std::span<vtkActor* const> actors, bool clear) {
+    for (vtkActor* actor : actors) actor->VisibilityOn();
     renderer->SetErase(clear);
     apply_camera();
     const SplatsOn splats_on(coarse.splats || full.splats);
@@ -158,7 +158,7 @@ struct LiveView::Parts {
     if (wants_depth) use_depth(true);
     window->Render();
     if (wants_depth && !had_depth) use_depth(false);
-    if (actor != nullptr) actor->VisibilityOff();
+    for (vtkActor* actor : actors) actor->VisibilityOff();
   }
 
   /// Windows of one context, and the interface, keep accounts of its state that do not match.
@@ -204,18 +204,22 @@ struct LiveView::Parts {
     coarse_picture.forget();
     full_picture.forget();
   }
-  std::size_t coarse_steps() const { return 1 + coarse.actors.size(); }  // 1: the empty picture
-  std::size_t wanted() const { return coarse_steps() + (moving ? 0 : full.actors.size()); }
+  std::size_t wanted() const { return 1 + (moving ? 0 : full.actors.size()); }
+  /// All coarse points at once, as each drawing takes a millisecond or two besides its points; then a slice.
+  /// The empty picture comes first by itself: VTK draws what comes with it with the depth test on, and the
+  /// rest without.
   void draw_next() {
-    const std::size_t slice = drawn++;
-    if (slice == 0) return render(nullptr, true);
-    if (slice <= coarse.actors.size()) return render(coarse.at(slice - 1, splat_sizes(), *renderer), false);
-    render(full.at(slice - coarse_steps(), splat_sizes(), *renderer), false);
+    const std::size_t step = drawn++;
+    if (step > 0) return render(std::array{full.at(step - 1, splat_sizes(), *renderer)}, false);
+    std::vector<vtkActor*> actors;
+    for (std::size_t i = 0; i < coarse.actors.size(); ++i)
+      actors.push_back(coarse.at(i, splat_sizes(), *renderer));
+    render({}, true);
+    render(actors, false);
   }
   void keep_what_is_whole() {
-    if (drawn == coarse_steps() && !coarse_picture.valid()) keep(coarse_picture);
-    if (full.points && drawn == coarse_steps() + full.actors.size() && !full_picture.valid())
-      keep(full_picture);
+    if (drawn == 1 && !coarse_picture.valid()) keep(coarse_picture);
+    if (full.points && drawn == 1 + full.actors.size() && !full_picture.valid()) keep(full_picture);
   }
   void keep(KeptPicture& picture) {
     if (!lighting && !transparent) return picture.keep(*window);
@@ -246,7 +250,7 @@ struct LiveView::Parts {
   Colour background{0, 0, 0};
   bool moving = false;
   std::array<double, 6> bounds{1, -1, 1, -1, 1, -1};
-  std::size_t drawn = 0;  // of the empty picture, the coarse slices and the full ones
+  std::size_t drawn = 0;  // of the coarse points together and the full slices
   KeptPicture coarse_picture, full_picture;
   std::optional<Lighting> lighting;
   bool splats = false, transparent = false;
@@ -323,8 +327,8 @@ void LiveView::draw(double budget_s) {
   Parts& p = *parts_;
   p.context.make_current();
   const double end_s = now_s() + budget_s;
-  const bool begins = p.drawn < p.coarse_steps();
-  while (p.drawn < p.coarse_steps()) p.draw_next();
+  const bool begins = p.drawn == 0;
+  if (begins) p.draw_next();
   p.keep_what_is_whole();
   if (begins && now_s() >= end_s) return;
   while (!done()) {

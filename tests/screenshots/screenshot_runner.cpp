@@ -25,6 +25,7 @@ namespace fs = std::filesystem;
 
 const fs::path kBaselines = fs::path(SWEEPSCOPE_SOURCE_DIR) / "screenshots";
 const fs::path kData = fs::path(SWEEPSCOPE_SOURCE_DIR) / "tests/screenshots/data";
+const fs::path kJourneys = fs::path(SWEEPSCOPE_SOURCE_DIR) / "tests/screenshots/journeys";
 const fs::path kFailures = fs::path(SWEEPSCOPE_BINARY_DIR) / "screenshots";
 const fs::path kInputs = fs::path(SWEEPSCOPE_BINARY_DIR) / "screenshots-input";
 
@@ -68,8 +69,10 @@ Result<void> prepare(const Manifest& manifest) {
   std::error_code error;
   fs::create_directories(kFailures, error);
   // Beside the other inputs, as a path that a picture shows may not depend on where the sources lie.
-  fs::copy(kData, kInputs / "data", fs::copy_options::recursive, error);
-  if (error) return unreadable(fmt::format("{}: {}", kData.string(), error.message()));
+  for (const fs::path& folder : {kData, kJourneys}) {
+    fs::copy(folder, kInputs / folder.filename(), fs::copy_options::recursive, error);
+    if (error) return unreadable(fmt::format("{}: {}", folder.string(), error.message()));
+  }
   const auto facts = machine_facts();
   if (!facts) return tl::unexpected(facts.error());
   fmt::print("{}", *facts);

@@ -139,9 +139,15 @@ std::optional<ImVec2> to_screen(const Projection& projection, const Eigen::Vecto
 void draw_path(const PaneContext& context, Side side, const Projection& projection) {
   const auto& request = context.explorer.pane(side).request;
   if (!context.settings().trajectory || !request) return;
+  // A walk has a hundred poses a second: drawn one by one, shorter than a pixel, they take longer than the
+  // map.
+  constexpr float kMinStep_px = 1;
   std::vector<ImVec2> points;
   for (const StampedPose& pose : request->placement.map->trajectory) {
-    if (const auto at = to_screen(projection, pose.position_m)) points.push_back(*at);
+    const auto at = to_screen(projection, pose.position_m);
+    if (!at) continue;
+    if (points.empty() || std::hypot(at->x - points.back().x, at->y - points.back().y) >= kMinStep_px)
+      points.push_back(*at);
   }
   if (points.size() < 2) return;
   ImGui::GetWindowDrawList()->AddPolyline(points.data(), static_cast<int>(points.size()),

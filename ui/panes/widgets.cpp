@@ -114,10 +114,12 @@ void begin_panel(const PaneContext& context, const char* name, const PixelRect& 
   const float margin = padded ? context.pxf(14) : 0;
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(margin, padded ? context.pxf(10) : 0));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
+  // The frame begins with the background of what lies at its bottom: to fill it again takes milliseconds.
   ImGui::Begin(name, nullptr,
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse |
                    ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
-                   (padded ? 0 : ImGuiWindowFlags_NoScrollbar) | (by_keys ? 0 : ImGuiWindowFlags_NoNav) |
+                   (above ? 0 : ImGuiWindowFlags_NoBackground) | (padded ? 0 : ImGuiWindowFlags_NoScrollbar) |
+                   (by_keys ? 0 : ImGuiWindowFlags_NoNav) |
                    (above ? ImGuiWindowFlags_NoFocusOnAppearing : ImGuiWindowFlags_NoBringToFrontOnFocus));
   ImGui::PopStyleVar(2);
 }
