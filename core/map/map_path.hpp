@@ -14,7 +14,7 @@ namespace sweepscope {
 struct MapPath {
   bool moving = false;
   std::shared_ptr<const SolvedWalk> walk;  // of a moving rig without poses from elsewhere
-  std::string warning;                     // of poses that do not cover every scan, or of a map in pieces; else empty
+  std::string warning;  // of poses that do not cover every scan, or of a map in pieces; else empty
 };
 
 /// The path of a recording whose offset lies between `from_s` and `to_s`. For the errors see build_maps.

@@ -28,7 +28,8 @@ bool makes_sense(const Explorer& explorer, const std::string& line) {
   if (line == "undo") return explorer.can_undo();
   if (line == "redo") return explorer.can_redo();
   if (line == "take-found") return explorer.estimate() != nullptr && explorer.estimate()->offset_s;
-  if (line == "ask export-rig" || line == "ask use-rig") return explorer.estimate() != nullptr && explorer.estimate()->rig;
+  if (line == "ask export-rig" || line == "ask use-rig")
+    return explorer.estimate() != nullptr && explorer.estimate()->rig;
   if (line == "ask export-curve") return explorer.estimate() != nullptr;
   if (explorer.loaded() != nullptr) return true;
   return std::any_of(kAlways.begin(), kAlways.end(),
