@@ -61,11 +61,11 @@ TEST_F(RecorderTest, AScriptIsWrittenWithItsPlacesInPixelsAndDoesTheSameOnceMore
   auto recorder = ScriptRecorder::create(file);
   ASSERT_TRUE(recorder);
   const std::string session = told(
-      "sample room-1\nwait solved\noffset-a 19\ndrag \"map a\" by 40 -20\nkey S\nwheel 2\n"
+      "sample room-1\noffset-a 19\nwait solved\ndrag \"map a\" by 40 -20\nkey S\nwheel 2\n"
       "expect layout is swipe\n",
       &*recorder);
   const std::string lines = recorded(file);
-  EXPECT_EQ(lines.find("sample room-1\nwait solved\noffset-a 19\nmouse move "), 0u) << lines;
+  EXPECT_EQ(lines.find("sample room-1\noffset-a 19\nwait solved\nmouse move "), 0u) << lines;
   EXPECT_EQ(lines.find("map a"), std::string::npos) << lines;
   EXPECT_NE(lines.find("mouse up left\nkey S\nwheel 2\nexpect layout is swipe\n"), std::string::npos)
       << lines;
