@@ -353,7 +353,7 @@ TEST(TheRigFound, IsUsedForTheMaps) {
   Explorer explorer;
   perform(explorer, "open " + bag);
   rest(explorer);
-  for (const char* line : {"solve-for offset,mount", "priors 10 300 0.5 1", "offset-a 19", "estimate"}) {
+  for (const char* line : {"solve-for offset,mount", "mount-prior 10 300", "offset-a 19", "estimate"}) {
     perform(explorer, line);
     rest(explorer);
   }

@@ -74,8 +74,11 @@ void search(const PaneContext& context) {
   if (settings.search == Search::kRange) field(context, "search-range");
   if (settings.search == Search::kOverTime) field(context, "search-window");
   field(context, is_of_the_paper(settings) ? "fit" : "solve-for");
-  const bool solves = !is_of_the_paper(settings) && settings.solve_for != Settings().solve_for;
-  if (solves) field(context, "priors");
+  const auto solves_for = [&](const char* part) {
+    return !is_of_the_paper(settings) && settings.solve_for.find(part) != std::string::npos;
+  };
+  if (solves_for("mount")) field(context, "mount-prior");
+  if (solves_for("play") || solves_for("encoder")) field(context, "gear-prior");
   ImGui::Dummy({0, context.pxf(2)});
   if (context.explorer.background().has("estimate"))
     button(context, "Cancel", "cancel");

@@ -112,26 +112,20 @@ Command solve_for() {
           [](Settings& s, const Values& v) { s.solve_for = std::get<std::string>(v[0]); }};
 }
 
-Command priors() {
-  const auto above_0 = [](const char* name, const char* unit, double greatest) {
-    return number_of(name, unit, 0.001, greatest, 0.1);
-  };
-  return {
-      "priors",
-      "Priors",
-      "How far the parts that are solved for may be from the rig file: standard deviations of the mount's "
-      "turn and shift, the gear's play and the encoder's eccentricity.",
-      {above_0("TURN", "°", 180), above_0("SHIFT", "mm", 1e5), above_0("PLAY", "°", 90),
-       above_0("ENCODER", "°", 90)},
-      [](const Settings& s) {
-        return Values{s.prior_mount_deg, s.prior_mount_mm, s.prior_play_deg, s.prior_encoder_deg};
-      },
-      [](Settings& s, const Values& v) {
-        s.prior_mount_deg = std::get<double>(v[0]);
-        s.prior_mount_mm = std::get<double>(v[1]);
-        s.prior_play_deg = std::get<double>(v[2]);
-        s.prior_encoder_deg = std::get<double>(v[3]);
-      }};
+/// Two prior standard deviations of parts that are solved for.
+Command prior(const CommandWords& words, const Parameter& first, const Parameter& second,
+              double Settings::*of_first, double Settings::*of_second) {
+  return {words.name,
+          words.title,
+          words.help,
+          {first, second},
+          [=](const Settings& s) {
+            return Values{s.*of_first, s.*of_second};
+          },
+          [=](Settings& s, const Values& v) {
+            s.*of_first = std::get<double>(v[0]);
+            s.*of_second = std::get<double>(v[1]);
+          }};
 }
 
 Command camera(const CommandWords& words, ViewPoint Settings::*field) {
@@ -387,7 +381,15 @@ void add_fields_of_estimates(std::vector<Command>& all) {
                 s.search_step_ms = std::get<double>(v[2]);
               }});
   all.push_back(solve_for());
-  all.push_back(priors());
+  all.push_back(prior({"mount-prior", "Mount prior",
+                       "How far the mount may be turned and shifted from the rig file: standard deviations."},
+                      number_of("TURN", "°", 0.001, 180, 0.5), number_of("SHIFT", "mm", 0.001, 1e5, 10),
+                      &Settings::prior_mount_deg, &Settings::prior_mount_mm));
+  all.push_back(prior({"gear-prior", "Gear prior",
+                       "How far the gear's play and the encoder's eccentricity may be from the rig file: "
+                       "standard deviations."},
+                      number_of("PLAY", "°", 0.001, 90, 0.1), number_of("ENCODER", "°", 0.001, 90, 0.1),
+                      &Settings::prior_play_deg, &Settings::prior_encoder_deg));
   all.push_back(estimate_choice(
       {"method", "Method",
        "Stationary: the offset at which odometry registers the least motion d (equation 3). Moving: the "
