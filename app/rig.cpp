@@ -57,11 +57,12 @@ Result<DetectedRig> with_estimate(DetectedRig detected, const RigArguments& opti
   const std::string name = options.estimate->string();
   return read_file(*options.estimate)
       .and_then([&](const std::string& json) { return parse_found_rig(json, name); })
-      .and_then([&](const FoundRig& found) -> Result<DetectedRig> {
-        if (!options.system && !found.any())
+      .and_then([&](const std::optional<SolvedRig>& found) -> Result<DetectedRig> {
+        if (!found && options.system) return std::move(detected);
+        if (!found)
           return failure(ExitCode::kWrongUsage,
                          name + " holds nothing of the rig: make it with estimate --solve offset,mount");
-        return with_found(std::move(detected), found,
+        return with_found(std::move(detected), *found,
                           "estimate --solve in " + options.estimate->filename().string());
       });
 }

@@ -1,6 +1,5 @@
 #include "core/offset/rig_estimate.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <memory>
@@ -57,46 +56,49 @@ std::optional<WalkTurn> turn_seen(const Recording& recording, const Estimate& fo
 
 // The part of a turn that is not known: 1 where it may as well be none.
 double unsure_of_turn(const WalkTurn& turn) {
-  return std::min(1.0, std::sqrt(turn.covariance.trace()) / turn.turn_rad.norm());
+  const double sigma_rad = std::sqrt(turn.covariance.trace());
+  return sigma_rad < turn.turn_rad.norm() ? sigma_rad / turn.turn_rad.norm() : 1;
 }
 
-// A walk: the turn that its path shows, and the walk anew with it, until nothing more shows.
+// The offset at which a walk was solved, also where it is refused; 0 where it was not solved.
+double offset_along(const Estimate& found) {
+  return found.walk && found.walk->joint ? found.walk->joint->offset_s : 0;
+}
+
+// A walk: the turn that its path shows, and the walk anew with it, until nothing more shows. Nothing else of
+// the rig is determined.
 Result<Estimate> with_turn_of_walk(const PreparedRecording& prepared, const EstimateOptions& options,
                                    Estimate found, const Answering& estimated) {
   constexpr int kMaxPasses = 5;     // a bound
   constexpr double kSettled = 0.3;  // of sigma
   const OffsetProblem problem = problem_for(prepared, 0, 0);
-  const double first_residual_m = found.fit ? found.fit->residual_m : 0;
-  const double first_offset_s = found.walk && found.walk->joint ? found.walk->joint->offset_s : 0;
-  Recording recording = *prepared.recording;
   WalkTurn total{Eigen::Vector2d::Zero(), Eigen::Matrix2d::Zero()};
-  auto solved = std::make_shared<SolvedRig>();
-  for (int pass = 0; pass < kMaxPasses; ++pass) {
-    const auto seen = turn_seen(recording, found);
-    if (!seen) {
+  SolvedRig solved = rig_of_walk(problem, total, options.solve);
+  solved.residual_before_m = found.fit ? found.fit->residual_m : 0;
+  const double first_offset_s = offset_along(found);
+  Recording turned;
+  for (int pass = 0; options.solve.mount && pass < kMaxPasses; ++pass) {
+    const auto seen = turn_seen(pass == 0 ? *prepared.recording : turned, found);
+    if (!seen && pass == 0) {
       found.warnings.push_back("The rig was not solved for: it takes 10 s of a walk that `direct` solved.");
       return found;
     }
-    total = {total.turn_rad + seen->turn_rad, seen->covariance};
-    *solved = rig_of_walk(problem, total, options.solve);
-    recording = with_rig(*prepared.recording, *solved);
-    auto again = estimated(recording);
+    if (!seen) break;
+    total = {solved.found.turn_rad + seen->turn_rad, seen->covariance};
+    const double before_m = solved.residual_before_m;
+    solved = rig_of_walk(problem, total, options.solve);
+    solved.residual_before_m = before_m;
+    turned = with_rig(*prepared.recording, solved);
+    auto again = estimated(turned);
     if (!again || again->interrupted) return again;
     found = std::move(*again);
-    if (!options.solve.mount ||
-        seen->turn_rad.norm() < kSettled * std::sqrt(seen->covariance.diagonal().minCoeff()))
-      break;
+    if (seen->turn_rad.norm() < kSettled * std::sqrt(seen->covariance.diagonal().minCoeff())) break;
   }
-  solved->residual_before_m = first_residual_m;
-  if (found.fit) {
-    solved->residual_after_m = found.fit->residual_m;
-    solved->points = found.fit->matches;
-  }
-  if (found.walk && found.walk->joint)
-    solved->offset_sigma_s =
-        std::hypot(solved->offset_sigma_s,
-                   unsure_of_turn(total) * std::abs(found.walk->joint->offset_s - first_offset_s));
-  return with(std::move(found), std::move(solved));
+  solved.residual_after_m = found.fit ? found.fit->residual_m : 0;
+  solved.points = found.fit ? found.fit->matches : 0;
+  solved.offset_sigma_s = std::hypot(solved.offset_sigma_s,
+                                     unsure_of_turn(total) * std::abs(offset_along(found) - first_offset_s));
+  return with(std::move(found), std::make_shared<const SolvedRig>(std::move(solved)));
 }
 
 }  // namespace

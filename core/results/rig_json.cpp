@@ -28,7 +28,7 @@ void add_finding(Json& object, const RigFinding& finding) {
 }
 
 double sigma_deg(const SolvedRig& solved, RigUnknown unknown) {
-  return tidy(std::sqrt(solved.covariance(unknown, unknown)) * kDegPerRad);
+  return std::sqrt(solved.covariance(unknown, unknown)) * kDegPerRad;
 }
 
 Json mount_json(const SolvedRig& solved) {
@@ -55,7 +55,7 @@ Json play_json(const SolvedRig& solved) {
   const bool known = solved.play.identifiable;
   object["given_deg"] = tidy(solved.given.gear.play_deg);
   object["value_deg"] = known ? Json(tidy(solved.rig.gear.play_deg)) : Json(nullptr);
-  object["sigma_deg"] = sigma_deg(solved, kPlay);
+  object["sigma_deg"] = tidy(play_sigma_deg(solved));
   object["prior_deg"] = tidy(solved.priors[kPlay] * kDegPerRad);
   add_finding(object, solved.play);
   return object;
@@ -68,10 +68,9 @@ Json encoder_json(const SolvedRig& solved) {
   object["given_phase_deg"] = tidy(solved.given.gear.encoder_phase_deg);
   object["amplitude_deg"] = tidy(gear.encoder_amplitude_deg);
   object["phase_deg"] = tidy(gear.encoder_phase_deg);
-  object["sigma_sine_deg"] = sigma_deg(solved, kEncoderSine);
-  object["sigma_cosine_deg"] = sigma_deg(solved, kEncoderCosine);
-  object["sigma_deg"] =
-      tidy(std::hypot(sigma_deg(solved, kEncoderSine), sigma_deg(solved, kEncoderCosine)) / std::sqrt(2.0));
+  object["sigma_sine_deg"] = tidy(sigma_deg(solved, kEncoderSine));
+  object["sigma_cosine_deg"] = tidy(sigma_deg(solved, kEncoderCosine));
+  object["sigma_deg"] = tidy(encoder_sigma_deg(solved));
   object["prior_deg"] = tidy(solved.priors[kEncoderSine] * kDegPerRad);
   add_finding(object, solved.encoder);
   return object;
@@ -159,6 +158,14 @@ MountSigma mount_sigma(const SolvedRig& solved) {
                         shift = solved.covariance.block<2, 2>(kShiftU, kShiftU);
   return {(xyz_m * shift * xyz_m.transpose()).diagonal().cwiseMax(0).cwiseSqrt(),
           (rpy_deg * turn * rpy_deg.transpose()).diagonal().cwiseMax(0).cwiseSqrt()};
+}
+
+double play_sigma_deg(const SolvedRig& solved) {
+  return sigma_deg(solved, kPlay);
+}
+
+double encoder_sigma_deg(const SolvedRig& solved) {
+  return std::hypot(sigma_deg(solved, kEncoderSine), sigma_deg(solved, kEncoderCosine)) / std::sqrt(2.0);
 }
 
 nlohmann::ordered_json rig_parameters_json(const SolvedRig& solved) {

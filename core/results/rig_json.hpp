@@ -22,5 +22,8 @@ struct MountSigma {
   Eigen::Vector3d xyz_m, rpy_deg;
 };
 MountSigma mount_sigma(const SolvedRig& solved);
+/// Standard deviation of the gear play, and of a component of the encoder's first harmonic.
+double play_sigma_deg(const SolvedRig& solved);
+double encoder_sigma_deg(const SolvedRig& solved);
 
 }  // namespace sweepscope

@@ -52,10 +52,7 @@ void add_mount(std::vector<RigParameter>& all, const SolvedRig& solved) {
 
 void add_encoder(std::vector<RigParameter>& all, const SolvedRig& solved) {
   const Rig::Gear &given = solved.given.gear, &found = solved.rig.gear;
-  const double sigma_deg = std::sqrt((solved.covariance(kEncoderSine, kEncoderSine) +
-                                      solved.covariance(kEncoderCosine, kEncoderCosine)) /
-                                     2) *
-                           kDegPerRad;
+  const double sigma_deg = encoder_sigma_deg(solved);
   all.push_back(parameter(solved.encoder, "encoder", "encoder amplitude", "deg", given.encoder_amplitude_deg,
                           found.encoder_amplitude_deg, sigma_deg, solved.priors[kEncoderSine] * kDegPerRad));
   RigParameter phase = parameter(solved.encoder, "encoder", "encoder phase", "deg", given.encoder_phase_deg,
@@ -83,7 +80,7 @@ std::vector<RigParameter> rig_parameters(const SolvedRig& solved) {
   if (solved.mount.solved) add_mount(all, solved);
   if (solved.play.solved)
     all.push_back(parameter(solved.play, "play", "gear play", "deg", solved.given.gear.play_deg,
-                            solved.rig.gear.play_deg, std::sqrt(solved.covariance(kPlay, kPlay)) * kDegPerRad,
+                            solved.rig.gear.play_deg, play_sigma_deg(solved),
                             solved.priors[kPlay] * kDegPerRad));
   if (solved.encoder.solved) add_encoder(all, solved);
   return all;

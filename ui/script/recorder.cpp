@@ -56,7 +56,7 @@ Result<ScriptRecorder> ScriptRecorder::create(const std::filesystem::path& path)
 }
 
 void ScriptRecorder::add_line(const std::string& line) {
-  write(line);
+  failed_ |= std::fprintf(file_.get(), "%s\n", line.c_str()) < 0;
   failed_ |= std::fflush(file_.get()) != 0;
 }
 
@@ -66,15 +66,9 @@ void ScriptRecorder::add_events(std::span<const InputEvent> events) {
 }
 
 void ScriptRecorder::add_frame(std::span<const InputEvent> events, bool at_rest) {
-  for (const InputEvent& event : events)
-    if (const std::string line = script_line(event); !line.empty()) write(line);
-  if (was_busy_ && at_rest) write("wait solved");
+  add_events(events);
+  if (was_busy_ && at_rest) add_line("wait solved");
   was_busy_ = !at_rest;
-  failed_ |= std::fflush(file_.get()) != 0;
-}
-
-void ScriptRecorder::write(const std::string& line) {
-  failed_ |= std::fprintf(file_.get(), "%s\n", line.c_str()) < 0;
 }
 
 Result<void> ScriptRecorder::end() {

@@ -36,7 +36,6 @@ class ScriptRecorder {
   struct Close {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
-  void write(const std::string& line);
 
   std::string name_;
   std::unique_ptr<std::FILE, Close> file_;

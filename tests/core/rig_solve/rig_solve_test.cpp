@@ -133,5 +133,19 @@ TEST(RigSolve, AWalkTellsHowTheMountIsTurnedAndNothingElse) {
   EXPECT_LT(std::abs(*found.offset_s - kOffset_s), 3 * *found.sigma_s);
 }
 
+// A prior as narrow as what the walk shows takes half of it back, however often the walk is solved.
+TEST(RigSolve, ANarrowPriorHoldsTheMountOfAWalk) {
+  SimulationOptions simulated;
+  simulated.scene = "metro-station";
+  simulated.offset_s = kOffset_s;
+  simulated.duration_s = 14;
+  simulated.mount_error_deg = {0, 1.2, -0.9};
+  const Estimate found =
+      solved(simulate(simulated, Job()).value().recording, {.mount = true, .mount_deg = 0.12});
+  ASSERT_TRUE(found.rig && found.rig->mount.identifiable);
+  EXPECT_LT(found.rig->found.turn_rad.norm() * kDegPerRad, 0.6 * 1.5);
+  EXPECT_GT(found.rig->found.turn_rad.norm() * kDegPerRad, 0.1 * 1.5);
+}
+
 }  // namespace
 }  // namespace sweepscope
