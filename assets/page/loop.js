@@ -1,6 +1,6 @@
 'use strict';
 // Places the beams at an offset in a loop of this script, as place.vert does on a graphics card: where WebGL is
-// software, a walk has 26 instead of 10 frames per second (tests/benchmark/page).
+// software, this is faster (tests/benchmark/page).
 
 class LoopPlacer {
   constructor(data) {

@@ -194,7 +194,7 @@ std::vector<EstimateOption> rig_options() {
   return {{"solve",
            "offset[,mount][,play][,encoder]",
            "Solve for parts of the rig beside the offset: how the laser is mounted on the motor, the play of "
-           "the gear, the encoder's eccentricity. The rig must be stationary",
+           "the gear, the encoder's eccentricity. A walk shows only how the laser is turned",
            {},
            false,
            false,
