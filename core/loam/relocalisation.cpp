@@ -159,7 +159,7 @@ class OldMap {
   };
   std::vector<Pose> likely_poses(std::span<const Vector3d> points_m, const Pose& last, double gap_s) const;
   MatchCount linearise(const Glimpse& glimpse, const Pose& pose, bool wide, RigidEquations& equations) const;
-  Found registered(const Glimpse& glimpse, Pose pose) const;
+  Found registered(const Glimpse& glimpse, const Pose& pose) const;
 
   const MappingOptions& options_;
   SweepMaps maps_;
@@ -219,7 +219,7 @@ MatchCount OldMap::linearise(const Glimpse& glimpse, const Pose& pose, bool wide
 }
 
 // With a loss that narrows.
-OldMap::Found OldMap::registered(const Glimpse& glimpse, Pose pose) const {
+OldMap::Found OldMap::registered(const Glimpse& glimpse, const Pose& pose) const {
   Found found{pose};
   const int iterations = 3 * options_.max_iterations;
   for (int i = 0; i <= iterations; ++i) {

@@ -190,7 +190,7 @@ std::vector<double> distances_across_m(const MapCloud& cloud, std::span<const st
   return distances_m;
 }
 
-Profile profile_of(std::vector<double> distances_m, double reach_m) {
+Profile profile_of(const std::vector<double>& distances_m, double reach_m) {
   Profile profile;
   profile.points = distances_m.size();
   if (distances_m.empty()) return profile;

@@ -23,7 +23,7 @@ std::vector<double> distances_across_m(const MapCloud& cloud, std::span<const st
                                        const CrossSection& section);
 
 /// The profile of such distances.
-Profile profile_of(std::vector<double> distances_m, double reach_m);
+Profile profile_of(const std::vector<double>& distances_m, double reach_m);
 
 /// face_fitted for the points inside the section.
 std::optional<CrossSection> face_of(const MapCloud& cloud, std::span<const std::uint32_t> inside,

@@ -75,10 +75,10 @@ Eigen::Vector2d JerkEvidence::sigma(const GuidedPath& path, double knot_s, const
   const std::vector<Vector6d> differences = third_differences(path);
   const double count = 3 * double(differences.size()), per_jerk = std::pow(knot_s, 3);
   Eigen::Vector2d learned = sigma;
-  for (int part = 0; part < 2; ++part) {
+  for (Eigen::Index part = 0; part < 2; ++part) {
     double squares = 0, variance = 0;
     for (const Vector6d& d : differences) squares += d.segment<3>(3 * part).squaredNorm();
-    for (Eigen::Index probe = Eigen::Index{part} * kProbes; probe < Eigen::Index{part + 1} * kProbes; ++probe)
+    for (Eigen::Index probe = part * kProbes; probe < (part + 1) * kProbes; ++probe)
       variance += probes_.col(probe).dot(solved_probes.col(probe)) / double(kProbes);
     const double used2 = std::pow(per_jerk * sigma[part], 2);
     const double determined = std::clamp(count - variance / used2, 1.0, count);

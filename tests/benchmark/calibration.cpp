@@ -12,10 +12,12 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <functional>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/offset/estimator.hpp"
@@ -252,7 +254,11 @@ int main(int argc, char** argv) {
     if (name == "--methods" && i + 1 < argc)
       arguments.paper = std::string(argv[++i]).find("paper") != std::string::npos;
     if (name == "--only" && i + 1 < argc) arguments.only = argv[++i];
-    if (name == "--stride" && i + 1 < argc) arguments.stride = std::max(1, std::atoi(argv[++i]));
+    if (name == "--stride" && i + 1 < argc) {
+      const std::string_view stride = argv[++i];
+      std::from_chars(stride.data(), stride.data() + stride.size(), arguments.stride);
+      arguments.stride = std::max(1, arguments.stride);
+    }
   }
   fmt::print("{:<44} {:>4} {:>7} {:>8} {:>8} {:>8} {:>9} {:>8}\n", "family, method", "n", "refused", "median",
              "95 %", "most ms", "< 1 sigma", "< 3");

@@ -5,6 +5,8 @@
 #include <set>
 #include <thread>
 
+#include "core/simulation/simulate.hpp"
+#include "core/simulation/write_simulation.hpp"
 #include "tests/ui/explorer_fixtures.hpp"
 #include "ui/model/picking.hpp"
 #include "ui/model/view_camera.hpp"

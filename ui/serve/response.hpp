@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "ui/serve/answer.hpp"
 
@@ -32,7 +33,8 @@ void send_last(boost::beast::tcp_stream& stream, const std::shared_ptr<Response>
   response->prepare_payload();
   stream.expires_after(kMaxAnswer);
   boost::beast::http::async_write(
-      stream, *response, [&stream, owner, response](boost::beast::error_code, std::size_t) {
+      stream, *response,
+      [&stream, owner = std::move(owner), response](boost::beast::error_code, std::size_t) {
         boost::beast::error_code ignored;
         (void)stream.socket().shutdown(boost::asio::ip::tcp::socket::shutdown_send, ignored);
       });

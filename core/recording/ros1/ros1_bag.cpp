@@ -19,7 +19,9 @@ constexpr std::size_t kMaxWarnings = 20;
 /// Whether a record has the fields that its op code asks for; a damaged op code has others.
 bool fits_its_op(const BagFields& fields) {
   const auto has = [&](std::string_view name) { return fields.find(name).has_value(); };
-  switch (fields.op().value_or(BagOp{})) {
+  const auto op = fields.op();
+  if (!op) return false;
+  switch (*op) {
     case BagOp::kMessage:
       return has("conn") && fields.time_ns();
     case BagOp::kBagHeader:
