@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "core/geometry/kinematics.hpp"
 #include "core/map/pose_reader.hpp"
@@ -45,25 +46,58 @@ class SmoothRotation {
   double base_rad_ = 0, sine_ = 0, cosine_ = 1;
 };
 
+struct MovingSweep {
+  SweepMotion motion;
+  double begin_s, end_s;
+};
+
+/// The motions of a path's sweeps, asked for in their order: each is made once for all of its scans.
+class MotionReader {
+ public:
+  explicit MotionReader(const FixedPath& path) : path_(path) {}
+
+  const MovingSweep& of(std::uint32_t sweep) {
+    if (!moving_ || sweep != sweep_) {
+      const SweepPose& pose = path_.sweeps[sweep];
+      moving_ = MovingSweep{pose.motion(), pose.begin_s, pose.end_s};
+      sweep_ = sweep;
+    }
+    return *moving_;
+  }
+
+ private:
+  const FixedPath& path_;
+  std::optional<MovingSweep> moving_;
+  std::uint32_t sweep_ = 0;
+};
+
 /// A sweep's motion during one scan: its poses at many instants, and places linearly between them, which the
-/// motion's own knots fall between.
+/// motion's own knots fall between. Made for the given beams, some or all of the scan's: a thinned map has
+/// few in each.
 class SmoothMotion {
  public:
-  SmoothMotion(const SweepPose& pose, const LaserScan& scan) : beams_per_step_(scan.beams / double(kSteps)) {
-    const SweepMotion motion = pose.motion();
+  template <typename BeamAt>
+  SmoothMotion(const MovingSweep& sweep, const LaserScan& scan, std::size_t count, const BeamAt& beam_at)
+      : beams_per_step_(scan.beams / double(kSteps)) {
+    std::array<bool, kSteps + 1> wanted{};
+    if (count > kSteps) wanted.fill(true);
+    for (std::size_t i = 0; i < count && count <= kSteps; ++i) {
+      const std::size_t k = step_of(beam_at(i) / beams_per_step_);
+      wanted[k] = wanted[k + 1] = true;
+    }
     for (std::size_t k = 0; k <= kSteps; ++k) {
+      if (!wanted[k]) continue;
       const double time_s = scan.beam_s(static_cast<double>(k) * beams_per_step_);
-      const double u = (time_s - pose.begin_s) / (pose.end_s - pose.begin_s);
-      places_m_[k] = motion(Vector::Zero(), u);
-      for (int axis = 0; axis < 3; ++axis) {
-        linear_[k].col(axis) = motion(Vector::Unit(axis), u) - places_m_[k];
-      }
+      const double u = (time_s - sweep.begin_s) / (sweep.end_s - sweep.begin_s);
+      places_m_[k] = sweep.motion(Vector::Zero(), u);
+      for (int axis = 0; axis < 3; ++axis)
+        linear_[k].col(axis) = sweep.motion(Vector::Unit(axis), u) - places_m_[k];
     }
   }
 
   Vector operator()(const Vector& p_in_base_m, std::uint32_t beam) const {
     const double along = beam / beams_per_step_;
-    const std::size_t k = std::min(static_cast<std::size_t>(along), kSteps - 1);
+    const std::size_t k = step_of(along);
     const double part = along - static_cast<double>(k);
     return (1 - part) * (linear_[k] * p_in_base_m + places_m_[k]) +
            part * (linear_[k + 1] * p_in_base_m + places_m_[k + 1]);
@@ -71,6 +105,8 @@ class SmoothMotion {
 
  private:
   static constexpr std::size_t kSteps = 40;
+  static std::size_t step_of(double along) { return std::min(static_cast<std::size_t>(along), kSteps - 1); }
+
   double beams_per_step_;
   std::array<Eigen::Matrix3d, kSteps + 1> linear_;
   std::array<Vector, kSteps + 1> places_m_;
@@ -81,8 +117,8 @@ constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 /// Places points [from, to) of one scan, which `index` names by their number among all beams.
 template <typename Index>
 void place_scan(const Beams& beams, const FixedPath& path, std::size_t scan_number, MotorReader& motor,
-                const Kinematics& kinematics, double offset_s, std::size_t from, std::size_t to,
-                const Index& index, std::span<std::array<float, 3>> xyz_m) {
+                MotionReader& motions, const Kinematics& kinematics, double offset_s, std::size_t from,
+                std::size_t to, const Index& index, std::span<std::array<float, 3>> xyz_m) {
   const std::uint32_t sweep = path.sweep_of_scan[scan_number];
   if (sweep == FixedPath::kNoPose) {
     for (std::size_t k = from; k < to; ++k) xyz_m[k] = {kNan, kNan, kNan};
@@ -90,7 +126,8 @@ void place_scan(const Beams& beams, const FixedPath& path, std::size_t scan_numb
   }
   const LaserScan& scan = beams.recording->scans[scan_number];
   SmoothRotation base_from_motor(kinematics.axis());
-  const SmoothMotion motion(path.sweeps[sweep], scan);
+  const SmoothMotion motion(motions.of(sweep), scan, to - from,
+                            [&](std::size_t i) { return beams.beam[index(from + i)]; });
   for (std::size_t k = from; k < to; ++k) {
     const std::size_t i = index(k);
     const auto& p = beams.p_in_motor_m[i];
@@ -109,8 +146,9 @@ void place_all(const Beams& beams, const FixedPath& path, double offset_s, const
   const Kinematics kinematics(beams.recording->rig.mount);
   for_each_block(scans.size(), kScansATime, [&](const auto& range) {
     MotorReader motor(beams.recording->motor);
+    MotionReader motions(path);
     for (std::size_t s = range.begin(); s < range.end(); ++s) {
-      place_scan(beams, path, s, motor, kinematics, offset_s, begin(s), begin(s + 1), index, xyz_m);
+      place_scan(beams, path, s, motor, motions, kinematics, offset_s, begin(s), begin(s + 1), index, xyz_m);
     }
   });
 }
