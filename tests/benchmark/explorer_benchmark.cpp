@@ -119,6 +119,7 @@ class Person {
   };
   /// A drag by `moves` steps: how long each frame took from the move to the picture that follows it.
   Drag drag(const std::string& anchor, int moves, double right_px, double down_px) {
+    frame();  // what was performed before may have moved it
     PixelPoint at = middle_of(anchor);
     frame({InputEvent::move(at.x, at.y)});
     frame({InputEvent::press(0, true)});
