@@ -86,7 +86,8 @@ std::size_t index_of_max(const std::vector<CurvePoint>& curve, CurveValue value)
 
 double ExtremumFit::at(double offset_s) const {
   const double x = (offset_s - centre_s) / reach_s;
-  return scale * (c0 + (c1 + c2 * x) * x);
+  const double fitted = c0 + (c1 + c2 * x) * x;
+  return scale * (of_squares ? std::sqrt(std::max(0.0, fitted)) : fitted);
 }
 
 namespace {
@@ -133,17 +134,18 @@ std::optional<ExtremumFit> fit_of_extremum(const std::vector<CurvePoint>& curve,
   Eigen::MatrixXd powers(count, 3);
   Eigen::VectorXd values(count);
   const double best_value = *(curve[best].*value), scale = best_value == 0 ? 1.0 : best_value;
+  const bool of_squares = value != &CurvePoint::n;
   for (Eigen::Index i = 0; i < count; ++i) {
     const CurvePoint& point = curve[first + std::size_t(i)];
     const double x = (point.offset_s - centre_s) / reach_s;
     powers.row(i) << 1, x, x * x;
-    values[i] = *(point.*value) / scale;
+    const double scaled = *(point.*value) / scale;
+    values[i] = of_squares ? scaled * scaled : scaled;
   }
   const Eigen::Vector3d c = powers.colPivHouseholderQr().solve(values);
-  const bool is_min = value != &CurvePoint::n;
-  if (!(is_min ? c[2] > 0 : c[2] < 0)) return std::nullopt;
+  if (!(of_squares ? c[2] > 0 : c[2] < 0)) return std::nullopt;
   const ExtremumFit fit{
-      centre_s, reach_s, scale, c[0], c[1], c[2], curve[first].offset_s, curve[last].offset_s};
+      of_squares, centre_s, reach_s, scale, c[0], c[1], c[2], curve[first].offset_s, curve[last].offset_s};
   const double offset_s = fit.extremum_s();
   if (offset_s < fit.from_s || offset_s > fit.to_s) return std::nullopt;
   return fit;

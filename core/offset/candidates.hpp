@@ -57,11 +57,11 @@ using CurveValue = std::optional<double> CurvePoint::*;
 std::size_t index_of_min(const std::vector<CurvePoint>& curve, CurveValue value);
 std::size_t index_of_max(const std::vector<CurvePoint>& curve, CurveValue value);
 
-/// A second-degree fit over a part of a curve: value = scale (c0 + c1 x + c2 x^2) with x = (offset - centre)
-/// / reach. Distances follow a hyperbola near the offset and flatten farther away, where matches are cut off:
-/// fitted by their squares, d and e of the paper's ten recordings came out 1 to 20 % farther from the true
-/// offset.
+/// A second-degree fit over a part of a curve, with x = (offset - centre) / reach. n falls off as a parabola,
+/// n = scale (c0 + c1 x + c2 x^2). Distances go as a hyperbola: d, e and the capped cost are fitted by their
+/// squares, value = scale sqrt(c0 + c1 x + c2 x^2).
 struct ExtremumFit {
+  bool of_squares = false;
   double centre_s = 0, reach_s = 1;
   double scale = 1, c0 = 0, c1 = 0, c2 = 0;
   double from_s = 0, to_s = 0;  // the first and last offset of the points that it was fitted to

@@ -61,40 +61,41 @@ std::vector<CurvePoint> curve_of(const std::function<std::optional<double>(doubl
   return curve;
 }
 
-std::optional<double> parabola_m(double offset_ms) {
-  return 0.02 + 0.001 * std::pow(offset_ms - 23.8, 2);
+// A floor of 20 mm, and 10 mm more for each millisecond far from 23.8 ms.
+std::optional<double> hyperbola_m(double offset_ms) {
+  return std::hypot(0.02, 0.01 * (offset_ms - 23.8));
 }
 
 CriterionOptimum fitted(const std::vector<CurvePoint>& curve, double reach_s = 3 * kMs) {
   return fitted_extremum(curve, &CurvePoint::e_m, index_of_min(curve, &CurvePoint::e_m), reach_s);
 }
 
-TEST(FittedExtremum, IsExactOnAParabola) {
-  const CriterionOptimum least = fitted(curve_of(parabola_m));
+TEST(FittedExtremum, OfADistanceIsExactOnAHyperbola) {
+  const CriterionOptimum least = fitted(curve_of(hyperbola_m));
   EXPECT_NEAR(least.offset_s, 23.8 * kMs, 1e-12);
-  EXPECT_EQ(least.value, *parabola_m(24));  // the curve's own value, at the point nearest to it
+  EXPECT_EQ(least.value, *hyperbola_m(24));  // the curve's own value, at the point nearest to it
 }
 
-TEST(FittedExtremum, AMaximumIsAsExact) {
-  std::vector<CurvePoint> curve = curve_of(parabola_m);
-  for (CurvePoint& point : curve) point.n = 30000 - 1e6 * *point.e_m;
+TEST(FittedExtremum, OfMatchesIsExactOnAParabola) {
+  std::vector<CurvePoint> curve = curve_of(hyperbola_m);
+  for (CurvePoint& point : curve) point.n = 30000 - 1e6 * *point.e_m * *point.e_m;
   const CriterionOptimum most =
       fitted_extremum(curve, &CurvePoint::n, index_of_max(curve, &CurvePoint::n), 3 * kMs);
   EXPECT_NEAR(most.offset_s, 23.8 * kMs, 1e-12);
-  EXPECT_EQ(most.value, 30000 - 1e6 * *parabola_m(24));
+  EXPECT_EQ(most.value, 30000 - 1e6 * *hyperbola_m(24) * *hyperbola_m(24));
 }
 
 TEST(FittedExtremum, OfFewerThanFivePointsIsTheGridPoint) {
-  EXPECT_DOUBLE_EQ(fitted(curve_of(parabola_m), 1 * kMs).offset_s, 24 * kMs);
+  EXPECT_DOUBLE_EQ(fitted(curve_of(hyperbola_m), 1 * kMs).offset_s, 24 * kMs);
 }
 
 TEST(FittedExtremum, PointsBeyondAFailedCandidateDoNotBelong) {
   const auto with_gap = [](double offset_ms) {
-    return offset_ms == 26 ? std::nullopt : std::optional(offset_ms > 26 ? 9.0 : *parabola_m(offset_ms));
+    return offset_ms == 26 ? std::nullopt : std::optional(offset_ms > 26 ? 9.0 : *hyperbola_m(offset_ms));
   };
   EXPECT_NEAR(fitted(curve_of(with_gap)).offset_s, 23.8 * kMs, 1e-12);
   const auto with_two_gaps = [](double offset_ms) {
-    return offset_ms == 22 || offset_ms == 26 ? std::nullopt : parabola_m(offset_ms);
+    return offset_ms == 22 || offset_ms == 26 ? std::nullopt : hyperbola_m(offset_ms);
   };
   EXPECT_DOUBLE_EQ(fitted(curve_of(with_two_gaps)).offset_s, 24 * kMs);  // three are left
 }
@@ -122,14 +123,14 @@ TEST(FittedExtremum, StaysInsideItsPoints) {
   EXPECT_LE(least.offset_s, 29 * kMs);
 }
 
-TEST(FitOfExtremum, GoesThroughPointsThatLieOnAParabola) {
-  const std::vector<CurvePoint> curve = curve_of(parabola_m);
+TEST(FitOfExtremum, GoesThroughPointsThatLieOnAHyperbola) {
+  const std::vector<CurvePoint> curve = curve_of(hyperbola_m);
   const auto fit = fit_of_extremum(curve, &CurvePoint::e_m, index_of_min(curve, &CurvePoint::e_m), 3 * kMs);
   ASSERT_TRUE(fit);
   EXPECT_NEAR(fit->from_s, 21 * kMs, 1e-12);
   EXPECT_NEAR(fit->to_s, 27 * kMs, 1e-12);
   for (const double offset_ms : {21.0, 23.8, 26.5})
-    EXPECT_NEAR(fit->at(offset_ms * kMs), *parabola_m(offset_ms), 1e-12);
+    EXPECT_NEAR(fit->at(offset_ms * kMs), *hyperbola_m(offset_ms), 1e-12);
 }
 
 TEST(FitBehind, FindsTheReachThatGaveTheAnswer) {
@@ -143,7 +144,7 @@ TEST(FitBehind, FindsTheReachThatGaveTheAnswer) {
 }
 
 TEST(FitBehind, ThereIsNoneBehindAnAnswerFromElsewhere) {
-  const auto curve = curve_of(parabola_m);
+  const auto curve = curve_of(hyperbola_m);
   EXPECT_FALSE(fit_behind(curve, &CurvePoint::e_m, {"e", 24 * kMs, 0.02}));
   EXPECT_FALSE(fit_behind(curve, &CurvePoint::e_m, {"e", 23.5 * kMs, 0.02}));
   EXPECT_FALSE(fit_behind(curve, &CurvePoint::d, {"d", 23.8 * kMs, 0.02}));
@@ -151,7 +152,7 @@ TEST(FitBehind, ThereIsNoneBehindAnAnswerFromElsewhere) {
 
 TEST(Extremum, AFailedCandidateNeverWins) {
   const auto curve =
-      curve_of([](double offset_ms) { return offset_ms == 24 ? std::nullopt : parabola_m(offset_ms); });
+      curve_of([](double offset_ms) { return offset_ms == 24 ? std::nullopt : hyperbola_m(offset_ms); });
   EXPECT_DOUBLE_EQ(curve[index_of_min(curve, &CurvePoint::e_m)].offset_s, 23 * kMs);
   EXPECT_DOUBLE_EQ(curve[index_of_max(curve, &CurvePoint::e_m)].offset_s, 29 * kMs);
   const auto none = curve_of([](double) { return std::nullopt; });
