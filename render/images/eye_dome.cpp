@@ -63,30 +63,29 @@ Kernel kernel_of(const DepthScale& scale, const Lighting& lighting, int stride) 
   return kernel;
 }
 
-/// Eight numbers at once, written out: compilers keep comparisons of floating point numbers in scalar loops.
-constexpr std::size_t kLanes = 8;
+/// Four numbers at once, written out: compilers keep comparisons of floating point numbers in scalar loops.
+constexpr std::size_t kLanes = 4;
 using Floats = float __attribute__((vector_size(kLanes * sizeof(float))));
 using Ints = std::int32_t __attribute__((vector_size(kLanes * sizeof(std::int32_t))));
 
-// What takes or returns vectors is inlined, so that shade_row is compiled whole for each kind of processor.
-[[gnu::always_inline]] inline Floats all(float value) {
-  return Floats{} + value;
+Floats all(float value) {
+  return Floats{value, value, value, value};
 }
 template <typename Vector>
-[[gnu::always_inline]] inline Vector load(const void* from) {
+Vector load(const void* from) {
   Vector vector;
   std::memcpy(&vector, from, sizeof vector);
   return vector;
 }
-[[gnu::always_inline]] inline Floats larger(Floats a, Floats b) {
+Floats larger(Floats a, Floats b) {
   return a > b ? a : b;
 }
-[[gnu::always_inline]] inline Floats smaller(Floats a, Floats b) {
+Floats smaller(Floats a, Floats b) {
   return a < b ? a : b;
 }
 
-/// How much darker the kernel makes eight pixels, in all of its pairs together.
-[[gnu::always_inline]] inline Floats shade_of(const Kernel& kernel, const float* depth) {
+/// How much darker the kernel makes four pixels, in all of its pairs together.
+Floats shade_of(const Kernel& kernel, const float* depth) {
   const Floats here = load<Floats>(depth), none = all(0), empty = all(DepthImage::kEmpty);
   const Floats nearness = kernel.orthographic ? all(1) : all(kernel.far_depth) - here;
   const Floats px_per_depth = all(kernel.px_per_depth) / nearness,
@@ -103,8 +102,8 @@ template <typename Vector>
   return here < empty ? shade : none;
 }
 
-/// Colours multiplied by the light, eight pixels at once.
-[[gnu::always_inline]] inline void shade(const Kernel& kernel, const float* depth, std::uint8_t* rgba) {
+/// Colours multiplied by the light, four pixels at once.
+void shade(const Kernel& kernel, const float* depth, std::uint8_t* rgba) {
   constexpr int kUnchanged = 256;  // a factor of 1
   const Floats light = smaller(larger(all(1) - all(kernel.strength) * shade_of(kernel, depth), all(kDarkest)),
                                all(kBrightest));
@@ -118,47 +117,9 @@ template <typename Vector>
   std::memcpy(rgba, &lit, sizeof lit);
 }
 
-[[gnu::always_inline]] inline bool is_empty(const float* depth) {
+bool is_empty(const float* depth) {
   return std::all_of(depth, depth + kLanes, [](float value) { return value >= DepthImage::kEmpty; });
 }
-
-[[gnu::always_inline]] inline void shade_row(const Kernel& kernel, const float* depth, std::uint8_t* rgba,
-                                             std::size_t width_px) {
-  std::array<std::uint8_t, Image::kChannels * kLanes> last{};  // of a row whose width is no multiple
-  for (std::size_t x = 0; x < width_px; x += kLanes) {
-    if (is_empty(depth + x)) continue;
-    std::uint8_t* here = rgba + Image::kChannels * x;
-    if (x + kLanes <= width_px) {
-      shade(kernel, depth + x, here);
-      continue;
-    }
-    std::copy_n(here, Image::kChannels * (width_px - x), last.data());
-    shade(kernel, depth + x, last.data());
-    std::copy_n(last.data(), Image::kChannels * (width_px - x), here);
-  }
-}
-
-using ShadeRow = void(const Kernel&, const float* depth, std::uint8_t* rgba, std::size_t width_px);
-
-void shade_row_anywhere(const Kernel& kernel, const float* depth, std::uint8_t* rgba, std::size_t width_px) {
-  shade_row(kernel, depth, rgba, width_px);
-}
-
-#ifdef __x86_64__
-/// The same operations, so the same bytes; twice as fast.
-[[gnu::target("avx2")]] void shade_row_avx2(const Kernel& kernel, const float* depth, std::uint8_t* rgba,
-                                            std::size_t width_px) {
-  shade_row(kernel, depth, rgba, width_px);
-}
-
-ShadeRow& shade_row_here() {
-  return __builtin_cpu_supports("avx2") != 0 ? shade_row_avx2 : shade_row_anywhere;
-}
-#else
-ShadeRow& shade_row_here() {
-  return shade_row_anywhere;
-}
-#endif
 
 }  // namespace
 
@@ -172,10 +133,24 @@ DepthImage::DepthImage(int width_px, int height_px)
 Image with_lighting(Image image, const DepthImage& depth, const DepthScale& scale, const Lighting& lighting) {
   constexpr std::size_t kRowsAtOnce = 16;
   const Kernel kernel = kernel_of(scale, lighting, depth.stride());
-  ShadeRow& shade_row = shade_row_here();
+  const auto width = static_cast<std::size_t>(image.width_px);
   for_each_block(image.height_px, kRowsAtOnce, [&](const auto& rows) {
-    for (int y = rows.begin(); y < rows.end(); ++y)
-      shade_row(kernel, depth.row(y), image.pixel(0, y), static_cast<std::size_t>(image.width_px));
+    std::array<std::uint8_t, Image::kChannels * kLanes> last;  // of a row whose width is no multiple
+    for (int y = rows.begin(); y < rows.end(); ++y) {
+      const float* row = depth.row(y);
+      std::uint8_t* rgba = image.pixel(0, y);
+      for (std::size_t x = 0; x < width; x += kLanes) {
+        if (is_empty(row + x)) continue;
+        std::uint8_t* here = rgba + Image::kChannels * x;
+        if (x + kLanes <= width) {
+          shade(kernel, row + x, here);
+          continue;
+        }
+        std::copy_n(here, Image::kChannels * (width - x), last.data());
+        shade(kernel, row + x, last.data());
+        std::copy_n(last.data(), Image::kChannels * (width - x), here);
+      }
+    }
   });
   return image;
 }
