@@ -46,28 +46,20 @@ class SmoothRotation {
   double base_rad_ = 0, sine_ = 0, cosine_ = 1;
 };
 
-struct MovingSweep {
-  SweepMotion motion;
-  double begin_s, end_s;
-};
-
 /// The motions of a path's sweeps, asked for in their order: each is made once for all of its scans.
 class MotionReader {
  public:
   explicit MotionReader(const FixedPath& path) : path_(path) {}
 
-  const MovingSweep& of(std::uint32_t sweep) {
-    if (!moving_ || sweep != sweep_) {
-      const SweepPose& pose = path_.sweeps[sweep];
-      moving_ = MovingSweep{pose.motion(), pose.begin_s, pose.end_s};
-      sweep_ = sweep;
-    }
-    return *moving_;
+  const SweepMotion& of(std::uint32_t sweep) {
+    if (!motion_ || sweep != sweep_) motion_ = path_.sweeps[sweep].motion();
+    sweep_ = sweep;
+    return *motion_;
   }
 
  private:
   const FixedPath& path_;
-  std::optional<MovingSweep> moving_;
+  std::optional<SweepMotion> motion_;
   std::uint32_t sweep_ = 0;
 };
 
@@ -77,21 +69,22 @@ class MotionReader {
 class SmoothMotion {
  public:
   template <typename BeamAt>
-  SmoothMotion(const MovingSweep& sweep, const LaserScan& scan, std::size_t count, const BeamAt& beam_at)
+  SmoothMotion(const SweepPose& pose, const SweepMotion& motion, const LaserScan& scan, std::size_t count,
+               const BeamAt& beam_at)
       : beams_per_step_(scan.beams / double(kSteps)) {
     std::array<bool, kSteps + 1> wanted{};
-    if (count > kSteps) wanted.fill(true);
-    for (std::size_t i = 0; i < count && count <= kSteps; ++i) {
+    for (std::size_t i = 0; i < count; ++i) {
       const std::size_t k = step_of(beam_at(i) / beams_per_step_);
       wanted[k] = wanted[k + 1] = true;
     }
     for (std::size_t k = 0; k <= kSteps; ++k) {
       if (!wanted[k]) continue;
       const double time_s = scan.beam_s(static_cast<double>(k) * beams_per_step_);
-      const double u = (time_s - sweep.begin_s) / (sweep.end_s - sweep.begin_s);
-      places_m_[k] = sweep.motion(Vector::Zero(), u);
-      for (int axis = 0; axis < 3; ++axis)
-        linear_[k].col(axis) = sweep.motion(Vector::Unit(axis), u) - places_m_[k];
+      const double u = (time_s - pose.begin_s) / (pose.end_s - pose.begin_s);
+      places_m_[k] = motion(Vector::Zero(), u);
+      for (int axis = 0; axis < 3; ++axis) {
+        linear_[k].col(axis) = motion(Vector::Unit(axis), u) - places_m_[k];
+      }
     }
   }
 
@@ -126,7 +119,7 @@ void place_scan(const Beams& beams, const FixedPath& path, std::size_t scan_numb
   }
   const LaserScan& scan = beams.recording->scans[scan_number];
   SmoothRotation base_from_motor(kinematics.axis());
-  const SmoothMotion motion(motions.of(sweep), scan, to - from,
+  const SmoothMotion motion(path.sweeps[sweep], motions.of(sweep), scan, to - from,
                             [&](std::size_t i) { return beams.beam[index(from + i)]; });
   for (std::size_t k = from; k < to; ++k) {
     const std::size_t i = index(k);

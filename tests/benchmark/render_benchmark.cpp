@@ -10,11 +10,11 @@
 #include <vtkRenderer.h>
 #include <vtkUnsignedCharArray.h>
 
-#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <vector>
 
+#include "core/numbers.hpp"
 #include "render/clouds/point_polydata.hpp"
 #include "render/comparison/comparison.hpp"
 #include "render/gl/default_framebuffer.hpp"
@@ -123,11 +123,6 @@ class HallView {
   LiveView view_;
   std::uint8_t shade_ = 0;
 };
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
 
 /// What lighting adds to a drawing: flat and lit in turn, so that a machine that becomes slower meets both.
 void lighting(State& state) {

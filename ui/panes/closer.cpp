@@ -5,10 +5,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <ranges>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "core/map/feature_points.hpp"
 #include "render/charts/ticks.hpp"
@@ -34,37 +30,15 @@ const Profile& profile_now(const PaneContext& context, Side side, const CrossSec
   return known.profile;
 }
 
-/// The words of a text in lines that are no wider than this, unless a word is.
-std::vector<std::string> lines_of(std::string_view text, double width_px, double size_px) {
-  std::vector<std::string> lines{std::string()};
-  for (const auto part : std::views::split(text, ' ')) {
-    const std::string word(part.begin(), part.end());
-    std::string& line = lines.back();
-    const std::string longer = line.empty() ? word : fmt::format("{} {}", line, word);
-    if (line.empty() || text_width_px(longer, size_px) <= width_px)
-      line = longer;
-    else
-      lines.push_back(word);
-  }
-  return lines;
-}
-
 /// In the middle of a place, in as many lines as it takes.
-void hint(const PaneContext& context, const PixelRect& place, std::string_view text) {
-  const double size_px = context.px(13), line_px = 1.4 * size_px;
-  const std::vector<std::string> lines = lines_of(text, place.width - context.px(16), size_px);
-  double y = place.top + place.height / 2 - line_px * static_cast<double>(lines.size() - 1) / 2;
-  for (const std::string& line : lines) {
-    paint_text(*ImGui::GetWindowDrawList(),
-               {{place.left + place.width / 2, y},
-                line,
-                size_px,
-                context.style.faint_text,
-                AlignX::kCentre,
-                AlignY::kMiddle},
-               context.fonts);
-    y += line_px;
-  }
+void hint(const PaneContext& context, const PixelRect& place, const char* text) {
+  ImFont* font = context.fonts.nearest(context.px(13), false).font;
+  const float wrap_px = static_cast<float>(place.width) - context.pxf(16);
+  const ImVec2 size = font->CalcTextSizeA(font->FontSize, wrap_px, wrap_px, text);
+  const ImVec2 at{std::round(static_cast<float>(place.left + place.width / 2) - size.x / 2),
+                  std::round(static_cast<float>(place.top + place.height / 2) - size.y / 2)};
+  ImGui::GetWindowDrawList()->AddText(font, font->FontSize, at, to_imgui(context.style.faint_text), text,
+                                      nullptr, wrap_px);
 }
 
 /// The scanner's plane in a rectangle: x forward to the right, y to the left upwards, lengths alike.
