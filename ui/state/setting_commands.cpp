@@ -398,7 +398,8 @@ void add_fields_of_estimates(std::vector<Command>& all) {
       &Settings::method));
   all.push_back(estimate_choice(
       {"fit", "Fit",
-       "None: the best candidate. Parabola: the extremum of a parabola through those within 3 ms."},
+       "None: the best candidate. Parabola: the extremum of a parabola through those within 3 ms, of n or of "
+       "the squares of d or e."},
       &Settings::fit));
 }
 
