@@ -60,23 +60,26 @@ bool exceeds(const RawRecording& raw, const HeardSoFar& heard, const HeardLimits
 class Silence {
  public:
   void hear(const HeardSoFar& heard) {
+    if (heard.scans != now_.scans || heard.motor_samples != now_.motor_samples) newest_ = Clock::now();
     now_ = heard;
     if (heard.scans == 0 || heard.seconds <= furthest_s_) return;
     furthest_s_ = heard.seconds;
     latest_ = Clock::now();
     then_ = heard;
   }
-  /// None before it has lasted so long.
+  /// None before it has lasted so long. Whether all is silent, or something still comes, shows only then: a
+  /// driver that stops may send its last motor samples after its last scan.
   std::optional<ListeningEnd> ended(double after_s) const {
-    if (Clock::now() - latest_ <= std::chrono::duration<double>(after_s)) return std::nullopt;
-    if (now_.scans != then_.scans) return ListeningEnd::kStampsStandStill;
-    return now_.motor_samples != then_.motor_samples ? ListeningEnd::kNoScans : ListeningEnd::kSilence;
+    const std::chrono::duration<double> after(after_s);
+    if (Clock::now() - newest_ > after) return ListeningEnd::kSilence;
+    if (newest_ - latest_ <= after) return std::nullopt;
+    return now_.scans != then_.scans ? ListeningEnd::kStampsStandStill : ListeningEnd::kNoScans;
   }
 
  private:
   HeardSoFar now_, then_;
-  double furthest_s_ = -1;  // the first scan is at 0
-  Clock::time_point latest_ = Clock::now();
+  double furthest_s_ = -1;                                      // the first scan is at 0
+  Clock::time_point latest_ = Clock::now(), newest_ = latest_;  // newest_: of anything
 };
 
 Estimate refused(const RawRecording& raw, std::string reason) {

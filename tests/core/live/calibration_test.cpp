@@ -202,6 +202,15 @@ TEST_F(Calibration, AMotorAloneEndsItForWantOfScans) {
   EXPECT_EQ(end_of([](int, RawLaser&, RawJoint& joint) { add_samples(joint, 1); }), ListeningEnd::kNoScans);
 }
 
+TEST_F(Calibration, SilenceAfterALastMotorSampleIsSilence) {
+  options_.silence_s = 0.05;
+  EXPECT_EQ(end_of([](int number, RawLaser& laser, RawJoint& joint) {
+              if (number < 3) add_scan(laser, 1000 + 0.025 * number);
+              if (number == 3) add_samples(joint, 1);
+            }),
+            ListeningEnd::kSilence);
+}
+
 TEST_F(Calibration, ScansWhoseStampsDoNotAdvanceEndIt) {
   options_.silence_s = 0.05;
   options_.seconds = 600;
