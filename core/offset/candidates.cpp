@@ -93,6 +93,7 @@ double ExtremumFit::at(double offset_s) const {
 namespace {
 
 constexpr std::size_t kMinFitted = 5;  // a parabola has three unknowns: two more points say that it is one
+constexpr double kWideReach = 2;       // of candidates a unit apart, 5 lie within 2 units
 
 struct Span {
   std::size_t first, last;
@@ -153,12 +154,12 @@ std::optional<ExtremumFit> fit_of_extremum(const std::vector<CurvePoint>& curve,
 
 std::optional<ExtremumFit> fit_behind(const std::vector<CurvePoint>& curve, CurveValue value,
                                       const CriterionOptimum& optimum) {
-  constexpr double kUsualReach_s = 3e-3;                       // 3 units of most motors, see search_scale
+  constexpr double kUsualUnit_s = 1e-3;                        // that of most motors, see search_scale
   constexpr double kSame_s = 1e-10, kSameGridPoint_s = 2e-12;  // rounding: a curve may come from a file
   const std::size_t best = value == &CurvePoint::n ? index_of_max(curve, value) : index_of_min(curve, value);
   if (best == curve.size() || std::abs(curve[best].offset_s - optimum.offset_s) <= kSameGridPoint_s)
     return std::nullopt;
-  std::vector<double> reaches_s{kUsualReach_s};
+  std::vector<double> reaches_s{kUsualUnit_s, kWideReach * kUsualUnit_s};
   for (const CurvePoint& point : curve) reaches_s.push_back(std::abs(point.offset_s - curve[best].offset_s));
   for (const double reach_s : reaches_s) {
     if (!(reach_s > 0)) continue;
@@ -171,7 +172,8 @@ std::optional<ExtremumFit> fit_behind(const std::vector<CurvePoint>& curve, Curv
 CriterionOptimum fitted_extremum(const std::vector<CurvePoint>& curve, CurveValue value, std::size_t best,
                                  double reach_s) {
   CriterionOptimum optimum{"", curve[best].offset_s, *(curve[best].*value)};
-  const auto fit = fit_of_extremum(curve, value, best, reach_s);
+  auto fit = fit_of_extremum(curve, value, best, reach_s);
+  if (!fit) fit = fit_of_extremum(curve, value, best, kWideReach * reach_s);
   if (!fit) return optimum;
   optimum.offset_s = fit->extremum_s();
   // The curve's own value there: the fit is to find the place.

@@ -70,7 +70,7 @@ struct ExtremumFit {
   double extremum_s() const { return centre_s - c1 / (2 * c2) * reach_s; }
 };
 
-/// The fit behind the result of `fitted_extremum`; absent if that is the grid point.
+/// The fit to the values within `reach_s` of point `best`; absent where `fitted_extremum` says it fails.
 std::optional<ExtremumFit> fit_of_extremum(const std::vector<CurvePoint>& curve, CurveValue value,
                                            std::size_t best, double reach_s);
 
@@ -81,8 +81,9 @@ std::optional<ExtremumFit> fit_behind(const std::vector<CurvePoint>& curve, Curv
 
 /// The extremum of the second-degree fit to the contiguous present values within `reach_s` of point `best`
 /// (the authors' 2018 follow-up), with the value of the point nearest to it. They reach as far to one side as
-/// to the other, unless fewer than 5 would be left. The grid point itself where they are fewer than 5, or the
-/// fit bends the wrong way or has its extremum outside them.
+/// to the other, unless fewer than 5 would be left. Where they are fewer than 5, or the fit bends the wrong
+/// way or has its extremum outside them, those within twice the reach are used; where that fails too, the
+/// grid point itself is the result.
 CriterionOptimum fitted_extremum(const std::vector<CurvePoint>& curve, CurveValue value, std::size_t best,
                                  double reach_s);
 

@@ -120,9 +120,13 @@ Fit fit_of(const OffsetSearch& search) {
 void add_extrema(Answer& answer, const OffsetSearch& search, std::size_t best) {
   const auto& curve = answer.curve;
   const bool moving = search.as_moving();
-  const double reach_s = fit_of(search) == Fit::kParabola ? 3 * search.scale.unit_s : 0.0;
+  // Of 386 recordings of sweepscope_calibration: beyond a unit d and e are no hyperbola any more, while the
+  // top of n is so flat that three units err less than one.
+  constexpr double kReach_units = 1, kReachOfMatches_units = 3;
+  const double fitted_s = fit_of(search) == Fit::kParabola ? search.scale.unit_s : 0.0;
   const auto optimum_of = [&](const char* name, CurveValue value, std::size_t at) {
-    return answer.criteria.emplace_back(named(name, fitted_extremum(curve, value, at, reach_s)));
+    const double units = value == &CurvePoint::n ? kReachOfMatches_units : kReach_units;
+    return answer.criteria.emplace_back(named(name, fitted_extremum(curve, value, at, units * fitted_s)));
   };
   const CriterionOptimum least = optimum_of(moving ? "e" : "d", decisive(search), best);
   if (moving) {

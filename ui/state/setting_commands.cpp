@@ -398,8 +398,8 @@ void add_fields_of_estimates(std::vector<Command>& all) {
       &Settings::method));
   all.push_back(estimate_choice(
       {"fit", "Fit",
-       "None: the best candidate. Parabola: the extremum of a parabola through those within 3 ms, of n or of "
-       "the squares of d or e."},
+       "None: the best candidate. Parabola: the extremum of a parabola through n within 3 ms of it, or "
+       "through the squares of d or e within 1 ms, more where candidates are sparse."},
       &Settings::fit));
 }
 

@@ -86,7 +86,20 @@ TEST(FittedExtremum, OfMatchesIsExactOnAParabola) {
 }
 
 TEST(FittedExtremum, OfFewerThanFivePointsIsTheGridPoint) {
-  EXPECT_DOUBLE_EQ(fitted(curve_of(hyperbola_m), 1 * kMs).offset_s, 24 * kMs);
+  EXPECT_DOUBLE_EQ(fitted(curve_of(hyperbola_m), 0.5 * kMs).offset_s, 24 * kMs);
+}
+
+TEST(FittedExtremum, WhereCandidatesAreSparseThoseFartherAwayCountToo) {
+  EXPECT_NEAR(fitted(curve_of(hyperbola_m), 1 * kMs).offset_s, 23.8 * kMs, 1e-12);
+}
+
+TEST(FittedExtremum, WhereTheyAreDenseThoseFartherAwayDoNotCount) {
+  std::vector<CurvePoint> curve;
+  for (int tenth = 190; tenth <= 290; ++tenth) {
+    curve.emplace_back().offset_s = tenth * 1e-4;
+    curve.back().e_m = std::abs(tenth - 238) <= 10 ? *hyperbola_m(tenth * 0.1) : 0.03 + 1e-4 * tenth;
+  }
+  EXPECT_NEAR(fitted(curve, 1 * kMs).offset_s, 23.8 * kMs, 1e-12);
 }
 
 TEST(FittedExtremum, PointsBeyondAFailedCandidateDoNotBelong) {

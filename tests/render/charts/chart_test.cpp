@@ -235,7 +235,7 @@ Estimate walk(double min_ms, std::optional<double> sigma_s) {
     estimate.curve.back().e_m = std::hypot(0.02, 0.01 * (ms - min_ms)) + 1e-5 * (ms % 3);
   }
   CriterionOptimum optimum = fitted_extremum(estimate.curve, &CurvePoint::e_m,
-                                             index_of_min(estimate.curve, &CurvePoint::e_m), 3 * kMs);
+                                             index_of_min(estimate.curve, &CurvePoint::e_m), 1 * kMs);
   optimum.name = "e";
   estimate.criteria = {optimum};
   estimate.offset_s = optimum.offset_s;
