@@ -9,11 +9,11 @@ using Eigen::Vector3d;
 namespace {
 
 // From the back: matches that follow each other mostly have their scans in common.
-Matrix6d& sum_with(std::uint32_t other, std::vector<ScanEquations::Product>& products) {
-  const auto found = std::find_if(products.rbegin(), products.rend(),
-                                  [&](const ScanEquations::Product& p) { return p.other == other; });
-  if (found != products.rend()) return found->sum;
-  return products.emplace_back(ScanEquations::Product{other, Matrix6d::Zero()}).sum;
+Matrix6d& product_with(std::uint32_t other, ScanEquations::Scan& scan) {
+  const auto found = std::find(scan.others.rbegin(), scan.others.rend(), other);
+  if (found != scan.others.rend()) return scan.products[std::size_t(scan.others.rend() - found) - 1];
+  scan.others.push_back(other);
+  return scan.products.emplace_back(Matrix6d::Zero());
 }
 
 }  // namespace
@@ -36,11 +36,12 @@ void ScanEquations::add(const ScanRow& row, double offset_slope, double residual
   for (std::size_t a = 0; a < row.size(); ++a) {
     Scan& scan = scans_[row.scan(a)];
     const Vector6d weighted = weight * row.row(a);
+    scan.gradient += residual * weighted;
+    if (summed_ == Summed::kGradient) continue;
     for (std::size_t b = 0; b < row.size(); ++b)
       if (row.scan(b) <= row.scan(a))
-        sum_with(row.scan(b), scan.products).noalias() += weighted * row.row(b).transpose();
+        product_with(row.scan(b), scan).noalias() += weighted * row.row(b).transpose();
     scan.with_offset += offset_slope * weighted;
-    scan.gradient += residual * weighted;
   }
   offset_square_ += weight * offset_slope * offset_slope;
   offset_gradient_ += weight * offset_slope * residual;

@@ -40,21 +40,22 @@ class ScanRow {
   std::array<Vector6d, kMax> rows_;
 };
 
+/// Which parts of normal equations are summed up: the gradient alone serves equations that are much like some
+/// that were factorised before.
+enum class Summed { kAll, kGradient };
+
 /// Normal equations of the steps of all scans' poses, and of the offset. Points of one scan depend on the
 /// walk's knots alike: summed up here first, a match costs a tenth of what it would knot by knot.
 class ScanEquations {
  public:
-  explicit ScanEquations(std::size_t scans) : scans_(scans) {}
+  ScanEquations(std::size_t scans, Summed summed) : summed_(summed), scans_(scans) {}
 
   void add(const ScanRow& row, double offset_slope, double residual, double weight);
 
-  /// The sum over the matches of this scan's row (upright) times that of scan `other`, which is not after it.
-  struct Product {
-    std::uint32_t other;
-    Matrix6d sum;
-  };
   struct Scan {
-    std::vector<Product> products;
+    /// Sums over the matches of this scan's row (upright) times that of another, which is not after it.
+    std::vector<Matrix6d> products;
+    std::vector<std::uint32_t> others;  // the number of the other scan of each
     Vector6d gradient = Vector6d::Zero(), with_offset = Vector6d::Zero();
   };
   const std::vector<Scan>& scans() const { return scans_; }
@@ -62,6 +63,7 @@ class ScanEquations {
   double offset_square() const { return offset_square_; }
 
  private:
+  Summed summed_;
   std::vector<Scan> scans_;
   double offset_gradient_ = 0, offset_square_ = 0;
 };
