@@ -89,13 +89,17 @@ void WalkPart::settle(const Job& job, const std::function<void()>& iterated) {
   factor_.reset();
 }
 
-// Settled, other matches change the matrix too little to make it anew.
+// Where a step is small, other matches change the matrix too little to make it anew.
 void WalkPart::average(const Job& job, const std::function<void()>& iterated) {
   if (!(result_.sigma_s > 0)) return;
   const OffsetProblem part = cut();
   std::vector<double> offsets_s, shifts_s;
+  constexpr double kSmall_sigmas = 0.5;  // larger ones made parts that still moved diverge
+  bool anew = true;
   for (int i = 0; i < options_.averaged_iterations; ++i, iterated()) {
-    if (job.cancelled() || !iterate(part, i == 0 ? Summed::kAll : Summed::kGradient)) return;
+    const double last_s = result_.offset_s;
+    if (job.cancelled() || !iterate(part, anew ? Summed::kAll : Summed::kGradient)) return;
+    anew = std::abs(result_.offset_s - last_s) > kSmall_sigmas * factor_->offset_sigma_s();
     offsets_s.push_back(result_.offset_s);
     shifts_s.push_back(path_.time_shift_s());
   }
