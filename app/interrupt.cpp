@@ -82,7 +82,7 @@ const std::atomic<bool>& interrupt_flag() {
 
 void end_at_first_interrupt() {
   at_once = true;
-  interrupt_flag();
+  if (interrupt_flag()) sem_post(&signals);  // it came before: the watch may already wait for a second one
 }
 
 void finish_after_first_interrupt() {

@@ -251,8 +251,8 @@ TEST(CurveCharts, ShowTheFitThatGaveTheAnswer) {
   const ChartSeries& fit = charts[0].series[1];
   EXPECT_EQ(fit.name, "fit");
   EXPECT_TRUE(fit.dashed);
-  EXPECT_NEAR(fit.x.front(), 21, 1e-9);  // three steps to either side of 24
-  EXPECT_NEAR(fit.x.back(), 27, 1e-9);
+  EXPECT_NEAR(fit.x.front(), 22, 1e-9);  // two steps to either side of 24
+  EXPECT_NEAR(fit.x.back(), 26, 1e-9);
   const auto least = std::min_element(fit.y.begin(), fit.y.end());
   const double step_ms = fit.x[1] - fit.x[0];
   EXPECT_NEAR(fit.x[std::size_t(least - fit.y.begin())], *estimate.offset_s * 1e3, step_ms);
