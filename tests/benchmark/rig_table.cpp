@@ -1,11 +1,11 @@
-// How well `estimate --solve` finds a rig: simulated stationary recordings of 8 s whose mount, gear and
+// How well `estimate --solve` finds a rig: simulated stationary recordings whose mount, gear and
 // encoder are wrong by amounts drawn at random, always beginning with the default rig. One line per
 // recording, and two per family, for the scenes that were tuned on and for those held out: medians and 95th
 // percentiles of the errors, and of each parameter how many errors lie within three sigmas. Then, of rigs
 // that nothing is solved for, how many `estimate` warns of: none of the perfect ones should be, and of the
 // others all.
 //
-//   rig_table [--recordings N] [--only FAMILY] [--walks FOLDER]
+//   rig_table [--recordings N] [--only FAMILY] [--walks FOLDER] [--noise-mm X] [--duration-s X]
 //
 // FOLDER holds house.ply and office.ply, whose scenes are used beside the rooms where it is given.
 #include <fmt/format.h>
@@ -33,6 +33,7 @@ using simulation::Random;
 
 struct Settings {
   int recordings = 12;
+  double noise_mm = 10, duration_s = 8;
   std::string only, walks;
 };
 
@@ -85,7 +86,8 @@ SimulationOptions drawn(const Family& family, int number, const Settings& settin
       office{{0, -1, 0.2}, {-1.5, 1, 0.2}};
   Draw draw{Random(9176, std::uint64_t(&family - families().data()), std::uint64_t(number))};
   SimulationOptions options;
-  options.duration_s = 8;
+  options.duration_s = settings.duration_s;
+  options.noise_m = settings.noise_mm * 1e-3;
   options.seed = std::uint64_t(number) + 1;
   options.motor = family.motor;
   options.offset_s = draw.uniform(-0.04, 0.04);
@@ -248,8 +250,12 @@ int main(int argc, char** argv) {
   sweepscope::Settings settings;
   for (int i = 1; i + 1 < argc; i += 2) {
     const std::string_view name = argv[i], value = argv[i + 1];
-    if (name == "--recordings")
-      std::from_chars(value.data(), value.data() + value.size(), settings.recordings);
+    const auto read = [&](auto& number) {
+      std::from_chars(value.data(), value.data() + value.size(), number);
+    };
+    if (name == "--recordings") read(settings.recordings);
+    if (name == "--noise-mm") read(settings.noise_mm);
+    if (name == "--duration-s") read(settings.duration_s);
     if (name == "--only") settings.only = value;
     if (name == "--walks") settings.walks = value;
   }
