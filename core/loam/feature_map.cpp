@@ -268,8 +268,7 @@ void FeatureMap::insert(const Eigen::Vector3f& p_m, std::uint32_t line, int dire
         return std::min(2, static_cast<int>(3 * (value - float(below))));
       };
       const int place = third(scaled.x(), x) + 3 * third(scaled.y(), y) + 9 * third(scaled.z(), z);
-      // Each coarser third holds all of this one: what took this one took that as well.
-      if (cell.taken[side] >> place & 1u) return;
+      if (cell.taken[side] >> place & 1u) continue;
       cell.taken[side] |= 1u << place;
     }
     add_point(level, cell, side, p_m, line);

@@ -36,7 +36,7 @@ struct JointWalkOptions {
   double offset_sigma_s = 0.01;  // of the offset that it starts from
   // Every iteration matches again, and other matches give another answer: the mean of several is more
   // accurate.
-  int first_iterations = 3, averaged_iterations = 4;
+  int first_iterations = 3, averaged_iterations = 6;
   // Where the first iterations lead further away, the others are not run: the walk is to be tracked anew.
   double far_s = std::numeric_limits<double>::infinity();
   std::size_t min_matches = 200;  // of a part; in a furnished place it has some thousands

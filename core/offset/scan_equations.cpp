@@ -36,12 +36,11 @@ void ScanEquations::add(const ScanRow& row, double offset_slope, double residual
   for (std::size_t a = 0; a < row.size(); ++a) {
     Scan& scan = scans_[row.scan(a)];
     const Vector6d weighted = weight * row.row(a);
-    scan.gradient += residual * weighted;
-    if (summed_ == Summed::kGradient) continue;
     for (std::size_t b = 0; b < row.size(); ++b)
       if (row.scan(b) <= row.scan(a))
         product_with(row.scan(b), scan).noalias() += weighted * row.row(b).transpose();
     scan.with_offset += offset_slope * weighted;
+    scan.gradient += residual * weighted;
   }
   offset_square_ += weight * offset_slope * offset_slope;
   offset_gradient_ += weight * offset_slope * residual;

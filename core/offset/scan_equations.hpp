@@ -40,15 +40,11 @@ class ScanRow {
   std::array<Vector6d, kMax> rows_;
 };
 
-/// Which parts of normal equations are summed up: the gradient alone serves equations that are much like some
-/// that were factorised before.
-enum class Summed { kAll, kGradient };
-
 /// Normal equations of the steps of all scans' poses, and of the offset. Points of one scan depend on the
 /// walk's knots alike: summed up here first, a match costs a tenth of what it would knot by knot.
 class ScanEquations {
  public:
-  ScanEquations(std::size_t scans, Summed summed) : summed_(summed), scans_(scans) {}
+  explicit ScanEquations(std::size_t scans) : scans_(scans) {}
 
   void add(const ScanRow& row, double offset_slope, double residual, double weight);
 
@@ -63,7 +59,6 @@ class ScanEquations {
   double offset_square() const { return offset_square_; }
 
  private:
-  Summed summed_;
   std::vector<Scan> scans_;
   double offset_gradient_ = 0, offset_square_ = 0;
 };

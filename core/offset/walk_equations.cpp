@@ -59,27 +59,9 @@ class Columns {
 
 }  // namespace
 
-std::optional<WalkFactor> WalkFactor::of(Eigen::MatrixXd matrix) {
-  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>, Eigen::Lower> cholesky(matrix);
-  if (cholesky.info() != Eigen::Success) return std::nullopt;
-  return WalkFactor(std::move(matrix));
-}
-
-Eigen::MatrixXd WalkFactor::solved(Eigen::MatrixXd columns) const {
-  const auto lower = lower_.triangularView<Eigen::Lower>();
-  lower.solveInPlace(columns);
-  lower.transpose().solveInPlace(columns);
-  return columns;
-}
-
-Eigen::VectorXd WalkFactor::influence(std::size_t unknown) const {
-  return solved(Eigen::VectorXd::Unit(lower_.rows(), Eigen::Index(unknown)));
-}
-
-WalkEquations::WalkEquations(std::size_t blocks, Summed summed)
-    : summed_(summed), gradient_(Eigen::VectorXd::Zero(Eigen::Index(6 * blocks + 1))) {
-  if (summed == Summed::kAll) matrix_ = Eigen::MatrixXd::Zero(gradient_.size(), gradient_.size());
-}
+WalkEquations::WalkEquations(std::size_t blocks)
+    : matrix_(Eigen::MatrixXd::Zero(Eigen::Index(6 * blocks + 1), Eigen::Index(6 * blocks + 1))),
+      gradient_(Eigen::VectorXd::Zero(matrix_.rows())) {}
 
 // Half of the matrix: it and its transpose are the whole.
 void WalkEquations::add_block(std::size_t row, std::size_t column, const Matrix6d& half) {
@@ -90,29 +72,6 @@ void WalkEquations::add_block(std::size_t row, std::size_t column, const Matrix6
 
 void WalkEquations::add(const ScanEquations& scans, const std::vector<ScanMotion>& motions,
                         const GuidedPath& path) {
-  add_gradient(scans, motions, path);
-  if (summed_ == Summed::kAll) add_matrix(scans, motions, path);
-}
-
-void WalkEquations::add_gradient(const ScanEquations& scans, const std::vector<ScanMotion>& motions,
-                                 const GuidedPath& path) {
-  for (std::uint32_t number = 0; number < scans.scans().size(); ++number) {
-    const ScanEquations::Scan& scan = scans.scans()[number];
-    if (scan.gradient.isZero(0)) continue;
-    for_blocks(
-        motions[number].place, path,
-        [&](std::size_t row, double weight) {
-          gradient_.segment<6>(Eigen::Index(6 * row)) += weight * scan.gradient;
-        },
-        [&](std::size_t row, const Vector6d& per_second) {
-          gradient_[Eigen::Index(6 * row)] += per_second.dot(scan.gradient);
-        });
-  }
-  gradient_[gradient_.size() - 1] += scans.offset_gradient();
-}
-
-void WalkEquations::add_matrix(const ScanEquations& scans, const std::vector<ScanMotion>& motions,
-                               const GuidedPath& path) {
   const Eigen::Index last = matrix_.rows() - 1;
   Columns columns(path);
   for (std::uint32_t number = 0; number < scans.scans().size(); ++number) {
@@ -124,6 +83,7 @@ void WalkEquations::add_matrix(const ScanEquations& scans, const std::vector<Sca
         [&](std::size_t row, double weight) {
           columns.for_each(
               [&](std::size_t column, const Matrix6d& sum) { add_block(row, column, weight * sum); });
+          gradient_.segment<6>(Eigen::Index(6 * row)) += weight * scan.gradient;
           matrix_.block<1, 6>(last, Eigen::Index(6 * row)) += weight * scan.with_offset.transpose();
         },
         [&](std::size_t row, const Vector6d& per_second) {
@@ -132,9 +92,11 @@ void WalkEquations::add_matrix(const ScanEquations& scans, const std::vector<Sca
             first_only.row(0) = per_second.transpose() * sum;
             add_block(row, column, first_only);
           });
+          gradient_[Eigen::Index(6 * row)] += per_second.dot(scan.gradient);
           matrix_(last, Eigen::Index(6 * row)) += per_second.dot(scan.with_offset);
         });
   }
+  gradient_[last] += scans.offset_gradient();
   matrix_(last, last) += scans.offset_square();
 }
 
@@ -146,7 +108,7 @@ void WalkEquations::add_jerks(const GuidedPath& path, const Eigen::Vector2d& sig
     for (std::size_t a = 0; a < kJerkStencil.size(); ++a) {
       const auto row = Eigen::Index(6 * (k + a));
       gradient_.segment<6>(row) += kJerkStencil[a] * weights.cwiseProduct(residuals[k]);
-      for (std::size_t b = 0; b <= a && summed_ == Summed::kAll; ++b)
+      for (std::size_t b = 0; b <= a; ++b)
         matrix_.block<6, 6>(row, Eigen::Index(6 * (k + b))).diagonal() +=
             kJerkStencil[a] * kJerkStencil[b] * weights;
     }
@@ -160,11 +122,20 @@ void WalkEquations::hold(std::size_t knots, double first_sigma, double knot_sigm
   matrix_(last, last) += 1 / (offset_sigma_s * offset_sigma_s);
 }
 
-WalkEquations::Step WalkEquations::step(const WalkFactor& factor) const {
-  const Eigen::VectorXd x = factor.solved(-gradient_);
-  Step step{{}, x[x.size() - 1]};
-  for (Eigen::Index k = 0; k < (x.size() - 1) / 6; ++k) step.of_blocks.push_back(x.segment<6>(6 * k));
-  return step;
+std::optional<WalkEquations::Solution> WalkEquations::solve(std::optional<std::size_t> shift_block,
+                                                            const Eigen::MatrixXd& probes) {
+  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>, Eigen::Lower> cholesky(matrix_);
+  if (cholesky.info() != Eigen::Success) return std::nullopt;
+  const Eigen::Index last = matrix_.rows() - 1;
+  const Eigen::VectorXd x = cholesky.solve(-gradient_);
+  Solution solution{{}, x[last], 1 / matrix_(last, last),
+                    {}, {},      cholesky.solve(probes)};  // now the factor's
+  solution.influence = cholesky.solve(Eigen::VectorXd::Unit(matrix_.rows(), last));
+  if (shift_block)
+    solution.shift_influence =
+        cholesky.solve(Eigen::VectorXd::Unit(matrix_.rows(), Eigen::Index(6 * *shift_block)));
+  for (Eigen::Index k = 0; k < last / 6; ++k) solution.block_steps.push_back(x.segment<6>(6 * k));
+  return solution;
 }
 
 Vector6d by_pose(const Eigen::VectorXd& by_unknowns, const ScanMotion& motion, const GuidedPath& path) {

@@ -75,57 +75,48 @@ void WalkPart::settle(const Job& job, const std::function<void()>& iterated) {
   first_scan_ = static_cast<std::uint32_t>(first - used.begin());
   if (first != used.end()) scans_.resize(std::size_t(last.base() - first) * slices_);
   for (int i = 0; i < options_.first_iterations; ++i, iterated()) {
-    if (job.cancelled() || !iterate(part, Summed::kAll)) return;
+    if (job.cancelled() || !iterate(part)) return;
     if (evidence_)
-      jerk_sigma_ =
-          evidence_->sigma(path_, options_.knot_s, jerk_sigma_, factor_->solved(evidence_->probes()))
-              .cwiseMax(options_.min_jerk)
-              .cwiseMin(jerk_sigma_);
+      jerk_sigma_ = evidence_->sigma(path_, options_.knot_s, jerk_sigma_, solution_->solved_probes)
+                        .cwiseMax(options_.min_jerk)
+                        .cwiseMin(jerk_sigma_);
   }
-  result_.sigma_s = factor_->offset_sigma_s();
+  result_.sigma_s = solution_->offset_sigma_s;
   if (const auto block = path_.shift_block())
-    result_.time_shift =
-        TimeShift{path_.time_shift_s(), std::sqrt(factor_->influence(6 * *block)[Eigen::Index(6 * *block)])};
-  factor_.reset();
+    result_.time_shift = TimeShift{path_.time_shift_s(), shift_sigma_s(*block)};
 }
 
-// Where a step is small, other matches change the matrix too little to make it anew.
 void WalkPart::average(const Job& job, const std::function<void()>& iterated) {
-  if (!(result_.sigma_s > 0)) return;
+  if (!solution_) return;
   const OffsetProblem part = cut();
   std::vector<double> offsets_s, shifts_s;
-  constexpr double kSmall_sigmas = 0.5;  // larger ones made parts that still moved diverge
-  bool anew = true;
   for (int i = 0; i < options_.averaged_iterations; ++i, iterated()) {
-    const double last_s = result_.offset_s;
-    if (job.cancelled() || !iterate(part, anew ? Summed::kAll : Summed::kGradient)) return;
-    anew = std::abs(result_.offset_s - last_s) > kSmall_sigmas * factor_->offset_sigma_s();
+    if (job.cancelled() || !iterate(part)) return;
     offsets_s.push_back(result_.offset_s);
     shifts_s.push_back(path_.time_shift_s());
   }
-  conclude(offsets_s, clustered_sigma_s(part, factor_->unknowns() - 1));
+  conclude(offsets_s, clustered_sigma_s(part, solution_->influence, solution_->offset_sigma_s));
   if (const auto block = path_.shift_block())
-    result_.time_shift = TimeShift{mean(shifts_s), clustered_sigma_s(part, 6 * *block)};
-  factor_.reset();
+    result_.time_shift =
+        TimeShift{mean(shifts_s), clustered_sigma_s(part, solution_->shift_influence, shift_sigma_s(*block))};
 }
 
 // Matches anew and steps; false, and without a result, where that cannot be done.
-bool WalkPart::iterate(const OffsetProblem& part, Summed summed) {
+bool WalkPart::iterate(const OffsetProblem& part) {
   result_.sigma_s = 0;
-  WalkEquations equations(path_.blocks(), summed);
-  linearise(part, summed, equations);
+  solution_.reset();
+  WalkEquations equations(path_.blocks());
+  linearise(part, equations);
   if (result_.matches < options_.min_matches) return false;
   equations.add_jerks(path_, std::pow(options_.knot_s, 3) * jerk_sigma_);
-  if (summed == Summed::kAll) {
-    // rad and m. The first is a gauge, far below what is asked for; the second far above any step.
-    constexpr double kFirstSigma = 1e-4, kKnotSigma = 0.5;
-    equations.hold(path_.knots(), kFirstSigma, kKnotSigma, options_.offset_sigma_s);
-    factor_ = equations.factorise();
-    if (!factor_) return false;
-  }
-  const WalkEquations::Step step = equations.step(*factor_);
-  path_.move(step.of_blocks);
-  result_.offset_s += step.of_offset_s;
+  // rad and m. The first is a gauge, far below what is asked for; the second far above any step.
+  constexpr double kFirstSigma = 1e-4, kKnotSigma = 0.5;
+  equations.hold(path_.knots(), kFirstSigma, kKnotSigma, options_.offset_sigma_s);
+  const Eigen::MatrixXd no_probes(Eigen::Index(6 * path_.blocks() + 1), 0);
+  solution_ = equations.solve(path_.shift_block(), evidence_ ? evidence_->probes() : no_probes);
+  if (!solution_) return false;
+  path_.move(solution_->block_steps);
+  result_.offset_s += solution_->offset_step_s;
   return true;
 }
 
@@ -142,24 +133,27 @@ void WalkPart::conclude(const std::vector<double>& offsets_s, double sigma_s) {
   result_.converged = std::abs(result_.step_s) < kSettled * result_.sigma_s;
 }
 
+double WalkPart::shift_sigma_s(std::size_t block) const {
+  return std::sqrt(solution_->shift_influence[Eigen::Index(6 * block)]);
+}
+
 Vector3d WalkPart::in_map_m(const PlacedSweep& sweep, const PlacedFeature& feature) const {
   return path_.at(time_s(sweep, feature)) * feature.p_in_base_m;
 }
 
-void WalkPart::linearise(const OffsetProblem& part, Summed summed, WalkEquations& equations) {
-  ScanEquations scans(scans_.size(), summed);
+void WalkPart::linearise(const OffsetProblem& part, WalkEquations& equations) {
+  ScanEquations scans(scans_.size());
   for_each_match(part, [&](const ScanRow& row, double slope, double distance_m, double weight,
                            const Vector3d&) { scans.add(row, slope, distance_m, weight); });
   equations.add(scans, scans_, path_);
 }
 
-// Of the offset or a time shift, an unknown of the equations, where what the surfaces err by is not taken
-// from the matches' standard deviation, but from their residuals, summed up cell by cell: the matches of one
-// surface err together, and over and over where the same lines see it again and again (White 1980, with
-// clusters). What the smoothness leaves open stays.
-double WalkPart::clustered_sigma_s(const OffsetProblem& part, std::size_t unknown) {
-  const Eigen::VectorXd influences = factor_->influence(unknown);
-  const double total_s2 = influences[Eigen::Index(unknown)];
+// Of the offset or a time shift, where what the surfaces err by is not taken from the matches' standard
+// deviation, but from their residuals, summed up cell by cell: the matches of one surface err together, and
+// over and over where the same lines see it again and again (White 1980, with clusters). What the
+// smoothness leaves open stays.
+double WalkPart::clustered_sigma_s(const OffsetProblem& part, const Eigen::VectorXd& influences,
+                                   double sigma_s) {
   std::map<std::array<int, 3>, double> pulls_s;
   double formal_s2 = 0;
   constexpr double kCell_m = 1;  // about the size of a piece of furniture, or of a bay of a wall
@@ -175,8 +169,8 @@ double WalkPart::clustered_sigma_s(const OffsetProblem& part, std::size_t unknow
       });
   double clustered_s2 = 0;
   for (const auto& [cell, pull_s] : pulls_s) clustered_s2 += square(pull_s);
-  if (!(formal_s2 > 0)) return std::sqrt(total_s2);
-  const double of_matches_s2 = std::min(formal_s2, total_s2);
+  if (!(formal_s2 > 0)) return sigma_s;
+  const double total_s2 = square(sigma_s), of_matches_s2 = std::min(formal_s2, total_s2);
   return std::sqrt(total_s2 - of_matches_s2 + of_matches_s2 * clustered_s2 / formal_s2);
 }
 

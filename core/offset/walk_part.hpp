@@ -37,10 +37,11 @@ class WalkPart {
 
  private:
   OffsetProblem cut() const;
-  bool iterate(const OffsetProblem& part, Summed summed);
+  bool iterate(const OffsetProblem& part);
   void conclude(const std::vector<double>& offsets_s, double sigma_s);
-  void linearise(const OffsetProblem& part, Summed summed, WalkEquations& equations);
-  double clustered_sigma_s(const OffsetProblem& part, std::size_t unknown);
+  double shift_sigma_s(std::size_t block) const;
+  void linearise(const OffsetProblem& part, WalkEquations& equations);
+  double clustered_sigma_s(const OffsetProblem& part, const Eigen::VectorXd& influences, double sigma_s);
   template <typename Use>
   void for_each_match(const OffsetProblem& part, const Use& use);
   template <typename Use>
@@ -62,7 +63,7 @@ class WalkPart {
   Eigen::Vector2d jerk_sigma_;  // rad/s^3 and m/s^3
   std::optional<JerkEvidence> evidence_;
   JointWalkPart result_;
-  std::optional<WalkFactor> factor_;  // of the last iteration that summed up all; large
+  std::optional<WalkEquations::Solution> solution_;  // the last iteration's
   std::vector<ScanMotion> scans_;
   static constexpr std::uint32_t kNoLine = 0xffffffffu;
   std::uint32_t last_line_ = kNoLine;  // whose motion was worked out last

@@ -136,7 +136,7 @@ TEST(WalkEquations, JerksHaveTheGradientOfTheirSquares) {
       sum += (jerk.head<3>() / sigma[0]).squaredNorm() / 2 + (jerk.tail<3>() / sigma[1]).squaredNorm() / 2;
     return sum;
   };
-  WalkEquations equations(path.blocks(), Summed::kAll);
+  WalkEquations equations(path.blocks());
   equations.add_jerks(path, sigma);
   Eigen::VectorXd numeric(Eigen::Index(6 * path.blocks()));
   for (Eigen::Index i = 0; i < numeric.size(); ++i)
@@ -151,10 +151,9 @@ struct Matches {
   Eigen::VectorXd gradient;
 };
 
-Matches matches_of(const GuidedPath& path, const std::vector<ScanMotion>& motions,
-                   Summed summed = Summed::kAll) {
+Matches matches_of(const GuidedPath& path, const std::vector<ScanMotion>& motions) {
   const auto last = Eigen::Index(6 * path.blocks());
-  Matches sum{ScanEquations(motions.size(), summed), Eigen::MatrixXd::Zero(last + 1, last + 1),
+  Matches sum{ScanEquations(motions.size()), Eigen::MatrixXd::Zero(last + 1, last + 1),
               Eigen::VectorXd::Zero(last + 1)};
   const auto count = static_cast<std::uint32_t>(motions.size());
   for (std::uint32_t i = 0; i < 3 * count; ++i) {
@@ -183,7 +182,7 @@ TEST_P(WalkEquationsOf, TheSolutionIsThatOfTheWholeMatrix) {
   std::vector<ScanMotion> motions;
   for (int i = 0; i < 40; ++i) motions.push_back(scan_at(path, 2.05 + 0.035 * i));
   auto [scans, matrix, gradient] = matches_of(path, motions);
-  WalkEquations equations(path.blocks(), Summed::kAll);
+  WalkEquations equations(path.blocks());
   equations.add(scans, motions, path);
   constexpr double kFirst = 0.01, kKnot = 0.5, kOffset_s = 0.02;
   equations.hold(path.knots(), kFirst, kKnot, kOffset_s);
@@ -193,35 +192,18 @@ TEST_P(WalkEquationsOf, TheSolutionIsThatOfTheWholeMatrix) {
   EXPECT_LT((equations.gradient() - gradient).norm(), 1e-10 * gradient.norm());
   const Eigen::MatrixXd inverse = matrix.inverse();
   const Eigen::VectorXd step = -inverse * gradient;
-  const auto factor = equations.factorise();
-  ASSERT_TRUE(factor);
-  const WalkEquations::Step solved = equations.step(*factor);
-  EXPECT_NEAR(solved.of_offset_s, step[last], 1e-9 * std::abs(step[last]));
-  EXPECT_NEAR(factor->offset_sigma_s(), std::sqrt(inverse(last, last)), 1e-9);
-  ASSERT_EQ(solved.of_blocks.size(), path.blocks());
+  const auto solution = equations.solve(path.shift_block(), Eigen::MatrixXd(last + 1, 0));
+  ASSERT_TRUE(solution);
+  EXPECT_NEAR(solution->offset_step_s, step[last], 1e-9 * std::abs(step[last]));
+  EXPECT_NEAR(solution->offset_sigma_s, std::sqrt(inverse(last, last)), 1e-9);
+  EXPECT_LT((solution->influence - inverse.col(last)).norm(), 1e-8 * inverse.col(last).norm());
+  ASSERT_EQ(solution->block_steps.size(), path.blocks());
   for (std::size_t k = 0; k < path.blocks(); ++k)
-    EXPECT_LT((solved.of_blocks[k] - step.segment<6>(Eigen::Index(6 * k))).norm(), 1e-9 * step.norm());
-  for (const Eigen::Index unknown : {Eigen::Index(0), last / 2, last}) {
-    const Eigen::VectorXd column = inverse.col(unknown);
-    EXPECT_LT((factor->influence(std::size_t(unknown)) - column).norm(), 1e-8 * column.norm());
+    EXPECT_LT((solution->block_steps[k] - step.segment<6>(Eigen::Index(6 * k))).norm(), 1e-9 * step.norm());
+  if (const auto block = path.shift_block()) {
+    const auto column = inverse.col(Eigen::Index(6 * *block));
+    EXPECT_LT((solution->shift_influence - column).norm(), 1e-8 * column.norm());
   }
-}
-
-TEST_P(WalkEquationsOf, TheGradientAloneIsThatOfAll) {
-  const GuidedPath path = path_of(GetParam());
-  const std::vector<ScanMotion> motions{scan_at(path, 2.31), scan_at(path, 2.4), scan_at(path, 3.1)};
-  WalkEquations all(path.blocks(), Summed::kAll), alone(path.blocks(), Summed::kGradient);
-  for (WalkEquations* const equations : {&all, &alone}) {
-    const Summed summed = equations == &all ? Summed::kAll : Summed::kGradient;
-    equations->add(matches_of(path, motions, summed).scans, motions, path);
-    equations->add_jerks(path, {0.2, 0.5});
-  }
-  EXPECT_GT(all.gradient().norm(), 0);
-  EXPECT_EQ(alone.gradient(), all.gradient());
-}
-
-TEST(WalkFactor, ThereIsNoneOfAMatrixThatIsNotPositiveDefinite) {
-  EXPECT_FALSE(WalkFactor::of(Eigen::Vector2d(1, -1).asDiagonal()));
 }
 
 }  // namespace
