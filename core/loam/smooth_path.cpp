@@ -64,10 +64,8 @@ SmoothPath::SmoothPath(const std::vector<SweepPose>& sweeps, double knot_s)
 
 Pose SmoothPath::at(double time_s) const {
   const double place = (time_s - begin_s_) / knot_s_ * kPosesPerKnot;
-  const auto i = std::size_t(std::clamp(std::floor(place), 0.0, double(samples_.size() - 2)));
-  const auto& [pose, turn_rad, shift_m] = samples_[i];
-  const double u = place - double(i);
-  return {pose.rotation * rotation_from_vector(u * turn_rad), pose.translation_m + u * shift_m};
+  const auto i = std::size_t(std::clamp(std::floor(place), 0.0, double(poses_.size() - 2)));
+  return interpolate(poses_[i], poses_[i + 1], place - double(i));
 }
 
 SmoothPath::Place SmoothPath::place(double time_s) const {
@@ -82,8 +80,8 @@ void SmoothPath::move(const std::vector<Vector6d>& knot_steps) {
 }
 
 void SmoothPath::sample() {
-  samples_.clear();
-  samples_.reserve(segments_ * kPosesPerKnot + 1);
+  poses_.clear();
+  poses_.reserve(segments_ * kPosesPerKnot + 1);
   for (std::size_t i = 0; i <= segments_ * kPosesPerKnot; ++i) {
     const std::size_t segment = std::min(i / kPosesPerKnot, segments_ - 1);
     const auto w = basis(double(i - segment * kPosesPerKnot) / kPosesPerKnot);
@@ -97,12 +95,7 @@ void SmoothPath::sample() {
       pose.translation_m += w[k] * knot[k].translation_m;
     }
     pose.rotation.normalize();
-    if (!samples_.empty()) {
-      Sample& last = samples_.back();
-      last.turn_rad = turn_between(last.pose.rotation, pose.rotation);
-      last.shift_m = pose.translation_m - last.pose.translation_m;
-    }
-    samples_.push_back({pose, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()});
+    poses_.push_back(pose);
   }
 }
 

@@ -42,12 +42,7 @@ class SmoothPath {
   double begin_s_, knot_s_;
   std::size_t segments_;     // segment j lies between knots j + 1 and j + 2
   std::vector<Pose> knots_;  // the first one lies knot_s before the path's begin
-  struct Sample {
-    Pose pose;
-    Eigen::Vector3d turn_rad, shift_m;  // to the next one
-  };
-  std::vector<Sample>
-      samples_;  // along the segments, at equal steps: linear between, to well below a millimetre
+  std::vector<Pose> poses_;  // along the segments, at equal steps: linear between, to well below a millimetre
 };
 
 }  // namespace sweepscope

@@ -9,11 +9,11 @@ using Eigen::Vector3d;
 namespace {
 
 // From the back: matches that follow each other mostly have their scans in common.
-Matrix6d& product_with(std::uint32_t other, ScanEquations::Scan& scan) {
-  const auto found = std::find(scan.others.rbegin(), scan.others.rend(), other);
-  if (found != scan.others.rend()) return scan.products[std::size_t(scan.others.rend() - found) - 1];
-  scan.others.push_back(other);
-  return scan.products.emplace_back(Matrix6d::Zero());
+Matrix6d& sum_with(std::uint32_t other, std::vector<ScanEquations::Product>& products) {
+  const auto found = std::find_if(products.rbegin(), products.rend(),
+                                  [&](const ScanEquations::Product& p) { return p.other == other; });
+  if (found != products.rend()) return found->sum;
+  return products.emplace_back(ScanEquations::Product{other, Matrix6d::Zero()}).sum;
 }
 
 }  // namespace
@@ -38,7 +38,7 @@ void ScanEquations::add(const ScanRow& row, double offset_slope, double residual
     const Vector6d weighted = weight * row.row(a);
     for (std::size_t b = 0; b < row.size(); ++b)
       if (row.scan(b) <= row.scan(a))
-        product_with(row.scan(b), scan).noalias() += weighted * row.row(b).transpose();
+        sum_with(row.scan(b), scan.products).noalias() += weighted * row.row(b).transpose();
     scan.with_offset += offset_slope * weighted;
     scan.gradient += residual * weighted;
   }

@@ -48,10 +48,13 @@ class ScanEquations {
 
   void add(const ScanRow& row, double offset_slope, double residual, double weight);
 
+  /// The sum over the matches of this scan's row (upright) times that of scan `other`, which is not after it.
+  struct Product {
+    std::uint32_t other;
+    Matrix6d sum;
+  };
   struct Scan {
-    /// Sums over the matches of this scan's row (upright) times that of another, which is not after it.
-    std::vector<Matrix6d> products;
-    std::vector<std::uint32_t> others;  // the number of the other scan of each
+    std::vector<Product> products;
     Vector6d gradient = Vector6d::Zero(), with_offset = Vector6d::Zero();
   };
   const std::vector<Scan>& scans() const { return scans_; }

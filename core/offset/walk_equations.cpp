@@ -28,9 +28,8 @@ class Columns {
 
   void sum_up(std::uint32_t number, const ScanEquations::Scan& scan, const std::vector<ScanMotion>& motions) {
     std::fill(used_.begin(), used_.end(), false);
-    for (std::size_t i = 0; i < scan.others.size(); ++i) {
-      const std::uint32_t other = scan.others[i];
-      const Matrix6d half = (other == number ? 0.5 : 1.0) * scan.products[i];
+    for (const auto& [other, sum] : scan.products) {
+      const Matrix6d half = (other == number ? 0.5 : 1.0) * sum;
       for_blocks(
           motions[other].place, path_,
           [&](std::size_t block, double weight) { at(block).noalias() += weight * half; },
