@@ -139,9 +139,11 @@ std::optional<ExtremumFit> fit_of_extremum(const std::vector<CurvePoint>& curve,
   for (Eigen::Index i = 0; i < count; ++i) {
     const CurvePoint& point = curve[first + std::size_t(i)];
     const double x = (point.offset_s - centre_s) / reach_s;
-    powers.row(i) << 1, x, x * x;
     const double scaled = *(point.*value) / scale;
-    values[i] = of_squares ? scaled * scaled : scaled;
+    // All distances err alike, so their squares err as they are large.
+    const double weight = of_squares ? 1 / std::max(1.0, scaled) : 1;
+    powers.row(i) << weight, weight * x, weight * x * x;
+    values[i] = weight * (of_squares ? scaled * scaled : scaled);
   }
   const Eigen::Vector3d c = powers.colPivHouseholderQr().solve(values);
   if (!(of_squares ? c[2] > 0 : c[2] < 0)) return std::nullopt;

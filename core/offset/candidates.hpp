@@ -59,7 +59,7 @@ std::size_t index_of_max(const std::vector<CurvePoint>& curve, CurveValue value)
 
 /// A second-degree fit over a part of a curve, with x = (offset - centre) / reach. n falls off as a parabola,
 /// n = scale (c0 + c1 x + c2 x^2). Distances go as a hyperbola: d, e and the capped cost are fitted by their
-/// squares, value = scale sqrt(c0 + c1 x + c2 x^2).
+/// squares, each divided by the distance, value = scale sqrt(c0 + c1 x + c2 x^2).
 struct ExtremumFit {
   bool of_squares = false;
   double centre_s = 0, reach_s = 1;

@@ -151,9 +151,9 @@ std::vector<EstimateOption> method_options() {
                    options.method = std::array{Method::kStationary, Method::kMoving, Method::kDirect}[i];
                  }),
           choice("fit", "F",
-                 "none: the best candidate; parabola: the extremum of one through n within 3 ms of it, or "
-                 "through the squares of d or e within 1 ms, more where candidates are sparse (default: "
-                 "parabola for moving rigs and for slow motors, else none)",
+                 "none: the best candidate; parabola: the extremum of a parabola through n within 3 ms of "
+                 "the best candidate, or through the squares of d or e within 1 ms; farther where candidates "
+                 "are sparse (default: parabola for moving rigs and for slow motors, else none)",
                  {"none", "parabola"},
                  [](EstimateOptions& options, std::size_t i) {
                    options.fit = i == 0 ? Fit::kNone : Fit::kParabola;

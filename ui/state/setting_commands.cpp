@@ -399,7 +399,7 @@ void add_fields_of_estimates(std::vector<Command>& all) {
   all.push_back(estimate_choice(
       {"fit", "Fit",
        "None: the best candidate. Parabola: the extremum of a parabola through n within 3 ms of it, or "
-       "through the squares of d or e within 1 ms, more where candidates are sparse."},
+       "through the squares of d or e within 1 ms; farther where candidates are sparse."},
       &Settings::fit));
 }
 

@@ -146,6 +146,19 @@ TEST(FitOfExtremum, GoesThroughPointsThatLieOnAHyperbola) {
     EXPECT_NEAR(fit->at(offset_ms * kMs), *hyperbola_m(offset_ms), 1e-12);
 }
 
+// Of a walk: by their squares alone, the points far from the tip would lift the curve to 21.6 mm.
+TEST(FitOfExtremum, LiesNearTheTipWhereTheCurveFlattens) {
+  std::vector<CurvePoint> curve;
+  for (const double e_mm : {37.7, 29.6, 17.4, 27.2, 36.1}) {
+    const double offset_ms = 22.0 + double(curve.size());
+    curve.emplace_back().offset_s = offset_ms * kMs;
+    curve.back().e_m = e_mm * 1e-3;
+  }
+  const auto fit = fit_of_extremum(curve, &CurvePoint::e_m, 2, 2 * kMs);
+  ASSERT_TRUE(fit);
+  EXPECT_NEAR(fit->at(24 * kMs), 0.0174, 0.0025);
+}
+
 TEST(FitBehind, FindsTheReachThatGaveTheAnswer) {
   const auto curve = curve_of([](double offset_ms) { return 0.02 + 1e-3 * std::pow(offset_ms - 23.7, 4); });
   for (const double reach_s : {2 * kMs, 3 * kMs, 4 * kMs}) {
