@@ -11,12 +11,6 @@ namespace {
 // Four planes are the fewest that determine four unknowns of a mount and two of an encoder.
 constexpr std::size_t kMinPoints = 1000, kMinSurfaces = 4;
 
-double evidence(const RigFit& fit, RigUnknown first, int count) {
-  const Eigen::VectorXd x = fit.rig.vector().segment(first, count);
-  const Eigen::MatrixXd covariance = fit.covariance.block(first, first, count, count);
-  return x.dot(covariance.ldlt().solve(x));
-}
-
 }  // namespace
 
 RigCheck check_rig(const OffsetProblem& problem, double offset_s, const Job& job) {
@@ -37,8 +31,8 @@ RigCheck check_rig(const OffsetProblem& problem, double offset_s, const Job& job
   check.offset_per_tilt_s_rad =
       fit.information.block<1, 2>(kOffset, kTurnU).norm() / fit.information(kOffset, kOffset);
   if (!fit.converged) return check;
-  check.mount_evidence = evidence(fit, kTurnU, 4);
-  check.encoder_evidence = evidence(fit, kEncoderSine, 2);
+  check.mount_evidence = fit.squared_distance(kTurnU, 4);
+  check.encoder_evidence = fit.squared_distance(kEncoderSine, 2);
   if (check.mount_evidence > kMaxMount)
     check.warning = fmt::format(
         "Surfaces are flatter with another mount: the laser turned by {:.2f} deg and moved by {:.0f} mm. "

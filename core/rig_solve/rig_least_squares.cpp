@@ -238,6 +238,12 @@ bool small(const RigVector& step) {
 
 }  // namespace
 
+double RigFit::squared_distance(RigUnknown first, int count) const {
+  const Eigen::VectorXd x = rig.vector().segment(first, count);
+  const Eigen::MatrixXd of_these = covariance.block(first, first, count, count);
+  return x.dot(of_these.ldlt().solve(x));
+}
+
 RigFit solve_rig_planes(const OffsetProblem& problem, const RigUnknowns& first, const RigPriors& priors,
                         const RigLeastSquaresOptions& options, const Job& job) {
   RigFit fit;

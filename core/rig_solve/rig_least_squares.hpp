@@ -43,6 +43,10 @@ struct RigFit {
   RigMatrix covariance = RigMatrix::Zero();   // of the unknowns, from noise, priors and the scatter of the
                                               // parts of the scene
   RigMatrix information = RigMatrix::Zero();  // without priors
+
+  /// How far `count` unknowns from `first` on lie from 0, their rig file's values: the squared Mahalanobis
+  /// distance.
+  double squared_distance(RigUnknown first, int count) const;
 };
 
 /// Solves for the offset and the parts of a stationary rig whose priors are not 0, beginning at `first`.

@@ -82,8 +82,7 @@ void set_gear(Rig::Gear& gear, const Gear& found) {
   gear.encoder_phase_deg = total_deg.norm() > 0 ? std::atan2(total_deg[1], total_deg[0]) * kDegPerRad : 0.0;
 }
 
-// A mount and an eccentric encoder bend walls alike, so a usual eccentricity is always solved for beside the
-// mount: otherwise the sigma of the mount would be too small.
+// Priors with those of a usual encoder, where a mount is solved for without it: both bend walls alike.
 RigPriors with_usual_encoder(RigPriors priors) {
   constexpr double kUsual_deg = 0.3;  // a disc of 40 mm that sits 0.1 mm off its centre
   if (priors[kTurnU] > 0 && priors[kEncoderSine] == 0)
@@ -130,20 +129,60 @@ RigMatrix scatter_over_time(const OffsetProblem& problem, const RigFit& fit, con
   return sum / (n * (n - 1)) * factor * factor;
 }
 
-// Bent walls look like a wrong rig, the more the larger the cells. The difference to a fit with smaller cells
-// enters the covariance.
-RigFit fit_at_two_scales(const OffsetProblem& problem, const RigUnknowns& first, const RigPriors& priors,
-                         const Job& job) {
-  RigFit fit = solve_rig_planes(problem, first, priors, {}, job);
-  if (!fit.converged) fit = solved_from_around(problem, std::move(fit), priors, job);
-  RigLeastSquaresOptions nearby;
-  nearby.first_loss_width_m = 0.03;
-  RigLeastSquaresOptions smaller = nearby;
+RigLeastSquaresOptions near_the_solution() {
+  RigLeastSquaresOptions options;
+  options.first_loss_width_m = 0.03;
+  return options;
+}
+
+RigMatrix square(const RigVector& x) {
+  return x * x.transpose();
+}
+
+// Bent walls look like a wrong rig, the more the larger the cells: how much smaller cells change.
+RigVector change_by_smaller_cells(const OffsetProblem& problem, const RigFit& fit, const RigPriors& priors,
+                                  const Job& job) {
+  RigLeastSquaresOptions smaller = near_the_solution();
   smaller.max_levels = 1;  // cells of 0.5 m instead of 4 m at most
-  const RigFit other = solve_rig_planes(problem, fit.rig, priors, smaller, job);
-  const RigVector apart = other.rig.vector() - fit.rig.vector();
-  fit.covariance += apart * apart.transpose() + scatter_over_time(problem, fit, priors, nearby, job);
+  return solve_rig_planes(problem, fit.rig, priors, smaller, job).rig.vector() - fit.rig.vector();
+}
+
+// Whether the surfaces show an eccentric encoder. The farthest of 96 perfect ones was 38 away, with
+// tests/benchmark/rig_table.
+bool shows_encoder(const RigFit& fit) {
+  constexpr double kMaxSquaredDistance = 60;
+  return fit.squared_distance(kEncoderSine, 2) > kMaxSquaredDistance;
+}
+
+// The fit with the rig file's encoder. What the encoder could change, as far as the surfaces tell, enters the
+// covariance.
+RigFit with_given_encoder(const OffsetProblem& problem, const RigFit& free, const RigPriors& priors,
+                          const Job& job) {
+  RigUnknowns first = free.rig;
+  first.encoder_rad.setZero();
+  RigFit fit = solve_rig_planes(problem, first, priors, near_the_solution(), job);
+  fit.covariance += square(free.rig.vector() - fit.rig.vector());
   return fit;
+}
+
+struct RigSolution {
+  RigFit fit;
+  RigPriors priors;  // that it was found with
+};
+
+// A mount without its encoder is solved for with the encoder that the rig file gives, unless the surfaces
+// show another.
+RigSolution solution_of(const OffsetProblem& problem, const RigUnknowns& first, const RigPriors& priors,
+                        const Job& job) {
+  RigSolution solution{{}, with_usual_encoder(priors)};
+  RigFit& fit = solution.fit;
+  fit = solve_rig_planes(problem, first, solution.priors, {}, job);
+  if (!fit.converged) fit = solved_from_around(problem, std::move(fit), solution.priors, job);
+  if (solution.priors != priors && !shows_encoder(fit))
+    solution = {with_given_encoder(problem, fit, priors, job), priors};
+  fit.covariance += square(change_by_smaller_cells(problem, fit, solution.priors, job)) +
+                    scatter_over_time(problem, fit, solution.priors, near_the_solution(), job);
+  return solution;
 }
 
 // The result of the fit, and which parts are determined.
@@ -163,6 +202,10 @@ SolvedRig solved_with(const OffsetProblem& problem, const RigFit& fit, const Rig
     solved.found.shift_m.setZero();
   }
   if (!solved.play.identifiable) solved.found.play_rad = 0;
+  if (!what.encoder && priors[kEncoderSine] > 0)
+    solved.encoder.reason =
+        fmt::format("Surfaces are flatter with an eccentric encoder, by {:.2f} deg: add encoder to --solve.",
+                    fit.rig.encoder_rad.norm() * kDegPerRad);
   if (!solved.encoder.identifiable) solved.found.encoder_rad.setZero();
   solved.priors = priors_of(what);
   solved.covariance = fit.covariance;
@@ -208,8 +251,7 @@ SolvedRig solve_rig(const OffsetProblem& problem, double first_offset_s, const R
   const bool one_speed = what.play && speed_spread(problem) < kMinSpeedSpread;
   RigSolve separable = what;
   separable.play = what.play && !one_speed;
-  const RigPriors priors = with_usual_encoder(priors_of(separable));
-  const RigFit fit = fit_at_two_scales(problem, first, priors, job);
+  const auto [fit, priors] = solution_of(problem, first, priors_of(separable), job);
   SolvedRig solved = solved_with(problem, fit, priors, what);
   solved.residual_before_m = before.residual_m;
   ResidualGridOptions grid;

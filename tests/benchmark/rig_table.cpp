@@ -68,7 +68,8 @@ const std::vector<Family>& families() {
       {"perfect", MotorKind::kTrapezoid, {}, 0, 0, 0, 0, false},
       {"perfect, sine", MotorKind::kSine, {}, 0, 0, 0, 0, false},
       {"mount 1 deg", MotorKind::kTrapezoid, {}, 1, 0, 0, 0, false, true},
-      {"encoder 0.2 deg", MotorKind::kTrapezoid, {}, 0, 0, 0, 0.2, false, true}};
+      {"encoder 0.2 deg", MotorKind::kTrapezoid, {}, 0, 0, 0, 0.2, false, true},
+      {"mount, eccentric", MotorKind::kSine, {.mount = true}, 5, 0.1, 0, 0.3, false}};
   return all;
 }
 

@@ -81,6 +81,24 @@ TEST(RigSolve, AnEccentricEncoderIsFound) {
   EXPECT_LT((found.rig->rig.gear.angles().encoder_rad - truth_rad).norm() * kDegPerRad, 0.05);
 }
 
+TEST(RigSolve, AMountIsSolvedForWithTheGivenEncoderUnlessTheSurfacesShowAnother) {
+  SimulationOptions options = rig_in_room();
+  options.mount_error_m = {0, 0.03, -0.02};
+  const auto shift_error_m = [&](const Estimate& found) {
+    return (found.rig->rig.mount.laser_in_motor_xyz_m - options.mount_error_m).norm();
+  };
+  const Estimate perfect = solved(simulate(options, Job()).value().recording, {.mount = true});
+  EXPECT_EQ(perfect.rig->encoder.reason, "");
+  EXPECT_LT(shift_error_m(perfect), 0.001);
+  options.eccentricity_deg = 0.3;
+  options.eccentricity_phase_deg = 50;
+  const Estimate eccentric = solved(simulate(options, Job()).value().recording, {.mount = true});
+  EXPECT_NE(eccentric.rig->encoder.reason.find("eccentric encoder, by 0.3"), std::string::npos)
+      << eccentric.rig->encoder.reason;
+  EXPECT_EQ(eccentric.rig->rig.gear.encoder_amplitude_deg, 0);
+  EXPECT_LT(shift_error_m(eccentric), 0.001);
+}
+
 TEST(RigSolve, AWrongMountIsWarnedOfAndAPerfectRigIsNot) {
   const auto warned = [](const Recording& recording) {
     const Estimate found = estimate(recording, {}, Job()).value();
