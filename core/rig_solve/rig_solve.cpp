@@ -177,7 +177,8 @@ RigSolution solution_of(const OffsetProblem& problem, const RigUnknowns& first, 
   RigSolution solution{{}, with_usual_encoder(priors)};
   RigFit& fit = solution.fit;
   fit = solve_rig_planes(problem, first, solution.priors, {}, job);
-  if (!fit.converged) fit = solved_from_around(problem, std::move(fit), solution.priors, job);
+  if (!fit.converged && priors[kShiftU] > 0)
+    fit = solved_from_around(problem, std::move(fit), solution.priors, job);
   if (solution.priors != priors && !shows_encoder(fit))
     solution = {with_given_encoder(problem, fit, priors, job), priors};
   fit.covariance += square(change_by_smaller_cells(problem, fit, solution.priors, job)) +
