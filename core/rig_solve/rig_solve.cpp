@@ -52,7 +52,7 @@ bool nearly_converged(const RigFit& fit) {
 // A part is determined if its sigma is well below its prior.
 bool determined(const RigFit& fit, const RigPriors& priors, std::initializer_list<RigUnknown> unknowns) {
   constexpr double kBetter = 0.5;  // then three quarters of the information come from the recording
-  if (!nearly_converged(fit)) return false;
+  if (fit.on_planes == 0 || !nearly_converged(fit)) return false;
   return std::all_of(unknowns.begin(), unknowns.end(),
                      [&](RigUnknown i) { return std::sqrt(fit.covariance(i, i)) < kBetter * priors[i]; });
 }
@@ -147,8 +147,7 @@ RigVector change_by_smaller_cells(const OffsetProblem& problem, const RigFit& fi
   return solve_rig_planes(problem, fit.rig, priors, smaller, job).rig.vector() - fit.rig.vector();
 }
 
-// Whether the surfaces show an eccentric encoder. The farthest of 96 perfect ones was 38 away, with
-// tests/benchmark/rig_table.
+// Whether the surfaces show an eccentric encoder. Perfect ones of tests/benchmark/rig_table do not.
 bool shows_encoder(const RigFit& fit) {
   constexpr double kMaxSquaredDistance = 60;
   return fit.squared_distance(kEncoderSine, 2) > kMaxSquaredDistance;

@@ -131,7 +131,7 @@ struct Errors {
 
 struct Table {
   Errors offset_ms, turn_deg, shift_mm, play_deg, encoder_deg;
-  int refused = 0;
+  int refused = 0, encoder_shown = 0;  // without being solved for
 };
 
 // Sizes in units of their sigma; a vector counts by its greatest part.
@@ -174,6 +174,9 @@ void compare(const SimulationOptions& truth, const Estimate& found, Table& table
                         std::abs(off_rad[i]) / std::sqrt(rig.covariance(kEncoderSine + i, kEncoderSine + i)));
     add(table.encoder_deg, "encoder", off_rad.norm() * kDegPerRad, "deg", sigmas);
   }
+  const bool encoder_shown = !rig.encoder.solved && !rig.encoder.reason.empty();
+  table.encoder_shown += encoder_shown ? 1 : 0;
+  if (encoder_shown) line += ", encoder shown";
   fmt::print("{}; {:.1f} CPU-s; {:.2f} mm thick, {} surfaces, {} points; {}\n", line, found.cpu_s,
              rig.residual_after_m * 1e3, rig.surfaces, rig.points,
              rig.converged ? "converged" : "not converged");
@@ -188,10 +191,13 @@ std::string summary(Errors errors, const char* name, int digits) {
 void print(const Family& family, const char* scenes, const Table& table) {
   const std::size_t answered = table.offset_ms.sizes.size();
   if (answered + std::size_t(table.refused) == 0) return;
-  fmt::print("== {:22} {:8} {} answered, {} refused; median / 95 % (within 3 sigma){}{}{}{}{}\n", family.name,
-             scenes, answered, table.refused, summary(table.offset_ms, "offset ms", 3),
-             summary(table.turn_deg, "turn deg", 4), summary(table.shift_mm, "shift mm", 2),
-             summary(table.play_deg, "play deg", 4), summary(table.encoder_deg, "encoder deg", 4));
+  fmt::print(
+      "== {:22} {:8} {} answered, {} refused, {} with an encoder shown; median / 95 % (within 3 "
+      "sigma){}{}{}{}{}\n",
+      family.name, scenes, answered, table.refused, table.encoder_shown,
+      summary(table.offset_ms, "offset ms", 3), summary(table.turn_deg, "turn deg", 4),
+      summary(table.shift_mm, "shift mm", 2), summary(table.play_deg, "play deg", 4),
+      summary(table.encoder_deg, "encoder deg", 4));
 }
 
 void run_check(const Family& family, const Settings& settings) {

@@ -121,6 +121,16 @@ TEST(RigSolve, APerfectRigIsFoundToBeOne) {
     EXPECT_LT(std::abs(x[i]), 3.5 * std::sqrt(found.rig->covariance(i, i)) + 1e-12) << i;
 }
 
+TEST(RigSolve, WithoutAnySurfaceNothingIsIdentifiable) {
+  const Recording recording = simulate(rig_in_room(), Job()).value().recording;
+  const PreparedRecording prepared = prepare(recording, FeatureOptions(), Job()).value();
+  OffsetProblem problem = problem_for(prepared, kOffset_s, kOffset_s);
+  std::ranges::fill(problem.scan_used, 0);
+  const SolvedRig found = solve_rig(problem, kOffset_s, {.mount = true, .encoder = true}, Job());
+  EXPECT_FALSE(found.mount.identifiable);
+  EXPECT_FALSE(found.encoder.identifiable);
+}
+
 TEST(RigSolve, IsTheSameForAnyNumberOfThreads) {
   const Recording recording = simulate(rig_in_room(), Job()).value().recording;
   RigVector found[2];
