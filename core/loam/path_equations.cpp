@@ -37,7 +37,7 @@ Vector6d difference(const Pose& to, const Pose& from) {
 PathEquations::PathEquations(std::size_t knots, double end_u)
     : steps_per_u_(double(knots - 1) / end_u),
       moments_(knots - 1, Moments{}),
-      prior_matrix_(Eigen::MatrixXd::Zero(Eigen::Index(6 * knots), Eigen::Index(6 * knots))),
+      prior_(knots, {Matrix6d::Zero(), Matrix6d::Zero(), Matrix6d::Zero()}),
       prior_gradient_(Eigen::VectorXd::Zero(Eigen::Index(6 * knots))) {}
 
 void PathEquations::add(double u, const Vector6d& row, double residual, double weight) {
@@ -59,26 +59,37 @@ void PathEquations::add(double u, const Vector6d& row, double residual, double w
   }
 }
 
-Eigen::MatrixXd PathEquations::point_matrix() const {
-  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(prior_matrix_.rows(), prior_matrix_.cols());
+PathEquations::Band PathEquations::band() const {
+  Band band = prior_;
   for (std::size_t s = 0; s < moments_.size(); ++s) {
     const Moments& m = moments_[s];
-    const auto at = Eigen::Index(6 * s);
     std::size_t term = 0;
     for (int i = 0; i < 6; ++i)
       for (int j = 0; j <= i; ++j, ++term) {
         const double first = m[0][term] - 2 * m[1][term] + m[2][term], both = m[1][term] - m[2][term];
         const auto put = [&](int r, int c) {
-          a(at + r, at + c) += first;
-          a(at + r + 6, at + c + 6) += m[2][term];
-          a(at + r + 6, at + c) += both;
-          a(at + r, at + c + 6) += both;
+          band[s][0](r, c) += first;
+          band[s + 1][0](r, c) += m[2][term];
+          band[s + 1][1](r, c) += both;
         };
         put(i, j);
         if (i != j) put(j, i);
       }
   }
-  return a;
+  return band;
+}
+
+Eigen::MatrixXd PathEquations::matrix() const {
+  const Band lower = band();
+  const auto n = Eigen::Index(6 * lower.size());
+  Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(n, n);
+  for (std::size_t i = 0; i < lower.size(); ++i)
+    for (std::size_t back = 0; back <= std::min<std::size_t>(i, 2); ++back) {
+      const auto row = Eigen::Index(6 * i), column = Eigen::Index(6 * (i - back));
+      whole.block<6, 6>(row, column) = lower[i][back];
+      whole.block<6, 6>(column, row) = lower[i][back].transpose();
+    }
+  return whole;
 }
 
 Eigen::VectorXd PathEquations::point_gradient() const {
@@ -99,8 +110,7 @@ void PathEquations::add_difference(std::size_t first, std::span<const Matrix6d> 
     const auto row = Eigen::Index(6 * (first + k));
     const Matrix6d weighted = moves[k].transpose() * weights.asDiagonal();
     prior_gradient_.segment<6>(row) += weighted * residual;
-    for (std::size_t l = 0; l < moves.size(); ++l)
-      prior_matrix_.block<6, 6>(row, Eigen::Index(6 * (first + l))) += weighted * moves[l];
+    for (std::size_t l = 0; l <= k; ++l) prior_[first + k][k - l] += weighted * moves[l];
   }
 }
 
@@ -137,10 +147,36 @@ void PathEquations::add_tie(const Pose& first_knot, const Pose& given, double si
   add_difference(0, moves, difference(first_knot, given), weights_of({sigma, sigma}));
 }
 
+// By block factors L D L', L with unit diagonal: L y = gradient, then D L' x = -y. `ldlt` allows for
+// directions that nothing determines.
 std::vector<Vector6d> PathEquations::solve() const {
-  const Eigen::VectorXd x = -matrix().ldlt().solve(gradient());
-  std::vector<Vector6d> steps;
-  for (Eigen::Index k = 0; k < x.size() / 6; ++k) steps.push_back(x.segment<6>(6 * k));
+  const Band a = band();
+  const Eigen::VectorXd g = gradient();
+  const std::size_t knots = a.size();
+  std::vector<Eigen::LDLT<Matrix6d>> d(knots);
+  std::vector<std::array<Matrix6d, 3>> l(knots);  // of knot i what it has to do with i - 1 and i - 2
+  std::vector<Vector6d> steps(knots);
+  for (std::size_t i = 0; i < knots; ++i) {
+    Matrix6d of_last = a[i][1], here = a[i][0];
+    steps[i] = g.segment<6>(Eigen::Index(6 * i));
+    if (i >= 2) {
+      l[i][2] = d[i - 2].solve(a[i][2].transpose()).transpose();
+      of_last.noalias() -= a[i][2] * l[i - 1][1].transpose();
+      here.noalias() -= a[i][2] * l[i][2].transpose();
+      steps[i].noalias() -= l[i][2] * steps[i - 2];
+    }
+    if (i >= 1) {
+      l[i][1] = d[i - 1].solve(of_last.transpose()).transpose();
+      here.noalias() -= of_last * l[i][1].transpose();
+      steps[i].noalias() -= l[i][1] * steps[i - 1];
+    }
+    d[i].compute(here);
+  }
+  for (std::size_t i = knots; i-- > 0;) {
+    steps[i] = -d[i].solve(steps[i]);
+    if (i + 1 < knots) steps[i].noalias() -= l[i + 1][1].transpose() * steps[i + 1];
+    if (i + 2 < knots) steps[i].noalias() -= l[i + 2][2].transpose() * steps[i + 2];
+  }
   return steps;
 }
 

@@ -40,7 +40,7 @@ class PathEquations {
   /// The steps that minimise the sum of the weighted squares.
   std::vector<Vector6d> solve() const;
 
-  Eigen::MatrixXd matrix() const { return prior_matrix_ + point_matrix(); }
+  Eigen::MatrixXd matrix() const;
   Eigen::VectorXd gradient() const { return prior_gradient_ + point_gradient(); }
 
  private:
@@ -49,14 +49,18 @@ class PathEquations {
   static constexpr std::size_t kTriangle = 21, kTerms = kTriangle + 7;  // one unused: whole vectors
   using Moments = std::array<std::array<double, kTerms>, 3>;
 
-  Eigen::MatrixXd point_matrix() const;
+  // The lower triangle of a symmetric matrix whose knots have to do with the two before them at most: of knot
+  // i the blocks (i, i), (i, i - 1) and (i, i - 2).
+  using Band = std::vector<std::array<Matrix6d, 3>>;
+
+  Band band() const;
   Eigen::VectorXd point_gradient() const;
   void add_difference(std::size_t first, std::span<const Matrix6d> moves, const Vector6d& residual,
                       const Vector6d& weights);
 
   double steps_per_u_;
   std::vector<Moments> moments_;  // of each step between two knots
-  Eigen::MatrixXd prior_matrix_;
+  Band prior_;
   Eigen::VectorXd prior_gradient_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 
 namespace sweepscope {
@@ -119,6 +120,27 @@ TEST(PathEquations, TheSolutionLeadsToTheLeastSquares) {
     for (std::size_t k = 0; k < knots.size(); ++k) knots[k] = stepped(knots[k], steps[k], kTurnedAbout);
   }
   for (const Pose& knot : knots) EXPECT_LT(difference(knot, given).norm(), 1e-6);
+}
+
+TEST(PathEquations, TheStepsSolveTheEquations) {
+  constexpr std::size_t kKnots = 7;
+  PathEquations equations(kKnots, 1);
+  for (int i = 0; i < 60; ++i) {
+    const double u = i / 59.0, turn = 2.4 * i;
+    const Vector3d normal(std::cos(turn), std::sin(turn), std::sin(0.7 * turn));
+    equations.add(u, distance_jacobian({3 + u, std::cos(i), 1}, normal.normalized(), kTurnedAbout),
+                  0.1 * std::sin(3.0 * i), 1 + u);
+  }
+  std::vector<Pose> knots = path();
+  while (knots.size() < kKnots) knots.push_back(knots.back() * knots[1]);
+  equations.add_accelerations(knots, knots[0], {0.2, 0.5}, kTurnedAbout);
+  equations.add_velocities(knots, 0.7, kTurnedAbout);
+  equations.add_tie(knots[0], Pose(), 0.3, kTurnedAbout);
+  Eigen::VectorXd steps(Eigen::Index(6 * kKnots));
+  const std::vector<Vector6d> solved = equations.solve();
+  ASSERT_EQ(solved.size(), kKnots);
+  for (std::size_t i = 0; i < kKnots; ++i) steps.segment<6>(Eigen::Index(6 * i)) = solved[i];
+  EXPECT_LT((equations.matrix() * steps + equations.gradient()).norm(), 1e-9 * equations.gradient().norm());
 }
 
 }  // namespace
