@@ -91,16 +91,19 @@ RigPriors with_usual_encoder(RigPriors priors) {
 }
 
 // If the fit did not converge, it is repeated from other shifts. The best is one that converged, and among
-// those the one with the fewest surfaces: a wrong rig splits walls in two.
+// those the one with most points per surface: a wrong rig splits walls in two.
 RigFit solved_from_around(const OffsetProblem& problem, RigFit fit, const RigPriors& priors, const Job& job) {
   constexpr double kApart_m = 0.15;  // within the 0.2 m that a start may be wrong by
   const RigUnknowns begun = fit.rig;
+  const auto goodness = [](const RigFit& a) {
+    return std::pair(a.converged, double(a.on_planes) / double(std::max<std::size_t>(1, a.planes)));
+  };
   for (const auto& shift_m : {Eigen::Vector2d(kApart_m, 0.0), Eigen::Vector2d(-kApart_m, 0.0),
                               Eigen::Vector2d(0.0, kApart_m), Eigen::Vector2d(0.0, -kApart_m)}) {
     RigUnknowns first = begun;
     first.shift_m = shift_m;
     const RigFit other = solve_rig_planes(problem, first, priors, {}, job);
-    if (std::pair(!other.converged, other.planes) < std::pair(!fit.converged, fit.planes)) fit = other;
+    if (goodness(other) > goodness(fit)) fit = other;
   }
   return fit;
 }
@@ -140,11 +143,17 @@ RigMatrix square(const RigVector& x) {
 }
 
 // Bent walls look like a wrong rig, the more the larger the cells: how much smaller cells change.
-RigVector change_by_smaller_cells(const OffsetProblem& problem, const RigFit& fit, const RigPriors& priors,
-                                  const Job& job) {
+RigMatrix changes_by_smaller_cells(const OffsetProblem& problem, const RigFit& fit, const RigPriors& priors,
+                                   const Job& job) {
   RigLeastSquaresOptions smaller = near_the_solution();
-  smaller.max_levels = 1;  // cells of 0.5 m instead of 4 m at most
-  return solve_rig_planes(problem, fit.rig, priors, smaller, job).rig.vector() - fit.rig.vector();
+  RigUnknowns first = fit.rig;
+  first.encoder_rad.setZero();
+  RigMatrix sum = RigMatrix::Zero();
+  for (const int levels : {2, 1}) {  // cells of at most 1 m and 0.5 m instead of 4 m
+    smaller.max_levels = levels;
+    sum += square(solve_rig_planes(problem, first, priors, smaller, job).rig.vector() - fit.rig.vector());
+  }
+  return sum;
 }
 
 // Whether the surfaces show an eccentric encoder. Perfect ones of tests/benchmark/rig_table do not.
@@ -180,7 +189,7 @@ RigSolution solution_of(const OffsetProblem& problem, const RigUnknowns& first, 
     fit = solved_from_around(problem, std::move(fit), solution.priors, job);
   if (solution.priors != priors && !shows_encoder(fit))
     solution = {with_given_encoder(problem, fit, priors, job), priors};
-  fit.covariance += square(change_by_smaller_cells(problem, fit, solution.priors, job)) +
+  fit.covariance += changes_by_smaller_cells(problem, fit, solution.priors, job) +
                     scatter_over_time(problem, fit, solution.priors, near_the_solution(), job);
   return solution;
 }
