@@ -87,6 +87,20 @@ void judge_rig(Answer& answer, const OffsetSearch& search, double offset_s, cons
   add(answer.warnings, check.warning);
 }
 
+// A gear whose play differs with the angle, or a loose mount, makes the offset that fits depend on it.
+Remark sectors_warning(const StationaryDirect& found) {
+  if (!found.depends_on_angle) return std::nullopt;
+  constexpr double kMinShare = 0.05;  // of less, a sector's offset is hardly determined
+  std::vector<SectorOffset> sectors = found.sectors;
+  std::erase_if(sectors, [](const SectorOffset& sector) { return sector.share < kMinShare; });
+  const auto [min, max] = std::ranges::minmax_element(sectors, {}, &SectorOffset::offset_s);
+  if (min == max) return std::nullopt;
+  return fmt::format(
+      "The offset that fits depends on the motor's angle: {:.1f} ms at {:.0f} deg, {:.1f} ms at {:.0f} deg. A "
+      "loose gear or mount can cause this.",
+      min->offset_s * 1e3, min->angle_rad * kDegPerRad, max->offset_s * 1e3, max->angle_rad * kDegPerRad);
+}
+
 Answer of_stationary(const OffsetSearch& search, Answer answer, const Job& job) {
   const Recording& recording = *search.problem.recording;
   const StationaryDirect found = solve_stationary(search.grid, search.coarse.offset_s(), {}, job);
@@ -100,6 +114,7 @@ Answer of_stationary(const OffsetSearch& search, Answer answer, const Job& job) 
   }
   add(answer.reasons, lever_reason(found.lever_m, found.reach_m));
   add(answer.warnings, few_matches_warning(found.matches, found.features));
+  add(answer.warnings, sectors_warning(found));
   std::optional<double> sigma_s = sigma_of(found, recording);
   judge_convergence(answer, found.converged, found.step_s, sigma_s.value_or(0));
   const double stamps_s = stamps_sigma_s(recording),
@@ -181,6 +196,18 @@ double sigma_of_parts(const JointWalk& walk) {
   return 1 / std::sqrt(information);
 }
 
+// Sweeps so long that no walk of theirs could determine the offset: solving for it would cost minutes.
+Remark hopeless_sweeps_reason(const OffsetSearch& search, double part_s) {
+  constexpr double kFar = 5;  // times what an answer may be uncertain by
+  const OffsetProblem& problem = search.problem;
+  const double parts = std::max(1.0, search.recorded_s() / part_s),
+               sweeps = std::max(1.0, part_s / problem.motor.median_sweep_s),
+               unseen_s = unseen_of_part_s(*problem.recording, problem.motor, std::size_t(sweeps)) /
+                          std::sqrt(parts);
+  if (unseen_s < kFar * search.scale.unit_s) return std::nullopt;
+  return long_sweeps_warning(*problem.recording, problem.motor, unseen_s, unseen_s);
+}
+
 // Of a rig whose trajectory goes by `source`, as far as it is in `mapping`.
 Answer of_walk(const OffsetSearch& search, const MappingOptions& mapping,
                const std::optional<MotionSource>& source, Answer answer, const Job& job) {
@@ -189,6 +216,9 @@ Answer of_walk(const OffsetSearch& search, const MappingOptions& mapping,
   WalkOptions walk_by = walk_options(mapping, scale);
   if (search.options.over_time_s && *search.options.over_time_s > 0)
     walk_by.joint.part_s = std::max(kMinPart_s, *search.options.over_time_s);
+  if (!source || !source->motion.is_truth())
+    add(answer.reasons, hopeless_sweeps_reason(search, walk_by.joint.part_s));
+  if (!answer.reasons.empty()) return answer;
   const auto solved = solve_moving(problem, search.coarse.offset_s(), {walk_by, 3 * scale.unit_s}, job);
   if (!solved) return answer;
   answer.walk = solved->walk;

@@ -235,6 +235,72 @@ std::vector<WithoutPart> offsets_without(const Linearisation& at, const Parts& p
   return without;
 }
 
+// The step that some lines ask for by themselves, and their information: iterated, since lines that ask for
+// another offset than the rest lie in the tails of the loss.
+std::pair<double, double> own_step(const std::vector<const LineResiduals*>& lines, double loss_width_m) {
+  constexpr int kMaxIterations = 20;
+  constexpr double kTolerance_s = 1e-5;
+  double step_s = 0, jj = 0;
+  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
+    double jr = 0;
+    jj = 0;
+    for (const LineResiduals* line : lines) {
+      for (const PatchDistance& residual : line->residuals) {
+        const double distance_m = residual.distance_m + residual.jacobian_m_s * step_s,
+                     weight = cauchy_weight(distance_m, loss_width_m);
+        jj += weight * residual.jacobian_m_s * residual.jacobian_m_s;
+        jr += weight * residual.jacobian_m_s * distance_m;
+      }
+    }
+    if (!(jj > 0)) break;
+    step_s -= jr / jj;
+    if (std::abs(jr / jj) < kTolerance_s) break;
+  }
+  return {step_s, jj};
+}
+
+// Whether the sectors' offsets differ clearly, as those of a rig do whose play depends on the angle.
+bool sectors_differ(const StationaryDirect& found, const StillGrid& grid) {
+  // Of 316 simulated rooms (sweepscope_calibration) one goes beyond the first two, with 30 mm of noise.
+  constexpr double kMinTurn_rad = 0.5 * kRadPerDeg, kMinFormalSigmas = 15;
+  constexpr double kMinSamples = 8;  // of the motor per sweep: of fewer, 13.3 has the uncertainty
+  double squares_s2 = 0, formal_s2 = 0;
+  for (const SectorOffset& sector : found.sectors) {
+    const double off_s = sector.offset_s - found.offset_s;
+    squares_s2 += sector.share * off_s * off_s;
+    formal_s2 += sector.share * sector.formal_sigma_s * sector.formal_sigma_s;
+  }
+  const MotorMotion& motor = grid.problem->motor;
+  return 2 * motor.lever_speed_rad_s() * std::sqrt(squares_s2) > kMinTurn_rad &&
+         squares_s2 > kMinFormalSigmas * kMinFormalSigmas * formal_s2 &&
+         samples_per_sweep(grid.problem->recording->motor, motor) >= kMinSamples;
+}
+
+// What each sector of the motor's angle asks for by itself. A point lies beside its patch in angle, so the
+// sectors share no matches.
+void fill_sectors(const StillGrid& grid, const StillPoints& points, const std::vector<LineResiduals>& lines,
+                  double loss_width_m, StationaryDirect& result) {
+  constexpr std::size_t kSectors = 8;  // 11 to 23 deg each of usual swings: gear play holds over such
+  const std::size_t middle = points.bins / 2;
+  std::vector<std::pair<double, std::size_t>> by_angle;  // and line
+  for (std::size_t line = 0; line < points.lines(); ++line)
+    if (points.sweep[line] != kNoSweep && !lines[line].residuals.empty())
+      by_angle.push_back({points.angle_rad[line * points.bins + middle], line});
+  std::sort(by_angle.begin(), by_angle.end());
+  const double whole_jj = summed(lines, loss_width_m).jj;
+  for (std::size_t sector = 0; sector < kSectors; ++sector) {
+    const std::size_t first = sector * by_angle.size() / kSectors,
+                      end = (sector + 1) * by_angle.size() / kSectors;
+    std::vector<const LineResiduals*> own;
+    for (std::size_t i = first; i < end; ++i) own.push_back(&lines[by_angle[i].second]);
+    const auto [step_s, jj] = own_step(own, loss_width_m);
+    if (jj > 0)
+      result.sectors.push_back({by_angle[(first + end) / 2].first, points.offset_s + step_s,
+                                result.residual_m / std::sqrt(jj), jj / whole_jj});
+  }
+  result.depends_on_angle = sectors_differ(result, grid);
+}
+
 // What each block of at least two sweeps asks for by itself.
 void fill_blocks(const Linearisation& at, const StillGrid& grid, double loss_width_m,
                  StationaryDirect& result) {
@@ -297,9 +363,20 @@ void resample(const StillGrid& grid, const Linearisation& at, const std::vector<
   result.without_part = offsets_without(at, parts, loss_width_m, whole_jj);
   result.middle_s = middle_of_matches_s(grid, lines, loss_width_m);
   fill_levers(lines, result);
+  fill_sectors(grid, at.points(), lines, loss_width_m, result);
   if (resampling == Resampling::kParts) return;
   result.without_comb = offsets_without(at, combs(at.points(), kCombs), loss_width_m, whole_jj);
   fill_blocks(at, grid, loss_width_m, result);
+}
+
+// By the offsets without each sector, whose matches are its own.
+double sigma_of_sectors_s(const StationaryDirect& found) {
+  std::vector<WithoutPart> without;
+  for (const SectorOffset& sector : found.sectors)
+    if (sector.share < 1)
+      without.push_back(
+          {(found.offset_s - sector.share * sector.offset_s) / (1 - sector.share), sector.share});
+  return jackknife_sigma(found.offset_s, without).value_or(0);
 }
 
 }  // namespace
@@ -361,8 +438,9 @@ StationaryDirect solve_stationary(const StillGrid& grid, double first_offset_s,
 std::optional<double> sigma_of(const StationaryDirect& found, const Recording& recording) {
   const auto of_parts_s = jackknife_sigma(found.offset_s, found.without_part);
   if (!of_parts_s) return std::nullopt;
-  return std::max({*of_parts_s, jackknife_sigma(found.offset_s, found.without_comb).value_or(0),
-                   stamps_sigma_s(recording)});
+  const double of_combs_s = jackknife_sigma(found.offset_s, found.without_comb).value_or(0),
+               of_sectors_s = found.depends_on_angle ? sigma_of_sectors_s(found) : 0;
+  return std::max({*of_parts_s, of_combs_s, of_sectors_s, stamps_sigma_s(recording)});
 }
 
 }  // namespace sweepscope

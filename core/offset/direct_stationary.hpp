@@ -26,7 +26,7 @@ enum class Resampling { kAll, kParts };
 /// change the answers in two simulated rooms by at most 0.002 ms (sweepscope_option_changes of
 /// tests/benchmark).
 struct StationaryDirectOptions {
-  int max_iterations = 10;          // rooms take 3 or 4
+  int max_iterations = 30;          // rooms take 3 or 4, real surfaces up to 25
   double step_tolerance_s = 1e-6;   // a thousandth of the unit of most motors, see search_scale
   double first_loss_width_m = 0.1;  // later: `loss_widths` times the residuals' robust deviation
   double loss_widths = 2.5;         // near 2.385, where Cauchy's loss is 95 % efficient on normal noise
@@ -50,6 +50,14 @@ std::vector<CurvePoint> stationary_coarse_curve(const StillGrid& grid, const std
                                                 const Job& job,
                                                 const std::function<void(const CurvePoint&)>& finished = {});
 
+/// The offset that the scan lines of a sector of the motor's angle ask for by themselves.
+struct SectorOffset {
+  double angle_rad = 0;  // of the sector's middle line
+  double offset_s = 0;
+  double formal_sigma_s = 0;  // as if all matches erred independently
+  double share = 0;           // of the information
+};
+
 /// The answer and its evidence.
 struct StationaryDirect {
   bool converged = false;
@@ -67,6 +75,8 @@ struct StationaryDirect {
   // motor's angle where sweeps are few.
   std::vector<WithoutPart> without_part;  // the offset without each part
   std::vector<WithoutPart> without_comb;  // the same for combs of lines, every so many-th one
+  std::vector<SectorOffset> sectors;      // of the motor's angle, ascending
+  bool depends_on_angle = false;          // the sectors' offsets differ clearly
   std::vector<double> block_s,
       block_offset_s;  // blocks of sweeps: middle and the offset each asks for by itself
 };
@@ -75,7 +85,8 @@ StationaryDirect solve_stationary(const StillGrid& grid, double first_offset_s,
                                   const StationaryDirectOptions& options, const Job& job);
 
 /// The uncertainty of the answer from resampling and from the recording's stamps: the largest of the values
-/// from parts, combs and `stamps_sigma_s`. Absent if the parts are too few.
+/// from parts, combs, `stamps_sigma_s` and, where the offset depends on the motor's angle, sectors. Absent if
+/// the parts are too few.
 std::optional<double> sigma_of(const StationaryDirect& found, const Recording& recording);
 
 }  // namespace sweepscope

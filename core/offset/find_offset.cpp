@@ -6,6 +6,7 @@
 
 #include "core/offset/criteria_search.hpp"
 #include "core/offset/direct.hpp"
+#include "core/offset/direct_stationary.hpp"
 #include "core/offset/identifiability.hpp"
 #include "core/offset/over_time.hpp"
 #include "core/offset/rig_kind.hpp"
@@ -168,6 +169,16 @@ OffsetOverTime groups_of(const Sampled* sampled, const PreparedRecording& prepar
                        job);
 }
 
+// The motion test of a short recording, with pairs of neighbouring sweeps.
+MotionTest test_motion_of_few(const StillGrid& grid, const CoarseSearch& coarse, MotionTest test,
+                              const Job& job) {
+  if (!coarse.best || !has_few_pairs(test)) return test;
+  StationaryDirectOptions parts;
+  parts.resampling = Resampling::kParts;
+  add_neighbours(grid, solve_stationary(grid, coarse.offset_s(), parts, job).offset_s, test);
+  return test;
+}
+
 // The motion test. It compares sweeps far apart in time, so a changing offset is removed first.
 MotionTest test_motion(const PreparedRecording& prepared, const StillGrid& grid, const OffsetOverTime& groups,
                        double offset_s) {
@@ -201,7 +212,9 @@ Result<Estimate> find_offset(const PreparedRecording& prepared, const EstimateOp
   if (job.cancelled()) return result;
   const OffsetOverTime groups = groups_of(sampled, prepared, coarse, options, job);
   if (job.cancelled()) return result;
-  const MotionTest motion = test_motion(prepared, grid, groups, coarse.offset_or(window->middle_s()));
+  const MotionTest motion = test_motion_of_few(
+      grid, coarse, test_motion(prepared, grid, groups, coarse.offset_or(window->middle_s())), job);
+  if (job.cancelled()) return result;
   const KindDecision kind = decide_kind(motion, options);
   const Method method = method_of(options, kind.kind, kept.store != nullptr);
   const OffsetSearch search{problem, grid, options, scale, *window, coarse, motion, kind.kind, method};

@@ -9,11 +9,17 @@ namespace sweepscope {
 std::string moved_text(const MotionTest& test) {
   if (4 * test.moved <= test.pairs && test.moved_slowly())
     return "The rig moved: its last sweeps do not match its first ones.";
+  if (4 * test.moved <= test.pairs && test.neighbours_differ())
+    return fmt::format("The rig moved: in {} of {} pairs, neighbouring sweeps do not match at any offset.",
+                       test.neighbours_moved, test.neighbours);
   return fmt::format("The rig moved: in {} of {} pairs, sweeps of the same direction do not match.",
                      test.moved, test.pairs);
 }
 
 std::string pairs_text(const MotionTest& test) {
+  if (test.pairs == 0 || (4 * test.moved <= test.pairs && test.neighbours_differ()))
+    return fmt::format("{} of {} pairs of neighbouring sweeps differ at every offset.", test.neighbours_moved,
+                       test.neighbours);
   return fmt::format("{} of {} pairs of sweeps of the same direction differ; median {:.3f} m and {:.2f} deg.",
                      test.moved, test.pairs, test.median_translation_m,
                      test.median_rotation_rad * kDegPerRad);

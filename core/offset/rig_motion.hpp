@@ -20,8 +20,12 @@ struct MotionTest {
   double median_rotation_rad = 0;
   double median_apart_m = 0;  // by how much the shift takes the points along their surfaces' normals, rms
 
-  bool answered() const { return pairs > 0; }
-  bool moving() const { return 4 * moved > pairs || moved_slowly(); }
+  // Of a short recording: pairs k and k + 1, of opposite directions.
+  std::size_t neighbours = 0, neighbours_moved = 0;
+
+  bool answered() const { return pairs > 0 || neighbours > 0; }
+  bool moving() const { return 4 * moved > pairs || moved_slowly() || neighbours_differ(); }
+  bool neighbours_differ() const { return 4 * neighbours_moved > neighbours; }
   /// A single pair is not enough: people may stand near where others stood before.
   bool moved_slowly() const { return far_pairs >= 2 && 5 * far_moved > 3 * far_pairs; }
 };

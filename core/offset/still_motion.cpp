@@ -213,6 +213,22 @@ MotionTest test_motion(const StillGrid& grid, double offset_s) {
   return test;
 }
 
+bool has_few_pairs(const MotionTest& test) {
+  return test.pairs < 3;  // of four sweeps or fewer: the motion of one alone may go unseen
+}
+
+void add_neighbours(const StillGrid& grid, double offset_s, MotionTest& test) {
+  if (grid.problem->motor.one_way()) return;  // half turns that follow each other see different surfaces
+  const std::vector<std::size_t> sweep_of = sweep_of_lines(grid, offset_s);
+  std::vector<SweepPair> pairs;
+  for (std::size_t sweep = 0; sweep + 1 < grid.problem->motor.sweeps.size(); ++sweep)
+    if (std::ranges::count(sweep_of, sweep) > 0 && std::ranges::count(sweep_of, sweep + 1) > 0)
+      pairs.push_back({sweep, sweep + 1});
+  const std::vector<SweepShift> shifts = Shifts(grid, sweep_of, pairs, {}, offset_s).of(pairs);
+  test.neighbours = shifts.size();
+  test.neighbours_moved = std::size_t(std::ranges::count_if(shifts, moved));
+}
+
 std::vector<MotionPart> motion_over_time(const StillGrid& grid, double offset_s) {
   const std::vector<std::size_t> sweep_of = sweep_of_lines(grid, offset_s);
   const MotorMotion& motor = grid.problem->motor;

@@ -16,6 +16,13 @@ namespace sweepscope {
 /// same one.
 MotionTest test_motion(const StillGrid& grid, double offset_s);
 
+/// Whether a test has too few pairs, so that `add_neighbours` should follow.
+bool has_few_pairs(const MotionTest& test);
+
+/// Adds the pairs of neighbouring sweeps, of opposite directions. `offset_s` must be the one at which these
+/// fit best: a wrong one turns them against each other about the motor's axis, which is no motion.
+void add_neighbours(const StillGrid& grid, double offset_s, MotionTest& test);
+
 /// The same evidence, pair by pair.
 std::vector<MotionPart> motion_over_time(const StillGrid& grid, double offset_s);
 

@@ -9,7 +9,7 @@
 
 namespace sweepscope {
 
-/// How one sweep lies against another of the same direction, in the base frame. Leaves and people also differ
+/// How one sweep lies against another, in the base frame. Leaves and people also differ
 /// from sweep to sweep, and a registration follows them; so a shift is returned with its evidence: how many
 /// more points lie on the other sweep's surfaces there than at rest. A match counts 1 / (1 + (d / w)^2) at
 /// the distance d from its surface, with a width w of about the noise.

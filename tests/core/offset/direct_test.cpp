@@ -110,6 +110,43 @@ TEST(Direct, KnowsThatAMotorSampledSparselyTellsLess) {
   expect_refused(directly(made(options)), "sampled only 2.0 times per sweep");
 }
 
+// The encoder runs ahead of the laser by 0.6 deg in either direction, above 20 deg only: 1.7 ms at 360 deg/s.
+TEST(Direct, KnowsThatPlayWhichDependsOnTheAngleLeavesTheOffsetUncertain) {
+  SimulationOptions options{.scene = "room-2", .offset_s = 0.024, .duration_s = 6};
+  options.motor = simulation::MotorKind::kTriangle;
+  Recording recording = made(options);
+  const std::vector<double> angles_rad = recording.motor.angle_rad;
+  for (std::size_t i = 1; i < angles_rad.size(); ++i)
+    if (angles_rad[i] > 20 * kRadPerDeg)
+      recording.motor.angle_rad[i] += (angles_rad[i] > angles_rad[i - 1] ? 1 : -1) * 0.6 * kRadPerDeg;
+  const Estimate found = directly(recording);
+  ASSERT_TRUE(found.offset_s) << testing::PrintToString(found.reasons);
+  EXPECT_GT(std::abs(*found.offset_s - 0.024), 0.3 * kMs);
+  EXPECT_LT(std::abs(*found.offset_s - 0.024), 3 * *found.sigma_s);
+  EXPECT_TRUE(std::ranges::any_of(found.warnings, [](const std::string& warning) {
+    return warning.find("depends on the motor's angle") != std::string::npos;
+  })) << testing::PrintToString(found.warnings);
+}
+
+// No sweep of one direction is followed by another: neighbours tell.
+TEST(Direct, AWalkOfThreeSweepsIsNotTakenForAStationaryRig) {
+  for (const char* walk : {"metro-station", "cemetery"})
+    expect_refused(directly(test::simulated(walk, 0.024, 1.1).recording),
+                   "neighbouring sweeps do not match at any offset");
+  const Estimate standing = directly(test::simulated("room-1", 0.024, 1.1).recording);
+  ASSERT_TRUE(standing.offset_s) << testing::PrintToString(standing.reasons);
+  EXPECT_EQ(standing.kind_reason, "0 of 2 pairs of neighbouring sweeps differ at every offset.");
+  EXPECT_NEAR(*standing.offset_s, 0.024, 0.1 * kMs);
+}
+
+TEST(Direct, AWalkWhoseSweepsTakeSecondsIsRefusedBeforeItIsSolved) {
+  SimulationOptions options{.scene = "lecture-room", .offset_s = 0.024, .duration_s = 120};
+  options.sweep_s = 5;
+  const Estimate found = directly(made(options));
+  expect_refused(found, "long enough for the rig to sway within it");
+  EXPECT_FALSE(found.walk);
+}
+
 TEST(Direct, FindsTheOffsetOfAWalkAndKnowsHowWell) {
   const Estimate found = directly(test::simulated("metro-station", 0.024, 30).recording);
   EXPECT_EQ(found.method, Method::kDirect);
