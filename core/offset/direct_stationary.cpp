@@ -425,7 +425,8 @@ StationaryDirect solve_stationary(const StillGrid& grid, double first_offset_s,
     const bool last = result.converged || result.iterations + 1 == options.max_iterations;
     result.offset_s += step_s;
     if (last) {
-      resample(grid, at, lines, loss_width_m, options.resampling, result);
+      if (options.resampling != Resampling::kNone)
+        resample(grid, at, lines, loss_width_m, options.resampling, result);
       break;
     }
     const double width_m = std::max(options.min_loss_width_m, options.loss_widths * result.residual_m);

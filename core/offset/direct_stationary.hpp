@@ -13,9 +13,9 @@
 
 namespace sweepscope {
 
-/// What is solved again to see how certain the answer is: everything, or parts of the sweeps alone, at half
-/// the cost.
-enum class Resampling { kAll, kParts };
+/// What is solved again to see how certain the answer is: everything, parts of the sweeps alone, at half the
+/// cost, or nothing.
+enum class Resampling { kAll, kParts, kNone };
 
 /// The offset of a stationary rig as the only unknown of a least squares.
 ///

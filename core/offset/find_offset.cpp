@@ -173,9 +173,9 @@ OffsetOverTime groups_of(const Sampled* sampled, const PreparedRecording& prepar
 MotionTest test_motion_of_few(const StillGrid& grid, const CoarseSearch& coarse, MotionTest test,
                               const Job& job) {
   if (!coarse.best || !has_few_pairs(test)) return test;
-  StationaryDirectOptions parts;
-  parts.resampling = Resampling::kParts;
-  add_neighbours(grid, solve_stationary(grid, coarse.offset_s(), parts, job).offset_s, test);
+  StationaryDirectOptions options;
+  options.resampling = Resampling::kNone;
+  add_neighbours(grid, solve_stationary(grid, coarse.offset_s(), options, job).offset_s, test);
   return test;
 }
 

@@ -7,9 +7,9 @@
 namespace sweepscope {
 
 std::string moved_text(const MotionTest& test) {
-  if (4 * test.moved <= test.pairs && test.moved_slowly())
+  if (!test.pairs_differ() && test.moved_slowly())
     return "The rig moved: its last sweeps do not match its first ones.";
-  if (4 * test.moved <= test.pairs && test.neighbours_differ())
+  if (!test.pairs_differ() && test.neighbours_differ())
     return fmt::format("The rig moved: in {} of {} pairs, neighbouring sweeps do not match at any offset.",
                        test.neighbours_moved, test.neighbours);
   return fmt::format("The rig moved: in {} of {} pairs, sweeps of the same direction do not match.",
@@ -17,7 +17,7 @@ std::string moved_text(const MotionTest& test) {
 }
 
 std::string pairs_text(const MotionTest& test) {
-  if (test.pairs == 0 || (4 * test.moved <= test.pairs && test.neighbours_differ()))
+  if (test.pairs == 0 || (!test.pairs_differ() && test.neighbours_differ()))
     return fmt::format("{} of {} pairs of neighbouring sweeps differ at every offset.", test.neighbours_moved,
                        test.neighbours);
   return fmt::format("{} of {} pairs of sweeps of the same direction differ; median {:.3f} m and {:.2f} deg.",

@@ -24,7 +24,8 @@ struct MotionTest {
   std::size_t neighbours = 0, neighbours_moved = 0;
 
   bool answered() const { return pairs > 0 || neighbours > 0; }
-  bool moving() const { return 4 * moved > pairs || moved_slowly() || neighbours_differ(); }
+  bool moving() const { return pairs_differ() || moved_slowly() || neighbours_differ(); }
+  bool pairs_differ() const { return 4 * moved > pairs; }
   bool neighbours_differ() const { return 4 * neighbours_moved > neighbours; }
   /// A single pair is not enough: people may stand near where others stood before.
   bool moved_slowly() const { return far_pairs >= 2 && 5 * far_moved > 3 * far_pairs; }

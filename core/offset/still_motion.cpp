@@ -82,10 +82,28 @@ std::vector<std::size_t> whole_sweeps(const StillGrid& grid, const std::vector<s
   return whole;
 }
 
+// Some of the pairs, evenly.
+std::vector<SweepPair> spread(const std::vector<SweepPair>& all, std::size_t max_pairs) {
+  std::vector<SweepPair> chosen;
+  const std::size_t stride = std::max<std::size_t>(1, all.size() / max_pairs);
+  for (std::size_t i = 0; i < all.size(); i += stride) chosen.push_back(all[i]);
+  return chosen;
+}
+
+// Of opposite directions, one after the other, spread over the recording: any that have lines.
+std::vector<SweepPair> neighbouring_pairs(std::vector<std::size_t> sweeps) {
+  std::sort(sweeps.begin(), sweeps.end());
+  sweeps.erase(std::unique(sweeps.begin(), sweeps.end()), sweeps.end());
+  std::vector<SweepPair> all;
+  for (std::size_t i = 0; i + 1 < sweeps.size() && sweeps[i + 1] != kNoSweep; ++i)
+    if (sweeps[i + 1] == sweeps[i] + 1) all.push_back({sweeps[i], sweeps[i + 1]});
+  return spread(all, kMaxPairs);
+}
+
 // Of the same direction, one after the other, spread over the recording.
 std::vector<SweepPair> near_pairs(const MotorMotion& motor, const std::vector<std::size_t>& whole,
                                   std::size_t max_pairs = kMaxPairs) {
-  std::vector<SweepPair> all, chosen;
+  std::vector<SweepPair> all;
   const bool one_way = motor.one_way();
   for (const std::size_t sweep : whole) {
     if (!std::binary_search(whole.begin(), whole.end(), sweep + 2)) continue;
@@ -93,9 +111,7 @@ std::vector<SweepPair> near_pairs(const MotorMotion& motor, const std::vector<st
     if (one_way && motor.sweeps[sweep].side != motor.sweeps[sweep + 2].side) continue;
     all.push_back({sweep, sweep + 2});
   }
-  const std::size_t stride = std::max<std::size_t>(1, all.size() / max_pairs);
-  for (std::size_t i = 0; i < all.size(); i += stride) chosen.push_back(all[i]);
-  return chosen;
+  return spread(all, max_pairs);
 }
 
 // Of the same direction, the first with the last, the second with the last but one, and so on.
@@ -220,13 +236,15 @@ bool has_few_pairs(const MotionTest& test) {
 void add_neighbours(const StillGrid& grid, double offset_s, MotionTest& test) {
   if (grid.problem->motor.one_way()) return;  // half turns that follow each other see different surfaces
   const std::vector<std::size_t> sweep_of = sweep_of_lines(grid, offset_s);
-  std::vector<SweepPair> pairs;
-  for (std::size_t sweep = 0; sweep + 1 < grid.problem->motor.sweeps.size(); ++sweep)
-    if (std::ranges::count(sweep_of, sweep) > 0 && std::ranges::count(sweep_of, sweep + 1) > 0)
-      pairs.push_back({sweep, sweep + 1});
+  const std::vector<SweepPair> pairs = neighbouring_pairs(sweep_of);
   const std::vector<SweepShift> shifts = Shifts(grid, sweep_of, pairs, {}, offset_s).of(pairs);
   test.neighbours = shifts.size();
   test.neighbours_moved = std::size_t(std::ranges::count_if(shifts, moved));
+  if (test.pairs > 0) return;
+  std::vector<double> apart_m;
+  for (const SweepShift& shift : shifts)
+    apart_m.push_back(2 * shift.apart_m);  // next but one lies twice as far
+  test.median_apart_m = median(apart_m);
 }
 
 std::vector<MotionPart> motion_over_time(const StillGrid& grid, double offset_s) {

@@ -155,7 +155,7 @@ const std::vector<Family>& families() {
 struct Outcome {
   bool answered = false;
   double error_s = 0, sigma_s = 0;
-  std::string reason;
+  std::string reason;  // for no answer, or to doubt it
 };
 
 Outcome outcome_of(const Simulation& made, std::optional<Method> method, std::optional<Fit> fit) {
@@ -174,6 +174,8 @@ Outcome outcome_of(const Simulation& made, std::optional<Method> method, std::op
   const double play_s = made.options.backlash_deg * simulation::kPi / 180 / 2 / speed_rad_s;
   outcome.error_s = *found.offset_s - (made.options.offset_s - play_s);
   outcome.sigma_s = found.sigma_s.value_or(0);
+  for (const std::string& warning : found.warnings)
+    if (warning.find("depends on the motor's angle") != std::string::npos) outcome.reason = warning;
   return outcome;
 }
 
