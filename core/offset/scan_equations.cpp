@@ -8,12 +8,29 @@ using Eigen::Vector3d;
 
 namespace {
 
-// From the back: matches that follow each other mostly have their scans in common.
-Matrix6d& sum_with(std::uint32_t other, std::vector<ScanEquations::Product>& products) {
-  const auto found = std::find_if(products.rbegin(), products.rend(),
-                                  [&](const ScanEquations::Product& p) { return p.other == other; });
-  if (found != products.rend()) return found->sum;
-  return products.emplace_back(ScanEquations::Product{other, Matrix6d::Zero()}).sum;
+constexpr std::uint32_t kFree = 0xffffffff;
+
+// Where the product with a scan is noted, or is to be.
+std::uint32_t& place_of(std::uint32_t other, ScanEquations::Scan& scan) {
+  const std::size_t mask = scan.places.size() - 1;
+  std::size_t i = other & mask;
+  while (scan.places[i] != kFree && scan.products[scan.places[i]].other != other) i = (i + 1) & mask;
+  return scan.places[i];
+}
+
+void make_room(ScanEquations::Scan& scan) {
+  scan.places.assign(std::max<std::size_t>(32, 2 * scan.places.size()), kFree);
+  for (std::uint32_t k = 0; k < scan.products.size(); ++k) place_of(scan.products[k].other, scan) = k;
+}
+
+Matrix6d& sum_with(std::uint32_t other, ScanEquations::Scan& scan) {
+  if (2 * (scan.products.size() + 1) > scan.places.size()) make_room(scan);
+  std::uint32_t& place = place_of(other, scan);
+  if (place == kFree) {
+    place = static_cast<std::uint32_t>(scan.products.size());
+    scan.products.push_back({other, Matrix6d::Zero()});
+  }
+  return scan.products[place].sum;
 }
 
 }  // namespace
@@ -38,7 +55,7 @@ void ScanEquations::add(const ScanRow& row, double offset_slope, double residual
     const Vector6d weighted = weight * row.row(a);
     for (std::size_t b = 0; b < row.size(); ++b)
       if (row.scan(b) <= row.scan(a))
-        sum_with(row.scan(b), scan.products).noalias() += weighted * row.row(b).transpose();
+        sum_with(row.scan(b), scan).noalias() += weighted * row.row(b).transpose();
     scan.with_offset += offset_slope * weighted;
     scan.gradient += residual * weighted;
   }
