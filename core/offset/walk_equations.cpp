@@ -1,6 +1,6 @@
 #include "core/offset/walk_equations.hpp"
 
-#include <Eigen/Cholesky>
+#include <Eigen/IterativeLinearSolvers>
 #include <algorithm>
 
 #include "core/offset/jerk_prior.hpp"
@@ -54,6 +54,23 @@ class Columns {
   const GuidedPath& path_;
   std::vector<Matrix6d> sums_;
   std::vector<char> used_;
+};
+
+// What Eigen's conjugate gradients ask of a preconditioner.
+class ByEarlierFactor {
+ public:
+  ByEarlierFactor() = default;
+  void use(const WalkEquations::Factor& factor) { factor_ = &factor; }
+
+  template <typename Matrix>
+  ByEarlierFactor& compute(const Matrix&) {
+    return *this;
+  }
+  Eigen::VectorXd solve(const Eigen::VectorXd& right) const { return factor_->solve(right); }
+  Eigen::ComputationInfo info() const { return Eigen::Success; }
+
+ private:
+  const WalkEquations::Factor* factor_ = nullptr;
 };
 
 }  // namespace
@@ -121,19 +138,41 @@ void WalkEquations::hold(std::size_t knots, double first_sigma, double knot_sigm
   matrix_(last, last) += 1 / (offset_sigma_s * offset_sigma_s);
 }
 
-std::optional<WalkEquations::Solution> WalkEquations::solve(std::optional<std::size_t> shift_block,
-                                                            const Eigen::MatrixXd& probes) {
-  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>, Eigen::Lower> cholesky(matrix_);
-  if (cholesky.info() != Eigen::Success) return std::nullopt;
+// A factor takes as long as some fifteen steps of conjugate gradients, of which it mostly needs three to
+// eight.
+bool WalkEquations::solve_near(const Factor& earlier, const Eigen::VectorXd& right,
+                               Eigen::VectorXd& x) const {
+  constexpr int kMaxSteps = 12;
+  constexpr double kTolerance = 1e-3;  // the next iteration, which matches anew, moves by far more
+  Eigen::ConjugateGradient<Eigen::MatrixXd, Eigen::Lower, ByEarlierFactor> gradients;
+  gradients.setMaxIterations(kMaxSteps).setTolerance(kTolerance);
+  gradients.preconditioner().use(earlier);
+  gradients.compute(matrix_);
+  x = gradients.solve(right);
+  return gradients.info() == Eigen::Success;
+}
+
+std::optional<WalkEquations::Solution> WalkEquations::solve(const Wanted& wanted,
+                                                            std::optional<Factor>& factor) const {
   const Eigen::Index last = matrix_.rows() - 1;
-  const Eigen::VectorXd x = cholesky.solve(-gradient_);
-  Solution solution{{}, x[last], 1 / matrix_(last, last),
-                    {}, {},      cholesky.solve(probes)};  // now the factor's
-  solution.influence = cholesky.solve(Eigen::VectorXd::Unit(matrix_.rows(), last));
-  if (shift_block)
-    solution.shift_influence =
-        cholesky.solve(Eigen::VectorXd::Unit(matrix_.rows(), Eigen::Index(6 * *shift_block)));
-  for (Eigen::Index k = 0; k < last / 6; ++k) solution.block_steps.push_back(x.segment<6>(6 * k));
+  const auto unit = [&](Eigen::Index i) { return Eigen::VectorXd::Unit(matrix_.rows(), i); };
+  std::vector<Eigen::VectorXd> rights = {-gradient_};
+  if (wanted.influence) rights.push_back(unit(last));
+  if (wanted.influence && wanted.shift_block) rights.push_back(unit(Eigen::Index(6 * *wanted.shift_block)));
+  std::vector<Eigen::VectorXd> solved(rights.size());
+  bool near = factor && wanted.probes == nullptr;
+  for (std::size_t i = 0; near && i < rights.size(); ++i) near = solve_near(*factor, rights[i], solved[i]);
+  if (!near) {
+    factor.emplace(matrix_);
+    if (factor->info() != Eigen::Success) return std::nullopt;
+    for (std::size_t i = 0; i < rights.size(); ++i) solved[i] = factor->solve(rights[i]);
+  }
+  Solution solution;
+  solution.offset_step_s = solved[0][last];
+  for (Eigen::Index k = 0; k < last / 6; ++k) solution.block_steps.push_back(solved[0].segment<6>(6 * k));
+  if (solved.size() > 1) solution.influence = std::move(solved[1]);
+  if (solved.size() > 2) solution.shift_influence = std::move(solved[2]);
+  if (wanted.probes != nullptr) solution.solved_probes = factor->solve(*wanted.probes);
   return solution;
 }
 

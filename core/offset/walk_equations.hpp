@@ -2,6 +2,7 @@
 
 // The mathematics: docs/algorithms.md, section 11.
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <optional>
 #include <vector>
@@ -28,17 +29,26 @@ class WalkEquations {
   /// Of half the sum of the squares, by the unknowns.
   const Eigen::VectorXd& gradient() const { return gradient_; }
 
+  using Factor = Eigen::LLT<Eigen::MatrixXd, Eigen::Lower>;
+  struct Wanted {
+    bool influence = false;
+    std::optional<std::size_t> shift_block;   // whose influence is wanted as well
+    const Eigen::MatrixXd* probes = nullptr;  // to be solved as well
+  };
   struct Solution {
     std::vector<Vector6d> block_steps;
-    double offset_step_s, offset_sigma_s;
-    Eigen::VectorXd influence, shift_influence;  // of the gradient on the offset, and on a time shift
+    double offset_step_s = 0;
+    /// Of the gradient on the offset, and on a time shift. The last, or the shift's, is the variance.
+    Eigen::VectorXd influence, shift_influence;
     Eigen::MatrixXd solved_probes;
   };
-  /// Once: the matrix becomes its factor.
-  std::optional<Solution> solve(std::optional<std::size_t> shift_block, const Eigen::MatrixXd& probes);
+  /// With the factor of earlier, similar equations, to a thousandth; with one of its own, which is kept in
+  /// `factor`, where there is none yet, where the equations have become too different, or with probes.
+  std::optional<Solution> solve(const Wanted& wanted, std::optional<Factor>& factor) const;
 
  private:
   void add_block(std::size_t row, std::size_t column, const Matrix6d& half);
+  bool solve_near(const Factor& earlier, const Eigen::VectorXd& right, Eigen::VectorXd& x) const;
 
   Eigen::MatrixXd matrix_;
   Eigen::VectorXd gradient_;

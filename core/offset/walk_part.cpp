@@ -74,14 +74,15 @@ void WalkPart::settle(const Job& job, const std::function<void()>& iterated) {
   const auto last = std::find(used.rbegin(), used.rend(), 1);
   first_scan_ = static_cast<std::uint32_t>(first - used.begin());
   if (first != used.end()) scans_.resize(std::size_t(last.base() - first) * slices_);
+  std::optional<WalkEquations::Factor> factor;
   for (int i = 0; i < options_.first_iterations; ++i, iterated()) {
-    if (job.cancelled() || !iterate(part)) return;
+    if (job.cancelled() || !iterate(part, i + 1 == options_.first_iterations, factor)) return;
     if (evidence_)
       jerk_sigma_ = evidence_->sigma(path_, options_.knot_s, jerk_sigma_, solution_->solved_probes)
                         .cwiseMax(options_.min_jerk)
                         .cwiseMin(jerk_sigma_);
   }
-  result_.sigma_s = solution_->offset_sigma_s;
+  result_.sigma_s = offset_sigma_s();
   if (const auto block = path_.shift_block())
     result_.time_shift = TimeShift{path_.time_shift_s(), shift_sigma_s(*block)};
 }
@@ -90,19 +91,21 @@ void WalkPart::average(const Job& job, const std::function<void()>& iterated) {
   if (!solution_) return;
   const OffsetProblem part = cut();
   std::vector<double> offsets_s, shifts_s;
+  std::optional<WalkEquations::Factor> factor;  // not kept from settling: all parts' take too much memory
   for (int i = 0; i < options_.averaged_iterations; ++i, iterated()) {
-    if (job.cancelled() || !iterate(part)) return;
+    if (job.cancelled() || !iterate(part, i + 1 == options_.averaged_iterations, factor)) return;
     offsets_s.push_back(result_.offset_s);
     shifts_s.push_back(path_.time_shift_s());
   }
-  conclude(offsets_s, clustered_sigma_s(part, solution_->influence, solution_->offset_sigma_s));
+  conclude(offsets_s, clustered_sigma_s(part, solution_->influence, offset_sigma_s()));
   if (const auto block = path_.shift_block())
     result_.time_shift =
         TimeShift{mean(shifts_s), clustered_sigma_s(part, solution_->shift_influence, shift_sigma_s(*block))};
 }
 
 // Matches anew and steps; false, and without a result, where that cannot be done.
-bool WalkPart::iterate(const OffsetProblem& part) {
+bool WalkPart::iterate(const OffsetProblem& part, bool is_last,
+                       std::optional<WalkEquations::Factor>& factor) {
   result_.sigma_s = 0;
   solution_.reset();
   WalkEquations equations(path_.blocks());
@@ -112,8 +115,8 @@ bool WalkPart::iterate(const OffsetProblem& part) {
   // rad and m. The first is a gauge, far below what is asked for; the second far above any step.
   constexpr double kFirstSigma = 1e-4, kKnotSigma = 0.5;
   equations.hold(path_.knots(), kFirstSigma, kKnotSigma, options_.offset_sigma_s);
-  const Eigen::MatrixXd no_probes(Eigen::Index(6 * path_.blocks() + 1), 0);
-  solution_ = equations.solve(path_.shift_block(), evidence_ ? evidence_->probes() : no_probes);
+  solution_ =
+      equations.solve({is_last, path_.shift_block(), evidence_ ? &evidence_->probes() : nullptr}, factor);
   if (!solution_) return false;
   path_.move(solution_->block_steps);
   result_.offset_s += solution_->offset_step_s;
@@ -131,6 +134,10 @@ void WalkPart::conclude(const std::vector<double>& offsets_s, double sigma_s) {
   result_.sigma_s = std::sqrt(square(sigma_s) + squares_s2 / (n - 1) / n);
   constexpr double kSettled = 1.5;  // sigmas: by judgement
   result_.converged = std::abs(result_.step_s) < kSettled * result_.sigma_s;
+}
+
+double WalkPart::offset_sigma_s() const {
+  return std::sqrt(solution_->influence[solution_->influence.size() - 1]);
 }
 
 double WalkPart::shift_sigma_s(std::size_t block) const {

@@ -37,8 +37,9 @@ class WalkPart {
 
  private:
   OffsetProblem cut() const;
-  bool iterate(const OffsetProblem& part);
+  bool iterate(const OffsetProblem& part, bool is_last, std::optional<WalkEquations::Factor>& factor);
   void conclude(const std::vector<double>& offsets_s, double sigma_s);
+  double offset_sigma_s() const;
   double shift_sigma_s(std::size_t block) const;
   void linearise(const OffsetProblem& part, WalkEquations& equations);
   double clustered_sigma_s(const OffsetProblem& part, const Eigen::VectorXd& influences, double sigma_s);
