@@ -160,7 +160,8 @@ std::optional<WalkEquations::Solution> WalkEquations::solve(const Wanted& wanted
   if (wanted.influence) rights.push_back(unit(last));
   if (wanted.influence && wanted.shift_block) rights.push_back(unit(Eigen::Index(6 * *wanted.shift_block)));
   std::vector<Eigen::VectorXd> solved(rights.size());
-  bool near = factor && wanted.probes == nullptr;
+  constexpr Eigen::Index kFew = 100;  // unknowns, of which a factor takes no time
+  bool near = factor && last > kFew && wanted.probes == nullptr;
   for (std::size_t i = 0; near && i < rights.size(); ++i) near = solve_near(*factor, rights[i], solved[i]);
   if (!near) {
     factor.emplace(matrix_);

@@ -43,7 +43,8 @@ class WalkEquations {
     Eigen::MatrixXd solved_probes;
   };
   /// With the factor of earlier, similar equations, to a thousandth; with one of its own, which is kept in
-  /// `factor`, where there is none yet, where the equations have become too different, or with probes.
+  /// `factor`, where there is none yet, where the equations have become too different, of few unknowns, or
+  /// with probes.
   std::optional<Solution> solve(const Wanted& wanted, std::optional<Factor>& factor) const;
 
  private:

@@ -129,6 +129,7 @@ TEST(CloudOffset, AWalkInAHall) {
   bench.world_from_base = test::walk_in_hall;
   bench.sweep_s = 1.57;
   bench.duration_s = 42;
+  bench.beams = 300;
   bench.offset_s = -0.0186;
   const Recording recording = bench.record();
   expect_answer(test::estimated(recording, direct()), RigKind::kMoving, bench.offset_s, 2.0);
@@ -157,6 +158,7 @@ TEST(CloudOffset, AWalkInAHallWithASlowerMotor) {
   CloudBench bench;
   bench.world_from_base = test::walk_in_hall;
   bench.duration_s = 50;
+  bench.beams = 300;
   expect_answer(test::estimated(bench.record(), direct()), RigKind::kMoving, bench.offset_s, 2.0);
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
 #include "core/loam/given_motion.hpp"
 #include "core/offset/jerk_prior.hpp"
@@ -151,13 +152,14 @@ struct Matches {
   Eigen::VectorXd gradient;
 };
 
-Matches matches_of(const GuidedPath& path, const std::vector<ScanMotion>& motions) {
+Matches matches_of(const GuidedPath& path, const std::vector<ScanMotion>& motions,
+                   const std::function<double(std::uint32_t match)>& weight_of) {
   const auto last = Eigen::Index(6 * path.blocks());
   Matches sum{ScanEquations(motions.size()), Eigen::MatrixXd::Zero(last + 1, last + 1),
               Eigen::VectorXd::Zero(last + 1)};
   const auto count = static_cast<std::uint32_t>(motions.size());
   for (std::uint32_t i = 0; i < 3 * count; ++i) {
-    const double residual = 0.01 * std::sin(3.0 * i), weight = 1 + 0.1 * i;
+    const double residual = 0.01 * std::sin(3.0 * i), weight = weight_of(i);
     ScanRow row;
     double slope = 0;
     const auto add = [&](std::uint32_t scan, double share) {
@@ -176,34 +178,76 @@ Matches matches_of(const GuidedPath& path, const std::vector<ScanMotion>& motion
   return sum;
 }
 
+// The equations of some matches, and what they come to without taking them apart.
+struct Whole {
+  Whole(const GuidedPath& path, const std::function<double(std::uint32_t match)>& weight_of)
+      : equations(path.blocks()) {
+    std::vector<ScanMotion> motions;
+    for (int i = 0; i < 40; ++i) motions.push_back(scan_at(path, 2.05 + 0.035 * i));
+    auto [scans, matrix, of_matches] = matches_of(path, motions, weight_of);
+    equations.add(scans, motions, path);
+    constexpr double kFirst = 0.01, kKnot = 0.5, kOffset_s = 0.02;
+    equations.hold(path.knots(), kFirst, kKnot, kOffset_s);
+    const auto last = Eigen::Index(6 * path.blocks());
+    matrix.diagonal().head(last).array() += 1 / (kKnot * kKnot);
+    if (path.knots() > 0) matrix.diagonal().head<6>().array() += 1 / (kFirst * kFirst);
+    matrix(last, last) += 1 / (kOffset_s * kOffset_s);
+    gradient = of_matches;
+    inverse = matrix.inverse();
+    step = -inverse * gradient;
+  }
+  WalkEquations equations;
+  Eigen::VectorXd gradient, step;
+  Eigen::MatrixXd inverse;
+};
+
+void expect_solution(const WalkEquations::Solution& found, const Whole& whole, const GuidedPath& path,
+                     double tolerance) {
+  const Eigen::Index last = whole.step.size() - 1;
+  EXPECT_NEAR(found.offset_step_s, whole.step[last], tolerance * std::abs(whole.step[last]));
+  EXPECT_LT((found.influence - whole.inverse.col(last)).norm(), tolerance * whole.inverse.col(last).norm());
+  ASSERT_EQ(found.block_steps.size(), path.blocks());
+  for (std::size_t k = 0; k < path.blocks(); ++k)
+    EXPECT_LT((found.block_steps[k] - whole.step.segment<6>(Eigen::Index(6 * k))).norm(),
+              tolerance * whole.step.norm());
+  if (const auto block = path.shift_block()) {
+    const auto column = whole.inverse.col(Eigen::Index(6 * *block));
+    EXPECT_LT((found.shift_influence - column).norm(), tolerance * column.norm());
+  }
+}
+
+double usual_weight(std::uint32_t match) {
+  return 1 + 0.1 * match;
+}
+
 TEST_P(WalkEquationsOf, TheSolutionIsThatOfTheWholeMatrix) {
   const GuidedPath path = path_of(GetParam());
-  const auto last = Eigen::Index(6 * path.blocks());
-  std::vector<ScanMotion> motions;
-  for (int i = 0; i < 40; ++i) motions.push_back(scan_at(path, 2.05 + 0.035 * i));
-  auto [scans, matrix, gradient] = matches_of(path, motions);
-  WalkEquations equations(path.blocks());
-  equations.add(scans, motions, path);
-  constexpr double kFirst = 0.01, kKnot = 0.5, kOffset_s = 0.02;
-  equations.hold(path.knots(), kFirst, kKnot, kOffset_s);
-  matrix.diagonal().head(last).array() += 1 / (kKnot * kKnot);
-  if (path.knots() > 0) matrix.diagonal().head<6>().array() += 1 / (kFirst * kFirst);
-  matrix(last, last) += 1 / (kOffset_s * kOffset_s);
-  EXPECT_LT((equations.gradient() - gradient).norm(), 1e-10 * gradient.norm());
-  const Eigen::MatrixXd inverse = matrix.inverse();
-  const Eigen::VectorXd step = -inverse * gradient;
-  const auto solution = equations.solve(path.shift_block(), Eigen::MatrixXd(last + 1, 0));
+  const Whole whole(path, usual_weight);
+  EXPECT_LT((whole.equations.gradient() - whole.gradient).norm(), 1e-10 * whole.gradient.norm());
+  std::optional<WalkEquations::Factor> factor;
+  const auto solution = whole.equations.solve({true, path.shift_block()}, factor);
   ASSERT_TRUE(solution);
-  EXPECT_NEAR(solution->offset_step_s, step[last], 1e-9 * std::abs(step[last]));
-  EXPECT_NEAR(solution->offset_sigma_s, std::sqrt(inverse(last, last)), 1e-9);
-  EXPECT_LT((solution->influence - inverse.col(last)).norm(), 1e-8 * inverse.col(last).norm());
-  ASSERT_EQ(solution->block_steps.size(), path.blocks());
-  for (std::size_t k = 0; k < path.blocks(); ++k)
-    EXPECT_LT((solution->block_steps[k] - step.segment<6>(Eigen::Index(6 * k))).norm(), 1e-9 * step.norm());
-  if (const auto block = path.shift_block()) {
-    const auto column = inverse.col(Eigen::Index(6 * *block));
-    EXPECT_LT((solution->shift_influence - column).norm(), 1e-8 * column.norm());
-  }
+  expect_solution(*solution, whole, path, 1e-8);
+}
+
+TEST_P(WalkEquationsOf, AnEarlierFactorSolvesSimilarEquationsAndIsReplacedForOthers) {
+  const GuidedPath path = path_of(GetParam());
+  std::optional<WalkEquations::Factor> factor;
+  ASSERT_TRUE(Whole(path, usual_weight).equations.solve({}, factor));
+  const Eigen::MatrixXd earlier = factor->matrixLLT();
+
+  const Whole similar(path, [](std::uint32_t i) { return usual_weight(i) * (1 + 0.2 * std::sin(5.0 * i)); });
+  const auto near = similar.equations.solve({true, path.shift_block()}, factor);
+  ASSERT_TRUE(near);
+  const bool few = path.knots() == 0;  // unknowns: solved with a factor of their own
+  EXPECT_EQ(factor->matrixLLT() == earlier, !few);
+  expect_solution(*near, similar, path, few ? 1e-8 : 0.01);
+
+  const Whole other(path, [](std::uint32_t i) { return std::exp(12 * std::sin(5.0 * i)); });
+  const auto exact = other.equations.solve({true, path.shift_block()}, factor);
+  ASSERT_TRUE(exact);
+  EXPECT_NE(factor->matrixLLT(), earlier);
+  expect_solution(*exact, other, path, 1e-6);
 }
 
 }  // namespace

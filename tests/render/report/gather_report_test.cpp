@@ -1,20 +1,68 @@
 #include "render/report/gather_report.hpp"
 
+#include <map>
+#include <mutex>
+
 #include "tests/core/engine_fixtures.hpp"
 #include "tests/core/every_look.hpp"
 
 namespace sweepscope {
 namespace {
 
+class InMemory : public CandidateStore {
+ public:
+  std::optional<CurvePoint> find(double offset_s) override {
+    const std::scoped_lock lock(mutex_);
+    const auto found = points_.find(offset_s);
+    return found == points_.end() ? std::nullopt : std::optional(found->second);
+  }
+  void keep(const CurvePoint& point) override {
+    const std::scoped_lock lock(mutex_);
+    points_.emplace(point.offset_s, point);
+  }
+  std::optional<Error> failed() const override { return std::nullopt; }
+
+ private:
+  std::mutex mutex_;
+  std::map<double, CurvePoint> points_;
+};
+
+PreparedRecording short_recording() {
+  return prepare(test::simulated("room-1", 0.024, 2.5).recording, FeatureOptions(), Job()).value();
+}
+
+// None where it says that it was interrupted.
+std::optional<std::string> html(const PreparedRecording& prepared, CandidateStore* kept, const Job& job) {
+  const auto content = gather_report(prepared, {}, kept, job);
+  if (content) return report_html(*content).value();
+  EXPECT_EQ(content.error().code, ExitCode::kInterrupted);
+  return std::nullopt;
+}
+
+// With the candidates of a report before it: they take two thirds of its time.
 TEST(GatherReport, InterruptedAtAnyLookItGivesNothing) {
-  const PreparedRecording prepared =
-      prepare(test::simulated("room-1", 0.024, 2.5).recording, FeatureOptions(), Job()).value();
-  test::expect_interrupted_at_every_look(5, [&](const Job& job) -> std::optional<std::string> {
-    const auto content = gather_report(prepared, {}, nullptr, job);
-    if (content) return report_html(*content).value();
-    EXPECT_EQ(content.error().code, ExitCode::kInterrupted);
-    return std::nullopt;
-  });
+  const PreparedRecording prepared = short_recording();
+  InMemory kept;
+  ASSERT_TRUE(html(prepared, &kept, Job()));
+  test::expect_interrupted_at_every_look(5, [&](const Job& job) { return html(prepared, &kept, job); });
+}
+
+TEST(GatherReport, InterruptedAmongTheCandidatesItGivesNothing) {
+  const PreparedRecording prepared = short_recording();
+  const auto looks_of = [&](CandidateStore* kept) {
+    LookCount all(std::numeric_limits<std::uint64_t>::max());
+    Job job;
+    job.obey(all);
+    EXPECT_TRUE(html(prepared, kept, job));
+    return all.looks();
+  };
+  InMemory kept;
+  const std::uint64_t whole = looks_of(&kept), without_candidates = looks_of(&kept);
+  ASSERT_GT(whole, without_candidates + 10);
+  LookCount looks(whole - without_candidates);
+  Job job;
+  job.obey(looks);
+  EXPECT_FALSE(html(prepared, nullptr, job));
 }
 
 // One rule for every part of the program: the report's headline is what `estimate` prints.
