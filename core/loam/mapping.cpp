@@ -56,17 +56,18 @@ class Walk {
   // False where the job was cancelled.
   bool track(Range range) {
     if (range.size() < min_sweeps()) return true;  // they stay lost
-    Stretch best;
+    std::vector<Stretch> tried;                    // the best first
     for (const std::size_t start : starts(range)) {
-      Stretch found = follow(start, range);
+      tried.push_back(follow(start, range));
       if (job_.cancelled()) return false;
-      if (best.poses.empty() || better(found, best)) best = std::move(found);
-      if (best.range.size() == range.size() && best.well) break;
+      std::ranges::stable_sort(tried, better);
+      if (tried.front().range.size() == range.size() && tried.front().well) break;
     }
     if (job_.cancelled()) return false;
-    if (best.poses.empty()) return true;
+    if (tried.empty()) return true;
+    Stretch& best = tried.front();
     if (++stretches_ == 1) {
-      start_ = best.start;
+      for (const Stretch& stretch : tried) starts_.push_back(stretch.start);
       well_ = best.well && best.range.size() == source_.count;
     }
     for (SweepPose& pose : best.poses) pose.stretch = stretches_;
@@ -77,7 +78,7 @@ class Walk {
 
   TrackedWalk result() {
     join_stretches();
-    return {std::move(poses_), start_, well_, count_};
+    return {std::move(poses_), std::move(starts_), well_, count_};
   }
 
  private:
@@ -100,8 +101,10 @@ class Walk {
   };
 
   std::vector<std::size_t> starts(Range range) const {
-    if (options_.start && range.size() == source_.count) return {std::min(*options_.start, range.end - 1)};
-    return calm_starts(range);
+    if (options_.starts.empty() || range.size() != source_.count) return calm_starts(range);
+    std::vector<std::size_t> wanted = options_.starts;
+    for (std::size_t& start : wanted) start = std::min(start, range.end - 1);
+    return wanted;
   }
 
   // Sweeps from which on the rig moved little, over as many as a first pose is found from; the calmest first,
@@ -210,7 +213,8 @@ class Walk {
   const MappingOptions& options_;
   const Job& job_;
   std::vector<SweepPose> poses_;  // stretch 0: not tracked
-  std::size_t stretches_ = 0, start_ = 0, done_ = 0;
+  std::size_t stretches_ = 0, done_ = 0;
+  std::vector<std::size_t> starts_;
   bool well_ = false;
   MatchCount count_;
 };

@@ -15,10 +15,10 @@ namespace sweepscope {
 
 /// LOAM's result for a moving recording at one candidate offset.
 struct TrackedWalk {
-  std::vector<SweepPose> sweeps;  // of every sweep, in the order of time
-  std::size_t start = 0;          // where it began, see MappingOptions
-  bool well = false;              // one stretch, on which most features match and that does not alternate
-  MatchCount count;               // at LOAM's own converged pose of each sweep, before it enters the map
+  std::vector<SweepPose> sweeps;    // of every sweep, in the order of time
+  std::vector<std::size_t> starts;  // where it began, see MappingOptions, and others that were tried after it
+  bool well = false;                // one stretch, on which most features match and that does not alternate
+  MatchCount count;                 // at LOAM's own converged pose of each sweep, before it enters the map
 
   /// Sweeps that are not lost.
   std::size_t tracked() const;

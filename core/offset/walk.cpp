@@ -29,11 +29,13 @@ std::optional<SolvedWalk> iterate(const OffsetProblem& problem, double first_off
   double offset_s = first_offset_s;
   MappingOptions mapping = options.mapping;
   JointWalkOptions joint = options.joint;
-  constexpr double kFarTolerances = 2;  // by judgement: the other iterations move the offset by less
+  constexpr std::size_t kStartsAgain = 2;  // of those tried at the first offset
+  constexpr double kFarTolerances = 2;     // by judgement: the other iterations move the offset by less
   for (int pass = 0; pass < options.max_passes && !walk.near; ++pass) {
     auto tracked = track(problem, offset_s, mapping, job);
     if (!tracked) return std::nullopt;
-    if (tracked->well) mapping.start = tracked->start;
+    mapping.starts = tracked->starts;
+    mapping.starts.resize(std::min(tracked->starts.size(), tracked->well ? 1 : kStartsAgain));
     walk.tracked_at_s = offset_s;
     walk.lost = tracked->tracked() < options.min_sweeps;
     walk.sweeps = std::move(tracked->sweeps);

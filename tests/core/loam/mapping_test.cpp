@@ -74,9 +74,9 @@ TEST_F(SteadyWalk, IsTheSameFromSweepsThatArePlacedAlready) {
 
 TEST_F(SteadyWalk, MayBeginAnywhere) {
   MappingOptions options;
-  options.start = 9;
+  options.starts = {9};
   const TrackedWalk walk = track(problem_, 0, options, Job()).value();
-  EXPECT_EQ(walk.start, 9u);
+  EXPECT_EQ(walk.starts, std::vector<std::size_t>{9});
   EXPECT_EQ(walk.tracked(), walk.sweeps.size());
   EXPECT_NEAR(walk.sweeps.front().begin().translation_m.norm(), 0, 1e-12);
   const Vector3d way_m = walk.sweeps.back().end().translation_m;
