@@ -37,7 +37,6 @@ struct JointWalkOptions {
   // Every iteration matches again, and other matches give another answer: the mean of several is more
   // accurate.
   int first_iterations = 3, averaged_iterations = 6;
-  std::size_t rough_stride = 2;  // all but the last of the first match one feature in so many
   // Where the first iterations lead further away, the others are not run: the walk is to be tracked anew.
   double far_s = std::numeric_limits<double>::infinity();
   std::size_t min_matches = 200;  // of a part; in a furnished place it has some thousands

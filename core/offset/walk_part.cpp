@@ -76,8 +76,7 @@ void WalkPart::settle(const Job& job, const std::function<void()>& iterated) {
   if (first != used.end()) scans_.resize(std::size_t(last.base() - first) * slices_);
   std::optional<WalkEquations::Factor> factor;
   for (int i = 0; i < options_.first_iterations; ++i, iterated()) {
-    const bool is_last = i + 1 == options_.first_iterations;
-    if (job.cancelled() || !iterate(part, {is_last ? 1 : options_.rough_stride, is_last}, factor)) return;
+    if (job.cancelled() || !iterate(part, i + 1 == options_.first_iterations, factor)) return;
     if (evidence_)
       jerk_sigma_ = evidence_->sigma(path_, options_.knot_s, jerk_sigma_, solution_->solved_probes)
                         .cwiseMax(options_.min_jerk)
@@ -94,7 +93,7 @@ void WalkPart::average(const Job& job, const std::function<void()>& iterated) {
   std::vector<double> offsets_s, shifts_s;
   std::optional<WalkEquations::Factor> factor;  // not kept from settling: all parts' take too much memory
   for (int i = 0; i < options_.averaged_iterations; ++i, iterated()) {
-    if (job.cancelled() || !iterate(part, {1, i + 1 == options_.averaged_iterations}, factor)) return;
+    if (job.cancelled() || !iterate(part, i + 1 == options_.averaged_iterations, factor)) return;
     offsets_s.push_back(result_.offset_s);
     shifts_s.push_back(path_.time_shift_s());
   }
@@ -105,19 +104,19 @@ void WalkPart::average(const Job& job, const std::function<void()>& iterated) {
 }
 
 // Matches anew and steps; false, and without a result, where that cannot be done.
-bool WalkPart::iterate(const OffsetProblem& part, const Round& round,
+bool WalkPart::iterate(const OffsetProblem& part, bool is_last,
                        std::optional<WalkEquations::Factor>& factor) {
   result_.sigma_s = 0;
   solution_.reset();
   WalkEquations equations(path_.blocks());
-  linearise(part, round.stride, equations);
-  if (result_.matches < options_.min_matches / round.stride) return false;
+  linearise(part, equations);
+  if (result_.matches < options_.min_matches) return false;
   equations.add_jerks(path_, std::pow(options_.knot_s, 3) * jerk_sigma_);
   // rad and m. The first is a gauge, far below what is asked for; the second far above any step.
   constexpr double kFirstSigma = 1e-4, kKnotSigma = 0.5;
   equations.hold(path_.knots(), kFirstSigma, kKnotSigma, options_.offset_sigma_s);
-  solution_ = equations.solve(
-      {round.is_last, path_.shift_block(), evidence_ ? &evidence_->probes() : nullptr}, factor);
+  solution_ =
+      equations.solve({is_last, path_.shift_block(), evidence_ ? &evidence_->probes() : nullptr}, factor);
   if (!solution_) return false;
   path_.move(solution_->block_steps);
   result_.offset_s += solution_->offset_step_s;
@@ -149,12 +148,10 @@ Vector3d WalkPart::in_map_m(const PlacedSweep& sweep, const PlacedFeature& featu
   return path_.at(time_s(sweep, feature)) * feature.p_in_base_m;
 }
 
-void WalkPart::linearise(const OffsetProblem& part, std::size_t stride, WalkEquations& equations) {
+void WalkPart::linearise(const OffsetProblem& part, WalkEquations& equations) {
   ScanEquations scans(scans_.size());
-  for_each_match(part, stride,
-                 [&](const ScanRow& row, double slope, double distance_m, double weight, const Vector3d&) {
-                   scans.add(row, slope, distance_m, weight);
-                 });
+  for_each_match(part, [&](const ScanRow& row, double slope, double distance_m, double weight,
+                           const Vector3d&) { scans.add(row, slope, distance_m, weight); });
   equations.add(scans, scans_, path_);
 }
 
@@ -168,7 +165,7 @@ double WalkPart::clustered_sigma_s(const OffsetProblem& part, const Eigen::Vecto
   double formal_s2 = 0;
   constexpr double kCell_m = 1;  // about the size of a piece of furniture, or of a bay of a wall
   for_each_match(
-      part, 1, [&](const ScanRow& row, double slope, double distance_m, double weight, const Vector3d& p_m) {
+      part, [&](const ScanRow& row, double slope, double distance_m, double weight, const Vector3d& p_m) {
         double influence = slope * influences[influences.size() - 1];
         for (std::size_t i = 0; i < row.size(); ++i)
           influence += row.row(i).dot(by_pose(influences, scans_[row.scan(i)], path_));
@@ -185,12 +182,11 @@ double WalkPart::clustered_sigma_s(const OffsetProblem& part, const Eigen::Vecto
 }
 
 template <typename Use>
-void WalkPart::for_each_match(const OffsetProblem& part, std::size_t stride, const Use& use) {
-  std::vector<PlacedSweep> sweeps = place_sweeps(part, result_.offset_s);
+void WalkPart::for_each_match(const OffsetProblem& part, const Use& use) {
+  const std::vector<PlacedSweep> sweeps = place_sweeps(part, result_.offset_s);
   FeatureMap edges, planes;
   last_line_ = kNoLine;
-  for (PlacedSweep& sweep : sweeps) {
-    thin(sweep, stride);
+  for (const PlacedSweep& sweep : sweeps) {
     for (const PlacedFeature& feature : sweep.edges) insert(sweep, feature, edges);
     for (const PlacedFeature& feature : sweep.planes) insert(sweep, feature, planes);
   }

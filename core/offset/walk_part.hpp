@@ -37,18 +37,14 @@ class WalkPart {
 
  private:
   OffsetProblem cut() const;
-  struct Round {
-    std::size_t stride;  // one feature in so many is matched
-    bool is_last;
-  };
-  bool iterate(const OffsetProblem& part, const Round& round, std::optional<WalkEquations::Factor>& factor);
+  bool iterate(const OffsetProblem& part, bool is_last, std::optional<WalkEquations::Factor>& factor);
   void conclude(const std::vector<double>& offsets_s, double sigma_s);
   double offset_sigma_s() const;
   double shift_sigma_s(std::size_t block) const;
-  void linearise(const OffsetProblem& part, std::size_t stride, WalkEquations& equations);
+  void linearise(const OffsetProblem& part, WalkEquations& equations);
   double clustered_sigma_s(const OffsetProblem& part, const Eigen::VectorXd& influences, double sigma_s);
   template <typename Use>
-  void for_each_match(const OffsetProblem& part, std::size_t stride, const Use& use);
+  void for_each_match(const OffsetProblem& part, const Use& use);
   template <typename Use>
   void add(std::uint32_t line, const Eigen::Vector3d& p_m, const MatchResidual& match, const Neighbours& near,
            const Use& use);
