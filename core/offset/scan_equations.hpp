@@ -55,7 +55,7 @@ class ScanEquations {
   };
   struct Scan {
     std::vector<Product> products;
-    std::vector<std::uint32_t> places;  // of the products, hashed by their other scan
+    std::vector<std::uint32_t> places;  // of the products, hashed by the other scan: there are hundreds
     Vector6d gradient = Vector6d::Zero(), with_offset = Vector6d::Zero();
   };
   const std::vector<Scan>& scans() const { return scans_; }

@@ -138,8 +138,8 @@ void WalkEquations::hold(std::size_t knots, double first_sigma, double knot_sigm
   matrix_(last, last) += 1 / (offset_sigma_s * offset_sigma_s);
 }
 
-// A factor takes as long as some fifteen steps of conjugate gradients, of which it mostly needs three to
-// eight.
+// By conjugate gradients, each step of which is a product with the matrix and a solution with the factor: on
+// a walk of 60 s 4 to 11 were enough, which take less time than a factor. False where they are not.
 bool WalkEquations::solve_near(const Factor& earlier, const Eigen::VectorXd& right,
                                Eigen::VectorXd& x) const {
   constexpr int kMaxSteps = 12;

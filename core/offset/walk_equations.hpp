@@ -42,9 +42,9 @@ class WalkEquations {
     Eigen::VectorXd influence, shift_influence;
     Eigen::MatrixXd solved_probes;
   };
-  /// With the factor of earlier, similar equations, to a thousandth; with one of its own, which is kept in
-  /// `factor`, where there is none yet, where the equations have become too different, of few unknowns, or
-  /// with probes.
+  /// By the factor of earlier, similar equations, until a thousandth of the right side is left. With a factor
+  /// of their own, which is kept in `factor`: where there is none yet, where the equations have become too
+  /// different, of few unknowns, or with probes.
   std::optional<Solution> solve(const Wanted& wanted, std::optional<Factor>& factor) const;
 
  private:
