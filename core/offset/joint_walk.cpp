@@ -17,6 +17,9 @@ using Sweeps = std::vector<SweepPose>;
 // A part shorter than this, 4 s of sweeps of 0.5 s, has little to say, and may say it wrongly.
 constexpr std::size_t kMinSweeps = 8;
 
+// Of longer walks than of this many parts, each part factorises once more rather than that all keep a factor.
+constexpr std::size_t kKeptFactors = 12;
+
 // The sweeps of one stretch cut into parts that are about equally long.
 void cut(const Sweeps& run, double part_s, std::vector<Sweeps>& parts) {
   if (run.size() < kMinSweeps) return;
@@ -117,6 +120,7 @@ std::optional<JointWalk> solve_joint_walk(const OffsetProblem& problem, const st
   for_each_index(cuts.size(), [&](std::size_t i) {
     parts[i].emplace(problem, cuts[i], offset_s, options);
     parts[i]->settle(job, iterated);
+    if (cuts.size() > kKeptFactors) parts[i]->forget_factor();
   });
   if (job.cancelled()) return std::nullopt;
   auto walk = joined(problem, cuts, parts, options);

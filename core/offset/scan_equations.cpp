@@ -50,17 +50,64 @@ double ScanRow::add_point(std::uint32_t scan, const ScanMotion& motion, const Ve
 }
 
 void ScanEquations::add(const ScanRow& row, double offset_slope, double residual, double weight) {
-  for (std::size_t a = 0; a < row.size(); ++a) {
-    Scan& scan = scans_[row.scan(a)];
-    const Vector6d weighted = weight * row.row(a);
-    for (std::size_t b = 0; b < row.size(); ++b)
-      if (row.scan(b) <= row.scan(a))
-        sum_with(row.scan(b), scan).noalias() += weighted * row.row(b).transpose();
-    scan.with_offset += offset_slope * weighted;
-    scan.gradient += residual * weighted;
+  matches_.push_back({residual, weight, offset_slope, rows_.size()});
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    rows_.push_back(row.row(i));
+    scan_of_row_.push_back(row.scan(i));
   }
-  offset_square_ += weight * offset_slope * offset_slope;
-  offset_gradient_ += weight * offset_slope * residual;
+}
+
+std::size_t ScanEquations::end_row(std::size_t match) const {
+  return match + 1 < matches_.size() ? matches_[match + 1].first_row : rows_.size();
+}
+
+double ScanEquations::change(std::size_t match, const ByScan& steps) const {
+  double sum = matches_[match].offset_slope * steps.offset;
+  for (std::size_t i = matches_[match].first_row; i < end_row(match); ++i)
+    sum += rows_[i].dot(steps.scans[scan_of_row_[i]]);
+  return sum;
+}
+
+void ScanEquations::add_row(std::size_t match, double factor, ByScan& sum) const {
+  for (std::size_t i = matches_[match].first_row; i < end_row(match); ++i)
+    sum.scans[scan_of_row_[i]] += factor * rows_[i];
+  sum.offset += factor * matches_[match].offset_slope;
+}
+
+std::vector<double> ScanEquations::changes(const ByScan& steps) const {
+  std::vector<double> changes(matches_.size());
+  for (std::size_t i = 0; i < matches_.size(); ++i) changes[i] = change(i, steps);
+  return changes;
+}
+
+ByScan ScanEquations::gradient() const {
+  ByScan sum{std::vector<Vector6d>(scans_, Vector6d::Zero())};
+  for (std::size_t i = 0; i < matches_.size(); ++i)
+    add_row(i, matches_[i].weight * matches_[i].residual, sum);
+  return sum;
+}
+
+ByScan ScanEquations::product(const ByScan& steps) const {
+  ByScan sum{std::vector<Vector6d>(scans_, Vector6d::Zero())};
+  for (std::size_t i = 0; i < matches_.size(); ++i) add_row(i, matches_[i].weight * change(i, steps), sum);
+  return sum;
+}
+
+ScanEquations::Matrix ScanEquations::matrix() const {
+  Matrix matrix{std::vector<Scan>(scans_)};
+  for (std::size_t i = 0; i < matches_.size(); ++i) {
+    const Match& match = matches_[i];
+    for (std::size_t a = match.first_row; a < end_row(i); ++a) {
+      Scan& scan = matrix.scans[scan_of_row_[a]];
+      const Vector6d weighted = match.weight * rows_[a];
+      for (std::size_t b = match.first_row; b < end_row(i); ++b)
+        if (scan_of_row_[b] <= scan_of_row_[a])
+          sum_with(scan_of_row_[b], scan).noalias() += weighted * rows_[b].transpose();
+      scan.with_offset += match.offset_slope * weighted;
+    }
+    matrix.offset_square += match.weight * match.offset_slope * match.offset_slope;
+  }
+  return matrix;
 }
 
 }  // namespace sweepscope

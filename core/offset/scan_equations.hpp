@@ -24,7 +24,6 @@ struct ScanMotion {
 /// point's, and those of the neighbours that its surface was fitted to.
 class ScanRow {
  public:
-  void clear() { count_ = 0; }
   /// Adds one point at `p_m` of scan number `scan`, times `share`, along `normal`. Gives how the point's
   /// distance changes with the offset, times `share`.
   double add_point(std::uint32_t scan, const ScanMotion& motion, const Eigen::Vector3d& p_m,
@@ -40,15 +39,37 @@ class ScanRow {
   std::array<Vector6d, kMax> rows_;
 };
 
-/// Normal equations of the steps of all scans' poses, and of the offset. Points of one scan depend on the
-/// walk's knots alike: summed up here first, a match costs a tenth of what it would knot by knot.
+/// Something by the steps of all scans' poses, and by that of the offset.
+struct ByScan {
+  std::vector<Vector6d> scans;
+  double offset = 0;
+};
+
+/// The matches, and their normal equations for the steps of all scans' poses and of the offset. Points of one
+/// scan depend on the walk's knots alike: summed up by scans first, a match costs a tenth of what it would
+/// knot by knot.
 class ScanEquations {
  public:
   explicit ScanEquations(std::size_t scans) : scans_(scans) {}
 
   void add(const ScanRow& row, double offset_slope, double residual, double weight);
 
-  /// The sum over the matches of this scan's row (upright) times that of scan `other`, which is not after it.
+  struct Match {
+    double residual, weight, offset_slope;
+    std::size_t first_row;
+  };
+  const std::vector<Match>& matches() const { return matches_; }
+  /// How the residual of each match changes along steps.
+  std::vector<double> changes(const ByScan& steps) const;
+
+  /// Of half the weighted sum of the squares.
+  ByScan gradient() const;
+  /// The normal matrix times steps, match by match: without the matrix, which takes as long to sum up as some
+  /// ten products.
+  ByScan product(const ByScan& steps) const;
+
+  /// A part of the normal matrix: the sum over the matches of this scan's row (upright) times that of scan
+  /// `other`, which is not after it.
   struct Product {
     std::uint32_t other;
     Matrix6d sum;
@@ -56,15 +77,24 @@ class ScanEquations {
   struct Scan {
     std::vector<Product> products;
     std::vector<std::uint32_t> places;  // of the products, hashed by the other scan: there are hundreds
-    Vector6d gradient = Vector6d::Zero(), with_offset = Vector6d::Zero();
+    Vector6d with_offset = Vector6d::Zero();
   };
-  const std::vector<Scan>& scans() const { return scans_; }
-  double offset_gradient() const { return offset_gradient_; }
-  double offset_square() const { return offset_square_; }
+  struct Matrix {
+    std::vector<Scan> scans;
+    double offset_square = 0;
+  };
+  Matrix matrix() const;
 
  private:
-  std::vector<Scan> scans_;
-  double offset_gradient_ = 0, offset_square_ = 0;
+  std::size_t end_row(std::size_t match) const;
+  double change(std::size_t match, const ByScan& steps) const;
+  void add_row(std::size_t match, double factor, ByScan& sum) const;
+
+  std::size_t scans_;
+  std::vector<Match> matches_;
+  // All matches' rows, one after another, and the scans whose poses they are for.
+  std::vector<Vector6d> rows_;
+  std::vector<std::uint32_t> scan_of_row_;
 };
 
 }  // namespace sweepscope

@@ -1,7 +1,7 @@
 #include "core/offset/walk_equations.hpp"
 
-#include <Eigen/IterativeLinearSolvers>
 #include <algorithm>
+#include <utility>
 
 #include "core/offset/jerk_prior.hpp"
 
@@ -56,106 +56,135 @@ class Columns {
   std::vector<char> used_;
 };
 
-// What Eigen's conjugate gradients ask of a preconditioner.
-class ByEarlierFactor {
- public:
-  ByEarlierFactor() = default;
-  void use(const WalkEquations::Factor& factor) { factor_ = &factor; }
+// Half of a matrix: it and its transpose are the whole.
+void add_block(std::size_t row, std::size_t column, const Matrix6d& half, Eigen::MatrixXd& matrix) {
+  const auto r = Eigen::Index(6 * row), c = Eigen::Index(6 * column);
+  if (row >= column) matrix.block<6, 6>(r, c) += half;
+  if (row <= column) matrix.block<6, 6>(c, r) += half.transpose();
+}
 
-  template <typename Matrix>
-  ByEarlierFactor& compute(const Matrix&) {
-    return *this;
-  }
-  Eigen::VectorXd solve(const Eigen::VectorXd& right) const { return factor_->solve(right); }
-  Eigen::ComputationInfo info() const { return Eigen::Success; }
-
- private:
-  const WalkEquations::Factor* factor_ = nullptr;
-};
+Eigen::VectorXd by_unknowns(const ByScan& by_scan, const std::vector<ScanMotion>& motions,
+                            const GuidedPath& path) {
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(Eigen::Index(6 * path.blocks() + 1));
+  for (std::size_t i = 0; i < by_scan.scans.size(); ++i)
+    for_blocks(
+        motions[i].place, path,
+        [&](std::size_t block, double weight) {
+          sum.segment<6>(Eigen::Index(6 * block)) += weight * by_scan.scans[i];
+        },
+        [&](std::size_t block, const Vector6d& per_second) {
+          sum[Eigen::Index(6 * block)] += per_second.dot(by_scan.scans[i]);
+        });
+  sum[sum.size() - 1] = by_scan.offset;
+  return sum;
+}
 
 }  // namespace
 
-WalkEquations::WalkEquations(std::size_t blocks)
-    : matrix_(Eigen::MatrixXd::Zero(Eigen::Index(6 * blocks + 1), Eigen::Index(6 * blocks + 1))),
-      gradient_(Eigen::VectorXd::Zero(matrix_.rows())) {}
+WalkEquations::WalkEquations(const ScanEquations& matches, const std::vector<ScanMotion>& motions,
+                             const GuidedPath& path)
+    : matches_(matches),
+      motions_(motions),
+      path_(path),
+      gradient_(by_unknowns(matches.gradient(), motions, path)),
+      held_(Eigen::VectorXd::Zero(gradient_.size())) {}
 
-// Half of the matrix: it and its transpose are the whole.
-void WalkEquations::add_block(std::size_t row, std::size_t column, const Matrix6d& half) {
-  const auto r = Eigen::Index(6 * row), c = Eigen::Index(6 * column);
-  if (row >= column) matrix_.block<6, 6>(r, c) += half;
-  if (row <= column) matrix_.block<6, 6>(c, r) += half.transpose();
+void WalkEquations::add_jerks(const Eigen::Vector2d& sigma) {
+  jerk_weights_ << Vector3d::Constant(1 / (sigma[0] * sigma[0])),
+      Vector3d::Constant(1 / (sigma[1] * sigma[1]));
+  const std::vector<Vector6d> residuals = third_differences(path_);
+  for (std::size_t k = 0; k < residuals.size(); ++k)
+    for (std::size_t a = 0; a < kJerkStencil.size(); ++a)
+      gradient_.segment<6>(Eigen::Index(6 * (k + a))) +=
+          kJerkStencil[a] * jerk_weights_.cwiseProduct(residuals[k]);
 }
 
-void WalkEquations::add(const ScanEquations& scans, const std::vector<ScanMotion>& motions,
-                        const GuidedPath& path) {
-  const Eigen::Index last = matrix_.rows() - 1;
-  Columns columns(path);
-  for (std::uint32_t number = 0; number < scans.scans().size(); ++number) {
-    const ScanEquations::Scan& scan = scans.scans()[number];
+void WalkEquations::hold(double first_sigma, double knot_sigma, double offset_sigma_s) {
+  const Eigen::Index last = held_.size() - 1;
+  held_.head(last).array() += 1 / (knot_sigma * knot_sigma);
+  if (path_.knots() > 0) held_.head<6>().array() += 1 / (first_sigma * first_sigma);
+  held_[last] += 1 / (offset_sigma_s * offset_sigma_s);
+}
+
+Eigen::MatrixXd WalkEquations::matrix() const {
+  Eigen::MatrixXd matrix = held_.asDiagonal();
+  add_matches(matrix);
+  for (std::size_t k = 0; k + kJerkStencil.size() <= path_.knots(); ++k)
+    for (std::size_t a = 0; a < kJerkStencil.size(); ++a)
+      for (std::size_t b = 0; b <= a; ++b)
+        matrix.block<6, 6>(Eigen::Index(6 * (k + a)), Eigen::Index(6 * (k + b))).diagonal() +=
+            kJerkStencil[a] * kJerkStencil[b] * jerk_weights_;
+  return matrix;
+}
+
+void WalkEquations::add_matches(Eigen::MatrixXd& matrix) const {
+  const Eigen::Index last = matrix.rows() - 1;
+  const ScanEquations::Matrix by_scan = matches_.matrix();
+  Columns columns(path_);
+  for (std::uint32_t number = 0; number < by_scan.scans.size(); ++number) {
+    const ScanEquations::Scan& scan = by_scan.scans[number];
     if (scan.products.empty()) continue;
-    columns.sum_up(number, scan, motions);
+    columns.sum_up(number, scan, motions_);
     for_blocks(
-        motions[number].place, path,
+        motions_[number].place, path_,
         [&](std::size_t row, double weight) {
           columns.for_each(
-              [&](std::size_t column, const Matrix6d& sum) { add_block(row, column, weight * sum); });
-          gradient_.segment<6>(Eigen::Index(6 * row)) += weight * scan.gradient;
-          matrix_.block<1, 6>(last, Eigen::Index(6 * row)) += weight * scan.with_offset.transpose();
+              [&](std::size_t column, const Matrix6d& sum) { add_block(row, column, weight * sum, matrix); });
+          matrix.block<1, 6>(last, Eigen::Index(6 * row)) += weight * scan.with_offset.transpose();
         },
         [&](std::size_t row, const Vector6d& per_second) {
           columns.for_each([&](std::size_t column, const Matrix6d& sum) {
             Matrix6d first_only = Matrix6d::Zero();
             first_only.row(0) = per_second.transpose() * sum;
-            add_block(row, column, first_only);
+            add_block(row, column, first_only, matrix);
           });
-          gradient_[Eigen::Index(6 * row)] += per_second.dot(scan.gradient);
-          matrix_(last, Eigen::Index(6 * row)) += per_second.dot(scan.with_offset);
+          matrix(last, Eigen::Index(6 * row)) += per_second.dot(scan.with_offset);
         });
   }
-  gradient_[last] += scans.offset_gradient();
-  matrix_(last, last) += scans.offset_square();
+  matrix(last, last) += by_scan.offset_square;
 }
 
-void WalkEquations::add_jerks(const GuidedPath& path, const Eigen::Vector2d& sigma) {
-  const std::vector<Vector6d> residuals = third_differences(path);
-  Vector6d weights;
-  weights << Vector3d::Constant(1 / (sigma[0] * sigma[0])), Vector3d::Constant(1 / (sigma[1] * sigma[1]));
-  for (std::size_t k = 0; k < residuals.size(); ++k) {
-    for (std::size_t a = 0; a < kJerkStencil.size(); ++a) {
-      const auto row = Eigen::Index(6 * (k + a));
-      gradient_.segment<6>(row) += kJerkStencil[a] * weights.cwiseProduct(residuals[k]);
-      for (std::size_t b = 0; b <= a; ++b)
-        matrix_.block<6, 6>(row, Eigen::Index(6 * (k + b))).diagonal() +=
-            kJerkStencil[a] * kJerkStencil[b] * weights;
-    }
+Eigen::VectorXd WalkEquations::product(const Eigen::VectorXd& steps) const {
+  Eigen::VectorXd sum = held_.cwiseProduct(steps);
+  sum += by_unknowns(matches_.product(by_scans(steps, motions_, path_)), motions_, path_);
+  const auto knot = [](std::size_t i) { return Eigen::Index(6 * i); };
+  for (std::size_t k = 0; k + kJerkStencil.size() <= path_.knots(); ++k) {
+    Vector6d jerk = Vector6d::Zero();
+    for (std::size_t a = 0; a < kJerkStencil.size(); ++a)
+      jerk += kJerkStencil[a] * steps.segment<6>(knot(k + a));
+    const Vector6d weighted = jerk_weights_.cwiseProduct(jerk);
+    for (std::size_t a = 0; a < kJerkStencil.size(); ++a)
+      sum.segment<6>(knot(k + a)) += kJerkStencil[a] * weighted;
   }
+  return sum;
 }
 
-void WalkEquations::hold(std::size_t knots, double first_sigma, double knot_sigma, double offset_sigma_s) {
-  const Eigen::Index last = matrix_.rows() - 1;
-  matrix_.diagonal().head(last).array() += 1 / (knot_sigma * knot_sigma);
-  if (knots > 0) matrix_.diagonal().head<6>().array() += 1 / (first_sigma * first_sigma);
-  matrix_(last, last) += 1 / (offset_sigma_s * offset_sigma_s);
-}
-
-// By conjugate gradients, each step of which is a product with the matrix and a solution with the factor: on
-// a walk of 60 s 4 to 11 were enough, which take less time than a factor. False where they are not.
+// By conjugate gradients with the factor as their preconditioner: on a walk of 60 s 4 to 11 steps were
+// enough, which take less time than a matrix. False where they are not.
 bool WalkEquations::solve_near(const Factor& earlier, const Eigen::VectorXd& right,
                                Eigen::VectorXd& x) const {
-  constexpr int kMaxSteps = 12;
+  constexpr int kMaxSteps = 20;
   constexpr double kTolerance = 1e-3;  // the next iteration, which matches anew, moves by far more
-  Eigen::ConjugateGradient<Eigen::MatrixXd, Eigen::Lower, ByEarlierFactor> gradients;
-  gradients.setMaxIterations(kMaxSteps).setTolerance(kTolerance);
-  gradients.preconditioner().use(earlier);
-  gradients.compute(matrix_);
-  x = gradients.solve(right);
-  return gradients.info() == Eigen::Success;
+  x.setZero(right.size());
+  Eigen::VectorXd left = right, direction = Eigen::VectorXd::Zero(right.size());
+  double square = 1;
+  for (int i = 0; i < kMaxSteps; ++i) {
+    const Eigen::VectorXd preconditioned = earlier.solve(left);
+    const double before = std::exchange(square, left.dot(preconditioned));
+    direction = preconditioned + (i > 0 ? square / before : 0) * direction;
+    const Eigen::VectorXd changed = product(direction);
+    const double length = square / direction.dot(changed);
+    x += length * direction;
+    left -= length * changed;
+    if (left.norm() <= kTolerance * right.norm()) return true;
+  }
+  return false;
 }
 
 std::optional<WalkEquations::Solution> WalkEquations::solve(const Wanted& wanted,
                                                             std::optional<Factor>& factor) const {
-  const Eigen::Index last = matrix_.rows() - 1;
-  const auto unit = [&](Eigen::Index i) { return Eigen::VectorXd::Unit(matrix_.rows(), i); };
+  const Eigen::Index last = gradient_.size() - 1;
+  const auto unit = [&](Eigen::Index i) { return Eigen::VectorXd::Unit(gradient_.size(), i); };
   std::vector<Eigen::VectorXd> rights = {-gradient_};
   if (wanted.influence) rights.push_back(unit(last));
   if (wanted.influence && wanted.shift_block) rights.push_back(unit(Eigen::Index(6 * *wanted.shift_block)));
@@ -164,7 +193,7 @@ std::optional<WalkEquations::Solution> WalkEquations::solve(const Wanted& wanted
   bool near = factor && last > kFew && wanted.probes == nullptr;
   for (std::size_t i = 0; near && i < rights.size(); ++i) near = solve_near(*factor, rights[i], solved[i]);
   if (!near) {
-    factor.emplace(matrix_);
+    factor.emplace(matrix());
     if (factor->info() != Eigen::Success) return std::nullopt;
     for (std::size_t i = 0; i < rights.size(); ++i) solved[i] = factor->solve(rights[i]);
   }
@@ -175,6 +204,15 @@ std::optional<WalkEquations::Solution> WalkEquations::solve(const Wanted& wanted
   if (solved.size() > 2) solution.shift_influence = std::move(solved[2]);
   if (wanted.probes != nullptr) solution.solved_probes = factor->solve(*wanted.probes);
   return solution;
+}
+
+ByScan by_scans(const Eigen::VectorXd& by_unknowns, const std::vector<ScanMotion>& motions,
+                const GuidedPath& path) {
+  ByScan by_scan;
+  by_scan.scans.reserve(motions.size());
+  for (const ScanMotion& motion : motions) by_scan.scans.push_back(by_pose(by_unknowns, motion, path));
+  by_scan.offset = by_unknowns[by_unknowns.size() - 1];
+  return by_scan;
 }
 
 Vector6d by_pose(const Eigen::VectorXd& by_unknowns, const ScanMotion& motion, const GuidedPath& path) {

@@ -12,22 +12,23 @@
 
 namespace sweepscope {
 
-/// Normal equations of a part of a walk: the path's blocks of six unknowns, and the offset last. Only the
-/// lower triangle.
+/// Normal equations of a part of a walk: the path's blocks of six unknowns, and the offset last.
 class WalkEquations {
  public:
-  explicit WalkEquations(std::size_t blocks);
-
-  /// The matches, of scans whose poses depend on the knots, and on a given motion's time shift, by `motions`.
-  void add(const ScanEquations& scans, const std::vector<ScanMotion>& motions, const GuidedPath& path);
+  /// Of the matches of scans whose poses depend on the knots, and on a given motion's time shift, by
+  /// `motions`. All three must outlive the equations.
+  WalkEquations(const ScanEquations& matches, const std::vector<ScanMotion>& motions, const GuidedPath& path);
   /// The acceleration of the walk, or of its deviation from a given motion, changes little: third differences
   /// of the knots are near zero, to within sigma (rotation, translation).
-  void add_jerks(const GuidedPath& path, const Eigen::Vector2d& sigma);
+  void add_jerks(const Eigen::Vector2d& sigma);
   /// A map can be moved as a whole where there are knots, and a knot that sees little stays where it is.
-  void hold(std::size_t knots, double first_sigma, double knot_sigma, double offset_sigma_s);
+  void hold(double first_sigma, double knot_sigma, double offset_sigma_s);
 
   /// Of half the sum of the squares, by the unknowns.
   const Eigen::VectorXd& gradient() const { return gradient_; }
+  /// The normal matrix, and the same times steps without it. Of the matrix only the lower triangle.
+  Eigen::MatrixXd matrix() const;
+  Eigen::VectorXd product(const Eigen::VectorXd& steps) const;
 
   using Factor = Eigen::LLT<Eigen::MatrixXd, Eigen::Lower>;
   struct Wanted {
@@ -42,20 +43,27 @@ class WalkEquations {
     Eigen::VectorXd influence, shift_influence;
     Eigen::MatrixXd solved_probes;
   };
-  /// By the factor of earlier, similar equations, until a thousandth of the right side is left. With a factor
-  /// of their own, which is kept in `factor`: where there is none yet, where the equations have become too
-  /// different, of few unknowns, or with probes.
+  /// By the factor of earlier, similar equations, without a matrix of their own, until a thousandth of the
+  /// right side is left. With a factor of their own, which is kept in `factor`: where there is none yet,
+  /// where the equations have become too different, of few unknowns, or with probes.
   std::optional<Solution> solve(const Wanted& wanted, std::optional<Factor>& factor) const;
 
  private:
-  void add_block(std::size_t row, std::size_t column, const Matrix6d& half);
   bool solve_near(const Factor& earlier, const Eigen::VectorXd& right, Eigen::VectorXd& x) const;
+  void add_matches(Eigen::MatrixXd& matrix) const;
 
-  Eigen::MatrixXd matrix_;
+  const ScanEquations& matches_;
+  const std::vector<ScanMotion>& motions_;
+  const GuidedPath& path_;
   Eigen::VectorXd gradient_;
+  Vector6d jerk_weights_ = Vector6d::Zero();
+  Eigen::VectorXd held_;  // what is added to the diagonal
 };
 
-/// How something changes with a scan's pose, from how it changes with all unknowns, six each.
+/// How something changes with all scans' poses, or with one's, and with the offset, from how it changes with
+/// all unknowns, six each and the offset last.
+ByScan by_scans(const Eigen::VectorXd& by_unknowns, const std::vector<ScanMotion>& motions,
+                const GuidedPath& path);
 Vector6d by_pose(const Eigen::VectorXd& by_unknowns, const ScanMotion& motion, const GuidedPath& path);
 
 }  // namespace sweepscope

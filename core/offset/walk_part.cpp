@@ -74,9 +74,8 @@ void WalkPart::settle(const Job& job, const std::function<void()>& iterated) {
   const auto last = std::find(used.rbegin(), used.rend(), 1);
   first_scan_ = static_cast<std::uint32_t>(first - used.begin());
   if (first != used.end()) scans_.resize(std::size_t(last.base() - first) * slices_);
-  std::optional<WalkEquations::Factor> factor;
   for (int i = 0; i < options_.first_iterations; ++i, iterated()) {
-    if (job.cancelled() || !iterate(part, i + 1 == options_.first_iterations, factor)) return;
+    if (job.cancelled() || !iterate(part, i + 1 == options_.first_iterations)) return;
     if (evidence_)
       jerk_sigma_ = evidence_->sigma(path_, options_.knot_s, jerk_sigma_, solution_->solved_probes)
                         .cwiseMax(options_.min_jerk)
@@ -85,38 +84,45 @@ void WalkPart::settle(const Job& job, const std::function<void()>& iterated) {
   result_.sigma_s = offset_sigma_s();
   if (const auto block = path_.shift_block())
     result_.time_shift = TimeShift{path_.time_shift_s(), shift_sigma_s(*block)};
+  forget_matches();
 }
 
 void WalkPart::average(const Job& job, const std::function<void()>& iterated) {
   if (!solution_) return;
   const OffsetProblem part = cut();
   std::vector<double> offsets_s, shifts_s;
-  std::optional<WalkEquations::Factor> factor;  // not kept from settling: all parts' take too much memory
   for (int i = 0; i < options_.averaged_iterations; ++i, iterated()) {
-    if (job.cancelled() || !iterate(part, i + 1 == options_.averaged_iterations, factor)) return;
+    if (job.cancelled() || !iterate(part, i + 1 == options_.averaged_iterations)) return;
     offsets_s.push_back(result_.offset_s);
     shifts_s.push_back(path_.time_shift_s());
   }
-  conclude(offsets_s, clustered_sigma_s(part, solution_->influence, offset_sigma_s()));
+  conclude(offsets_s, clustered_sigma_s(solution_->influence, offset_sigma_s()));
   if (const auto block = path_.shift_block())
     result_.time_shift =
-        TimeShift{mean(shifts_s), clustered_sigma_s(part, solution_->shift_influence, shift_sigma_s(*block))};
+        TimeShift{mean(shifts_s), clustered_sigma_s(solution_->shift_influence, shift_sigma_s(*block))};
+  forget_matches();
+  factor_.reset();
+}
+
+// A part lives as long as its walk is solved for; its matches take several MB.
+void WalkPart::forget_matches() {
+  matches_.reset();
+  matched_m_ = {};
 }
 
 // Matches anew and steps; false, and without a result, where that cannot be done.
-bool WalkPart::iterate(const OffsetProblem& part, bool is_last,
-                       std::optional<WalkEquations::Factor>& factor) {
+bool WalkPart::iterate(const OffsetProblem& part, bool is_last) {
   result_.sigma_s = 0;
   solution_.reset();
-  WalkEquations equations(path_.blocks());
-  linearise(part, equations);
+  match(part);
   if (result_.matches < options_.min_matches) return false;
-  equations.add_jerks(path_, std::pow(options_.knot_s, 3) * jerk_sigma_);
+  WalkEquations equations(*matches_, scans_, path_);
+  equations.add_jerks(std::pow(options_.knot_s, 3) * jerk_sigma_);
   // rad and m. The first is a gauge, far below what is asked for; the second far above any step.
   constexpr double kFirstSigma = 1e-4, kKnotSigma = 0.5;
-  equations.hold(path_.knots(), kFirstSigma, kKnotSigma, options_.offset_sigma_s);
+  equations.hold(kFirstSigma, kKnotSigma, options_.offset_sigma_s);
   solution_ =
-      equations.solve({is_last, path_.shift_block(), evidence_ ? &evidence_->probes() : nullptr}, factor);
+      equations.solve({is_last, path_.shift_block(), evidence_ ? &evidence_->probes() : nullptr}, factor_);
   if (!solution_) return false;
   path_.move(solution_->block_steps);
   result_.offset_s += solution_->offset_step_s;
@@ -148,32 +154,22 @@ Vector3d WalkPart::in_map_m(const PlacedSweep& sweep, const PlacedFeature& featu
   return path_.at(time_s(sweep, feature)) * feature.p_in_base_m;
 }
 
-void WalkPart::linearise(const OffsetProblem& part, WalkEquations& equations) {
-  ScanEquations scans(scans_.size());
-  for_each_match(part, [&](const ScanRow& row, double slope, double distance_m, double weight,
-                           const Vector3d&) { scans.add(row, slope, distance_m, weight); });
-  equations.add(scans, scans_, path_);
-}
-
 // Of the offset or a time shift, where what the surfaces err by is not taken from the matches' standard
 // deviation, but from their residuals, summed up cell by cell: the matches of one surface err together, and
 // over and over where the same lines see it again and again (White 1980, with clusters). What the
 // smoothness leaves open stays.
-double WalkPart::clustered_sigma_s(const OffsetProblem& part, const Eigen::VectorXd& influences,
-                                   double sigma_s) {
+double WalkPart::clustered_sigma_s(const Eigen::VectorXd& influences, double sigma_s) const {
   std::map<std::array<int, 3>, double> pulls_s;
   double formal_s2 = 0;
   constexpr double kCell_m = 1;  // about the size of a piece of furniture, or of a bay of a wall
-  for_each_match(
-      part, [&](const ScanRow& row, double slope, double distance_m, double weight, const Vector3d& p_m) {
-        double influence = slope * influences[influences.size() - 1];
-        for (std::size_t i = 0; i < row.size(); ++i)
-          influence += row.row(i).dot(by_pose(influences, scans_[row.scan(i)], path_));
-        std::array<int, 3> cell;
-        for (int i = 0; i < 3; ++i) cell[std::size_t(i)] = int(std::floor(p_m[i] / kCell_m));
-        pulls_s[cell] += weight * distance_m * influence;
-        formal_s2 += weight * square(influence);
-      });
+  const std::vector<double> changes = matches_->changes(by_scans(influences, scans_, path_));
+  for (std::size_t k = 0; k < changes.size(); ++k) {
+    const ScanEquations::Match& match = matches_->matches()[k];
+    std::array<int, 3> cell;
+    for (int i = 0; i < 3; ++i) cell[std::size_t(i)] = int(std::floor(matched_m_[k][i] / kCell_m));
+    pulls_s[cell] += match.weight * match.residual * changes[k];
+    formal_s2 += match.weight * square(changes[k]);
+  }
   double clustered_s2 = 0;
   for (const auto& [cell, pull_s] : pulls_s) clustered_s2 += square(pull_s);
   if (!(formal_s2 > 0)) return sigma_s;
@@ -181,8 +177,10 @@ double WalkPart::clustered_sigma_s(const OffsetProblem& part, const Eigen::Vecto
   return std::sqrt(total_s2 - of_matches_s2 + of_matches_s2 * clustered_s2 / formal_s2);
 }
 
-template <typename Use>
-void WalkPart::for_each_match(const OffsetProblem& part, const Use& use) {
+// All features with the surfaces that the other direction saw, anew.
+void WalkPart::match(const OffsetProblem& part) {
+  matches_.emplace(scans_.size());
+  matched_m_.clear();
   const std::vector<PlacedSweep> sweeps = place_sweeps(part, result_.offset_s);
   FeatureMap edges, planes;
   last_line_ = kNoLine;
@@ -204,7 +202,7 @@ void WalkPart::for_each_match(const OffsetProblem& part, const Use& use) {
                        const std::optional<MatchResidual>& residual) {
                      ++result_.features;
                      if (residual && residual->has_normal)
-                       add(line_of(sweep, feature), p_m, *residual, search.near, use);
+                       add(line_of(sweep, feature), p_m, *residual, search.near);
                    });
   }
 }
@@ -245,22 +243,22 @@ std::uint32_t WalkPart::line_of(const PlacedSweep& sweep, const PlacedFeature& f
 }
 
 // One match: a point of one direction, its surface from points of the other.
-template <typename Use>
 void WalkPart::add(std::uint32_t line, const Vector3d& p_m, const MatchResidual& match,
-                   const Neighbours& near, const Use& use) {
+                   const Neighbours& near) {
   const Vector3d& normal = match.normal;
-  row_.clear();
-  double slope = row_.add_point(line, scans_[line], p_m, normal, 1);
+  ScanRow row;
+  double slope = row.add_point(line, scans_[line], p_m, normal, 1);
   result_.lever_m2 += square(normal.dot(arm_m(line, p_m)));
   result_.reach_m2 += arm_m(line, p_m).squaredNorm();
   for (int i = 0; i < near.count; ++i) {
     const auto at = std::size_t(i);
-    slope += row_.add_point(near.line[at], scans_[near.line[at]], near.p_m[at].cast<double>(), normal,
-                            -1.0 / near.count);
+    slope += row.add_point(near.line[at], scans_[near.line[at]], near.p_m[at].cast<double>(), normal,
+                           -1.0 / near.count);
   }
   const double weight =
       cauchy_weight(match.distance_m, options_.loss_width_m) / square(options_.match_sigma_m);
-  use(row_, slope, match.distance_m, weight, p_m);
+  matches_->add(row, slope, match.distance_m, weight);
+  matched_m_.push_back(p_m);
   ++result_.matches;
 }
 

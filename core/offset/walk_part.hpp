@@ -30,6 +30,8 @@ class WalkPart {
   void settle(const Job& job, const std::function<void()>& iterated);
   /// The others, after which it holds their mean. Does nothing where a part could not settle.
   void average(const Job& job, const std::function<void()>& iterated);
+  /// Gives back the memory of a factor, 8 MB of a part of 10 s, which `average` would start with.
+  void forget_factor() { factor_.reset(); }
 
   /// `sigma_s` is 0 where too few points match.
   const JointWalkPart& result() const { return result_; }
@@ -37,17 +39,15 @@ class WalkPart {
 
  private:
   OffsetProblem cut() const;
-  bool iterate(const OffsetProblem& part, bool is_last, std::optional<WalkEquations::Factor>& factor);
+  bool iterate(const OffsetProblem& part, bool is_last);
   void conclude(const std::vector<double>& offsets_s, double sigma_s);
   double offset_sigma_s() const;
   double shift_sigma_s(std::size_t block) const;
-  void linearise(const OffsetProblem& part, WalkEquations& equations);
-  double clustered_sigma_s(const OffsetProblem& part, const Eigen::VectorXd& influences, double sigma_s);
-  template <typename Use>
-  void for_each_match(const OffsetProblem& part, const Use& use);
-  template <typename Use>
-  void add(std::uint32_t line, const Eigen::Vector3d& p_m, const MatchResidual& match, const Neighbours& near,
-           const Use& use);
+  void match(const OffsetProblem& part);
+  void forget_matches();
+  void add(std::uint32_t line, const Eigen::Vector3d& p_m, const MatchResidual& match,
+           const Neighbours& near);
+  double clustered_sigma_s(const Eigen::VectorXd& influences, double sigma_s) const;
   void insert(const PlacedSweep& sweep, const PlacedFeature& feature, FeatureMap& map);
   double turning_rad_s(const Sweep& sweep, double motor_s) const;
   std::uint32_t line_of(const PlacedSweep& sweep, const PlacedFeature& feature) const;
@@ -65,10 +65,13 @@ class WalkPart {
   std::optional<JerkEvidence> evidence_;
   JointWalkPart result_;
   std::optional<WalkEquations::Solution> solution_;  // the last iteration's
+  std::optional<WalkEquations::Factor> factor_;      // an earlier iteration's
   std::vector<ScanMotion> scans_;
   static constexpr std::uint32_t kNoLine = 0xffffffffu;
   std::uint32_t last_line_ = kNoLine;  // whose motion was worked out last
-  ScanRow row_;
+  // The last iteration's matches, and where their points lie.
+  std::optional<ScanEquations> matches_;
+  std::vector<Eigen::Vector3d> matched_m_;
 };
 
 }  // namespace sweepscope

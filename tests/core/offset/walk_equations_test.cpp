@@ -137,12 +137,34 @@ TEST(WalkEquations, JerksHaveTheGradientOfTheirSquares) {
       sum += (jerk.head<3>() / sigma[0]).squaredNorm() / 2 + (jerk.tail<3>() / sigma[1]).squaredNorm() / 2;
     return sum;
   };
-  WalkEquations equations(path.blocks());
-  equations.add_jerks(path, sigma);
+  const ScanEquations none(0);
+  const std::vector<ScanMotion> motions;
+  WalkEquations equations(none, motions, path);
+  equations.add_jerks(sigma);
   Eigen::VectorXd numeric(Eigen::Index(6 * path.blocks()));
   for (Eigen::Index i = 0; i < numeric.size(); ++i)
     numeric[i] = (cost(moved(path, i, kStep)) - cost(moved(path, i, -kStep))) / (2 * kStep);
   EXPECT_LT((equations.gradient().head(numeric.size()) - numeric).norm(), 0.05 * numeric.norm());
+}
+
+TEST(WalkEquations, TheMatrixOfJerksIsTheChangeOfTheirGradient) {
+  constexpr double kStep = 1e-3;
+  const Eigen::Vector2d sigma(0.2, 0.5);
+  const ScanEquations none(0);
+  const std::vector<ScanMotion> motions;
+  const auto equations_of = [&](const GuidedPath& path) {
+    WalkEquations equations(none, motions, path);
+    equations.add_jerks(sigma);
+    return equations;
+  };
+  const GuidedPath path = path_of(std::nullopt);
+  const Eigen::MatrixXd matrix = equations_of(path).matrix().selfadjointView<Eigen::Lower>();
+  for (const Eigen::Index unknown : {0, 5, 30, 62, 100}) {
+    const GuidedPath after = moved(path, unknown, kStep), before = moved(path, unknown, -kStep);
+    const Eigen::VectorXd numeric =
+        (equations_of(after).gradient() - equations_of(before).gradient()) / (2 * kStep);
+    EXPECT_LT((matrix.col(unknown) - numeric).norm(), 0.05 * numeric.norm()) << unknown;
+  }
 }
 
 // Matches that each depend on three scans, some of them on two of one knot.
@@ -178,26 +200,32 @@ Matches matches_of(const GuidedPath& path, const std::vector<ScanMotion>& motion
   return sum;
 }
 
+std::vector<ScanMotion> motions_along(const GuidedPath& path) {
+  std::vector<ScanMotion> motions;
+  for (int i = 0; i < 40; ++i) motions.push_back(scan_at(path, 2.05 + 0.035 * i));
+  return motions;
+}
+
 // The equations of some matches, and what they come to without taking them apart.
 struct Whole {
   Whole(const GuidedPath& path, const std::function<double(std::uint32_t match)>& weight_of)
-      : equations(path.blocks()) {
-    std::vector<ScanMotion> motions;
-    for (int i = 0; i < 40; ++i) motions.push_back(scan_at(path, 2.05 + 0.035 * i));
-    auto [scans, matrix, of_matches] = matches_of(path, motions, weight_of);
-    equations.add(scans, motions, path);
+      : motions(motions_along(path)),
+        matches(matches_of(path, motions, weight_of)),
+        equations(matches.scans, motions, path) {
     constexpr double kFirst = 0.01, kKnot = 0.5, kOffset_s = 0.02;
-    equations.hold(path.knots(), kFirst, kKnot, kOffset_s);
+    equations.hold(kFirst, kKnot, kOffset_s);
+    Eigen::MatrixXd matrix = matches.matrix;
     const auto last = Eigen::Index(6 * path.blocks());
     matrix.diagonal().head(last).array() += 1 / (kKnot * kKnot);
     if (path.knots() > 0) matrix.diagonal().head<6>().array() += 1 / (kFirst * kFirst);
     matrix(last, last) += 1 / (kOffset_s * kOffset_s);
-    gradient = of_matches;
     inverse = matrix.inverse();
-    step = -inverse * gradient;
+    step = -inverse * matches.gradient;
   }
+  std::vector<ScanMotion> motions;
+  Matches matches;
   WalkEquations equations;
-  Eigen::VectorXd gradient, step;
+  Eigen::VectorXd step;
   Eigen::MatrixXd inverse;
 };
 
@@ -226,11 +254,37 @@ double usual_weight(std::uint32_t match) {
 TEST_P(WalkEquationsOf, TheSolutionIsThatOfTheWholeMatrix) {
   const GuidedPath path = path_of(GetParam());
   const Whole whole(path, usual_weight);
-  EXPECT_LT((whole.equations.gradient() - whole.gradient).norm(), 1e-10 * whole.gradient.norm());
+  const Eigen::VectorXd& gradient = whole.matches.gradient;
+  EXPECT_LT((whole.equations.gradient() - gradient).norm(), 1e-10 * gradient.norm());
   std::optional<WalkEquations::Factor> factor;
   const auto solution = whole.equations.solve({true, path.shift_block()}, factor);
   ASSERT_TRUE(solution);
   expect_solution(*solution, whole, path, 1e-9, 1e-8);
+}
+
+TEST_P(WalkEquationsOf, AProductIsThatOfTheMatrix) {
+  const GuidedPath path = path_of(GetParam());
+  Whole whole(path, usual_weight);
+  whole.equations.add_jerks({0.2, 0.5});
+  Eigen::VectorXd steps(whole.step.size());
+  for (Eigen::Index i = 0; i < steps.size(); ++i) steps[i] = std::sin(double(i * i));
+  const Eigen::VectorXd product = whole.equations.matrix().selfadjointView<Eigen::Lower>() * steps;
+  EXPECT_LT((whole.equations.product(steps) - product).norm(), 1e-12 * product.norm());
+}
+
+TEST_P(WalkEquationsOf, AMatchChangesByItsRow) {
+  const GuidedPath path = path_of(GetParam());
+  const Whole whole(path, usual_weight);
+  const ScanEquations& matches = whole.matches.scans;
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(whole.step.size());
+  for (Eigen::Index i = 0; i < sum.size(); ++i) {
+    const Eigen::VectorXd step = Eigen::VectorXd::Unit(sum.size(), i);
+    const std::vector<double> changes = matches.changes(by_scans(step, whole.motions, path));
+    ASSERT_EQ(changes.size(), matches.matches().size());
+    for (std::size_t k = 0; k < changes.size(); ++k)
+      sum[i] += changes[k] * matches.matches()[k].weight * matches.matches()[k].residual;
+  }
+  EXPECT_LT((sum - whole.matches.gradient).norm(), 1e-10 * sum.norm());
 }
 
 TEST_P(WalkEquationsOf, AnEarlierFactorSolvesSimilarEquationsAndIsReplacedForOthers) {
