@@ -1,6 +1,7 @@
 #include "core/rig_solve/rig_cloud.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/numbers.hpp"
@@ -16,23 +17,31 @@ class SmoothAngle {
 
   double at(double motor_s) {
     const auto& t = track_.time_s;
-    const auto& a = track_.angle_rad;
     while (next_ + 3 < t.size() && t[next_ + 1] <= motor_s) ++next_;
     while (next_ > 1 && t[next_] > motor_s) --next_;
     if (t.size() < 4) return track_.angle_at(std::clamp(motor_s, t.front(), t.back()));
-    double sum = 0;
-    for (std::size_t i = next_ - 1; i < next_ + 3; ++i) {
-      double part = a[i];
-      for (std::size_t j = next_ - 1; j < next_ + 3; ++j)
-        if (j != i) part *= (motor_s - t[j]) / (t[i] - t[j]);
-      sum += part;
-    }
-    return sum;
+    if (next_ != weighed_) weigh();
+    const double a = motor_s - t[next_ - 1], b = motor_s - t[next_], c = motor_s - t[next_ + 1],
+                 d = motor_s - t[next_ + 2];
+    return a * b * (weights_[2] * d + weights_[3] * c) + c * d * (weights_[0] * b + weights_[1] * a);
   }
 
  private:
+  // Lagrange's weights of the four samples about an instant: the angle of each, over the products of its
+  // distances from the others.
+  void weigh() {
+    for (std::size_t i = 0; i < weights_.size(); ++i) {
+      const double t = track_.time_s[next_ - 1 + i];
+      weights_[i] = track_.angle_rad[next_ - 1 + i];
+      for (std::size_t j = 0; j < weights_.size(); ++j)
+        if (j != i) weights_[i] /= t - track_.time_s[next_ - 1 + j];
+    }
+    weighed_ = next_;
+  }
+
   const MotorTrack& track_;
-  std::size_t next_ = 1;
+  std::size_t next_ = 1, weighed_ = 0;  // 0: nothing yet
+  std::array<double, 4> weights_{};
 };
 
 // Whether an instant is used. Play shows best where the motor is slow, so that all instants are used for it

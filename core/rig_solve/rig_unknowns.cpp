@@ -87,8 +87,8 @@ RigGeometry::RigGeometry(const Mount& mount, const RigUnknowns& unknowns)
       axis_(mount.axis.normalized()),
       laser_m_(mount.laser_in_motor_xyz_m),
       across_(across_axis(mount.axis)),
-      turn_(rotation_from_vector(across_ * unknowns.turn_rad).toRotationMatrix()),
-      turn_left_jacobian_(left_jacobian(across_ * unknowns.turn_rad)) {}
+      turn_per_unknown_(left_jacobian(across_ * unknowns.turn_rad) * across_),
+      turn_(rotation_from_vector(across_ * unknowns.turn_rad).toRotationMatrix()) {}
 
 RigGeometry::Placed RigGeometry::place(const Eigen::Vector3d& p_in_motor_m, const Instant& at) const {
   const double sine = std::sin(at.angle_rad), cosine = std::cos(at.angle_rad);
@@ -102,7 +102,8 @@ RigGeometry::Placed RigGeometry::place(const Eigen::Vector3d& p_in_motor_m, cons
   placed.p_in_base_m = roll * (turned_m + laser_m_ + across_ * unknowns_.shift_m);
   const Eigen::Vector3d per_angle_m = axis_.cross(placed.p_in_base_m);
   placed.jacobian.col(kOffset) = at.speed_rad_s * per_encoder * per_angle_m;
-  placed.jacobian.middleCols<2>(kTurnU) = -roll * cross_matrix(turned_m) * turn_left_jacobian_ * across_;
+  for (int i = 0; i < 2; ++i)
+    placed.jacobian.col(kTurnU + i) = roll * turn_per_unknown_.col(i).cross(turned_m);
   placed.jacobian.middleCols<2>(kShiftU) = roll * across_;
   placed.jacobian.col(kPlay) = -0.5 * at.direction * per_angle_m;
   placed.jacobian.col(kEncoderSine) = -sine * per_angle_m;

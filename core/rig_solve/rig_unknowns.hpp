@@ -68,8 +68,8 @@ class RigGeometry {
  private:
   RigUnknowns unknowns_;
   Eigen::Vector3d axis_, laser_m_;  // of the rig file's mount
-  Eigen::Matrix<double, 3, 2> across_;
-  Eigen::Matrix3d turn_, turn_left_jacobian_;
+  Eigen::Matrix<double, 3, 2> across_, turn_per_unknown_;
+  Eigen::Matrix3d turn_;
 };
 
 }  // namespace sweepscope
