@@ -39,7 +39,7 @@ class ScanRow {
   std::array<Vector6d, kMax> rows_;
 };
 
-/// Something by the steps of all scans' poses, and by that of the offset.
+/// Steps of all scans' poses and of the offset, or a derivative by them.
 struct ByScan {
   std::vector<Vector6d> scans;
   double offset = 0;
@@ -64,8 +64,8 @@ class ScanEquations {
 
   /// Of half the weighted sum of the squares.
   ByScan gradient() const;
-  /// The normal matrix times steps, match by match: without the matrix, which takes as long to sum up as some
-  /// ten products.
+  /// The normal matrix times steps, match by match: without the matrix, which takes longer to sum up than
+  /// many products.
   ByScan product(const ByScan& steps) const;
 
   /// A part of the normal matrix: the sum over the matches of this scan's row (upright) times that of scan

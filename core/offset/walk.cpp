@@ -8,7 +8,9 @@
 
 #include "core/loam/given_motion.hpp"
 #include "core/loam/relocalisation.hpp"
+#include "core/loam/straighten.hpp"
 #include "core/offset/coarse_search.hpp"
+#include "core/offset/jerk_prior.hpp"
 
 namespace sweepscope {
 
@@ -65,6 +67,8 @@ std::optional<SolvedWalk> solve_walk(const OffsetProblem& problem, double first_
                                      const WalkOptions& options, const Job& job) {
   auto walk = iterate(problem, first_offset_s, options, job);
   if (!walk) return walk;
+  if (!options.mapping.given && !turns_back_smoothly(problem))
+    walk->sweeps = straightened(std::move(walk->sweeps));
   SweepPlacer placer(problem, walk->tracked_at_s);
   const auto place = [&](std::size_t i) {
     PlacedSweep sweep;

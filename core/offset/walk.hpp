@@ -39,8 +39,8 @@ struct SolvedWalk {
 };
 
 /// Alternates between tracking the walk and solving for walk and offset together, from an offset within some
-/// milliseconds of the true one; then puts the stretches of the walk onto one map, which the offset does not
-/// depend on. Absent if the job was cancelled.
+/// milliseconds of the true one; then straightens the walk (see `straightened`) and puts its stretches onto
+/// one map, neither of which the offset depends on. Absent if the job was cancelled.
 std::optional<SolvedWalk> solve_walk(const OffsetProblem& problem, double first_offset_s,
                                      const WalkOptions& options, const Job& job);
 
