@@ -5,8 +5,10 @@
 // that nothing is solved for, how many `estimate` warns of: none of the perfect ones should be, and of the
 // others all.
 //
-//   rig_table [--recordings N] [--only FAMILY] [--walks FOLDER] [--noise-mm X] [--duration-s X]
+//   rig_table [--recordings N] [--only FAMILY] [--walks FOLDER] [--noise-mm X] [--duration-s X] [--limit 1]
 //
+// With --limit a third line per family has the medians of what range noise and the unevenness of the surfaces
+// leave of each parameter by themselves, from the information about the true rig.
 // FOLDER holds house.ply and office.ply, whose scenes are used beside the rooms where it is given.
 #include <fmt/format.h>
 
@@ -14,6 +16,7 @@
 #include <charconv>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,6 +25,7 @@
 #include "core/offset/estimator.hpp"
 #include "core/results/rig_json.hpp"
 #include "core/rig_solve/rig_check.hpp"
+#include "core/rig_solve/rig_least_squares.hpp"
 #include "core/rig_solve/rig_solve.hpp"
 #include "core/simulation/portable_math.hpp"
 #include "core/simulation/simulate.hpp"
@@ -35,6 +39,7 @@ struct Settings {
   int recordings = 12;
   double noise_mm = 10, duration_s = 8;
   std::string only, walks;
+  int limit = 0;
 };
 
 struct Draw {
@@ -188,6 +193,53 @@ std::string summary(Errors errors, const char* name, int digits) {
                      quantile(errors.sizes, 0.95), digits, errors.within, errors.sizes.size());
 }
 
+// The standard deviations that noise and unevenness leave.
+struct Limits {
+  std::vector<double> turn_deg, shift_mm, play_deg, encoder_deg;
+};
+
+void add_limit(const SimulationOptions& options, const Recording& recording, const RigSolve& solve,
+               Limits& limits) {
+  const auto prepared = prepare(recording, {}, Job());
+  const OffsetProblem problem = problem_for(*prepared, options.offset_s, options.offset_s);
+  const SolvedRig solved = solve_rig(problem, options.offset_s, solve, Job());
+  const RigFit fit = solve_rig_planes(problem, solved.found, priors_of(solve), {}, Job());
+  std::vector<int> unknowns;
+  for (int i = 0; i < kRigUnknowns; ++i)
+    if (priors_of(solve)[i] > 0) unknowns.push_back(i);
+  const Eigen::MatrixXd information = fit.information(unknowns, unknowns);
+  const FeatureOptions features;
+  // Points are means over windows of beams that overlap.
+  const double shared = (2.0 * features.half_window + 1) / features.map_spacing;
+  const Eigen::MatrixXd covariance = std::max(1.0, shared) * information.inverse();
+  const auto sigma = [&](int first_unknown, int count) {
+    double sum = 0;
+    for (std::size_t i = 0; i < unknowns.size(); ++i)
+      if (unknowns[i] >= first_unknown && unknowns[i] < first_unknown + count)
+        sum += covariance(Eigen::Index(i), Eigen::Index(i));
+    return std::sqrt(sum);
+  };
+  if (solve.mount) limits.turn_deg.push_back(sigma(kTurnU, 2) * kDegPerRad);
+  if (solve.mount) limits.shift_mm.push_back(sigma(kShiftU, 2) * 1e3);
+  if (solve.play) limits.play_deg.push_back(sigma(kPlay, 1) * kDegPerRad);
+  if (solve.encoder) limits.encoder_deg.push_back(sigma(kEncoderSine, 2) * kDegPerRad);
+}
+
+void print(const Family& family, const char* scenes, const Limits& limits) {
+  std::string line;
+  const auto add = [&](const char* name, std::vector<double> values, int digits) {
+    if (!values.empty())
+      line += fmt::format("; {} {:.{}f} / {:.{}f}", name, quantile(values, 0.5), digits,
+                          quantile(values, 0.95), digits);
+  };
+  add("turn deg", limits.turn_deg, 4);
+  add("shift mm", limits.shift_mm, 2);
+  add("play deg", limits.play_deg, 4);
+  add("encoder deg", limits.encoder_deg, 4);
+  if (!line.empty())
+    fmt::print("== {:22} {:8} noise and unevenness leave +-, median / 95 %{}\n", family.name, scenes, line);
+}
+
 void print(const Family& family, const char* scenes, const Table& table) {
   const std::size_t answered = table.offset_ms.sizes.size();
   if (answered + std::size_t(table.refused) == 0) return;
@@ -226,6 +278,7 @@ void run_check(const Family& family, const Settings& settings) {
 
 void run(const Family& family, const Settings& settings) {
   Table tuned, others;
+  std::map<std::string, Limits> limits;  // by the kind of scene
   for (int i = 0; i < settings.recordings; ++i) {
     const SimulationOptions options = drawn(family, i, settings);
     const auto simulation = simulate(options, Job());
@@ -239,6 +292,9 @@ void run(const Family& family, const Settings& settings) {
     fmt::print("{:22} {:2} {:8} ", family.name, i,
                options.own.mesh.empty() ? options.scene : options.own.mesh.stem().string());
     Table& table = held_out(options) ? others : tuned;
+    if (settings.limit)
+      add_limit(options, simulation->recording, family.solve,
+                limits[options.own.mesh.empty() ? "rooms" : options.own.mesh.stem().string()]);
     if (found && found->identifiable && found->rig) {
       compare(options, *found, table);
       continue;
@@ -248,6 +304,7 @@ void run(const Family& family, const Settings& settings) {
   }
   print(family, "tuned on", tuned);
   print(family, "held out", others);
+  for (const auto& [scenes, of_scenes] : limits) print(family, scenes.c_str(), of_scenes);
 }
 
 }  // namespace
@@ -263,6 +320,7 @@ int main(int argc, char** argv) {
     if (name == "--recordings") read(settings.recordings);
     if (name == "--noise-mm") read(settings.noise_mm);
     if (name == "--duration-s") read(settings.duration_s);
+    if (name == "--limit") read(settings.limit);
     if (name == "--only") settings.only = value;
     if (name == "--walks") settings.walks = value;
   }
