@@ -13,9 +13,23 @@ namespace {
 // sweep may begin some mm beside the end of the one before.
 constexpr int kInstants = 10;
 
-// The motor's angle from -1 to 1, for a speed that does not change within the sweep.
-double angle_of(const SweepPose& sweep, double u) {
-  return sweep.direction * (2 * u - 1);
+// The motor's angle within a sweep, from -1 to 1 along a whole forward one, for a speed that does not change.
+struct MotorAngle {
+  double begin, end;
+  double at(double u) const { return begin + u * (end - begin); }
+};
+
+// The first sweep and the last one may be recorded in part: they last as long as their neighbour from the
+// reversal that they share with it.
+MotorAngle motor_angle(std::span<const SweepPose> stretch, std::size_t k) {
+  const auto duration_s = [](const SweepPose& sweep) { return sweep.end_s - sweep.begin_s; };
+  const auto part_of = [&](const SweepPose& whole) {
+    return std::min(1.0, duration_s(stretch[k]) / duration_s(whole));
+  };
+  const double d = stretch[k].direction;
+  if (k == 0 && stretch.size() > 1) return {d * (1 - 2 * part_of(stretch[1])), d};
+  if (k > 0 && k + 1 == stretch.size()) return {-d, d * (2 * part_of(stretch[k - 1]) - 1)};
+  return {-d, d};
 }
 
 // Sums over the accelerations of a path, weighted by their durations: of the motor and of the rig.
@@ -42,16 +56,18 @@ void add_acceleration(const Instant& before, const Instant& at, const Instant& a
   ++sums.count;
 }
 
-// Of sweeps that follow each other without a gap.
-void add_run(std::span<const SweepPose> sweeps, Sums& sums) {
-  sums.reversals += sweeps.size() - 1;
+// Of sweeps [first, end), which follow each other without a gap.
+void add_run(std::span<const SweepPose> stretch, std::size_t first, std::size_t end, Sums& sums) {
+  sums.reversals += end - first - 1;
   std::vector<Instant> instants;
-  for (const SweepPose& sweep : sweeps)
+  for (std::size_t k = first; k < end; ++k) {
+    const SweepPose& sweep = stretch[k];
+    const MotorAngle angle = motor_angle(stretch, k);
     for (int i = 0; i < kInstants; ++i) {
       const double u = (i + 0.5) / kInstants;
-      instants.push_back(
-          {sweep.begin_s + u * (sweep.end_s - sweep.begin_s), angle_of(sweep, u), sweep.at(u)});
+      instants.push_back({sweep.begin_s + u * (sweep.end_s - sweep.begin_s), angle.at(u), sweep.at(u)});
     }
+  }
   for (std::size_t i = 1; i + 1 < instants.size(); ++i)
     add_acceleration(instants[i - 1], instants[i], instants[i + 1], sums);
 }
@@ -68,7 +84,7 @@ Vector6d deviation_of(std::span<const SweepPose> stretch) {
   Sums sums;
   for (std::size_t first = 0, end = 1; first < stretch.size(); first = end++) {
     while (end < stretch.size() && follows(stretch[end], stretch[end - 1])) ++end;
-    add_run(stretch.subspan(first, end - first), sums);
+    add_run(stretch, first, end, sums);
   }
   Vector6d deviation = Vector6d::Zero();
   constexpr std::size_t kMinReversals = 4;  // fewer may be what the rig did
@@ -87,12 +103,13 @@ Vector6d deviation_of(std::span<const SweepPose> stretch) {
 void straighten(std::span<SweepPose> stretch) {
   const Vector6d deviation = deviation_of(stretch);
   if (deviation.isZero(0)) return;
-  for (SweepPose& sweep : stretch)
-    for (std::size_t i = 0; i < sweep.knots.size(); ++i) {
-      const double angle = angle_of(sweep, double(i) / double(sweep.knots.size() - 1));
-      Pose& knot = sweep.knots[i];
-      knot = stepped(knot, -angle * deviation, knot.translation_m);
-    }
+  for (std::size_t k = 0; k < stretch.size(); ++k) {
+    const MotorAngle angle = motor_angle(stretch, k);
+    std::vector<Pose>& knots = stretch[k].knots;
+    for (std::size_t i = 0; i < knots.size(); ++i)
+      knots[i] = stepped(knots[i], -angle.at(double(i) / double(knots.size() - 1)) * deviation,
+                         knots[i].translation_m);
+  }
 }
 
 }  // namespace

@@ -68,6 +68,19 @@ TEST(Straightened, AWalkThatDoesNotTurnBackWithTheMotorStays) {
   EXPECT_EQ(most_apart(straightened(straight), straight), 0);
 }
 
+// A recording may begin and end within a sweep.
+TEST(Straightened, SweepsRecordedInPartAreStraightToo) {
+  std::vector<SweepPose> straight = walked(40), crooked = bent(straight, some_bend());
+  for (std::vector<SweepPose>* sweeps : {&straight, &crooked}) {
+    SweepPose &first = sweeps->front(), &last = sweeps->back();
+    first.begin_s += 0.2;
+    first.knots.erase(first.knots.begin(), first.knots.begin() + 6);
+    last.end_s -= 0.3;
+    last.knots.resize(7);
+  }
+  EXPECT_LT(most_apart(straightened(crooked), straight), 0.004);
+}
+
 TEST(Straightened, EveryStretchIsStraightenedByItself) {
   const std::vector<SweepPose> straight = walked(60);
   std::vector<SweepPose> crooked = bent(straight, some_bend());
