@@ -109,11 +109,6 @@ double robust_deviation_m(const RigCloud& cloud, const Scene& scene) {
   return kSigmaPerMedianDeviation * double(median(std::move(sizes_m)));
 }
 
-// Each point comes from a line fitted to its neighbours, so that neighbouring points are correlated.
-double points_per_independent(const FeatureOptions& options) {
-  return std::max(1.0, (2.0 * options.half_window + 1) / options.map_spacing);
-}
-
 // Deviation of the cells from their surfaces beyond the noise of their points.
 double cells_deviation_m(const Scene& scene, double noise_m, double points_per_independent) {
   constexpr double kFlattest_m = 0.0001;  // no wall is flatter over metres
@@ -237,6 +232,10 @@ bool small(const RigVector& step) {
 }
 
 }  // namespace
+
+double points_per_independent(const FeatureOptions& options) {
+  return std::max(1.0, (2.0 * options.half_window + 1) / options.map_spacing);
+}
 
 double RigFit::squared_distance(RigUnknown first, int count) const {
   const Eigen::VectorXd x = rig.vector().segment(first, count);

@@ -51,6 +51,9 @@ struct RigFit {
   double squared_distance(RigUnknown first, int count) const;
 };
 
+/// How many points have one error in common: each comes from a line fitted to its neighbours.
+double points_per_independent(const FeatureOptions& options);
+
 /// Solves for the offset and the parts of a stationary rig whose priors are not 0, beginning at `first`.
 RigFit solve_rig_planes(const OffsetProblem& problem, const RigUnknowns& first, const RigPriors& priors,
                         const RigLeastSquaresOptions& options, const Job& job);

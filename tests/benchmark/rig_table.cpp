@@ -7,8 +7,9 @@
 //
 //   rig_table [--recordings N] [--only FAMILY] [--walks FOLDER] [--noise-mm X] [--duration-s X] [--limit 1]
 //
-// With --limit a third line per family has the medians of what range noise and the unevenness of the surfaces
-// leave of each parameter by themselves, from the information about the true rig.
+// With --limit one more line per family and kind of scene has what range noise and the unevenness of the
+// surfaces leave of each parameter by themselves, from the information of the surfaces about the rig found.
+//
 // FOLDER holds house.ply and office.ply, whose scenes are used beside the rooms where it is given.
 #include <fmt/format.h>
 
@@ -198,20 +199,15 @@ struct Limits {
   std::vector<double> turn_deg, shift_mm, play_deg, encoder_deg;
 };
 
-void add_limit(const SimulationOptions& options, const Recording& recording, const RigSolve& solve,
-               Limits& limits) {
+void add_limit(const Recording& recording, const RigSolve& solve, const RigUnknowns& found, Limits& limits) {
   const auto prepared = prepare(recording, {}, Job());
-  const OffsetProblem problem = problem_for(*prepared, options.offset_s, options.offset_s);
-  const SolvedRig solved = solve_rig(problem, options.offset_s, solve, Job());
-  const RigFit fit = solve_rig_planes(problem, solved.found, priors_of(solve), {}, Job());
+  const OffsetProblem problem = problem_for(*prepared, found.offset_s, found.offset_s);
+  const RigFit fit = solve_rig_planes(problem, found, priors_of(solve), {}, Job());
   std::vector<int> unknowns;
   for (int i = 0; i < kRigUnknowns; ++i)
     if (priors_of(solve)[i] > 0) unknowns.push_back(i);
   const Eigen::MatrixXd information = fit.information(unknowns, unknowns);
-  const FeatureOptions features;
-  // Points are means over windows of beams that overlap.
-  const double shared = (2.0 * features.half_window + 1) / features.map_spacing;
-  const Eigen::MatrixXd covariance = std::max(1.0, shared) * information.inverse();
+  const Eigen::MatrixXd covariance = points_per_independent(problem.feature_options) * information.inverse();
   const auto sigma = [&](int first_unknown, int count) {
     double sum = 0;
     for (std::size_t i = 0; i < unknowns.size(); ++i)
@@ -292,11 +288,11 @@ void run(const Family& family, const Settings& settings) {
     fmt::print("{:22} {:2} {:8} ", family.name, i,
                options.own.mesh.empty() ? options.scene : options.own.mesh.stem().string());
     Table& table = held_out(options) ? others : tuned;
-    if (settings.limit)
-      add_limit(options, simulation->recording, family.solve,
-                limits[options.own.mesh.empty() ? "rooms" : options.own.mesh.stem().string()]);
     if (found && found->identifiable && found->rig) {
       compare(options, *found, table);
+      if (settings.limit)
+        add_limit(simulation->recording, family.solve, found->rig->found,
+                  limits[options.own.mesh.empty() ? "rooms" : options.own.mesh.stem().string()]);
       continue;
     }
     ++table.refused;
