@@ -25,14 +25,16 @@ RigCheck check_rig(const OffsetProblem& problem, double offset_s, const Job& job
   RigLeastSquaresOptions options;
   options.max_points = 12'000;
   options.max_iterations = 20;
-  const RigFit fit = solve_rig_planes(problem, first, priors, options, job);
+  RigFit fit = solve_rig_planes(problem, first, priors, options, job);
+  if (!fit.within_priors) fit = solve_rig_planes(problem, first, priors_of({.mount = true}), options, job);
   if (job.cancelled() || fit.on_planes < kMinPoints || fit.planes < kMinSurfaces) return check;
   if (!(fit.information(kOffset, kOffset) > 0)) return check;
   check.offset_per_tilt_s_rad =
       fit.information.block<1, 2>(kOffset, kTurnU).norm() / fit.information(kOffset, kOffset);
   if (!fit.converged) return check;
   check.mount_evidence = fit.squared_distance(kTurnU, 4);
-  check.encoder_evidence = fit.squared_distance(kEncoderSine, 2);
+  if (fit.covariance(kEncoderSine, kEncoderSine) > 0)
+    check.encoder_evidence = fit.squared_distance(kEncoderSine, 2);
   if (check.mount_evidence > kMaxMount)
     check.warning = fmt::format(
         "Surfaces are flatter with another mount: the laser turned by {:.2f} deg and moved by {:.0f} mm. "

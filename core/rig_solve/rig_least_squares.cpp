@@ -231,6 +231,14 @@ bool small(const RigVector& step) {
   return (step.cwiseAbs().array() < unit.array()).all();
 }
 
+// Whether the unknowns lie within four standard deviations of their priors.
+bool are_within(const RigVector& x, const RigPriors& priors) {
+  constexpr double kMost = 4;
+  for (int i = kOffset + 1; i < kRigUnknowns; ++i)
+    if (priors[i] > 0 && std::abs(x[i]) > kMost * priors[i]) return false;
+  return true;
+}
+
 }  // namespace
 
 double points_per_independent(const FeatureOptions& options) {
@@ -275,6 +283,7 @@ RigFit solve_rig_planes(const OffsetProblem& problem, const RigUnknowns& first, 
     if (fit.converged || fit.iterations + 1 == options.max_iterations) {
       fit.information = sum.h / (fit.residual_m * fit.residual_m);
       fit.covariance = solver.covariance(sum) + scatter(scene, solver, x);
+      fit.within_priors = are_within(x, priors);
       break;
     }
     const double width_m = options.loss_width_m(fit.residual_m);

@@ -142,7 +142,13 @@ RigMatrix square(const RigVector& x) {
   return x * x.transpose();
 }
 
-// Bent walls look like a wrong rig, the more the larger the cells: how much smaller cells change.
+RigPriors without_encoder(RigPriors priors) {
+  priors[kEncoderSine] = priors[kEncoderCosine] = 0;
+  return priors;
+}
+
+// Bent walls look like a wrong rig, the more the larger the cells: how much smaller cells change. An encoder
+// that these cannot tell is left as it is.
 RigMatrix changes_by_smaller_cells(const OffsetProblem& problem, const RigFit& fit, const RigPriors& priors,
                                    const Job& job) {
   RigLeastSquaresOptions smaller = near_the_solution();
@@ -151,26 +157,40 @@ RigMatrix changes_by_smaller_cells(const OffsetProblem& problem, const RigFit& f
   RigMatrix sum = RigMatrix::Zero();
   for (const int levels : {2, 1}) {  // cells of at most 1 m and 0.5 m instead of 4 m
     smaller.max_levels = levels;
-    sum += square(solve_rig_planes(problem, first, priors, smaller, job).rig.vector() - fit.rig.vector());
+    RigFit other = solve_rig_planes(problem, first, priors, smaller, job);
+    if (!other.within_priors)
+      other = solve_rig_planes(problem, fit.rig, without_encoder(priors), smaller, job);
+    sum += square(other.rig.vector() - fit.rig.vector());
   }
   return sum;
 }
 
-// Whether the surfaces show an eccentric encoder. Perfect ones of tests/benchmark/rig_table do not.
-bool shows_encoder(const RigFit& fit) {
+// Whether the surfaces show an eccentric encoder that is not asked for. Perfect ones of
+// tests/benchmark/rig_table do not.
+bool shows_encoder(const RigFit& fit, const RigPriors& priors) {
   constexpr double kMaxSquaredDistance = 60;
-  return fit.squared_distance(kEncoderSine, 2) > kMaxSquaredDistance;
+  return determined(fit, priors, {kEncoderSine, kEncoderCosine}) &&
+         fit.squared_distance(kEncoderSine, 2) > kMaxSquaredDistance;
 }
 
-// The fit with the rig file's encoder. What the encoder could change, as far as the surfaces tell, enters the
-// covariance.
-RigFit with_given_encoder(const OffsetProblem& problem, const RigFit& free, const RigPriors& priors,
-                          const Job& job) {
-  RigUnknowns first = free.rig;
-  first.encoder_rad.setZero();
-  RigFit fit = solve_rig_planes(problem, first, priors, near_the_solution(), job);
-  fit.covariance += square(free.rig.vector() - fit.rig.vector());
-  return fit;
+// The covariance of a fit without the encoder, with an encoder that may be off by its prior: as far as the
+// surfaces tell, the rest follows it.
+RigMatrix covariance_with_encoder(const RigFit& fit, const RigPriors& priors) {
+  std::vector<int> rest;
+  for (int i = 0; i < kEncoderSine; ++i)
+    if (priors[i] > 0) rest.push_back(i);
+  const std::vector<int> encoder{kEncoderSine, kEncoderCosine};
+  Eigen::MatrixXd of_rest = fit.information(rest, rest);
+  for (std::size_t i = 0; i < rest.size(); ++i)
+    of_rest(Eigen::Index(i), Eigen::Index(i)) += 1 / (priors[rest[i]] * priors[rest[i]]);
+  const Eigen::MatrixXd follows = -of_rest.ldlt().solve(Eigen::MatrixXd(fit.information(rest, encoder)));
+  const double variance = priors[kEncoderSine] * priors[kEncoderSine];
+  RigMatrix covariance = fit.covariance;
+  covariance(rest, rest) += variance * follows * follows.transpose();
+  covariance(rest, encoder) = variance * follows;
+  covariance(encoder, rest) = variance * follows.transpose();
+  covariance.block<2, 2>(kEncoderSine, kEncoderSine) = variance * Eigen::Matrix2d::Identity();
+  return covariance;
 }
 
 struct RigSolution {
@@ -178,20 +198,49 @@ struct RigSolution {
   RigPriors priors;  // that it was found with
 };
 
+// The fit with all scatter in its covariance.
+RigFit with_scatter(const OffsetProblem& problem, RigFit fit, const RigPriors& priors, const Job& job) {
+  fit.covariance += changes_by_smaller_cells(problem, fit, priors, job) +
+                    scatter_over_time(problem, fit, priors, near_the_solution(), job);
+  return fit;
+}
+
+// The fit from any start.
+RigFit solved_from(const OffsetProblem& problem, const RigUnknowns& first, const RigPriors& priors,
+                   const Job& job) {
+  RigFit fit = solve_rig_planes(problem, first, priors, {}, job);
+  if (!fit.converged && priors[kShiftU] > 0) fit = solved_from_around(problem, std::move(fit), priors, job);
+  return fit;
+}
+
+// The solution with the rig file's encoder, where surfaces do not determine another.
+RigFit with_undetermined_encoder(const OffsetProblem& problem, const RigUnknowns& first,
+                                 const RigPriors& priors, const Job& job) {
+  const RigPriors held = without_encoder(priors);
+  RigFit fit = with_scatter(problem, solved_from(problem, first, held, job), held, job);
+  fit.covariance = covariance_with_encoder(fit, priors);
+  return fit;
+}
+
 // A mount without its encoder is solved for with the encoder that the rig file gives, unless the surfaces
-// show another.
+// show another. What that could change, as far as they tell, enters the covariance.
 RigSolution solution_of(const OffsetProblem& problem, const RigUnknowns& first, const RigPriors& priors,
                         const Job& job) {
-  RigSolution solution{{}, with_usual_encoder(priors)};
-  RigFit& fit = solution.fit;
-  fit = solve_rig_planes(problem, first, solution.priors, {}, job);
-  if (!fit.converged && priors[kShiftU] > 0)
-    fit = solved_from_around(problem, std::move(fit), solution.priors, job);
-  if (solution.priors != priors && !shows_encoder(fit))
-    solution = {with_given_encoder(problem, fit, priors, job), priors};
-  fit.covariance += changes_by_smaller_cells(problem, fit, solution.priors, job) +
-                    scatter_over_time(problem, fit, solution.priors, near_the_solution(), job);
-  return solution;
+  const RigPriors usual = with_usual_encoder(priors);
+  RigFit fit = solved_from(problem, first, usual, job);
+  if (!fit.within_priors && usual[kEncoderSine] > 0)
+    return {with_undetermined_encoder(problem, first, usual, job), priors};
+  if (usual != priors && !shows_encoder(fit, usual)) {
+    RigUnknowns given = fit.rig;
+    given.encoder_rad.setZero();
+    RigFit held = solve_rig_planes(problem, given, priors, near_the_solution(), job);
+    held.covariance += square(fit.rig.vector() - held.rig.vector());
+    return {with_scatter(problem, std::move(held), priors, job), priors};
+  }
+  fit = with_scatter(problem, std::move(fit), usual, job);
+  if (priors[kEncoderSine] > 0 && !determined(fit, priors, {kEncoderSine, kEncoderCosine}))
+    return {with_undetermined_encoder(problem, first, priors, job), priors};
+  return {std::move(fit), usual};
 }
 
 // The result of the fit, and which parts are determined.

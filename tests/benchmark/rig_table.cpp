@@ -10,12 +10,13 @@
 // With --limit one more line per family and kind of scene has what range noise and the unevenness of the
 // surfaces leave of each parameter by themselves, from the information of the surfaces about the rig found.
 //
-// FOLDER holds house.ply and office.ply, whose scenes are used beside the rooms where it is given.
+// FOLDER holds house.ply and office.ply, which are used beside the project's own scenes where it is given.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <string>
@@ -30,6 +31,8 @@
 #include "core/rig_solve/rig_solve.hpp"
 #include "core/simulation/portable_math.hpp"
 #include "core/simulation/simulate.hpp"
+#include "scene_mesh.hpp"
+#include "tests/scratch_folder.hpp"
 
 namespace sweepscope {
 namespace {
@@ -88,9 +91,42 @@ Eigen::Vector3d across_x(Draw& draw, double size) {
   return {0, size * std::cos(angle_rad), size * std::sin(angle_rad)};
 }
 
+// Where a rig stands. The rooms have a place each; in the other scenes it is turned about the vertical at
+// random.
+struct StandingScene {
+  const char* name;
+  std::vector<Eigen::Vector3d> places_m;
+};
+
+constexpr std::size_t kFromFolder = 2;  // the last scenes, whose meshes are in --walks
+
+const std::vector<StandingScene>& standing_scenes() {
+  static const std::vector<StandingScene> scenes{
+      {"room-1", {}},
+      {"room-2", {}},
+      {"room-3", {}},
+      {"room-4", {}},
+      {"room-5", {}},
+      {"room-6", {}},
+      {"metro-station", {{0.4, -4.4, 1.5}, {3.5, 0.6, 1.5}}},
+      {"parking-area", {{1.3, 6, 1.5}}},
+      {"cemetery", {{2.4, -1, 1.5}}},
+      {"lecture-room", {{1.9, 2.4, 1.5}}},
+      {"house", {{-6, -4, 1.35}, {3, 0, 1.35}, {6, -2.5, 1.35}}},
+      {"office", {{0, -1, 0.2}, {-1.5, 1, 0.2}}},
+  };
+  return scenes;
+}
+
+std::filesystem::path mesh_of(const std::string& scene, const std::filesystem::path& walks) {
+  static const test::ScratchFolder folder;
+  if (exists(walks / (scene + ".ply"))) return walks / (scene + ".ply");
+  const std::filesystem::path mesh = folder.path() / (scene + ".ply");
+  if (!exists(mesh)) write_scene_mesh(scene, mesh);
+  return mesh;
+}
+
 SimulationOptions drawn(const Family& family, int number, const Settings& settings) {
-  static const std::vector<Eigen::Vector3d> house{{-6, -4, 1.35}, {3, 0, 1.35}, {6, -2.5, 1.35}},
-      office{{0, -1, 0.2}, {-1.5, 1, 0.2}};
   Draw draw{Random(9176, std::uint64_t(&family - families().data()), std::uint64_t(number))};
   SimulationOptions options;
   options.duration_s = settings.duration_s;
@@ -110,12 +146,14 @@ SimulationOptions drawn(const Family& family, int number, const Settings& settin
     options.mixed_pixels = 0.1;
     options.uneven_motor = 0.03;
   }
-  const int scene = number % (settings.walks.empty() ? 6 : 8);
-  options.scene = fmt::format("room-{}", scene % 6 + 1);
-  if (scene < 6) return options;
-  options.own.mesh = settings.walks + (scene == 6 ? "/house.ply" : "/office.ply");
-  const auto& places = scene == 6 ? house : office;
-  options.own.placement.at_m = places[std::size_t(number / 8) % places.size()];
+  const auto& scenes = standing_scenes();
+  const std::size_t used = settings.walks.empty() ? scenes.size() - kFromFolder : scenes.size();
+  const StandingScene& scene = scenes[std::size_t(number) % used];
+  options.scene = scene.name;
+  if (scene.places_m.empty()) return options;
+  options.own.mesh = mesh_of(scene.name, settings.walks);
+  options.own.placement.at_m = scene.places_m[std::size_t(number) / used % scene.places_m.size()];
+  options.own.placement.yaw_deg = draw.uniform(-180, 180);
   return options;
 }
 
@@ -285,14 +323,13 @@ void run(const Family& family, const Settings& settings) {
     EstimateOptions estimate_options;
     estimate_options.solve = family.solve;
     const auto found = estimate(simulation->recording, estimate_options, Job());
-    fmt::print("{:22} {:2} {:8} ", family.name, i,
-               options.own.mesh.empty() ? options.scene : options.own.mesh.stem().string());
+    fmt::print("{:22} {:2} {:8} ", family.name, i, options.scene);
     Table& table = held_out(options) ? others : tuned;
     if (found && found->identifiable && found->rig) {
       compare(options, *found, table);
       if (settings.limit)
         add_limit(simulation->recording, family.solve, found->rig->found,
-                  limits[options.own.mesh.empty() ? "rooms" : options.own.mesh.stem().string()]);
+                  limits[options.own.mesh.empty() ? "rooms" : options.scene]);
       continue;
     }
     ++table.refused;

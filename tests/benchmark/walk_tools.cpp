@@ -20,7 +20,7 @@
 #include "core/io/trajectory_file.hpp"
 #include "core/simulation/mesh_file.hpp"
 #include "core/simulation/ray_caster.hpp"
-#include "core/simulation/scene.hpp"
+#include "scene_mesh.hpp"
 
 namespace sweepscope {
 namespace {
@@ -77,21 +77,6 @@ Motion motion_of(const Poses& truth) {
   motion.median_radps = rates_radps[rates_radps.size() / 2];
   motion.top_radps = rates_radps.back();
   return motion;
-}
-
-int write_mesh(const std::string& scene_name, const std::string& file) {
-  const auto scene = simulation::make_scene(scene_name);
-  if (!scene) throw std::runtime_error("there is no scene " + scene_name);
-  const auto& triangles = scene->mesh.triangles;
-  std::ofstream out(file);
-  out << "ply\nformat ascii 1.0\nelement vertex " << 3 * triangles.size()
-      << "\nproperty double x\nproperty double y\nproperty double z\nelement face " << triangles.size()
-      << "\nproperty list uchar int vertex_indices\nend_header\n";
-  for (const simulation::Triangle& t : triangles)
-    for (const auto* p : {&t.a, &t.b, &t.c}) out << fmt::format("{} {} {}\n", p->x(), p->y(), p->z());
-  for (std::size_t i = 0; i < triangles.size(); ++i)
-    out << fmt::format("3 {} {} {}\n", 3 * i, 3 * i + 1, 3 * i + 2);
-  return out.flush() ? 0 : 1;
 }
 
 int print_distance(const std::string& cloud_file, const std::string& mesh_file) {
@@ -160,7 +145,7 @@ int run(const std::vector<std::string>& words) {
   const auto is = [&](const char* name, std::size_t count) {
     return words.size() == count + 1 && words[0] == name;
   };
-  if (is("mesh", 2)) return write_mesh(words[1], words[2]);
+  if (is("mesh", 2)) return write_scene_mesh(words[1], words[2]), 0;
   if (is("distance", 2)) return print_distance(words[1], words[2]);
   if (is("error", 2)) return print_error(words[1], words[2]);
   if (is("row", 4)) return print_row(words[1], words[2], words[3], words[4]);
