@@ -1,9 +1,13 @@
 #include "core/offset/rig_estimate.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <memory>
 
+#include "core/offset/rig_motion.hpp"
 #include "core/offset/walk.hpp"
 #include "core/rig_solve/rig_solve.hpp"
 
@@ -36,17 +40,51 @@ std::optional<double> offset_seen_s(const Estimate& found) {
   return best == nullptr ? std::nullopt : std::optional(best->offset_s);
 }
 
-// A rig that stood still: the rig from flat surfaces, then the offset with it.
-Result<Estimate> with_rig_of_surfaces(const PreparedRecording& prepared, const EstimateOptions& options,
-                                      Estimate found, const Answering& estimated, const Job& job) {
+// The rig of one that stood still, from flat surfaces; null where no offset is seen.
+std::shared_ptr<const SolvedRig> rig_of_surfaces(const PreparedRecording& prepared, const RigSolve& what,
+                                                 const Estimate& found, const Job& job) {
   const auto offset_s = offset_seen_s(found);
-  if (!offset_s) return found;
-  auto solved = std::make_shared<SolvedRig>(
-      solve_rig(problem_for(prepared, *offset_s, *offset_s), *offset_s, options.solve, job));
-  if (job.cancelled()) return found;
+  if (!offset_s || job.cancelled()) return nullptr;
+  return std::make_shared<const SolvedRig>(
+      solve_rig(problem_for(prepared, *offset_s, *offset_s), *offset_s, what, job));
+}
+
+// The offset with a rig that was solved for.
+Result<Estimate> with_rig_found(const PreparedRecording& prepared, std::shared_ptr<const SolvedRig> solved,
+                                const Answering& estimated) {
   return estimated(with_rig(*prepared.recording, *solved)).map([&](Estimate&& answer) {
     return with(std::move(answer), std::move(solved));
   });
+}
+
+// The longest part of a walk in which the rig stood, if it is long enough to solve for a rig.
+std::optional<MotionPart> standing_part(const PreparedRecording& prepared) {
+  constexpr double kMin_s = 6, kMinSweeps = 10;  // 8 s are advised
+  constexpr double kPairs = 64;                  // that are compared at most: the last may already be moving
+  const std::vector<MotionPart> parts = motion_over_time(prepared);
+  std::optional<MotionPart> longest;
+  const auto length_s = [](const MotionPart& part) { return part.end_s - part.begin_s; };
+  for (const MotionPart& part : parts)
+    if (!part.moved && (!longest || length_s(part) > length_s(*longest))) longest = part;
+  if (!longest) return longest;
+  if (longest->end_s < parts.back().end_s) longest->end_s -= parts.back().end_s / kPairs;
+  const MotorMotion& motor = prepared.motor;
+  if (length_s(*longest) < std::max(kMin_s, kMinSweeps * motor.median_sweep_s)) longest.reset();
+  return longest;
+}
+
+// The rig from the part of a walk in which it stood; null where there is none or it does not determine the
+// mount that is asked for.
+std::shared_ptr<const SolvedRig> rig_of_standing_part(const PreparedRecording& prepared,
+                                                      const MotionPart& part, const EstimateOptions& options,
+                                                      const Answering& estimated, const Job& job) {
+  const Recording stood = window(*prepared.recording, part.begin_s, part.end_s);
+  const auto found = estimated(stood);
+  if (!found || found->kind != RigKind::kStationary) return nullptr;
+  const auto prepared_part = prepare(stood, options.features, job);
+  if (!prepared_part) return nullptr;
+  auto solved = rig_of_surfaces(*prepared_part, options.solve, *found, job);
+  return solved && (solved->mount.identifiable || !options.solve.mount) ? solved : nullptr;
 }
 
 std::optional<WalkTurn> turn_seen(const Recording& recording, const Estimate& found) {
@@ -116,9 +154,19 @@ Result<Estimate> estimate_with_rig(const PreparedRecording& prepared, const Esti
       return estimate(again, offset_only, kept, job);
     });
   };
-  if (found->kind == RigKind::kMoving)
-    return with_turn_of_walk(prepared, options, std::move(*found), estimated);
-  return with_rig_of_surfaces(prepared, options, std::move(*found), estimated, job);
+  if (found->kind == RigKind::kStationary) {
+    auto solved = rig_of_surfaces(prepared, options.solve, *found, job);
+    return solved && !job.cancelled() ? with_rig_found(prepared, std::move(solved), estimated) : found;
+  }
+  if (const auto part = standing_part(prepared))
+    if (auto solved = rig_of_standing_part(prepared, *part, options, estimated, job);
+        solved && !job.cancelled())
+      return with_rig_found(prepared, std::move(solved), estimated).map([&](Estimate&& answer) {
+        answer.kind_reason += fmt::format(" The rig was solved for from {:.1f} to {:.1f} s, where it stood.",
+                                          part->begin_s, part->end_s);
+        return std::move(answer);
+      });
+  return with_turn_of_walk(prepared, options, std::move(*found), estimated);
 }
 
 }  // namespace sweepscope

@@ -24,26 +24,51 @@ struct Change {
   int part;  // of the walk
 };
 
-// The changes along sweeps that follow each other.
-void add_changes(const Recording& recording, std::span<const SweepPose> run, double offset_s,
-                 std::vector<Change>& changes) {
-  constexpr double kPart_s = 2;  // two or more turns of the motor: a body sways alike over less
+// The base at a step, and how a turn of the mount by 1 rad would turn it.
+struct Step {
+  double time_s;
+  Pose base;
+  Across by_turn;
+};
+
+std::vector<Step> steps_along(const Recording& recording, std::span<const SweepPose> run, double offset_s) {
   const Eigen::Vector3d axis = recording.rig.mount.axis.normalized();
   const Across across = across_axis(axis);
   MotorReader motor(recording.motor);
-  std::vector<Eigen::Quaterniond> rotations;
-  std::vector<Across> turned;
+  std::vector<Step> steps;
   auto sweep = run.begin();
   for (double t_s = run.front().begin_s; t_s < run.back().end_s; t_s += kStep_s) {
     while (sweep + 1 < run.end() && sweep->end_s < t_s) ++sweep;
     const double u = (t_s - sweep->begin_s) / (sweep->end_s - sweep->begin_s);
-    rotations.push_back(sweep->at(std::clamp(u, 0.0, 1.0)).rotation);
-    turned.push_back(Eigen::AngleAxisd(motor.angle_at(t_s + offset_s), axis).toRotationMatrix() * across);
-    const std::size_t n = rotations.size();
-    if (n < 3) continue;
-    changes.push_back(
-        {turn_between(rotations[n - 2], rotations[n - 1]) - turn_between(rotations[n - 3], rotations[n - 2]),
-         turned[n - 1] - 2 * turned[n - 2] + turned[n - 3], int(t_s / kPart_s)});
+    steps.push_back({t_s, sweep->at(std::clamp(u, 0.0, 1.0)),
+                     Eigen::AngleAxisd(motor.angle_at(t_s + offset_s), axis).toRotationMatrix() * across});
+  }
+  return steps;
+}
+
+// Whether the base moves within one turn of the motor, in which a wrong mount sways it back to where it was.
+// A rig that stands sees each direction at one angle of the motor: its map is bent as its poses are, and
+// neither shows a turn of the mount.
+bool moves(const std::vector<Step>& steps, std::size_t at, std::size_t turn) {
+  constexpr double kStands_m = 0.05, kStands_rad = kRadPerDeg;
+  const std::size_t begin = at >= turn ? at - turn : at, end = std::min(begin + turn, steps.size() - 1);
+  const Pose by = steps[begin].base.inverse() * steps[end].base;
+  return by.translation_m.norm() > kStands_m || vector_from_rotation(by.rotation).norm() > kStands_rad;
+}
+
+// The changes along sweeps that follow each other.
+void add_changes(const Recording& recording, std::span<const SweepPose> run, double offset_s,
+                 std::vector<Change>& changes) {
+  constexpr double kPart_s = 2;  // two or more turns of the motor: a body sways alike over less
+  const std::vector<Step> steps = steps_along(recording, run, offset_s);
+  const double turn_s = 2 * (run.back().end_s - run.front().begin_s) / double(run.size());
+  const auto turn = std::size_t(std::lround(turn_s / kStep_s));
+  for (std::size_t i = 1; i + 1 < steps.size(); ++i) {
+    if (!moves(steps, i, turn)) continue;
+    const Step &before = steps[i - 1], &at = steps[i], &after = steps[i + 1];
+    changes.push_back({turn_between(at.base.rotation, after.base.rotation) -
+                           turn_between(before.base.rotation, at.base.rotation),
+                       after.by_turn - 2 * at.by_turn + before.by_turn, int(after.time_s / kPart_s)});
   }
 }
 

@@ -31,7 +31,7 @@
 #include "core/rig_solve/rig_solve.hpp"
 #include "core/simulation/portable_math.hpp"
 #include "core/simulation/simulate.hpp"
-#include "scene_mesh.hpp"
+#include "tests/scene_mesh.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace sweepscope {
@@ -122,7 +122,7 @@ std::filesystem::path mesh_of(const std::string& scene, const std::filesystem::p
   static const test::ScratchFolder folder;
   if (exists(walks / (scene + ".ply"))) return walks / (scene + ".ply");
   const std::filesystem::path mesh = folder.path() / (scene + ".ply");
-  if (!exists(mesh)) write_scene_mesh(scene, mesh);
+  if (!exists(mesh)) test::write_scene_mesh(scene, mesh);
   return mesh;
 }
 

@@ -20,7 +20,7 @@
 #include "core/io/trajectory_file.hpp"
 #include "core/simulation/mesh_file.hpp"
 #include "core/simulation/ray_caster.hpp"
-#include "scene_mesh.hpp"
+#include "tests/scene_mesh.hpp"
 
 namespace sweepscope {
 namespace {
@@ -145,7 +145,7 @@ int run(const std::vector<std::string>& words) {
   const auto is = [&](const char* name, std::size_t count) {
     return words.size() == count + 1 && words[0] == name;
   };
-  if (is("mesh", 2)) return write_scene_mesh(words[1], words[2]), 0;
+  if (is("mesh", 2)) return test::write_scene_mesh(words[1], words[2]), 0;
   if (is("distance", 2)) return print_distance(words[1], words[2]);
   if (is("error", 2)) return print_error(words[1], words[2]);
   if (is("row", 4)) return print_row(words[1], words[2], words[3], words[4]);

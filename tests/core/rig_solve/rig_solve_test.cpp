@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include "core/io/trajectory_file.hpp"
 #include "core/offset/estimator.hpp"
 #include "tests/core/engine_fixtures.hpp"
+#include "tests/scene_mesh.hpp"
+#include "tests/scratch_folder.hpp"
 
 namespace sweepscope {
 namespace {
@@ -99,6 +102,32 @@ TEST(RigSolve, AMountIsSolvedForWithTheGivenEncoderUnlessTheSurfacesShowAnother)
   EXPECT_LT(shift_error_m(eccentric), 0.001);
 }
 
+// Where hardly more than the ground is in view, degrees of an encoder and decimetres of a shift cancel.
+TEST(RigSolve, AnEncoderThatTheGroundCannotTellIsLeftAsItWas) {
+  const test::ScratchFolder folder;
+  test::write_scene_mesh("cemetery", folder / "cemetery.ply");
+  SimulationOptions options = rig_in_room();
+  options.own.mesh = folder / "cemetery.ply";
+  options.own.placement.at_m = {2.4, -1, 1.5};
+  options.sweep_s = 0.9;
+  options.mount_error_deg = {0, -3, 2};
+  options.mount_error_m = {0, 0.08, 0.11};
+  const Recording recording = simulate(options, Job()).value().recording;
+  for (const bool encoder : {false, true}) {
+    const Estimate found = solved(recording, {.mount = true, .encoder = encoder});
+    ASSERT_TRUE(found.rig && found.rig->mount.identifiable);
+    EXPECT_FALSE(found.rig->encoder.identifiable);
+    EXPECT_EQ(found.rig->encoder.reason.find("Surfaces are flatter"), std::string::npos);
+    const Mount& mount = found.rig->rig.mount;
+    EXPECT_LT((mount.laser_in_motor_rpy_deg - options.mount_error_deg).norm(), 0.05);
+    EXPECT_LT((mount.laser_in_motor_xyz_m - options.mount_error_m).norm(), 0.003);
+    // Named, the encoder may be off by its prior of 1 deg, and with it the shift.
+    const double shift_m = std::sqrt(found.rig->covariance.block<2, 2>(kShiftU, kShiftU).trace());
+    EXPECT_GT(shift_m, encoder ? 0.01 : 0.003);
+    EXPECT_LT(shift_m, encoder ? 0.04 : 0.015);
+  }
+}
+
 TEST(RigSolve, AWrongMountIsWarnedOfAndAPerfectRigIsNot) {
   const auto warned = [](const Recording& recording) {
     const Estimate found = estimate(recording, {}, Job()).value();
@@ -159,6 +188,36 @@ TEST(RigSolve, AWalkTellsHowTheMountIsTurnedAndNothingElse) {
   EXPECT_GT(axis_apart_deg(given.laser_in_motor_rpy_deg, simulated.mount_error_deg), 1.4);
   EXPECT_EQ(mount.laser_in_motor_xyz_m, given.laser_in_motor_xyz_m);
   EXPECT_LT(std::abs(*found.offset_s - kOffset_s), 3 * *found.sigma_s);
+}
+
+// The rig stands for 8 s, then walks: what the walk does not tell is found from the part before it.
+TEST(RigSolve, AWalkThatBeginsStandingTellsTheWholeMount) {
+  const test::ScratchFolder folder;
+  test::write_scene_mesh("metro-station", folder / "station.ply");
+  std::vector<StampedPose> poses;
+  for (double t_s = 0; t_s < 16; t_s += 0.05) {
+    const double walked_s = std::max(0.0, t_s - 8), s = walked_s * walked_s / (1 + walked_s);
+    poses.push_back({t_s,
+                     {0.5 * std::sin(0.8 * s), 0.25 * (1 - std::cos(0.8 * s)), 0.05 * std::sin(3 * s)},
+                     rotation_from_vector({0.03 * std::sin(2.3 * s), 0, 0.6 * std::sin(0.5 * s)})});
+  }
+  ASSERT_TRUE(write_tum(folder / "walk.tum", poses));
+  SimulationOptions simulated;
+  simulated.own = {folder / "station.ply", folder / "walk.tum", {}, 0};
+  simulated.own.placement.at_m = {0.4, -4.4, 1.5};
+  simulated.offset_s = kOffset_s;
+  simulated.mount_error_deg = {0, 1.2, -0.9};
+  simulated.mount_error_m = {0, 0.02, 0.01};
+  const auto recorded = simulate(simulated, Job());
+  ASSERT_TRUE(recorded) << recorded.error().message;
+  const Estimate found = solved(recorded->recording, {.mount = true});
+  EXPECT_EQ(found.kind, RigKind::kMoving);
+  EXPECT_NE(found.kind_reason.find("The rig was solved for from 0.0 to "), std::string::npos)
+      << found.kind_reason;
+  ASSERT_TRUE(found.rig && !found.rig->along_walk && found.rig->mount.identifiable);
+  const Mount& mount = found.rig->rig.mount;
+  EXPECT_LT((mount.laser_in_motor_rpy_deg - simulated.mount_error_deg).norm(), 0.05);
+  EXPECT_LT((mount.laser_in_motor_xyz_m - simulated.mount_error_m).norm(), 0.002);
 }
 
 // A prior as narrow as what the walk shows takes half of it back, however often the walk is solved.

@@ -71,6 +71,23 @@ INSTANTIATE_TEST_SUITE_P(Axes, TurnOfWalk,
                          testing::Values(Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 0, -1),
                                          Eigen::Vector3d(0.3, 0.9, 0.2)));
 
+// A rig that stands bends its map as its poses are: whatever sway they show is none of the mount.
+TEST(TurnOfWalk, StandingCountsForNothing) {
+  const Eigen::Vector2d turn_rad = Eigen::Vector2d(0.8, 0.5) * kRadPerDeg;
+  Walked walked(Eigen::Vector3d::UnitX(), turn_rad, 30);
+  const Walked swaying(Eigen::Vector3d::UnitX(), -2 * turn_rad, 30);
+  constexpr std::size_t kStands = 20;  // sweeps
+  for (std::size_t k = 0; k < kStands; ++k)
+    for (std::size_t i = 0; i < walked.sweeps[k].knots.size(); ++i) {
+      const double t_s = walked.sweeps[k].begin_s + double(i) * kSwing_s / 8;
+      walked.sweeps[k].knots[i] = {walking(t_s).conjugate() * swaying.sweeps[k].knots[i].rotation, {}};
+    }
+  for (std::size_t k = kStands; k < walked.sweeps.size(); ++k) walked.sweeps[k].stretch = 1;
+  const auto seen = walked.turn();
+  ASSERT_TRUE(seen);
+  EXPECT_LT((seen->turn_rad - turn_rad).norm() * kDegPerRad, 0.1);
+}
+
 // Across a gap, and across a stretch that was placed anew, the poses say nothing of the body's motion.
 TEST(TurnOfWalk, SweepsThatDoNotFollowEachOtherAreNotCompared) {
   const Eigen::Vector2d turn_rad = Eigen::Vector2d(0.8, 0.5) * kRadPerDeg;

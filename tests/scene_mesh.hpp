@@ -1,15 +1,19 @@
-#include "scene_mesh.hpp"
+#pragma once
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <fstream>
 #include <stdexcept>
+#include <string>
 
 #include "core/simulation/scene.hpp"
 
-namespace sweepscope {
+namespace sweepscope::test {
 
-void write_scene_mesh(const std::string& scene_name, const std::filesystem::path& file) {
+/// Writes one of the project's scenes as a mesh (PLY), so that a rig can stand in it anywhere. Throws
+/// std::runtime_error if there is no such scene or the file cannot be written.
+inline void write_scene_mesh(const std::string& scene_name, const std::filesystem::path& file) {
   const auto scene = simulation::make_scene(scene_name);
   if (!scene) throw std::runtime_error("there is no scene " + scene_name);
   const auto& triangles = scene->mesh.triangles;
@@ -24,4 +28,4 @@ void write_scene_mesh(const std::string& scene_name, const std::filesystem::path
   if (!out.flush()) throw std::runtime_error("cannot write " + file.string());
 }
 
-}  // namespace sweepscope
+}  // namespace sweepscope::test
