@@ -237,9 +237,12 @@ RigSolution solution_of(const OffsetProblem& problem, const RigUnknowns& first, 
     held.covariance += square(fit.rig.vector() - held.rig.vector());
     return {with_scatter(problem, std::move(held), priors, job), priors};
   }
-  fit = with_scatter(problem, std::move(fit), usual, job);
-  if (priors[kEncoderSine] > 0 && !determined(fit, priors, {kEncoderSine, kEncoderCosine}))
-    return {with_undetermined_encoder(problem, first, priors, job), priors};
+  fit.covariance += changes_by_smaller_cells(problem, fit, usual, job);
+  const auto undetermined = [&] {
+    return priors[kEncoderSine] > 0 && !determined(fit, priors, {kEncoderSine, kEncoderCosine});
+  };
+  if (!undetermined()) fit.covariance += scatter_over_time(problem, fit, usual, near_the_solution(), job);
+  if (undetermined()) return {with_undetermined_encoder(problem, first, priors, job), priors};
   return {std::move(fit), usual};
 }
 
