@@ -26,7 +26,8 @@ RigCheck check_rig(const OffsetProblem& problem, double offset_s, const Job& job
   options.max_points = 12'000;
   options.max_iterations = 20;
   RigFit fit = solve_rig_planes(problem, first, priors, options, job);
-  if (!fit.within_priors) fit = solve_rig_planes(problem, first, priors_of({.mount = true}), options, job);
+  if (!fit.encoder_within_prior)
+    fit = solve_rig_planes(problem, first, priors_of({.mount = true}), options, job);
   if (job.cancelled() || fit.on_planes < kMinPoints || fit.planes < kMinSurfaces) return check;
   if (!(fit.information(kOffset, kOffset) > 0)) return check;
   check.offset_per_tilt_s_rad =

@@ -231,12 +231,9 @@ bool small(const RigVector& step) {
   return (step.cwiseAbs().array() < unit.array()).all();
 }
 
-// Whether the unknowns lie within four standard deviations of their priors.
-bool are_within(const RigVector& x, const RigPriors& priors) {
-  constexpr double kMost = 4;
-  for (int i = kOffset + 1; i < kRigUnknowns; ++i)
-    if (priors[i] > 0 && std::abs(x[i]) > kMost * priors[i]) return false;
-  return true;
+bool within_prior(const Eigen::Vector2d& encoder_rad, const RigPriors& priors) {
+  constexpr double kMost = 4;  // standard deviations
+  return priors[kEncoderSine] == 0 || encoder_rad.norm() <= kMost * priors[kEncoderSine];
 }
 
 }  // namespace
@@ -283,7 +280,7 @@ RigFit solve_rig_planes(const OffsetProblem& problem, const RigUnknowns& first, 
     if (fit.converged || fit.iterations + 1 == options.max_iterations) {
       fit.information = sum.h / (fit.residual_m * fit.residual_m);
       fit.covariance = solver.covariance(sum) + scatter(scene, solver, x);
-      fit.within_priors = are_within(x, priors);
+      fit.encoder_within_prior = within_prior(fit.rig.encoder_rad, priors);
       break;
     }
     const double width_m = options.loss_width_m(fit.residual_m);

@@ -37,9 +37,9 @@ struct RigLeastSquaresOptions {
 struct RigFit {
   RigUnknowns rig;
   bool converged = false;
-  // False: an unknown lies so far from the rig file's value that the surfaces cannot tell it. Where only the
-  // ground is in view, several degrees of an encoder and decimetres of a shift cancel.
-  bool within_priors = true;
+  // False: the encoder lies further from the rig file's than its prior allows. Where hardly more than the
+  // ground is in view, degrees of it and decimetres of a shift cancel.
+  bool encoder_within_prior = true;
   int iterations = 0;
   RigVector last_step = RigVector::Zero();
   std::size_t points = 0, on_planes = 0, planes = 0;

@@ -158,7 +158,7 @@ RigMatrix changes_by_smaller_cells(const OffsetProblem& problem, const RigFit& f
   for (const int levels : {2, 1}) {  // cells of at most 1 m and 0.5 m instead of 4 m
     smaller.max_levels = levels;
     RigFit other = solve_rig_planes(problem, first, priors, smaller, job);
-    if (!other.within_priors)
+    if (!other.encoder_within_prior)
       other = solve_rig_planes(problem, fit.rig, without_encoder(priors), smaller, job);
     sum += square(other.rig.vector() - fit.rig.vector());
   }
@@ -195,7 +195,8 @@ RigMatrix covariance_with_encoder(const RigFit& fit, const RigPriors& priors) {
 
 struct RigSolution {
   RigFit fit;
-  RigPriors priors;  // that it was found with
+  RigPriors priors;                   // that it was found with
+  bool encoder_beyond_prior = false;  // and therefore held
 };
 
 // The fit with all scatter in its covariance.
@@ -228,8 +229,7 @@ RigSolution solution_of(const OffsetProblem& problem, const RigUnknowns& first, 
                         const Job& job) {
   const RigPriors usual = with_usual_encoder(priors);
   RigFit fit = solved_from(problem, first, usual, job);
-  if (!fit.within_priors && usual[kEncoderSine] > 0)
-    return {with_undetermined_encoder(problem, first, usual, job), priors};
+  if (!fit.encoder_within_prior) return {with_undetermined_encoder(problem, first, usual, job), priors, true};
   if (usual != priors && !shows_encoder(fit, usual)) {
     RigUnknowns given = fit.rig;
     given.encoder_rad.setZero();
@@ -247,8 +247,9 @@ RigSolution solution_of(const OffsetProblem& problem, const RigUnknowns& first, 
 }
 
 // The result of the fit, and which parts are determined.
-SolvedRig solved_with(const OffsetProblem& problem, const RigFit& fit, const RigPriors& priors,
-                      const RigSolve& what) {
+SolvedRig solved_with(const OffsetProblem& problem, const RigSolution& solution, const RigSolve& what) {
+  const RigFit& fit = solution.fit;
+  const RigPriors& priors = solution.priors;
   SolvedRig solved;
   solved.mount = finding(what.mount, determined(fit, priors, {kTurnU, kTurnV, kShiftU, kShiftV}),
                          "The surfaces in view do not determine the mount: record where several walls, the "
@@ -256,7 +257,10 @@ SolvedRig solved_with(const OffsetProblem& problem, const RigFit& fit, const Rig
   solved.play = finding(what.play, priors[kPlay] > 0 && determined(fit, priors, {kPlay}),
                         "The recording does not determine the gear play.");
   solved.encoder = finding(what.encoder, determined(fit, priors, {kEncoderSine, kEncoderCosine}),
-                           "The surfaces in view do not determine the encoder's first harmonic.");
+                           solution.encoder_beyond_prior
+                               ? "The encoder's first harmonic would be more than four times its prior: the "
+                                 "surfaces in view do not determine it, or the prior is too narrow."
+                               : "The surfaces in view do not determine the encoder's first harmonic.");
   solved.found = fit.rig;
   if (!solved.mount.identifiable) {
     solved.found.turn_rad.setZero();
@@ -312,13 +316,14 @@ SolvedRig solve_rig(const OffsetProblem& problem, double first_offset_s, const R
   const bool one_speed = what.play && speed_spread(problem) < kMinSpeedSpread;
   RigSolve separable = what;
   separable.play = what.play && !one_speed;
-  const auto [fit, priors] = solution_of(problem, first, priors_of(separable), job);
-  SolvedRig solved = solved_with(problem, fit, priors, what);
+  const RigSolution solution = solution_of(problem, first, priors_of(separable), job);
+  const RigFit& fit = solution.fit;
+  SolvedRig solved = solved_with(problem, solution, what);
   solved.residual_before_m = before.residual_m;
   ResidualGridOptions grid;
   grid.loss_width_m = RigLeastSquaresOptions().loss_width_m(fit.residual_m);
   solved.residuals = rig_residuals(problem, before.rig, solved.found, grid);
-  solved.offset_sigma_s = added_sigma_s(fit.covariance, priors);
+  solved.offset_sigma_s = added_sigma_s(fit.covariance, solution.priors);
   if (one_speed)
     leave_play_open(solved, what.play_deg, problem.motor.median_speed_rad_s,
                     "The motor turns at one speed only, at which gear play acts as an offset: a second sweep "

@@ -84,6 +84,23 @@ TEST(RigSolve, AnEccentricEncoderIsFound) {
   EXPECT_LT((found.rig->rig.gear.angles().encoder_rad - truth_rad).norm() * kDegPerRad, 0.05);
 }
 
+// A prior that is too narrow is named as a possible reason, and a narrow one of the mount is no reason.
+TEST(RigSolve, AnEncoderFarBeyondItsPriorIsLeftAsItWas) {
+  SimulationOptions options = rig_in_room();
+  options.eccentricity_deg = 0.5;
+  const Recording recording = simulate(options, Job()).value().recording;
+  const Estimate narrow = solved(recording, {.encoder = true, .encoder_deg = 0.05});
+  ASSERT_TRUE(narrow.rig);
+  EXPECT_FALSE(narrow.rig->encoder.identifiable);
+  EXPECT_NE(narrow.rig->encoder.reason.find("the prior is too narrow"), std::string::npos)
+      << narrow.rig->encoder.reason;
+  options.mount_error_deg = {0, 1, -1};
+  const Estimate of_mount = solved(simulate(options, Job()).value().recording,
+                                   {.mount = true, .encoder = true, .mount_deg = 0.2, .mount_mm = 10});
+  ASSERT_TRUE(of_mount.rig);
+  EXPECT_TRUE(of_mount.rig->encoder.identifiable) << of_mount.rig->encoder.reason;
+}
+
 TEST(RigSolve, AMountIsSolvedForWithTheGivenEncoderUnlessTheSurfacesShowAnother) {
   SimulationOptions options = rig_in_room();
   options.mount_error_m = {0, 0.03, -0.02};
