@@ -73,17 +73,20 @@ std::optional<MotionPart> standing_part(const PreparedRecording& prepared) {
   return longest;
 }
 
-// The rig from the part of a walk in which it stood; null where there is none or it does not determine the
-// mount that is asked for.
+// The rig from the part of a walk in which it stood; null if that does not determine the mount that is asked
+// for.
 std::shared_ptr<const SolvedRig> rig_of_standing_part(const PreparedRecording& prepared,
                                                       const MotionPart& part, const EstimateOptions& options,
-                                                      const Answering& estimated, const Job& job) {
+                                                      const Job& job) {
   const Recording stood = window(*prepared.recording, part.begin_s, part.end_s);
-  const auto found = estimated(stood);
+  EstimateOptions offset_only = options;
+  offset_only.solve = {};
+  offset_only.over_time_s.reset();
+  const auto of_part = prepare(stood, options.features, job);
+  if (!of_part) return nullptr;
+  const auto found = estimate(*of_part, offset_only, {}, job);
   if (!found || found->kind != RigKind::kStationary) return nullptr;
-  const auto prepared_part = prepare(stood, options.features, job);
-  if (!prepared_part) return nullptr;
-  auto solved = rig_of_surfaces(*prepared_part, options.solve, *found, job);
+  auto solved = rig_of_surfaces(*of_part, options.solve, *found, job);
   return solved && (solved->mount.identifiable || !options.solve.mount) ? solved : nullptr;
 }
 
@@ -118,7 +121,8 @@ Result<Estimate> with_turn_of_walk(const PreparedRecording& prepared, const Esti
   for (int pass = 0; options.solve.mount && pass < kMaxPasses; ++pass) {
     const auto seen = turn_seen(pass == 0 ? *prepared.recording : turned, found);
     if (!seen && pass == 0) {
-      found.warnings.push_back("The rig was not solved for: it takes 10 s of a walk that `direct` solved.");
+      found.warnings.push_back(
+          "The rig was not solved for: it takes 10 s in which it moves, of a walk that `direct` solved.");
       return found;
     }
     if (!seen) break;
@@ -158,14 +162,15 @@ Result<Estimate> estimate_with_rig(const PreparedRecording& prepared, const Esti
     auto solved = rig_of_surfaces(prepared, options.solve, *found, job);
     return solved && !job.cancelled() ? with_rig_found(prepared, std::move(solved), estimated) : found;
   }
-  if (const auto part = standing_part(prepared))
-    if (auto solved = rig_of_standing_part(prepared, *part, options, estimated, job);
-        solved && !job.cancelled())
-      return with_rig_found(prepared, std::move(solved), estimated).map([&](Estimate&& answer) {
-        answer.kind_reason += fmt::format(" The rig was solved for from {:.1f} to {:.1f} s, where it stood.",
-                                          part->begin_s, part->end_s);
-        return std::move(answer);
-      });
+  const auto part = standing_part(prepared);
+  auto solved = part ? rig_of_standing_part(prepared, *part, options, job) : nullptr;
+  if (job.cancelled()) return found;
+  if (solved)
+    return with_rig_found(prepared, std::move(solved), estimated).map([&](Estimate&& answer) {
+      answer.kind_reason += fmt::format(" The rig was solved for from {:.1f} to {:.1f} s, where it stood.",
+                                        part->begin_s, part->end_s);
+      return std::move(answer);
+    });
   return with_turn_of_walk(prepared, options, std::move(*found), estimated);
 }
 
