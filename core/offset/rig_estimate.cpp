@@ -96,9 +96,10 @@ std::optional<WalkTurn> turn_seen(const Recording& recording, const Estimate& fo
 }
 
 // The part of a turn that is not known: 1 where it may as well be none.
-double unsure_of_turn(const WalkTurn& turn) {
-  const double sigma_rad = std::sqrt(turn.covariance.trace());
-  return sigma_rad < turn.turn_rad.norm() ? sigma_rad / turn.turn_rad.norm() : 1;
+double unsure_of_turn(const SolvedRig& solved) {
+  const double sigma_rad = std::sqrt(solved.covariance.block<2, 2>(kTurnU, kTurnU).trace());
+  const double turn_rad = solved.found.turn_rad.norm();
+  return sigma_rad < turn_rad ? sigma_rad / turn_rad : 1;
 }
 
 // The offset at which a walk was solved, also where it is refused; 0 where it was not solved.
@@ -113,12 +114,11 @@ Result<Estimate> with_turn_of_walk(const PreparedRecording& prepared, const Esti
   constexpr int kMaxPasses = 5;     // a bound
   constexpr double kSettled = 0.3;  // of sigma
   const OffsetProblem problem = problem_for(prepared, 0, 0);
-  WalkTurn total{Eigen::Vector2d::Zero(), Eigen::Matrix2d::Zero()};
-  SolvedRig solved = rig_of_walk(problem, total, options.solve);
-  solved.residual_before_m = found.fit ? found.fit->residual_m : 0;
+  SolvedRig solved = rig_of_walk(problem, Eigen::Vector2d::Zero(), {}, options.solve);
+  const double residual_before_m = found.fit ? found.fit->residual_m : 0;
   const double first_offset_s = offset_along(found);
   Recording turned;
-  for (int pass = 0; options.solve.mount && pass < kMaxPasses; ++pass) {
+  for (int pass = 0; options.solve.mount && pass < kMaxPasses && !solved.converged; ++pass) {
     const auto seen = turn_seen(pass == 0 ? *prepared.recording : turned, found);
     if (!seen && pass == 0) {
       found.warnings.push_back(
@@ -126,20 +126,19 @@ Result<Estimate> with_turn_of_walk(const PreparedRecording& prepared, const Esti
       return found;
     }
     if (!seen) break;
-    total = {solved.found.turn_rad + seen->turn_rad, seen->covariance};
-    const double before_m = solved.residual_before_m;
-    solved = rig_of_walk(problem, total, options.solve);
-    solved.residual_before_m = before_m;
+    solved = rig_of_walk(problem, solved.found.turn_rad, *seen, options.solve);
+    solved.iterations = pass + 1;
+    solved.converged = seen->turn_rad.norm() < kSettled * std::sqrt(seen->covariance.diagonal().minCoeff());
     turned = with_rig(*prepared.recording, solved);
     auto again = estimated(turned);
     if (!again || again->interrupted) return again;
     found = std::move(*again);
-    if (seen->turn_rad.norm() < kSettled * std::sqrt(seen->covariance.diagonal().minCoeff())) break;
   }
+  solved.residual_before_m = residual_before_m;
   solved.residual_after_m = found.fit ? found.fit->residual_m : 0;
   solved.points = found.fit ? found.fit->matches : 0;
   solved.offset_sigma_s = std::hypot(solved.offset_sigma_s,
-                                     unsure_of_turn(total) * std::abs(offset_along(found) - first_offset_s));
+                                     unsure_of_turn(solved) * std::abs(offset_along(found) - first_offset_s));
   return with(std::move(found), std::make_shared<const SolvedRig>(std::move(solved)));
 }
 

@@ -14,13 +14,13 @@ namespace sweepscope {
 /// By how much a walk shows the laser to be turned in the frame that turns with the motor: R' = exp(turn) R
 /// as in RigUnknowns, R the recording's mount.
 struct WalkTurn {
-  Eigen::Vector2d turn_rad;  // rotation vector, along the axes of `across_axis`
-  Eigen::Matrix2d covariance;
+  Eigen::Vector2d turn_rad = Eigen::Vector2d::Zero();  // rotation vector, along the axes of `across_axis`
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
 };
 
 /// From a walk that was solved with a free path. The path takes up a wrong turn as a sway in step with the
 /// motor, Rot(axis, phi) turn, with a kink at each reversal, where the motor changes its direction at once
-/// and a body does not. Absent where fewer than 10 s were tracked.
+/// and a body does not. Absent where it was tracked for fewer than 10 s in which it moves.
 std::optional<WalkTurn> turn_of_walk(const Recording& recording, const std::vector<SweepPose>& sweeps,
                                      double offset_s);
 
