@@ -114,9 +114,10 @@ Result<Estimate> with_turn_of_walk(const PreparedRecording& prepared, const Esti
   constexpr int kMaxPasses = 5;     // a bound
   constexpr double kSettled = 0.3;  // of sigma
   const OffsetProblem problem = problem_for(prepared, 0, 0);
-  SolvedRig solved = rig_of_walk(problem, Eigen::Vector2d::Zero(), {}, options.solve);
+  SolvedRig solved = rig_of_walk(problem, {}, options.solve);
   const double residual_before_m = found.fit ? found.fit->residual_m : 0;
   const double first_offset_s = offset_along(found);
+  std::vector<double> steps_rad;
   Recording turned;
   for (int pass = 0; options.solve.mount && pass < kMaxPasses && !solved.converged; ++pass) {
     const auto seen = turn_seen(pass == 0 ? *prepared.recording : turned, found);
@@ -126,9 +127,12 @@ Result<Estimate> with_turn_of_walk(const PreparedRecording& prepared, const Esti
       return found;
     }
     if (!seen) break;
-    solved = rig_of_walk(problem, solved.found.turn_rad, *seen, options.solve);
+    const Eigen::Vector2d before_rad = solved.found.turn_rad;
+    solved = rig_of_walk(problem, {before_rad + seen->turn_rad, seen->covariance}, options.solve);
+    steps_rad.push_back((solved.found.turn_rad - before_rad).norm());
+    solved.covariance.diagonal().segment<2>(kTurnU).array() += std::pow(unsettled_rad(steps_rad), 2);
     solved.iterations = pass + 1;
-    solved.converged = seen->turn_rad.norm() < kSettled * std::sqrt(seen->covariance.diagonal().minCoeff());
+    solved.converged = steps_rad.back() < kSettled * std::sqrt(seen->covariance.diagonal().minCoeff());
     turned = with_rig(*prepared.recording, solved);
     auto again = estimated(turned);
     if (!again || again->interrupted) return again;

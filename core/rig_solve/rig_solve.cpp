@@ -331,8 +331,7 @@ SolvedRig solve_rig(const OffsetProblem& problem, double first_offset_s, const R
   return solved;
 }
 
-SolvedRig rig_of_walk(const OffsetProblem& problem, const Eigen::Vector2d& so_far_rad, const WalkTurn& seen,
-                      const RigSolve& what) {
+SolvedRig rig_of_walk(const OffsetProblem& problem, const WalkTurn& turn, const RigSolve& what) {
   SolvedRig solved;
   solved.along_walk = true;
   solved.given = solved.rig = problem.recording->rig;
@@ -340,11 +339,9 @@ SolvedRig rig_of_walk(const OffsetProblem& problem, const Eigen::Vector2d& so_fa
   solved.covariance.diagonal() = solved.priors.cwiseProduct(solved.priors);
   if (what.mount) {
     const Eigen::Matrix2d prior = solved.covariance.block<2, 2>(kTurnU, kTurnU);
-    const Eigen::Matrix2d gain = prior * (prior + seen.covariance).inverse();
-    solved.found.turn_rad = gain * (so_far_rad + seen.turn_rad);
-    const double step_rad = (solved.found.turn_rad - so_far_rad).norm();
-    solved.covariance.block<2, 2>(kTurnU, kTurnU) =
-        gain * seen.covariance + step_rad * step_rad * Eigen::Matrix2d::Identity();
+    const Eigen::Matrix2d gain = prior * (prior + turn.covariance).inverse();
+    solved.found.turn_rad = gain * turn.turn_rad;
+    solved.covariance.block<2, 2>(kTurnU, kTurnU) = gain * turn.covariance;
     solved.rig.mount = changed(solved.rig.mount, solved.found);
   }
   solved.mount = {

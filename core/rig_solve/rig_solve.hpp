@@ -59,12 +59,9 @@ struct SolvedRig {
 SolvedRig solve_rig(const OffsetProblem& problem, double first_offset_s, const RigSolve& what,
                     const Job& job);
 
-/// The rig with the turn of its mount as a walk shows it: `seen` is about the rig file's mount turned by
-/// `so_far_rad`, which earlier solutions of the walk found. Priors are taken into account. By how much this
-/// moves the turn counts as unknown, in any direction: a walk whose track is bad shows another turn each
-/// time. The mount's shift, gear play and encoder are not determined from a walk.
-SolvedRig rig_of_walk(const OffsetProblem& problem, const Eigen::Vector2d& so_far_rad, const WalkTurn& seen,
-                      const RigSolve& what);
+/// The rig with the turn of its mount as a walk shows it, from the given rig on, and the priors taken into
+/// account. The mount's shift, gear play and encoder are not determined from a walk.
+SolvedRig rig_of_walk(const OffsetProblem& problem, const WalkTurn& turn, const RigSolve& what);
 
 /// The recording with the mount and the motor angles of the solved rig.
 Recording with_rig(Recording recording, const SolvedRig& solved);

@@ -1,5 +1,6 @@
 #include "core/rig_solve/walk_turn.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -86,6 +87,13 @@ std::vector<Change> changes_along(const Recording& recording, const std::vector<
   return changes;
 }
 
+// The directions in which it is positive.
+Eigen::Matrix2d positive_part(const Eigen::Matrix2d& symmetric) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(symmetric);
+  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() *
+         eigen.eigenvectors().transpose();
+}
+
 // Least squares with a Cauchy loss about twice the median change: a stumble counts little.
 class TurnFit {
  public:
@@ -106,19 +114,35 @@ class TurnFit {
 
   const Eigen::Vector2d& turn_rad() const { return turn_rad_; }
 
-  // From how the parts of the walk pull (White 1980, with clusters).
+  // From how the parts of the walk pull (White 1980, with clusters). Where the track errs for longer than
+  // such a part, longer ones scatter more than those tell. A few longer parts tell that badly: the short ones
+  // count as kPrior more.
   Eigen::Matrix2d covariance() const {
-    std::map<int, Eigen::Vector2d> pulls;
-    for (const Change& change : changes_)
-      pulls.try_emplace(change.part, Eigen::Vector2d::Zero()).first->second +=
-          weight_of(change) * change.by_turn.transpose() * left_rad(change);
-    Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();
-    for (const auto& [part, pull] : pulls) scatter += pull * pull.transpose();
+    constexpr int kLong = 5;
+    constexpr double kPrior = 4;
+    const Eigen::Matrix2d scatter = scatter_of_parts(1).of_pulls;
+    const auto [long_scatter, count] = scatter_of_parts(kLong);
+    const Eigen::Matrix2d more =
+        (double(count) * long_scatter - double(count - 1) * scatter) / (kPrior + double(count - 1));
     const Eigen::Matrix2d inverse = normal_.inverse();
-    return inverse * scatter * inverse;
+    return inverse * (scatter + positive_part(more)) * inverse;
   }
 
  private:
+  struct Scatter {
+    Eigen::Matrix2d of_pulls = Eigen::Matrix2d::Zero();
+    std::size_t parts = 0;
+  };
+  // Of so many parts together.
+  Scatter scatter_of_parts(int together) const {
+    std::map<int, Eigen::Vector2d> pulls;
+    for (const Change& change : changes_)
+      pulls.try_emplace(change.part / together, Eigen::Vector2d::Zero()).first->second +=
+          weight_of(change) * change.by_turn.transpose() * left_rad(change);
+    Scatter scatter{Eigen::Matrix2d::Zero(), pulls.size()};
+    for (const auto& [part, pull] : pulls) scatter.of_pulls += pull * pull.transpose();
+    return scatter;
+  }
   Eigen::Vector3d left_rad(const Change& change) const {
     return change.seen_rad - change.by_turn * turn_rad_;
   }
@@ -150,6 +174,13 @@ std::optional<WalkTurn> turn_of_walk(const Recording& recording, const std::vect
   for (const SweepPose& sweep : sweeps) durations_s.push_back(sweep.end_s - sweep.begin_s);
   const double sway_rad = kSway_rad * std::pow(median(std::move(durations_s)) / kAtSweep_s, 2);
   return WalkTurn{fit.turn_rad(), fit.covariance() + sway_rad * sway_rad * Eigen::Matrix2d::Identity()};
+}
+
+double unsettled_rad(std::span<const double> steps_rad) {
+  double beyond_rad = 0;
+  for (std::size_t i = 1; i < steps_rad.size(); ++i)
+    beyond_rad = std::max(beyond_rad, steps_rad[i] - steps_rad[i - 1] / 2);
+  return steps_rad.empty() ? 0 : std::hypot(steps_rad.back(), beyond_rad);
 }
 
 }  // namespace sweepscope

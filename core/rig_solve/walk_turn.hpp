@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/loam/sweep_pose.hpp"
@@ -23,5 +24,10 @@ struct WalkTurn {
 /// and a body does not. Absent where it was tracked for fewer than 10 s in which it moves.
 std::optional<WalkTurn> turn_of_walk(const Recording& recording, const std::vector<SweepPose>& sweeps,
                                      double offset_s);
+
+/// What the solutions of a walk leave open of its turn (standard deviation, rad), from how far each moved it.
+/// Where the track is good, a step is less than half as large as the one before. Where it is bad, each
+/// solution shows another turn: to the last step is added by how much one was larger than that, at most.
+double unsettled_rad(std::span<const double> steps_rad);
 
 }  // namespace sweepscope

@@ -211,23 +211,6 @@ TEST(RigSolve, AWalkTellsHowTheMountIsTurnedAndNothingElse) {
   EXPECT_LT(std::abs(*found.offset_s - kOffset_s), 3 * *found.sigma_s);
 }
 
-// Along the direction of the step and across it, where the next solution may move it. The rest is unknown by
-// its prior, and has nothing to do with the turn.
-TEST(RigSolve, ASolutionOfAWalkThatMovesTheTurnFarLeavesItUnknown) {
-  Recording recording;
-  OffsetProblem problem;
-  problem.recording = &recording;
-  const Eigen::Vector2d so_far_rad(0.01, 0.02), step_rad(0, 0.004), sigma_rad(0.003, 0.005);
-  const SolvedRig found =
-      rig_of_walk(problem, so_far_rad, {step_rad, sigma_rad.cwiseAbs2().asDiagonal()}, {.mount = true});
-  EXPECT_LT((found.found.turn_rad - so_far_rad - step_rad).norm(), 1e-4);
-  const RigMatrix& covariance = found.covariance;
-  EXPECT_NEAR(std::sqrt(covariance(kTurnU, kTurnU)), 0.005, 1e-4);
-  EXPECT_NEAR(std::sqrt(covariance(kTurnV, kTurnV)), std::hypot(0.005, 0.004), 1e-4);
-  EXPECT_EQ(std::sqrt(covariance(kShiftU, kShiftU)), priors_of({.mount = true})[kShiftU]);
-  EXPECT_TRUE(covariance.isDiagonal());
-}
-
 // The rig stands for 8 s, then walks: what the walk does not tell is found from the part before it.
 TEST(RigSolve, AWalkThatBeginsStandingTellsTheWholeMount) {
   const test::ScratchFolder folder;

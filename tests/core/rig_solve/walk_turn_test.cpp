@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "core/rig_solve/rig_unknowns.hpp"
@@ -102,6 +103,27 @@ TEST(TurnOfWalk, SweepsThatDoNotFollowEachOtherAreNotCompared) {
   const auto seen = walked.turn();
   ASSERT_TRUE(seen);
   EXPECT_LT((seen->turn_rad - turn_rad).norm() * kDegPerRad, 0.1);
+}
+
+// A track that errs for 10 s at a time, or for 2 s: the turn is seen now larger, now smaller.
+TEST(TurnOfWalk, SlowErrorsOfTheTrackWidenItsSigma) {
+  const Eigen::Vector2d turn_rad = Eigen::Vector2d(0.8, 0.5) * kRadPerDeg;
+  const Walked more(Eigen::Vector3d::UnitX(), turn_rad, 60), less(Eigen::Vector3d::UnitX(), -turn_rad, 60);
+  const auto sigma_deg = [&](double at_a_time_s) {
+    Walked erring = more;
+    const auto sweeps = std::size_t(std::lround(at_a_time_s / kSwing_s));
+    for (std::size_t k = 0; k < erring.sweeps.size(); ++k)
+      if (k / sweeps % 2 == 1) erring.sweeps[k] = less.sweeps[k];
+    return std::sqrt(erring.turn()->covariance.trace()) * kDegPerRad;
+  };
+  EXPECT_GT(sigma_deg(10), 1.4 * sigma_deg(2));
+}
+
+// Of walks in a house, which is followed well, and in a cemetery, where it is not.
+TEST(TurnOfWalk, SolutionsThatScatterLeaveItOpen) {
+  EXPECT_EQ(unsettled_rad({}), 0);
+  EXPECT_DOUBLE_EQ(unsettled_rad(std::array{1.62, 0.29, 0.04}), 0.04);
+  EXPECT_DOUBLE_EQ(unsettled_rad(std::array{0.29, 1.06, 0.05}), std::hypot(0.05, 1.06 - 0.29 / 2));
 }
 
 TEST(TurnOfWalk, IsAbsentOfLessThanTenSeconds) {
