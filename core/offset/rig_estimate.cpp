@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 
+#include "core/numbers.hpp"
 #include "core/offset/rig_motion.hpp"
 #include "core/offset/walk.hpp"
 #include "core/rig_solve/rig_solve.hpp"
@@ -138,6 +139,12 @@ Result<Estimate> with_turn_of_walk(const PreparedRecording& prepared, const Esti
     if (!again || again->interrupted) return again;
     found = std::move(*again);
   }
+  constexpr double kScatters_rad = 0.3 * kRadPerDeg;  // twice what walks that are tracked well leave open
+  if (const double open_rad = unsettled_rad(steps_rad); open_rad > kScatters_rad)
+    found.warnings.push_back(fmt::format(
+        "Each time that the walk is solved its mount is turned otherwise, by {:.1f} deg: the rig was not "
+        "followed well. Walk and turn more slowly, or stand still for 8 s.",
+        open_rad * kDegPerRad));
   solved.residual_before_m = residual_before_m;
   solved.residual_after_m = found.fit ? found.fit->residual_m : 0;
   solved.points = found.fit ? found.fit->matches : 0;
