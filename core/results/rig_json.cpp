@@ -191,7 +191,6 @@ nlohmann::ordered_json rig_parameters_json(const SolvedRig& solved) {
 std::optional<SolvedRig> solved_rig_of(const nlohmann::ordered_json& parameters) {
   SolvedRig solved;
   solved.priors.setZero();
-  solved.covariance.setZero();
   try {
     if (parameters.contains("mount")) read_mount(parameters.at("mount"), solved);
     if (parameters.contains("play")) read_play(parameters.at("play"), solved);

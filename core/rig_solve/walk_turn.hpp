@@ -26,8 +26,9 @@ std::optional<WalkTurn> turn_of_walk(const Recording& recording, const std::vect
                                      double offset_s);
 
 /// What the solutions of a walk leave open of its turn (standard deviation, rad), from how far each moved it.
-/// Where the track is good, a step is less than half as large as the one before. Where it is bad, each
-/// solution shows another turn: to the last step is added by how much one was larger than that, at most.
+/// Where the track is good, steps shrink about by half or more, down to some hundredths of a degree. Where it
+/// is bad, each solution shows another turn: to the last step is added by how much one exceeded half of the
+/// one before it, at most.
 double unsettled_rad(std::span<const double> steps_rad);
 
 }  // namespace sweepscope
