@@ -139,7 +139,7 @@ Result<Estimate> with_turn_of_walk(const PreparedRecording& prepared, const Esti
     if (!again || again->interrupted) return again;
     found = std::move(*again);
   }
-  constexpr double kScatters_rad = 0.3 * kRadPerDeg;  // 26 of 28 walks of tests/benchmark/walks leave less open
+  constexpr double kScatters_rad = 0.3 * kRadPerDeg;  // 26 of 28 benchmark walks leave less
   if (const double open_rad = unsettled_rad(steps_rad); open_rad > kScatters_rad)
     found.warnings.push_back(fmt::format(
         "Each time that the walk is solved its mount is turned otherwise, by {:.1f} deg: the rig was not "
