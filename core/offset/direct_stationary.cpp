@@ -32,10 +32,12 @@ void add_differences(const StillGrid& grid, const StillPoints& points, std::size
     const double angle_rad = points.angle_rad[cell];
     const auto [found, below, above] = neighbours.bracket(angle_rad, bin);
     if (!found) continue;
-    const double up = angle_rad - points.angle_rad[below], down = points.angle_rad[above] - angle_rad;
-    const double inverse_range = (std::sin(down) / grid.range_m[below] + std::sin(up) / grid.range_m[above]) /
-                                 std::max(1e-9, std::sin(up + down));
-    total.sum_m += std::min(std::abs(grid.range_m[cell] - 1 / inverse_range), kCoarseCap_m);
+    // In single precision, as the ranges are: a third of the time went into sines.
+    const float up = float(angle_rad - points.angle_rad[below]),
+                down = float(points.angle_rad[above] - angle_rad);
+    const float inverse_range = (std::sin(down) / grid.range_m[below] + std::sin(up) / grid.range_m[above]) /
+                                std::max(1e-9F, std::sin(up + down));
+    total.sum_m += std::min(double(std::abs(grid.range_m[cell] - 1 / inverse_range)), kCoarseCap_m);
     ++total.count;
   }
 }
@@ -63,8 +65,24 @@ std::optional<double> coarse_cost_m(const StillGrid& grid, const StillPatchOptio
 // One line's points against the other direction's patches.
 struct LineResiduals {
   std::vector<PatchDistance> residuals;
+  std::vector<std::size_t> cells;  // of the residuals, ascending
   std::size_t features = 0;
+
+  void add(std::size_t cell, const PatchDistance& residual) {
+    residuals.push_back(residual);
+    cells.push_back(cell);
+  }
 };
+
+// Which part each cell belongs to, kNoSweep where to none.
+struct Parts {
+  static constexpr std::size_t kMost = 32;  // bits of PartsOfPatches
+  std::vector<std::size_t> of_cell;
+  std::size_t count = 0;
+};
+
+// The parts that each cell's patch takes points from, a bit for each.
+using PartsOfPatches = std::vector<std::uint32_t>;
 
 class Linearisation {
  public:
@@ -75,14 +93,6 @@ class Linearisation {
         points_(place_still(grid, offset_s, StillDetail::kPoints)) {}
 
   const StillPoints& points() const { return points_; }
-
-  /// The same without the points of one part.
-  Linearisation without(const std::vector<std::size_t>& part_of_cell, std::size_t part) const {
-    Linearisation rest = *this;
-    for (std::size_t cell = 0; cell < part_of_cell.size(); ++cell)
-      if (part_of_cell[cell] == part) rest.points_.placed[cell] = 0;
-    return rest;
-  }
 
   /// All lines against the other direction's.
   std::vector<LineResiduals> residuals() const {
@@ -110,20 +120,71 @@ class Linearisation {
     return found;
   }
 
+  PartsOfPatches parts_of_patches(const Parts& parts) const {
+    PartsOfPatches found(points_.placed.size(), 0);
+    for_each_index(points_.lines(), [&](std::size_t line) {
+      if (points_.sweep[line] == kNoSweep) return;
+      StillNeighbours neighbours(points_, points_.against(points_.direction[line]), line, patches_);
+      for (std::size_t bin = 0; bin < points_.bins; ++bin) {
+        const std::size_t cell = line * points_.bins + bin;
+        if (!points_.placed[cell]) continue;
+        for (const std::size_t near : neighbours.around(points_.angle_rad[cell], bin))
+          if (parts.of_cell[near] < parts.count) found[cell] |= std::uint32_t{1} << parts.of_cell[near];
+      }
+    });
+    return found;
+  }
+
+  /// Has all points of `whole` but those of a part.
+  void leave_out(const Parts& parts, std::size_t part, const Linearisation& whole) {
+    for (std::size_t cell = 0; cell < points_.placed.size(); ++cell)
+      points_.placed[cell] = char(whole.points_.placed[cell] && parts.of_cell[cell] != part);
+  }
+
+  /// All lines after leave_out. A patch without points of the part is as it was: its residual is that of
+  /// `lines`, which had all points.
+  std::vector<LineResiduals> residuals_without(std::size_t part, const PartsOfPatches& of_patches,
+                                               const std::vector<LineResiduals>& lines) const {
+    std::vector<LineResiduals> found(points_.lines());
+    for_each_index(points_.lines(), [&](std::size_t line) {
+      if (points_.sweep[line] != kNoSweep) found[line] = of_line_without(part, of_patches, line, lines[line]);
+    });
+    return found;
+  }
+
  private:
   LineResiduals of_line(std::size_t line, const LinePool& pool) const {
     LineResiduals found;
     StillNeighbours neighbours(points_, pool, line, patches_);
-    for (std::size_t bin = 0; bin < points_.bins; ++bin) {
-      const std::size_t cell = line * points_.bins + bin;
+    for (std::size_t cell = line * points_.bins; cell < (line + 1) * points_.bins; ++cell) {
       if (!points_.placed[cell]) continue;
       ++found.features;
-      const StillPatch patch = neighbours.patch(points_.angle_rad[cell], bin, grid_.range_m[cell]);
-      if (!patch.found) continue;
-      found.residuals.push_back(
-          distance_to_patch(patch, points_.p_m[cell], points_.speed_rad_s[cell], axis_));
+      if (const auto residual = of_cell(cell, neighbours)) found.add(cell, *residual);
     }
     return found;
+  }
+  LineResiduals of_line_without(std::size_t part, const PartsOfPatches& of_patches, std::size_t line,
+                                const LineResiduals& whole) const {
+    LineResiduals found;
+    StillNeighbours neighbours(points_, points_.against(points_.direction[line]), line, patches_);
+    std::size_t next = 0;  // of the whole line's residuals
+    for (std::size_t cell = line * points_.bins; cell < (line + 1) * points_.bins; ++cell) {
+      while (next < whole.cells.size() && whole.cells[next] < cell) ++next;
+      if (!points_.placed[cell]) continue;
+      ++found.features;
+      if ((of_patches[cell] >> part & 1u) == 0) {
+        if (next < whole.cells.size() && whole.cells[next] == cell) found.add(cell, whole.residuals[next]);
+      } else if (const auto residual = of_cell(cell, neighbours)) {
+        found.add(cell, *residual);
+      }
+    }
+    return found;
+  }
+  std::optional<PatchDistance> of_cell(std::size_t cell, StillNeighbours& neighbours) const {
+    const StillPatch patch =
+        neighbours.patch(points_.angle_rad[cell], cell % points_.bins, grid_.range_m[cell]);
+    if (!patch.found) return std::nullopt;
+    return distance_to_patch(patch, points_.p_m[cell], points_.speed_rad_s[cell], axis_);
   }
 
   const StillGrid& grid_;
@@ -180,12 +241,6 @@ Blocks blocks_of_sweeps(const StillPoints& points, std::size_t most) {
   return blocks;
 }
 
-// Which part each cell belongs to.
-struct Parts {
-  std::vector<std::size_t> of_cell;
-  std::size_t count = 0;
-};
-
 Parts parts_of(const Blocks& blocks, std::size_t bins) {
   Parts parts{{}, blocks.count};
   for (const std::size_t block : blocks.of_line) parts.of_cell.insert(parts.of_cell.end(), bins, block);
@@ -225,11 +280,15 @@ Parts views(const StillPoints& points, std::size_t sectors, std::size_t sections
 }
 
 // The offset without each part, a step from the answer.
-std::vector<WithoutPart> offsets_without(const Linearisation& at, const Parts& parts, double loss_width_m,
-                                         double whole_jj) {
+std::vector<WithoutPart> offsets_without(const Linearisation& at, const std::vector<LineResiduals>& lines,
+                                         const Parts& parts, double loss_width_m) {
+  const double whole_jj = summed(lines, loss_width_m).jj;
+  const PartsOfPatches of_patches = at.parts_of_patches(parts);
+  Linearisation rest = at;
   std::vector<WithoutPart> without;
   for (std::size_t part = 0; part < parts.count; ++part) {
-    const Sums sums = summed(at.without(parts.of_cell, part).residuals(), loss_width_m);
+    rest.leave_out(parts, part, at);
+    const Sums sums = summed(rest.residuals_without(part, of_patches, lines), loss_width_m);
     if (sums.jj > 0) without.push_back({at.points().offset_s - sums.jr / sums.jj, 1 - sums.jj / whole_jj});
   }
   return without;
@@ -355,18 +414,19 @@ double middle_of_matches_s(const StillGrid& grid, const std::vector<LineResidual
 void resample(const StillGrid& grid, const Linearisation& at, const std::vector<LineResiduals>& lines,
               double loss_width_m, Resampling resampling, StationaryDirect& result) {
   // The sigma of a jackknife of n parts is itself uncertain by 1 / sqrt(2 (n - 1)): by 24 % of 10 parts, 32 %
-  // of 6, 15 % of 24 views and 21 % of 12 combs. Each part costs one more iteration.
+  // of 6, 15 % of 24 views and 21 % of 12 combs. A part costs as many
+  // patches as have points of it.
   constexpr std::size_t kMaxParts = 10, kMinBlocks = 6, kSectors = 8, kSections = 3, kCombs = 12;
+  static_assert(std::max({kMaxParts, kSectors * kSections, kCombs}) <= Parts::kMost);
   const Blocks blocks = blocks_of_sweeps(at.points(), kMaxParts);
   const Parts parts = blocks.count < kMinBlocks ? views(at.points(), kSectors, kSections)
                                                 : parts_of(blocks, at.points().bins);
-  const double whole_jj = summed(lines, loss_width_m).jj;
-  result.without_part = offsets_without(at, parts, loss_width_m, whole_jj);
+  result.without_part = offsets_without(at, lines, parts, loss_width_m);
   result.middle_s = middle_of_matches_s(grid, lines, loss_width_m);
   fill_levers(lines, result);
   fill_sectors(grid, at.points(), lines, loss_width_m, result);
   if (resampling == Resampling::kParts) return;
-  result.without_comb = offsets_without(at, combs(at.points(), kCombs), loss_width_m, whole_jj);
+  result.without_comb = offsets_without(at, lines, combs(at.points(), kCombs), loss_width_m);
   fill_blocks(at, grid, loss_width_m, result);
 }
 

@@ -1,7 +1,5 @@
 #include "core/offset/offset_course.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -22,7 +20,7 @@ constexpr double kPenalty = 3;
 // The windows with an offset, ordered by time, their sigmas multiplied by the scatter.
 struct Series {
   std::vector<double> time_s, offset_s, sigma_s;
-  double middle_s = 0, span_s = 1;
+  double middle_s = 0;
 
   std::size_t size() const { return time_s.size(); }
 };
@@ -33,12 +31,23 @@ struct Model {
   std::vector<std::size_t> jumps;
 };
 
+// The windows between two jumps.
+struct Segment {
+  std::size_t begin = 0, end = 0;
+  double information = 0;           // the inverse of its mean's variance
+  double time_s = 0, offset_s = 0;  // weighted means, the time from the middle
+};
+
+// The segments' offsets have one slope in common, and each its own level.
 struct Fitted {
   Model model;
-  Eigen::VectorXd parameters;  // the offset at the middle, the rate times the span, the jumps
-  Eigen::MatrixXd covariance;
+  std::vector<Segment> segments;
+  double slope = 0, slope_variance = 0;
   double cost = std::numeric_limits<double>::infinity();
   double score = std::numeric_limits<double>::infinity();
+
+  // At the middle, as if the segment reached there.
+  double level_s(const Segment& segment) const { return segment.offset_s - slope * segment.time_s; }
 };
 
 // The scatter of the windows in units of their sigmas, from the distance of each from the mean of its
@@ -67,7 +76,6 @@ Series series_of(const std::vector<OffsetWindow>& windows, double middle_s) {
     series.offset_s.push_back(*window.offset_s);
     series.sigma_s.push_back(*window.sigma_s);
   }
-  if (series.size() > 1) series.span_s = std::max(1e-9, series.time_s.back() - series.time_s.front());
   return series;
 }
 
@@ -75,60 +83,79 @@ double jump_time_s(const Series& series, std::size_t jump) {
   return (series.time_s[jump - 1] + series.time_s[jump]) / 2;
 }
 
-// The design matrix: row i gives the offset of window i.
-Eigen::MatrixXd design(const Series& series, const Model& model) {
-  const auto rows = Eigen::Index(series.size());
-  Eigen::MatrixXd a =
-      Eigen::MatrixXd::Zero(rows, Eigen::Index(1 + (model.line ? 1 : 0) + model.jumps.size()));
-  a.col(0).setOnes();
-  Eigen::Index column = 1;
-  if (model.line) {
-    for (Eigen::Index i = 0; i < rows; ++i)
-      a(i, column) = (series.time_s[std::size_t(i)] - series.middle_s) / series.span_s;
-    ++column;
-  }
+std::vector<Segment> segments_of(const Series& series, const Model& model) {
+  std::vector<Segment> segments;
+  std::size_t begin = 0;
   for (const std::size_t jump : model.jumps) {
-    const double at_middle = series.middle_s > jump_time_s(series, jump) ? 1 : 0;
-    for (Eigen::Index i = 0; i < rows; ++i) a(i, column) = (std::size_t(i) >= jump ? 1 : 0) - at_middle;
-    ++column;
+    segments.push_back({begin, jump});
+    begin = jump;
   }
-  return a;
+  segments.push_back({begin, series.size()});
+  return segments;
 }
 
-// Iteratively reweighted least squares (Cauchy), beginning with the given weights.
-Fitted fitted(const Series& series, const Model& model, std::vector<double> weights, int iterations) {
-  const Eigen::MatrixXd a = design(series, model);
-  Fitted fit;
-  fit.model = model;
-  const std::size_t n = series.size();
-  for (int iteration = 0; iteration < iterations; ++iteration) {
-    Eigen::MatrixXd information = Eigen::MatrixXd::Zero(a.cols(), a.cols());
-    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(a.cols());
-    for (std::size_t i = 0; i < n; ++i) {
-      const double weight = weights[i] / (series.sigma_s[i] * series.sigma_s[i]);
-      const Eigen::VectorXd row = a.row(Eigen::Index(i)).transpose();
-      information.noalias() += weight * row * row.transpose();
-      gradient += weight * series.offset_s[i] * row;
+// Weighted least squares for the levels and the slope. About their means the segments have no level, which
+// leaves one equation for the slope.
+void solve(const Series& series, const std::vector<double>& weights, Fitted& fit) {
+  double times_s2 = 0, products_s2 = 0;
+  for (Segment& segment : fit.segments) {
+    const auto time_s = [&](std::size_t i) { return series.time_s[i] - series.middle_s; };
+    const auto information = [&](std::size_t i) {
+      return weights[i] / (series.sigma_s[i] * series.sigma_s[i]);
+    };
+    segment = {segment.begin, segment.end};
+    for (std::size_t i = segment.begin; i < segment.end; ++i) {
+      segment.information += information(i);
+      segment.time_s += information(i) * time_s(i);
+      segment.offset_s += information(i) * series.offset_s[i];
     }
-    const Eigen::LDLT<Eigen::MatrixXd> solver(information);
-    fit.parameters = solver.solve(gradient);
-    fit.covariance = solver.solve(Eigen::MatrixXd::Identity(a.cols(), a.cols()));
-    fit.cost = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-      const double residual =
-          (series.offset_s[i] - a.row(Eigen::Index(i)).dot(fit.parameters)) / series.sigma_s[i] / kLossWidth;
-      weights[i] = 1 / (1 + residual * residual);
-      fit.cost += kLossWidth * kLossWidth * std::log1p(residual * residual);
+    segment.time_s /= segment.information;
+    segment.offset_s /= segment.information;
+    if (!fit.model.line) continue;
+    for (std::size_t i = segment.begin; i < segment.end; ++i) {
+      const double from_mean_s = time_s(i) - segment.time_s;
+      times_s2 += information(i) * from_mean_s * from_mean_s;
+      products_s2 += information(i) * from_mean_s * (series.offset_s[i] - segment.offset_s);
     }
   }
+  fit.slope = times_s2 > 0 ? products_s2 / times_s2 : 0;
+  fit.slope_variance = times_s2 > 0 ? 1 / times_s2 : 0;
+}
+
+// The distance of each window from the fit, in units of the loss's width.
+std::vector<double> residuals_of(const Series& series, const Fitted& fit) {
+  std::vector<double> residuals(series.size());
+  for (const Segment& segment : fit.segments) {
+    const double level_s = fit.level_s(segment);
+    for (std::size_t i = segment.begin; i < segment.end; ++i)
+      residuals[i] = (series.offset_s[i] - level_s - fit.slope * (series.time_s[i] - series.middle_s)) /
+                     (kLossWidth * series.sigma_s[i]);
+  }
+  return residuals;
+}
+
+// Iteratively reweighted least squares (Cauchy), beginning with even weights.
+Fitted fitted(const Series& series, const Model& model, int iterations) {
+  Fitted fit;
+  fit.model = model;
+  fit.segments = segments_of(series, model);
+  std::vector<double> weights(series.size(), 1.0), residuals;
+  for (int iteration = 0; iteration < iterations; ++iteration) {
+    solve(series, weights, fit);
+    residuals = residuals_of(series, fit);
+    for (std::size_t i = 0; i < series.size(); ++i) weights[i] = 1 / (1 + residuals[i] * residuals[i]);
+  }
+  fit.cost = 0;
+  for (const double residual : residuals)
+    fit.cost += kLossWidth * kLossWidth * std::log1p(residual * residual);
   const double parameters = 1 + kPenalty * (double(model.line ? 1 : 0) + double(model.jumps.size()));
-  fit.score = fit.cost + parameters * std::log(double(n));
+  fit.score = fit.cost + parameters * std::log(double(series.size()));
   return fit;
 }
 
 Fitted fitted(const Series& series, const Model& model) {
   constexpr int kIterations = 12;  // of the weights
-  return fitted(series, model, std::vector<double>(series.size(), 1.0), kIterations);
+  return fitted(series, model, kIterations);
 }
 
 bool apart(const std::vector<std::size_t>& jumps, std::size_t jump, std::size_t windows) {
@@ -150,11 +177,10 @@ Model without_jump(Model model, std::size_t place) {
 // With one more jump, at the place that lowers the cost most; the score is infinite if there is no place.
 Fitted with_best_jump(const Series& series, const Model& model) {
   constexpr int kRoughIterations = 2;  // enough to rank the places; the best one is fitted again
-  const std::vector<double> even(series.size(), 1.0);
   Fitted best;
   for (std::size_t jump = kMinWindows; jump + kMinWindows <= series.size(); ++jump) {
     if (!apart(model.jumps, jump, series.size())) continue;
-    Fitted candidate = fitted(series, with_jump(model, jump), even, kRoughIterations);
+    Fitted candidate = fitted(series, with_jump(model, jump), kRoughIterations);
     if (candidate.cost < best.cost) best = std::move(candidate);
   }
   return best.model.jumps.empty() ? best : fitted(series, best.model);
@@ -208,19 +234,21 @@ OffsetCourse course_from(const Series& series, const Fitted& fit, double scatter
   course.middle_s = series.middle_s;
   course.windows = series.size();
   course.scatter = scatter;
-  course.offset_s = fit.parameters[0];
-  course.sigma_s = std::sqrt(fit.covariance(0, 0));
-  Eigen::Index column = 1;
-  if (fit.model.line) {
-    course.rate = fit.parameters[column] / series.span_s;
-    course.rate_sigma = std::sqrt(fit.covariance(column, column)) / series.span_s;
-    ++column;
+  course.rate = fit.slope;
+  course.rate_sigma = std::sqrt(fit.slope_variance);
+  const auto& segments = fit.segments;
+  std::size_t at_middle = 0;
+  for (std::size_t i = 0; i + 1 < segments.size(); ++i) {
+    const Segment &before = segments[i], &after = segments[i + 1];
+    if (series.middle_s > jump_time_s(series, after.begin)) at_middle = i + 1;
+    const double apart_s = after.time_s - before.time_s;
+    course.jumps.push_back(
+        {series.time_s[after.begin - 1], series.time_s[after.begin], fit.level_s(after) - fit.level_s(before),
+         std::sqrt(1 / before.information + 1 / after.information + apart_s * apart_s * fit.slope_variance)});
   }
-  for (const std::size_t jump : fit.model.jumps) {
-    course.jumps.push_back({series.time_s[jump - 1], series.time_s[jump], fit.parameters[column],
-                            std::sqrt(fit.covariance(column, column))});
-    ++column;
-  }
+  const Segment& middle = segments[at_middle];
+  course.offset_s = fit.level_s(middle);
+  course.sigma_s = std::sqrt(1 / middle.information + middle.time_s * middle.time_s * fit.slope_variance);
   return course;
 }
 

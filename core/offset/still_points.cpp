@@ -161,54 +161,63 @@ StillNeighbours::Pair StillNeighbours::bracket(double angle_rad, std::size_t bin
   return pair;
 }
 
-// Adds the points of the lines on one side of the angle; gives how many lines had any.
-int StillNeighbours::collect(double angle_rad, std::size_t bin, int step) {
+// Adds the points of the lines on one side of the angle.
+StillNeighbours::Side StillNeighbours::collect(double angle_rad, std::size_t bin, int step) {
   const std::size_t first_bin = bin > 0 ? bin - 1 : bin, last_bin = std::min(bin + 1, points_.bins - 1);
   const int max_lines = std::min(options_.lines_per_side, kMaxLinesPerSide);
-  int lines = 0;
+  Side side;
   double last_rad = 0;
-  for (std::size_t place = step > 0 ? next_ : next_ - 1; place < pool_.size() && lines < max_lines;
+  for (std::size_t place = step > 0 ? next_ : next_ - 1; place < pool_.size() && side.lines < max_lines;
        place += std::size_t(step)) {
     const double away_rad = step * (points_.angle_rad[cell(place, bin)] - angle_rad);
     if (away_rad > options_.reach_rad) break;
-    if (lines > 0 && away_rad - last_rad < options_.min_gap_rad) continue;
-    const int before = count_;
-    for (std::size_t b = first_bin; b <= last_bin; ++b)
-      if (const std::size_t c = cell(place, b); points_.placed[c]) near_[std::size_t(count_++)] = c;
-    if (count_ == before) continue;
-    ++lines;
+    if (side.lines > 0 && away_rad - last_rad < options_.min_gap_rad) continue;
+    const int before = side.points;
+    for (std::size_t c = cell(place, first_bin); c <= cell(place, last_bin); ++c) {
+      if (!points_.placed[c]) continue;
+      near_[count_++] = c;
+      ++side.points;
+      side.away_rad += std::abs(points_.angle_rad[c] - angle_rad);
+    }
+    if (side.points == before) continue;
+    ++side.lines;
     last_rad = away_rad;
   }
-  return lines;
+  return side;
+}
+
+std::pair<StillNeighbours::Side, StillNeighbours::Side> StillNeighbours::collect_around(double angle_rad,
+                                                                                        std::size_t bin) {
+  seek(angle_rad, bin);
+  count_ = 0;
+  const Side below = collect(angle_rad, bin, -1);
+  return {below, collect(angle_rad, bin, 1)};
+}
+
+std::span<const std::size_t> StillNeighbours::around(double angle_rad, std::size_t bin) {
+  collect_around(angle_rad, bin);
+  return {near_.data(), count_};
 }
 
 StillPatch StillNeighbours::patch(double angle_rad, std::size_t bin, double range_m) {
   StillPatch patch;
-  seek(angle_rad, bin);
-  count_ = 0;
-  const int below = collect(angle_rad, bin, -1), points_below = count_;
-  const int above = collect(angle_rad, bin, 1), points_above = count_ - points_below;
-  if (below == 0 || above == 0 || below + above < 3 || count_ < 6) return patch;
+  const auto [below, above] = collect_around(angle_rad, bin);
+  if (below.lines == 0 || above.lines == 0 || below.lines + above.lines < 3 || count_ < 6) return patch;
   // The sides weigh so that the patch's centre comes to lie at the point's own motor angle: off it, the noise
   // of the normal would enter residual and lever alike and pull the offset.
-  double down_rad = 0, up_rad = 0;
-  for (int i = 0; i < count_; ++i) {
-    const double away_rad = points_.angle_rad[near_[std::size_t(i)]] - angle_rad;
-    (i < points_below ? down_rad : up_rad) +=
-        std::abs(away_rad) / (i < points_below ? points_below : points_above);
-  }
+  const double down_rad = below.away_rad / below.points, up_rad = above.away_rad / above.points;
   const double both_rad = std::max(1e-9, down_rad + up_rad);
-  const double weight_below = up_rad / both_rad / points_below,
-               weight_above = down_rad / both_rad / points_above;
+  const double weight_below = up_rad / both_rad / below.points,
+               weight_above = down_rad / both_rad / above.points;
   const Eigen::Vector3d origin = points_.p_m[near_[0]];
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
-  for (int i = 0; i < count_; ++i) {
-    const double weight = i < points_below ? weight_below : weight_above;
-    const Eigen::Vector3d d = points_.p_m[near_[std::size_t(i)]] - origin;
+  for (std::size_t i = 0; i < count_; ++i) {
+    const double weight = i < std::size_t(below.points) ? weight_below : weight_above;
+    const Eigen::Vector3d d = points_.p_m[near_[i]] - origin;
     mean += weight * d;
     squares.noalias() += weight * d * d.transpose();
-    patch.speed_rad_s += weight * points_.speed_rad_s[near_[std::size_t(i)]];
+    patch.speed_rad_s += weight * points_.speed_rad_s[near_[i]];
   }
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
   solver.computeDirect(squares - mean * mean.transpose());

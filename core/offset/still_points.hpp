@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/geometry/kinematics.hpp"
@@ -93,12 +94,19 @@ class StillNeighbours {
     std::size_t below = 0, above = 0;  // cells
   };
   Pair bracket(double angle_rad, std::size_t bin);
+  /// The cells whose points make the patch at a motor angle and a bin. Valid until the next call.
+  std::span<const std::size_t> around(double angle_rad, std::size_t bin);
   StillPatch patch(double angle_rad, std::size_t bin, double range_m);
 
  private:
+  struct Side {
+    int lines = 0, points = 0;
+    double away_rad = 0;  // the points' distances in motor angle, summed
+  };
   void seek(double angle_rad, std::size_t bin);
+  std::pair<Side, Side> collect_around(double angle_rad, std::size_t bin);  // below and above
   std::size_t cell(std::size_t place, std::size_t bin) const { return pool_[place] * points_.bins + bin; }
-  int collect(double angle_rad, std::size_t bin, int step);
+  Side collect(double angle_rad, std::size_t bin, int step);
 
   const StillPoints& points_;
   std::span<const std::uint32_t> pool_;  // of the line's own ring
@@ -106,7 +114,7 @@ class StillNeighbours {
   std::size_t next_ = 0;                  // the first of the pool's lines at or above the angle
   static constexpr int kBinsPerLine = 3;  // the bin of the point and those beside it
   std::array<std::size_t, std::size_t{2} * kMaxLinesPerSide * kBinsPerLine> near_;
-  int count_ = 0;
+  std::size_t count_ = 0;
 };
 
 }  // namespace sweepscope

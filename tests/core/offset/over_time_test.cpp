@@ -85,6 +85,25 @@ TEST(OffsetCourse, HasJumpsUpAndDownBesideARate) {
     EXPECT_NEAR(found.offset_at_s(t_s), offset_s(t_s), 0.08 * kMs) << t_s;
 }
 
+TEST(OffsetCourse, ItsSigmasAreTheScatterOfItsAnswers) {
+  constexpr int kSeeds = 100;
+  double offset = 0, rate = 0, jump = 0;  // squares of error over sigma
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    const OffsetCourse found = course(
+        windows_about([](double t_s) { return 24 * kMs + 75e-6 * (t_s - 300) + (t_s > 420 ? 5 * kMs : 0); },
+                      60, kSigma_s, seed));
+    ASSERT_EQ(found.jumps.size(), 1U) << seed;
+    offset += std::pow((found.offset_s - 24 * kMs) / found.sigma_s, 2);
+    rate += std::pow((found.rate - 75e-6) / found.rate_sigma, 2);
+    jump += std::pow((found.jumps[0].size_s - 5 * kMs) / found.jumps[0].sigma_s, 2);
+  }
+  // Somewhat below one, since the scatter of the windows only ever widens a sigma.
+  for (const double squares : {offset, rate, jump}) {
+    EXPECT_GT(squares / kSeeds, 0.6);
+    EXPECT_LT(squares / kSeeds, 1.4);
+  }
+}
+
 TEST(OffsetCourse, TakesOneWindowThatErrsForNoJump) {
   std::vector<OffsetWindow> windows = windows_about([](double) { return 24 * kMs; }, 60);
   *windows[30].offset_s += 3 * kMs;
