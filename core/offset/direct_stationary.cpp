@@ -1,7 +1,6 @@
 #include "core/offset/direct_stationary.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 
 #include "core/loam/least_squares.hpp"
@@ -11,56 +10,6 @@
 
 namespace sweepscope {
 namespace {
-
-// As MappingOptions::cost_cap_m. Beside edges ranges differ by metres at any offset.
-constexpr double kCoarseCap_m = 0.3;
-
-struct CoarseSum {
-  double sum_m = 0;
-  std::size_t count = 0, asked = 0;
-};
-
-// Differences between a line's ranges and another sweep's at the same motor angle and beam. On a plane
-// 1 / r goes as A cos(angle) + B sin(angle), which two lines tell.
-void add_differences(const StillGrid& grid, const StillPoints& points, std::size_t line, const LinePool& pool,
-                     const StillPatchOptions& patches, CoarseSum& total) {
-  StillNeighbours neighbours(points, pool, line, patches);
-  for (std::size_t bin = line % 2; bin < points.bins; bin += 2) {
-    const std::size_t cell = line * points.bins + bin;
-    if (!points.placed[cell]) continue;
-    ++total.asked;
-    const double angle_rad = points.angle_rad[cell];
-    const auto [found, below, above] = neighbours.bracket(angle_rad, bin);
-    if (!found) continue;
-    // In single precision, as the ranges are: a third of the time went into sines.
-    const float up = float(angle_rad - points.angle_rad[below]),
-                down = float(points.angle_rad[above] - angle_rad);
-    const float inverse_range = (std::sin(down) / grid.range_m[below] + std::sin(up) / grid.range_m[above]) /
-                                std::max(1e-9F, std::sin(up + down));
-    total.sum_m += std::min(double(std::abs(grid.range_m[cell] - 1 / inverse_range)), kCoarseCap_m);
-    ++total.count;
-  }
-}
-
-std::optional<double> coarse_cost_m(const StillGrid& grid, const StillPatchOptions& patches,
-                                    double offset_s) {
-  const StillPoints points = place_still(grid, offset_s, StillDetail::kAngles);
-  const std::vector<LinePool> pools = pools_by_sweep(points);
-  CoarseSum total;
-  const bool one_way = grid.problem->motor.one_way();
-  for (std::size_t line = 0; line < points.lines(); ++line) {
-    const std::size_t sweep = points.sweep[line];
-    if (sweep == kNoSweep) continue;
-    if (one_way) {
-      add_differences(grid, points, line, points.against(points.direction[line]), patches, total);
-      continue;
-    }
-    if (sweep > 0) add_differences(grid, points, line, pools[sweep - 1], patches, total);
-    if (sweep + 1 < pools.size()) add_differences(grid, points, line, pools[sweep + 1], patches, total);
-  }
-  if (total.count < 100 || 5 * total.count < total.asked) return std::nullopt;
-  return total.sum_m / double(total.count);
-}
 
 // One line's points against the other direction's patches.
 struct LineResiduals {
@@ -414,8 +363,8 @@ double middle_of_matches_s(const StillGrid& grid, const std::vector<LineResidual
 void resample(const StillGrid& grid, const Linearisation& at, const std::vector<LineResiduals>& lines,
               double loss_width_m, Resampling resampling, StationaryDirect& result) {
   // The sigma of a jackknife of n parts is itself uncertain by 1 / sqrt(2 (n - 1)): by 24 % of 10 parts, 32 %
-  // of 6, 15 % of 24 views and 21 % of 12 combs. A part costs as many
-  // patches as have points of it.
+  // of 6, 15 % of 24 views and 21 % of 12 combs. A part
+  // costs as many patches as have points of it.
   constexpr std::size_t kMaxParts = 10, kMinBlocks = 6, kSectors = 8, kSections = 3, kCombs = 12;
   static_assert(std::max({kMaxParts, kSectors * kSections, kCombs}) <= Parts::kMost);
   const Blocks blocks = blocks_of_sweeps(at.points(), kMaxParts);
@@ -448,21 +397,6 @@ PatchDistance distance_to_patch(const StillPatch& patch, const Eigen::Vector3d& 
   const double lever_m = patch.normal.dot(turned_m);
   return {(speed_rad_s - patch.speed_rad_s) * lever_m, patch.normal.dot(p_m - patch.centre_m), float(lever_m),
           float(turned_m.norm())};
-}
-
-std::vector<CurvePoint> stationary_coarse_curve(const StillGrid& grid, const std::vector<double>& offsets_s,
-                                                const Job& job,
-                                                const std::function<void(const CurvePoint&)>& finished) {
-  const StillPatchOptions patches = still_patch_options(*grid.problem);
-  std::vector<CurvePoint> curve(offsets_s.size());
-  std::atomic<std::size_t> done{0};
-  for_each_index(offsets_s.size(), [&](std::size_t i) {
-    curve[i].offset_s = offsets_s[i];
-    if (!job.cancelled()) curve[i].capped_cost_m = coarse_cost_m(grid, patches, offsets_s[i]);
-    if (finished && curve[i].capped_cost_m) finished(curve[i]);
-    job.report("searching", double(++done) / double(offsets_s.size()));
-  });
-  return curve;
 }
 
 StationaryDirect solve_stationary(const StillGrid& grid, double first_offset_s,

@@ -2,7 +2,6 @@
 
 // The mathematics: docs/algorithms.md, section 8.
 
-#include <functional>
 #include <optional>
 #include <vector>
 
@@ -42,13 +41,6 @@ struct PatchDistance {
 };
 PatchDistance distance_to_patch(const StillPatch& patch, const Eigen::Vector3d& p_m, double speed_rad_s,
                                 const Eigen::Vector3d& motor_axis);
-
-/// Mean difference of range between the directions at each candidate offset, each at most a cap: needs no
-/// registration, so it is valid far from the minimum too. Absent if the directions hardly overlap. `finished`
-/// is called from any thread for each that is not.
-std::vector<CurvePoint> stationary_coarse_curve(const StillGrid& grid, const std::vector<double>& offsets_s,
-                                                const Job& job,
-                                                const std::function<void(const CurvePoint&)>& finished = {});
 
 /// The offset that the scan lines of a sector of the motor's angle ask for by themselves.
 struct SectorOffset {
