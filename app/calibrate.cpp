@@ -66,7 +66,7 @@ void tell_running(const Progress& progress, const HeardSoFar& heard, const Resul
   const std::string what = !answer            ? answer.error().message
                            : answer->offset_s ? fmt::format("{:.3f} ms +- {:.3f} ms", *answer->offset_s * 1e3,
                                                             answer->sigma_s.value_or(0) * 1e3)
-                                              : answer->reasons.front();
+                                              : answer->refusals.front().text;
   progress.say(fmt::format("{:5.1f} s, {} scans, {} motor samples: {}", heard.seconds, heard.scans,
                            heard.motor_samples, what.substr(0, what.find('\n'))));
 }
@@ -146,7 +146,7 @@ Result<Estimate> run_calibration(CalibrateArguments& options, Result<void>& kept
   // What was heard is used after an interruption as well.
   auto found = calibrate(std::move(heard), options.calibration, Job());
   if (found && !found->identifiable && is_a_reason(*end))
-    found->reasons.insert(found->reasons.begin(), ended);
+    found->refusals.insert(found->refusals.begin(), refusal(RefusalKind::kListeningEnded, {}, ended));
   if (!kept && !found) return tl::unexpected(kept.error());
   if (!kept) found->warnings.push_back(fmt::format("Nothing was recorded: {}", kept.error().message));
   return found;

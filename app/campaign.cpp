@@ -118,7 +118,7 @@ std::vector<KeptRow> kept_rows(const Campaign& campaign, const std::vector<Campa
   return rows;
 }
 
-Error interrupted(const Campaign& campaign, const std::string& table) {
+Error interruption_of(const Campaign& campaign, const std::string& table) {
   std::string words = fmt::format("interrupted; {} of {} recordings are finished", campaign.rows.size(),
                                   campaign.rows.size() + campaign.pending.size());
   if (!table.empty())
@@ -204,7 +204,7 @@ ExitCode run_campaign(const CampaignOptions& options, const EstimateInput& input
   if (job.cancelled()) {
     if (!end.campaign.rows.empty())
       if (const auto written = table.write(end.campaign); !written) return fail(written.error());
-    return fail(interrupted(end.campaign, options.table));
+    return fail(interruption_of(end.campaign, options.table));
   }
   return conclude_campaign(options, end.campaign, table, kept.get(), inputs);
 }

@@ -7,7 +7,6 @@
 #include "app/campaign.hpp"
 #include "app/commands.hpp"
 #include "app/estimate_options.hpp"
-#include "app/estimate_recording.hpp"
 #include "app/progress.hpp"
 #include "app/say.hpp"
 #include "core/io/trajectory_file.hpp"
@@ -56,7 +55,7 @@ Result<std::unique_ptr<CandidateFile>> open_candidates(const EstimateArguments& 
 
 ExitCode say_shard(const EstimateArguments& options, const Estimate& estimate,
                    const CandidateFile& candidates, const std::string& path) {
-  for (const std::string& reason : estimate.reasons) print("nothing to compute: {}\n", reason);
+  for (const std::string& reason : estimate.reasons()) print("nothing to compute: {}\n", reason);
   print(
       "{}: {} candidates, {} of them computed now; shard {} of {}; combine the shards with `sweepscope "
       "merge`\n",
@@ -149,39 +148,27 @@ Result<void> check_campaign(const EstimateArguments& options) {
   return {};
 }
 
-Result<std::optional<DatedEstimate>> from_parts(const EstimateArguments& options,
-                                                const EstimateOptions& search) {
-  if (keeps(options) || !options.poses.empty()) return std::nullopt;
-  const Progress progress;
-  return estimate_from_parts(options.input.recording, search, progress.job());
-}
-
 ExitCode run_single(const EstimateArguments& options, std::vector<std::string> deciding) {
   const std::string path = options.resume.empty() && options.shard ? shard_file(options) : options.resume;
   if (const auto checked = options.output.check(input_files(options), {path, options.rig_out}); !checked)
     return fail(checked.error());
   EstimateOptions estimate_options = options.input.estimate;
   estimate_options.assume = options.input.recording.assumed_kind();
-  const auto in_parts = from_parts(options, estimate_options);
-  if (!in_parts) return fail(in_parts.error());
-  if (*in_parts) return conclude_search(options, (*in_parts)->estimate, nullptr, path);
   std::unique_ptr<CandidateFile> candidates;
   Result<Estimate> found;
   {
     const Progress progress;
-    const auto recording = options.input.recording.read(progress.job());
-    if (!recording) return fail(recording.error());
-    auto poses = read_poses(options, *recording);
+    const auto file = options.input.recording.open(progress.job());
+    if (!file) return fail(file.error());
+    auto poses = read_poses(options, file->outline());
     if (!poses) return fail(poses.error());
     estimate_options.poses = std::move(*poses);
     if (!path.empty()) {
       auto opened = open_candidates(options, path, std::move(deciding));
       if (!opened) return fail(opened.error());
       candidates = std::move(*opened);
-      found = estimate(*recording, estimate_options, {candidates.get(), options.shard}, progress.job());
-    } else {
-      found = estimate(*recording, estimate_options, progress.job());
     }
+    found = estimate(*file, estimate_options, {candidates.get(), options.shard}, progress.job());
   }
   if (!found) return fail(found.error());
   return conclude_search(options, *found, candidates.get(), path);

@@ -103,7 +103,7 @@ void print_answer(const Estimate& estimate) {
     print("offset   {:.3f} ms{}      t_motor = t_laser + offset\n", *estimate.offset_s * 1e3, sigma);
   } else {
     print("offset   cannot be determined from this recording\n");
-    for (const std::string& reason : estimate.reasons) print("  why: {}\n", reason);
+    for (const std::string& reason : estimate.reasons()) print("  why: {}\n", reason);
   }
   if (estimate.over_time) print_over_time(*estimate.over_time);
   if (estimate.sample)

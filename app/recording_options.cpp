@@ -132,6 +132,12 @@ Result<Recording> RecordingOptions::read(const Job& job) const {
   return cut_to_window(*whole, {window->from_s, window->to_s}, recording.string());
 }
 
+Result<RecordingFile> RecordingOptions::open(const Job& job) const {
+  if (window) return read(job).map([](Recording&& cut) { return RecordingFile(std::move(cut)); });
+  return read_options().and_then(
+      [&](ReadOptions&& options) { return RecordingFile::open(recording, std::move(options), job); });
+}
+
 CLI::Validator finite_number() {
   return {[](const std::string& text) {
             double number = 0;

@@ -13,6 +13,7 @@
 #include "core/job.hpp"
 #include "core/offset/estimate.hpp"
 #include "core/recording/formats/read_recording.hpp"
+#include "core/recording/formats/recording_file.hpp"
 #include "core/recording/rig/named_streams.hpp"
 
 namespace sweepscope::app {
@@ -65,6 +66,8 @@ struct RecordingOptions : RigOptions {
   Result<ReadOptions> read_options() const;
   /// The recording of these options, cut to the window.
   Result<Recording> read(const Job& job) const;
+  /// The same, of which no more is read than what an estimate goes by.
+  Result<RecordingFile> open(const Job& job) const;
 };
 
 /// A check of an option's number: not NaN, which CLI11's own checks let through, nor infinite.

@@ -64,7 +64,7 @@ ExitCode run(const ReportArguments& options) {
   const auto content = make(options);
   if (!content) return fail(content.error());
   print("{}\n", (std::filesystem::path(options.folder) / "report.html").string());
-  for (const std::string& reason : content->estimate.reasons) say("{}\n", reason);
+  for (const std::string& reason : content->estimate.reasons()) say("{}\n", reason);
   return content->estimate.identifiable ? ExitCode::kDone : ExitCode::kNotIdentifiable;
 }
 

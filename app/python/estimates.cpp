@@ -89,7 +89,7 @@ py::list declared_options() {
 void add_estimates(py::module_& module) {
   py::class_<Found, FoundPtr>(module, "Estimate")
       .def_property_readonly("identifiable", [](const Found& found) { return found.estimate.identifiable; })
-      .def_property_readonly("reasons", [](const Found& found) { return found.estimate.reasons; })
+      .def_property_readonly("reasons", [](const Found& found) { return found.estimate.reasons(); })
       .def("json", [](const Found& found) { return estimate_to_json(found.estimate); })
       .def("curve", &curve);
   module.def("read_estimate",

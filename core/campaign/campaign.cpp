@@ -51,7 +51,7 @@ CampaignRow campaign_row(const std::string& recording, const Result<DatedEstimat
   row.sweeps = estimate.sweeps;
   row.scans = estimate.scans;
   row.warnings = estimate.warnings;
-  row.reasons = estimate.reasons;
+  row.reasons = estimate.reasons();
   return row;
 }
 

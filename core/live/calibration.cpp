@@ -6,7 +6,7 @@
 #include <future>
 #include <optional>
 
-#include "core/offset/rig_kind.hpp"
+#include "core/offset/kind/rig_kind.hpp"
 #include "core/recording/assemble/assemble.hpp"
 
 namespace sweepscope {
@@ -82,11 +82,11 @@ class Silence {
   Clock::time_point latest_ = Clock::now(), newest_ = latest_;  // newest_: of anything
 };
 
-Estimate refused(const RawRecording& raw, std::string reason) {
+Estimate refused(const RawRecording& raw, const std::string& reason) {
   Estimate estimate;
   estimate.recording = raw.name;
   estimate.warnings = raw.warnings;
-  estimate.reasons = {std::move(reason)};
+  estimate.refusals = {refusal(RefusalKind::kListeningEnded, {}, reason)};
   return estimate;
 }
 
@@ -175,7 +175,7 @@ Result<Estimate> calibrate(RawRecording heard, const CalibrationOptions& options
     found->kind_reason = pairs_text(motion);
   }
   if (moved) {
-    found->reasons.push_back("The rig moved: a calibration requires a stationary rig.");
+    found->refusals.push_back(refusal(RefusalKind::kCalibrationMoved, {}));
     found->identifiable = false;
     found->offset_s.reset();
     found->sigma_s.reset();

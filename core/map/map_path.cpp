@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "core/map/pose_reader.hpp"
-#include "core/offset/search_window.hpp"
-#include "core/offset/still_motion.hpp"
+#include "core/offset/judgement/identifiability.hpp"
+#include "core/offset/kind/stationary_motion.hpp"
 
 namespace sweepscope {
 namespace {
@@ -13,15 +13,14 @@ namespace {
 bool taken_for_moving(const OffsetProblem& problem, double offset_s, const MapOptions& options) {
   if (options.assume) return *options.assume == RigKind::kMoving;
   if (!options.poses.empty() || options.walk) return true;
-  return test_motion(still_grid(problem), offset_s).moving();
+  return test_motion(stationary_grid(problem), offset_s).moving();
 }
 
 // Why no map can be built at all.
 Result<void> check_scans(const OffsetProblem& problem, double offset_s) {
   const Recording& recording = *problem.recording;
-  const std::vector<std::string> reasons = motor_reasons(recording.motor, problem.motor);
-  if (!reasons.empty())
-    return failure(ExitCode::kNotIdentifiable, fmt::format("{}: {}", recording.name, reasons.front()));
+  if (const auto refused = motor_refusal(recording.motor, problem.motor))
+    return failure(ExitCode::kNotIdentifiable, fmt::format("{}: {}", recording.name, refused->text));
   PlacedSweep any;
   if (SweepPlacer(problem, offset_s).next(any)) return {};
   return failure(

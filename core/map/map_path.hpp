@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/map/offset_map.hpp"
-#include "core/offset/walk.hpp"
+#include "core/offset/walk/walk.hpp"
 
 namespace sweepscope {
 

@@ -12,7 +12,7 @@
 #include "core/geometry/pose.hpp"
 #include "core/job.hpp"
 #include "core/offset/estimate.hpp"
-#include "core/offset/prepared.hpp"
+#include "core/offset/prepared/prepared.hpp"
 #include "core/recording/recording.hpp"
 
 namespace sweepscope {

@@ -8,7 +8,7 @@
 #include "core/geometry/map_cloud.hpp"
 #include "core/job.hpp"
 #include "core/map/map_path.hpp"
-#include "core/offset/prepared.hpp"
+#include "core/offset/prepared/prepared.hpp"
 
 namespace sweepscope {
 

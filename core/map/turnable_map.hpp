@@ -8,7 +8,7 @@
 
 #include "core/geometry/map_cloud.hpp"
 #include "core/loam/sweep_pose.hpp"
-#include "core/offset/prepared.hpp"
+#include "core/offset/prepared/prepared.hpp"
 
 namespace sweepscope {
 

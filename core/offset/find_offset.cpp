@@ -4,46 +4,47 @@
 
 #include <cmath>
 
-#include "core/offset/criteria_search.hpp"
-#include "core/offset/direct.hpp"
-#include "core/offset/direct_stationary.hpp"
-#include "core/offset/identifiability.hpp"
-#include "core/offset/over_time.hpp"
-#include "core/offset/rig_kind.hpp"
-#include "core/offset/still_motion.hpp"
+#include "core/offset/criteria/criteria_search.hpp"
+#include "core/offset/direct/direct.hpp"
+#include "core/offset/estimate_over_time.hpp"
+#include "core/offset/judgement/identifiability.hpp"
+#include "core/offset/judgement/limits.hpp"
+#include "core/offset/judgement/warnings.hpp"
+#include "core/offset/kind/rig_kind.hpp"
+#include "core/offset/kind/stationary_motion.hpp"
+#include "core/offset/over_time/over_time.hpp"
+#include "core/offset/stationary/direct_stationary.hpp"
 
 namespace sweepscope {
 namespace {
+
+using enum RefusalKind;
 
 void append(std::vector<std::string>& to, const std::vector<std::string>& more) {
   to.insert(to.end(), more.begin(), more.end());
 }
 
-Estimate refused(Estimate result, const std::vector<std::string>& reasons) {
-  append(result.reasons, reasons);
-  return result;
-}
-
 // Why the motor's track or the stamps cannot be used, whatever the scans show.
-std::vector<std::string> stream_reasons(const PreparedRecording& prepared, const SearchScale& scale) {
+Refusals stream_refusals(const PreparedRecording& prepared, const SearchScale& scale) {
   const Recording& recording = *prepared.recording;
-  std::vector<std::string> reasons = motor_reasons(recording.motor, prepared.motor);
-  if (!reasons.empty()) return reasons;
-  if (const auto stamps = stamps_reason(recording, scale)) reasons.push_back(*stamps);
-  if (const auto sparse = sampling_reason(recording.motor, prepared.motor, scale)) reasons.push_back(*sparse);
-  return reasons;
+  Refusals refusals;
+  add(refusals, motor_refusal(recording.motor, prepared.motor));
+  if (!refusals.empty()) return refusals;
+  add(refusals, scan_times_refusal(recording, scale));
+  add(refusals, samples_refusal(recording.motor, prepared.motor, scale));
+  return refusals;
 }
 
-Estimate begun(const PreparedRecording& prepared, const EstimateOptions& options, const KeptCandidates& kept,
-               const SearchScale& scale) {
+Estimate begun(const PreparedRecording& prepared, const EstimatePlan& plan, const EstimateOptions& options,
+               const KeptCandidates& kept, const SearchScale& scale) {
   Estimate result;
+  if (plan.sample && !plan.over_time()) result.sample = plan.sample->counts;
   result.recording = prepared.recording->name;
   result.warnings = prepared.recording->report.warnings;
   result.method = method_of(options, kUnknownKind, kept.store != nullptr);
-  result.reasons = stream_reasons(prepared, scale);
-  if (!result.reasons.empty()) return result;
-  if (const auto few = sampling_warning(prepared.recording->motor, prepared.motor))
-    result.warnings.push_back(*few);
+  result.refusals = stream_refusals(prepared, scale);
+  if (result.refusals.empty())
+    add(result.warnings, sampling_warning(prepared.recording->motor, prepared.motor));
   return result;
 }
 
@@ -88,89 +89,57 @@ Estimate counted(Estimate result, const OffsetProblem& problem, const SearchWind
   SweepPlacer placer(problem, window.middle_s());
   std::size_t scans = 0;
   for (PlacedSweep sweep; placer.next(sweep); ++result.sweeps) scans += sweep.scans;
-  if (auto gaps = gaps_reason(*problem.recording, problem.scan_used, window.from_s(), window.to_s()))
-    return refused(std::move(result), {*gaps});
+  add(result.refusals, gaps_refusal(*problem.recording, problem.scan_used, window.from_s(), window.to_s()));
+  if (!result.refusals.empty()) return result;
   result.scans = scans;
-  if (result.sweeps < 2)
-    return refused(std::move(result),
-                   {"Fewer than two sweeps have both scans and motor samples at every offset searched."});
-  if (auto few = lines_reason(distinct_lines(*problem.recording, problem.motor, window.middle_s())))
-    return refused(std::move(result), {*few});
+  if (result.sweeps < kLimits.min_sweeps)
+    result.refusals.push_back(refusal(kFewSweeps, double(result.sweeps)));
+  else
+    add(result.refusals, lines_refusal(distinct_lines(*problem.recording, problem.motor, window.middle_s())));
   return result;
 }
 
-// The kind of rig and the method, and the reasons why the recording cannot be used with them.
+// The kind of rig and the method, and why the recording cannot be used with them.
 Estimate judged(Estimate result, const OffsetSearch& search, const KindDecision& kind) {
   result.kind = search.kind;
   result.kind_reason = kind.reason;
   result.method = search.method;
   append(result.warnings, kind.warnings);
-  append(result.reasons, one_way_reasons(search.problem.motor, search.kind, search.method));
+  add(result.refusals, one_way_refusal(search.problem.motor, search.kind, search.method));
   if (search.method == Method::kStationary && search.kind == RigKind::kMoving)
-    result.reasons.push_back(moved_text(search.motion) +
-                             " Use --method moving, or --assume stationary if it was stationary.");
+    result.refusals.push_back(refusal(kRigMoved, {}, moved_text(search.motion)));
   const bool seen_moving = search.motion.moving() && !search.options.assume;
-  const std::size_t min_sweeps = std::size_t(search.options.mapping.settling_sweeps) + 12;
+  const std::size_t min_sweeps =
+      std::size_t(search.options.mapping.settling_sweeps) + kLimits.min_walk_sweeps;
   if (search.as_moving() && result.sweeps < min_sweeps)
-    result.reasons.push_back(
-        fmt::format("{}The recording is too short for a moving rig: {} sweeps, at least {} are needed, and "
-                    "40 s of walking for a good result.",
-                    seen_moving ? moved_text(search.motion) + " " : "", result.sweeps, min_sweeps));
+    result.refusals.push_back(refusal(kShortWalk, double(result.sweeps),
+                                      seen_moving ? moved_text(search.motion) + " " : "", result.sweeps,
+                                      min_sweeps));
   return result;
 }
 
+// What was said before is kept; all else is the answer's.
 Estimate with(Estimate result, Answer answer) {
-  result.curve = std::move(answer.curve);
-  result.criteria = std::move(answer.criteria);
-  result.lost = std::move(answer.lost);
-  result.motion = std::move(answer.motion);
-  result.fit = answer.fit;
-  result.rig_effects = answer.rig_effects;
-  result.walk = std::move(answer.walk);
-  result.drift_ppm = answer.drift_ppm;
-  result.over_time = std::move(answer.over_time);
   append(result.warnings, answer.warnings);
-  append(result.reasons, answer.reasons);
-  result.identifiable = result.reasons.empty() && answer.offset_s;
-  if (!result.identifiable) return result;
-  result.offset_s = answer.offset_s;
-  result.sigma_s = answer.sigma_s;
-  result.sigma_parts = std::move(answer.sigma_parts);
+  answer.warnings = std::move(result.warnings);
+  static_cast<Answer&>(result) = std::move(answer);
+  result.identifiable = result.refusals.empty() && result.offset_s;
+  if (result.identifiable) return result;
+  result.offset_s.reset();
+  result.sigma_s.reset();
+  result.sigma_parts.clear();
   return result;
 }
 
-EstimatePart estimator_of_parts(const EstimateOptions& options, const Job& job) {
-  return [&options, &job](const Recording& part) -> Result<Estimate> {
-    const auto prepared = prepare(part, options.features, job);
-    if (!prepared) return tl::unexpected(prepared.error());
-    return find_offset(*prepared, options, {}, job);
-  };
-}
-
-// The offset over time, or a constant one if the groups of a sample of sweeps agree.
-Result<Answer> answer_sampled(const OffsetSearch& search, const Sampled& sampled,
-                              const OffsetOverTime& groups, const Job& job) {
-  if (search.options.over_time_s)
-    return answer_over_time(search, sampled.whole, estimator_of_parts(search.options, job), job);
-  const auto changes = change_reason(groups, search.recorded_s());
-  if (!changes) return answer_directly(search, job);
-  Answer answer;
-  answer.curve = search.coarse.curve;
-  answer.reasons.push_back(*changes);
-  return answer;
-}
-
-// The offset of each group of the sample; empty for a whole recording, and without a coarse offset.
-OffsetOverTime groups_of(const Sampled* sampled, const PreparedRecording& prepared,
+// The offset of each group of a sample of sweeps; empty for a whole recording, and without a coarse offset.
+OffsetOverTime groups_of(const EstimatePlan& plan, const PreparedRecording& prepared,
                          const CoarseSearch& coarse, const EstimateOptions& options, const Job& job) {
-  if (sampled == nullptr || sampled->sweeps == nullptr || !coarse.best) return {};
-  if (options.assume == RigKind::kMoving) return {};
-  return follow_groups(*prepared.recording, sampled->sweeps->groups, coarse.offset_s(), options.features,
-                       job);
+  if (!plan.sample || !coarse.best || options.assume == RigKind::kMoving) return {};
+  return follow_groups(*prepared.recording, plan.sample->groups, coarse.offset_s(), options.features, job);
 }
 
 // The motion test of a short recording, with pairs of neighbouring sweeps.
-MotionTest test_motion_of_few(const StillGrid& grid, const CoarseSearch& coarse, MotionTest test,
+MotionTest test_motion_of_few(const StationaryGrid& grid, const CoarseSearch& coarse, MotionTest test,
                               const Job& job) {
   if (!coarse.best || !has_few_pairs(test)) return test;
   StationaryDirectOptions options;
@@ -180,56 +149,68 @@ MotionTest test_motion_of_few(const StillGrid& grid, const CoarseSearch& coarse,
 }
 
 // The motion test. It compares sweeps far apart in time, so a changing offset is removed first.
-MotionTest test_motion(const PreparedRecording& prepared, const StillGrid& grid, const OffsetOverTime& groups,
-                       double offset_s) {
+MotionTest test_motion(const PreparedRecording& prepared, const StationaryGrid& grid,
+                       const OffsetOverTime& groups, double offset_s) {
   const auto& course = groups.course;
   if (!course || course->constant() || 2 * course->windows < groups.windows.size())
     return test_motion(grid, offset_s);
   Recording corrected = *prepared.recording;
   corrected.motor = without_course(corrected, *course);
   PreparedRecording as_if = prepared;
-  as_if.recording = &corrected;
   as_if.motor = find_sweeps(corrected.motor);
+  as_if.recording = borrowed(corrected);
   return test_motion(as_if);
+}
+
+// The answer of the method, or none where the groups of a sample of sweeps do not agree on an offset.
+Result<Answer> answer_by_method(const OffsetSearch& search, const OffsetOverTime& groups,
+                                const KeptCandidates& kept, const Job& job) {
+  if (search.method != Method::kDirect) return answer_by_criteria(search, kept, job);
+  auto changes = change_refusal(groups, search.recorded_s());
+  if (!changes) return answer_directly(search, job);
+  Answer answer;
+  answer.curve = search.coarse.curve;
+  answer.refusals.push_back(std::move(*changes));
+  return answer;
 }
 
 }  // namespace
 
-Result<Estimate> find_offset(const PreparedRecording& prepared, const EstimateOptions& options,
-                             const KeptCandidates& kept, const Job& job, const Sampled* sampled) {
-  const SearchScale scale = search_scale(prepared.motor);
-  Estimate result = begun(prepared, options, kept, scale);
-  if (!result.reasons.empty()) return result;
+Result<Estimate> find_offset(const RecordingSource& source, const EstimatePlan& plan,
+                             const EstimateOptions& options, const KeptCandidates& kept, const Job& job) {
+  const auto recording = source.read(plan.parts, job);
+  if (!recording) return tl::unexpected(recording.error());
+  const auto prepared = source.prepare(plan.sweeps_of(*recording), options.features, job);
+  if (!prepared) return tl::unexpected(prepared.error());
+  const SearchScale scale = search_scale(prepared->motor);
+  Estimate result = begun(*prepared, plan, options, kept, scale);
+  if (!result.refusals.empty()) return result;
   const auto window = check_options(options, kept).and_then([&] { return window_of(options, scale); });
   if (!window) return tl::unexpected(window.error());
-  const OffsetProblem problem = problem_for(prepared, window->from_s(), window->to_s());
+  const OffsetProblem problem = problem_for(*prepared, window->from_s(), window->to_s());
   result = counted(std::move(result), problem, *window);
-  if (!result.reasons.empty()) return result;
+  if (!result.refusals.empty()) return result;
 
-  const StillGrid grid = still_grid(problem);
+  const StationaryGrid grid = stationary_grid(problem);
   const CoarseSearch coarse =
       search_coarsely(problem, window->from_s(), window->to_s(), scale, job, kept.finished);
   if (job.cancelled()) return result;
-  const OffsetOverTime groups = groups_of(sampled, prepared, coarse, options, job);
+  const OffsetOverTime groups = groups_of(plan, *prepared, coarse, options, job);
   if (job.cancelled()) return result;
   const MotionTest motion = test_motion_of_few(
-      grid, coarse, test_motion(prepared, grid, groups, coarse.offset_or(window->middle_s())), job);
+      grid, coarse, test_motion(*prepared, grid, groups, coarse.offset_or(window->middle_s())), job);
   if (job.cancelled()) return result;
   const KindDecision kind = decide_kind(motion, options);
   const Method method = method_of(options, kind.kind, kept.store != nullptr);
   const OffsetSearch search{problem, grid, options, scale, *window, coarse, motion, kind.kind, method};
-  const bool needs_whole = sampled != nullptr && (sampled->parts_only || !options.over_time_s);
-  if (needs_whole && search.as_moving()) {
-    result.kind = kind.kind;
-    return result;
-  }
+  if (plan.sample && !plan.over_time() && search.as_moving())
+    return find_offset(source, {}, options, kept, job);  // a walk takes all of its sweeps
   result = judged(std::move(result), search, kind);
-  if (!result.reasons.empty()) return result;
+  if (!result.refusals.empty()) return result;
   if (const auto poses = check_poses(search, kind.reason); !poses) return tl::unexpected(poses.error());
 
-  auto answer = sampled != nullptr          ? answer_sampled(search, *sampled, groups, job)
-                : method == Method::kDirect ? answer_directly(search, job)
-                                            : answer_by_criteria(search, kept, job);
+  if (plan.over_time()) return follow_over_time(std::move(result), search, source, **recording, plan, job);
+  auto answer = answer_by_method(search, groups, kept, job);
   if (!answer && answer.error().code == ExitCode::kInterrupted) return result;
   if (!answer) return tl::unexpected(answer.error());
   return with(std::move(result), std::move(*answer));

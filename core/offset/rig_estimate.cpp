@@ -4,19 +4,26 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <memory>
 
 #include "core/numbers.hpp"
-#include "core/offset/rig_motion.hpp"
-#include "core/offset/walk.hpp"
+#include "core/offset/kind/rig_motion.hpp"
+#include "core/offset/walk/walk.hpp"
 #include "core/rig_solve/rig_solve.hpp"
 
 namespace sweepscope {
 namespace {
 
-// The estimate of a recording with another rig.
-using Answering = std::function<Result<Estimate>(const Recording&)>;
+// Estimates the offset alone.
+struct OffsetAlone {
+  EstimateOptions options;
+  const KeptCandidates& kept;
+  const Job& job;
+
+  Result<Estimate> of(const RecordingSource& recording) const {
+    return estimate(recording, options, kept, job);
+  }
+};
 
 // The answer with the solved rig; its sigma contains that of the rig.
 Estimate with(Estimate found, std::shared_ptr<const SolvedRig> solved) {
@@ -52,8 +59,8 @@ std::shared_ptr<const SolvedRig> rig_of_surfaces(const PreparedRecording& prepar
 
 // The offset with a rig that was solved for.
 Result<Estimate> with_rig_found(const PreparedRecording& prepared, std::shared_ptr<const SolvedRig> solved,
-                                const Answering& estimated) {
-  return estimated(with_rig(*prepared.recording, *solved)).map([&](Estimate&& answer) {
+                                const OffsetAlone& offset) {
+  return offset.of(with_rig(*prepared.recording, *solved)).map([&](Estimate&& answer) {
     return with(std::move(answer), std::move(solved));
   });
 }
@@ -111,7 +118,7 @@ double offset_along(const Estimate& found) {
 // A walk: the turn that its path shows, and the walk anew with it, until nothing more shows. Nothing else of
 // the rig is determined.
 Result<Estimate> with_turn_of_walk(const PreparedRecording& prepared, const EstimateOptions& options,
-                                   Estimate found, const Answering& estimated) {
+                                   Estimate found, const OffsetAlone& offset) {
   constexpr int kMaxPasses = 5;     // a bound
   constexpr double kSettled = 0.3;  // of sigma
   const OffsetProblem problem = problem_for(prepared, 0, 0);
@@ -135,7 +142,7 @@ Result<Estimate> with_turn_of_walk(const PreparedRecording& prepared, const Esti
     solved.iterations = pass + 1;
     solved.converged = steps_rad.back() < kSettled * std::sqrt(seen->covariance.diagonal().minCoeff());
     turned = with_rig(*prepared.recording, solved);
-    auto again = estimated(turned);
+    auto again = offset.of(turned);
     if (!again || again->interrupted) return again;
     found = std::move(*again);
   }
@@ -155,33 +162,33 @@ Result<Estimate> with_turn_of_walk(const PreparedRecording& prepared, const Esti
 
 }  // namespace
 
-Result<Estimate> estimate_with_rig(const PreparedRecording& prepared, const EstimateOptions& options,
+Result<Estimate> estimate_with_rig(const RecordingSource& source, const EstimateOptions& options,
                                    const KeptCandidates& kept, const Job& job) {
   if (method_of(options, RigKind::kStationary, kept.store != nullptr) != Method::kDirect)
     return failure(ExitCode::kWrongUsage, "--solve is used by the direct method only.");
-  EstimateOptions offset_only = options;
-  offset_only.solve = {};
-  auto found = estimate(prepared, offset_only, kept, job);
+  OffsetAlone offset{options, kept, job};
+  offset.options.solve = {};
+  const auto whole = source.read({}, job);
+  if (!whole) return tl::unexpected(whole.error());
+  const auto with_features = source.prepare(*whole, options.features, job);
+  if (!with_features) return tl::unexpected(with_features.error());
+  const PreparedRecording& prepared = *with_features;
+  auto found = offset.of(prepared);
   if (!found || job.cancelled() || !found->kind) return found;
-  const Answering estimated = [&](const Recording& recording) {
-    return prepare(recording, options.features, job).and_then([&](const PreparedRecording& again) {
-      return estimate(again, offset_only, kept, job);
-    });
-  };
   if (found->kind == RigKind::kStationary) {
     auto solved = rig_of_surfaces(prepared, options.solve, *found, job);
-    return solved && !job.cancelled() ? with_rig_found(prepared, std::move(solved), estimated) : found;
+    return solved && !job.cancelled() ? with_rig_found(prepared, std::move(solved), offset) : found;
   }
   const auto part = standing_part(prepared);
   auto solved = part ? rig_of_standing_part(prepared, *part, options, job) : nullptr;
   if (job.cancelled()) return found;
   if (solved)
-    return with_rig_found(prepared, std::move(solved), estimated).map([&](Estimate&& answer) {
+    return with_rig_found(prepared, std::move(solved), offset).map([&](Estimate&& answer) {
       answer.kind_reason += fmt::format(" The rig was solved for from {:.1f} to {:.1f} s, where it stood.",
                                         part->begin_s, part->end_s);
       return std::move(answer);
     });
-  return with_turn_of_walk(prepared, options, std::move(*found), estimated);
+  return with_turn_of_walk(prepared, options, std::move(*found), offset);
 }
 
 }  // namespace sweepscope

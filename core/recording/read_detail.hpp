@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "core/recording/raw_recording.hpp"
@@ -12,9 +14,9 @@ struct ReadDetail {
   ReadDetail(CloudDetail of_clouds) : clouds(of_clouds) {}
 
   CloudDetail clouds = CloudDetail::kLines;
-  /// False: of scans only what their headers say. RawLaser::ranges_m stays empty, and RawScan::first_range is
-  /// the scan's number among its topic's, in the order of the file.
-  bool ranges = true;
+  /// Where scans together have more beams than this, only what their headers say: RawLaser::ranges_m stays
+  /// empty, and RawScan::first_range is the scan's number among its topic's, in the order of the file.
+  std::size_t max_beams = std::numeric_limits<std::size_t>::max();
   /// By that number, 1 for scans that are kept, without their intensities; null: all are. Scans beyond its
   /// end are not kept.
   const std::vector<char>* scans = nullptr;

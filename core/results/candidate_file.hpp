@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "core/offset/kept_candidates.hpp"
+#include "core/offset/prepared/kept_candidates.hpp"
 #include "core/results/sealed_file.hpp"
 
 namespace sweepscope {

@@ -327,6 +327,20 @@ std::vector<Interval> intervals_from_json(const Json& document, const char* key)
   return intervals;
 }
 
+Refusals refusals_from_json(const Json& document) {
+  const auto texts = required<std::vector<std::string>>(document, "reasons");
+  // Estimates of versions before 0.3 have none.
+  const auto codes = document.contains("reason_codes")
+                         ? required<std::vector<std::string>>(document, "reason_codes")
+                         : std::vector<std::string>();
+  Refusals refusals;
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    const RefusalKind kind = i < codes.size() ? refusal_kind_of(codes[i]) : RefusalKind::kUnknown;
+    refusals.push_back({kind, std::nullopt, std::nullopt, texts[i]});
+  }
+  return refusals;
+}
+
 Estimate estimate_from_json(const Json& document) {
   if (!document.is_object()) throw BadValue("it is not a JSON object");
   if (required<std::string>(document, "schema") != kEstimateSchema) {
@@ -351,7 +365,7 @@ Estimate estimate_from_json(const Json& document) {
     if (auto solved = solved_rig_of(*parameters))
       estimate.rig = std::make_shared<const SolvedRig>(std::move(*solved));
   estimate.warnings = required<std::vector<std::string>>(document, "warnings");
-  estimate.reasons = required<std::vector<std::string>>(document, "reasons");
+  estimate.refusals = refusals_from_json(document);
   estimate.criteria = criteria_from_json(member(document, "criteria", ""));
   estimate.curve = curve_from_json(member(document, "curve", ""));
   estimate.sweeps = required_count(document, "sweeps");
@@ -392,7 +406,10 @@ std::string estimate_to_json(const Estimate& estimate, Timing timing) {
     document["lost_s"].push_back({to_millisecond(lost.begin_s), to_millisecond(lost.end_s)});
   if (estimate.motion) document["poses"] = motion_to_json(*estimate.motion);
   document["warnings"] = estimate.warnings;
-  document["reasons"] = estimate.reasons;
+  document["reasons"] = estimate.reasons();
+  document["reason_codes"] = Json::array();
+  for (const Refusal& refusal : estimate.refusals)
+    document["reason_codes"].push_back(entry_of(refusal.kind).code);
   document["criteria"] = Json::object();
   for (const CriterionOptimum& optimum : estimate.criteria) {
     document["criteria"][optimum.name] = {{"offset_ms", written_ms(optimum.offset_s)},

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "core/numbers.hpp"
-#include "core/offset/candidates.hpp"
+#include "core/offset/prepared/candidates.hpp"
 
 namespace sweepscope {
 namespace {

@@ -9,7 +9,7 @@
 #include "core/job.hpp"
 #include "core/map/offset_map.hpp"
 #include "core/offset/estimate_options.hpp"
-#include "core/offset/prepared.hpp"
+#include "core/offset/prepared/prepared.hpp"
 #include "render/comparison/compared_map.hpp"
 
 namespace sweepscope {

@@ -284,9 +284,9 @@ void add_no_curve(Drawing& drawing, const PixelRect& place, const Estimate& esti
                   double scale) {
   drawing.fill(place, style.panel);
   drawing.frame(place, scale, style.frame);
-  std::vector<std::string> lines(estimate.reasons.begin(),
-                                 estimate.reasons.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(
-                                                                4, estimate.reasons.size())));
+  constexpr std::size_t kMaxReasons = 4;
+  std::vector<std::string> lines = estimate.reasons();
+  lines.resize(std::min(kMaxReasons, lines.size()));
   if (lines.empty()) lines.push_back("The estimate holds no criterion at any offset.");
   add_words(drawing, place, "No curve over the offset", lines, style, scale);
 }

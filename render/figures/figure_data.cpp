@@ -11,7 +11,7 @@
 #include "core/io/content_hash.hpp"
 #include "core/map/feature_points.hpp"
 #include "core/map/offset_map.hpp"
-#include "core/offset/walk.hpp"
+#include "core/offset/walk/walk.hpp"
 #include "core/recording/rig.hpp"
 #include "core/results/candidate_file.hpp"
 #include "core/results/estimate_json.hpp"
@@ -196,7 +196,7 @@ Result<std::shared_ptr<const SolvedRig>> FigureData::solved_rig(const std::strin
     return failure(
         ExitCode::kNotIdentifiable,
         fmt::format("estimate {}: {}", name,
-                    found->reasons.empty() ? "the rig could not be solved for" : found->reasons[0]));
+                    found->refusals.empty() ? "the rig could not be solved for" : found->refusals[0].text));
   if (found->rig->along_walk)
     return failure(
         ExitCode::kNotIdentifiable,

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/io/printable_text.hpp"
-#include "core/offset/search_window.hpp"
+#include "core/offset/prepared/search_window.hpp"
 #include "render/charts/curve_charts.hpp"
 #include "render/comparison/comparison_points.hpp"
 #include "render/page/html.hpp"

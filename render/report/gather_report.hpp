@@ -5,7 +5,7 @@
 
 #include "core/job.hpp"
 #include "core/offset/estimator.hpp"
-#include "core/offset/kept_candidates.hpp"
+#include "core/offset/prepared/kept_candidates.hpp"
 #include "core/rig_solve/rig_solve.hpp"
 #include "render/report/report.hpp"
 

@@ -42,7 +42,7 @@ std::string method_text(const Estimate& estimate) {
 std::string answer(const Estimate& estimate) {
   if (!estimate.identifiable || !estimate.offset_s) {
     std::string reasons;
-    for (const std::string& reason : estimate.reasons) reasons += html::element("li", html::escape(reason));
+    for (const std::string& reason : estimate.reasons()) reasons += html::element("li", html::escape(reason));
     return "<div class=\"answer refused\"><div><b>The offset cannot be determined from this "
            "recording.</b></div>" +
            html::element("ul", reasons) + "</div>\n";
@@ -152,7 +152,7 @@ Result<std::string> both_widths(const Result<std::string>& wide_svg, const Resul
 }
 
 /// A class for what a live map of the page stands for, while it is drawn.
-const char* still_class(const ReportContent& content) {
+const char* stationary_class(const ReportContent& content) {
   return content.live ? "still" : "alone";
 }
 
@@ -174,7 +174,7 @@ Result<std::string> curves(const ReportContent& content) {
   return fmt::format(
       "<section class=\"{}\">{}<div class=\"charts\">{}</div>\n<p class=\"caption\">Each point is one candidate "
       "offset; a larger mark is the criterion's best; the blue line is the answer.</p></section>\n",
-      still_class(content), html::element("h2", "The criteria over the offset"), pictures);
+      stationary_class(content), html::element("h2", "The criteria over the offset"), pictures);
 }
 
 std::string parameter_row(const RigParameter& parameter) {
@@ -264,9 +264,10 @@ Result<std::string> maps(const ReportContent& content) {
   look.width_px = 1800;
   look.height_px = 1100;
   return comparison_picture(content.maps, nullptr, look).and_then(draw).map([&](const Image& image) {
-    return fmt::format("<h2 class=\"{}\">The map 5 ms off, and at the answer</h2>\n", still_class(content)) +
+    return fmt::format("<h2 class=\"{}\">The map 5 ms off, and at the answer</h2>\n",
+                       stationary_class(content)) +
            thickness_table(content) +
-           figure(still_class(content),
+           figure(stationary_class(content),
                   html::png_image(encode_png(image), "Two maps from above, side by side"),
                   "All else is equal. Where the right picture is the sharper one, the answer is the better "
                   "offset.");

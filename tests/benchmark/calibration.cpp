@@ -166,7 +166,7 @@ Outcome outcome_of(const Simulation& made, std::optional<Method> method, std::op
   Outcome outcome;
   outcome.answered = found.identifiable;
   if (!found.identifiable) {
-    outcome.reason = found.reasons.empty() ? "" : found.reasons.front();
+    outcome.reason = found.refusals.empty() ? "" : found.refusals.front().text;
     return outcome;
   }
   // Upwards the laser hangs back by half the play, as it would if it fired earlier.

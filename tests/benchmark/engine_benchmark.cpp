@@ -16,9 +16,9 @@
 #include "core/loam/feature_map.hpp"
 #include "core/map/offset_map.hpp"
 #include "core/map/surface_thickness.hpp"
+#include "core/offset/criteria/moving_candidate.hpp"
+#include "core/offset/criteria/stationary_candidate.hpp"
 #include "core/offset/estimator.hpp"
-#include "core/offset/moving.hpp"
-#include "core/offset/stationary.hpp"
 #include "tests/core/engine_fixtures.hpp"
 
 namespace sweepscope {

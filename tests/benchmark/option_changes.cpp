@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "core/offset/direct_stationary.hpp"
 #include "core/offset/estimator.hpp"
-#include "core/offset/joint_walk.hpp"
-#include "core/offset/prepared.hpp"
+#include "core/offset/prepared/prepared.hpp"
+#include "core/offset/stationary/direct_stationary.hpp"
+#include "core/offset/walk/joint_walk.hpp"
 #include "core/simulation/simulate.hpp"
 
 namespace sweepscope {
@@ -66,7 +66,7 @@ Answers stationary(const FeatureOptions& features, const StationaryDirectOptions
   Answers answers;
   for (const Recording& room : rooms()) {
     const OffsetProblem problem = problem_of(room, features);
-    const StationaryDirect found = solve_stationary(still_grid(problem), kTruth_s, options, Job());
+    const StationaryDirect found = solve_stationary(stationary_grid(problem), kTruth_s, options, Job());
     answers.push_back(found.matches < options.min_matches ? std::nullopt : std::optional(found.offset_s));
   }
   return answers;

@@ -13,8 +13,8 @@
 #include <tuple>
 
 #include "core/offset/estimator.hpp"
-#include "core/offset/prepared.hpp"
-#include "core/offset/search_window.hpp"
+#include "core/offset/prepared/prepared.hpp"
+#include "core/offset/prepared/search_window.hpp"
 #include "core/recording/sweeps.hpp"
 #include "core/simulation/mesh.hpp"
 #include "core/simulation/motor.hpp"
@@ -65,9 +65,9 @@ inline Estimate estimated(const Recording& recording, const EstimateOptions& opt
 inline void expect_refused(const Estimate& estimate, const std::string& why) {
   EXPECT_FALSE(estimate.identifiable);
   EXPECT_FALSE(estimate.offset_s);
-  const auto says = [&](const std::string& reason) { return reason.find(why) != std::string::npos; };
-  EXPECT_TRUE(std::any_of(estimate.reasons.begin(), estimate.reasons.end(), says))
-      << why << " is not in: " << testing::PrintToString(estimate.reasons);
+  const auto says = [&](const Refusal& refusal) { return refusal.text.find(why) != std::string::npos; };
+  EXPECT_TRUE(std::ranges::any_of(estimate.refusals, says))
+      << why << " is not in: " << testing::PrintToString(estimate.reasons());
 }
 
 /// A recording made by hand, independently of the simulator's sensor: any surroundings, rig and path, and

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/offset/estimator.hpp"
-#include "core/offset/search_window.hpp"
+#include "core/offset/prepared/search_window.hpp"
 #include "ui/model/picking.hpp"
 #include "ui/model/task_plans.hpp"
 #include "ui/model/view_camera.hpp"

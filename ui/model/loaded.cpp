@@ -7,7 +7,7 @@
 #include "core/io/trajectory_file.hpp"
 #include "core/map/pose_reader.hpp"
 #include "core/numbers.hpp"
-#include "core/offset/rig_motion.hpp"
+#include "core/offset/kind/rig_motion.hpp"
 #include "core/simulation/simulate.hpp"
 #include "ui/state/value.hpp"
 

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/io/printable_text.hpp"
-#include "core/offset/prepared.hpp"
+#include "core/offset/prepared/prepared.hpp"
 #include "core/recording/assemble/assemble.hpp"
 #include "core/recording/formats/read_raw_recording.hpp"
 

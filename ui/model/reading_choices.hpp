@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/job.hpp"
-#include "core/offset/rig_motion.hpp"
+#include "core/offset/kind/rig_motion.hpp"
 #include "core/recording/formats/read_recording.hpp"
 #include "core/recording/rig/named_streams.hpp"
 #include "core/recording/survey/survey.hpp"

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "core/map/offset_map.hpp"
-#include "core/offset/prepared.hpp"
+#include "core/offset/prepared/prepared.hpp"
 #include "render/comparison/comparison_points.hpp"
 
 namespace sweepscope::ui {

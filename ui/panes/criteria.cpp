@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/offset/search_window.hpp"
+#include "core/offset/prepared/search_window.hpp"
 #include "render/charts/curve_charts.hpp"
 #include "ui/host/paint.hpp"
 #include "ui/panes/chart_mouse.hpp"

@@ -241,7 +241,7 @@ void answer(const PaneContext& context, const Estimate& estimate) {
     ImGui::PushFont(context.fonts.heading);
     ImGui::TextUnformatted("Not determined");
     ImGui::PopFont();
-    for (const std::string& reason : estimate.reasons)
+    for (const std::string& reason : estimate.reasons())
       ImGui::TextWrapped("%s", printable_line(reason).c_str());
   }
   ImGui::PushFont(context.fonts.small);

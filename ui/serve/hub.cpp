@@ -9,7 +9,7 @@
 namespace sweepscope::ui {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 // A page sends at most one message of input to a picture of its screen, and one for each frame.
 constexpr double kMessages_per_s = 400, kMessageBurst = 800;
@@ -46,8 +46,8 @@ std::string percent_encoded(const std::string& text) {
   return out;
 }
 
-std::string to_text(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+std::string to_text(const OrderedJson& json) {
+  return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
 }
 
 }  // namespace
@@ -144,7 +144,7 @@ void Hub::use_control(int id, Control what, Time now) {
 }
 
 void Hub::use_upload(int id, Viewer& viewer, const UploadMessage& message, Time now) {
-  Json answer{{"type", "upload"}, {"name", message.name}};
+  OrderedJson answer{{"type", "upload"}, {"name", message.name}};
   if (crew_.driver() != id) {
     answer["refused"] = "Only the viewer who drives can send a file.";
   } else if (const auto upload = uploads_.announce(id, message, now)) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "core/recording/packed/decompress.hpp"
 #include "core/recording/packed/unpacked_file.hpp"
@@ -120,11 +121,12 @@ bool MessageCollector::add_scan(Entry& entry, std::int64_t receive_ns, std::span
   scan.scan_time_s = decoded->scan_time_s;
   scan.range_min_m = decoded->range_min_m;
   scan.range_max_m = decoded->range_max_m;
-  scan.first_range = detail_.ranges ? laser.ranges_m.size() : number;
   scan.beams = static_cast<std::uint32_t>(decoded->ranges_m.size());
+  if (scan.beams + scan_beams_ > detail_.max_beams) leave_ranges_out();
+  scan.first_range = ranges_left_out_ ? number : laser.ranges_m.size();
   if (laser.scans.empty()) laser.frame = decoded->frame;
   laser.scans.push_back(scan);
-  if (!detail_.ranges) return true;
+  if (ranges_left_out_) return true;
   decoded->ranges_m.append_to(laser.ranges_m);
   const bool whole = detail_.scans == nullptr;  // parts are read for an estimate, which needs no intensities
   laser.has_intensities = whole && laser.has_intensities && decoded->intensities.size() == scan.beams;
@@ -133,7 +135,20 @@ bool MessageCollector::add_scan(Entry& entry, std::int64_t receive_ns, std::span
   else
     std::vector<float>().swap(laser.intensities);
   beams_ += scan.beams;
+  scan_beams_ += scan.beams;
   return true;
+}
+
+void MessageCollector::leave_ranges_out() {
+  if (std::exchange(ranges_left_out_, true)) return;
+  beams_ -= scan_beams_;
+  for (RawLaser& laser : raw_.lasers) {
+    if (laser.of_clouds) continue;
+    std::vector<float>().swap(laser.ranges_m);
+    std::vector<float>().swap(laser.intensities);
+    laser.has_intensities = false;
+    for (std::size_t i = 0; i < laser.scans.size(); ++i) laser.scans[i].first_range = i;
+  }
 }
 
 bool MessageCollector::add_cloud(Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message) {

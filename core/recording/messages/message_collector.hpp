@@ -74,6 +74,7 @@ class MessageCollector {
   const MessageType* type_of(const Topic& topic);
   Result<std::span<const std::byte>> unpacked(std::span<const std::byte> message);
   bool add_scan(Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message);
+  void leave_ranges_out();
   bool add_cloud(Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message);
   void keep_cloud(const DecodedCloud& decoded, std::int64_t receive_ns, RawLaser& laser);
   bool add_joints(Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message);
@@ -91,7 +92,8 @@ class MessageCollector {
   std::vector<DecodedJoint> joints_;
   std::vector<DecodedTransform> transforms_;
   std::map<std::string, std::size_t, std::less<>> frames_;  // by the child, in RawRecording::frames
-  std::size_t beams_ = 0, joint_samples_ = 0, cloud_bytes_ = 0;
+  std::size_t beams_ = 0, scan_beams_ = 0, joint_samples_ = 0, cloud_bytes_ = 0;
+  bool ranges_left_out_ = false;
 };
 
 }  // namespace sweepscope

@@ -61,13 +61,13 @@ double angle_between_rad(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
 /// Whether the points of each ring, in the order of time, go round the z axis one way.
 template <typename Points>
 bool go_round(const Points& points) {
-  constexpr double kMaxBack = 0.1, kStill_rad = 1e-5;
+  constexpr double kMaxBack = 0.1, kStationary_rad = 1e-5;
   std::size_t left = 0, right = 0;
   for (std::size_t i = 1; i < points.size(); ++i) {
     if (points[i].ring != points[i - 1].ring) continue;
     const Eigen::Vector3f &a = points[i - 1].p_m, &b = points[i].p_m;
     const double step_rad = wrapped(double{std::atan2(b.y(), b.x())} - double{std::atan2(a.y(), a.x())});
-    if (std::abs(step_rad) < kStill_rad) continue;
+    if (std::abs(step_rad) < kStationary_rad) continue;
     ++(step_rad > 0 ? left : right);
   }
   return static_cast<double>(std::min(left, right)) <= kMaxBack * static_cast<double>(left + right);

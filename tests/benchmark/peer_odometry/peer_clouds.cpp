@@ -6,7 +6,7 @@
 
 #include "sweepscope/core/geometry/kinematics.hpp"
 #include "sweepscope/core/io/cloud_file.hpp"
-#include "sweepscope/core/offset/prepared.hpp"
+#include "sweepscope/core/offset/prepared/prepared.hpp"
 #include "sweepscope/core/recording/sweeps.hpp"
 
 namespace sweepscope {

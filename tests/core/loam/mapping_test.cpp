@@ -5,8 +5,8 @@
 #include <random>
 
 #include "core/loam/relocalisation.hpp"
-#include "core/offset/direct_moving.hpp"
-#include "core/offset/moving.hpp"
+#include "core/offset/criteria/moving_candidate.hpp"
+#include "core/offset/direct/direct_moving.hpp"
 #include "tests/core/engine_fixtures.hpp"
 
 namespace sweepscope {

@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "core/map/offset_map.hpp"
-#include "core/offset/prepared.hpp"
+#include "core/offset/prepared/prepared.hpp"
 #include "tests/core/engine_fixtures.hpp"
 
 namespace sweepscope {

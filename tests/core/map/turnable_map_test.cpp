@@ -6,7 +6,7 @@
 #include <map>
 
 #include "core/map/offset_map.hpp"
-#include "core/offset/walk.hpp"
+#include "core/offset/walk/walk.hpp"
 #include "tests/core/engine_fixtures.hpp"
 
 namespace sweepscope {

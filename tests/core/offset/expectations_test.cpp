@@ -1,4 +1,4 @@
-#include "core/offset/expectations.hpp"
+#include "core/offset/summary.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 
 #include "core/map/offset_map.hpp"
 #include "core/offset/estimator.hpp"
-#include "core/offset/prepared.hpp"
+#include "core/offset/prepared/prepared.hpp"
 #include "core/results/estimate_json.hpp"
 #include "tests/core/engine_fixtures.hpp"
 #include "tests/core/every_look.hpp"

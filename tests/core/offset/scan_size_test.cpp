@@ -6,8 +6,8 @@
 #include "core/map/offset_map.hpp"
 #include "core/numbers.hpp"
 #include "core/offset/estimator.hpp"
-#include "core/offset/rig_motion.hpp"
-#include "core/offset/still_points.hpp"
+#include "core/offset/kind/rig_motion.hpp"
+#include "core/offset/stationary/stationary_points.hpp"
 
 namespace sweepscope {
 namespace {
@@ -69,7 +69,7 @@ TEST(ScanSize, AFewLongScansAmongShortOnesTakeNoRoomInAllOfThem) {
   beams[7] = kMaxBeamsAScan;
   const Recording recording = recording_of(beams, 3);
   const OffsetProblem problem = problem_for(prepare(recording, FeatureOptions(), Job()).value(), 0, 0);
-  const StillGrid grid = still_grid(problem);
+  const StationaryGrid grid = stationary_grid(problem);
   EXPECT_LT(grid.feature.size(), 16 * recording.ranges_m.size());
   EXPECT_LT(grid.bins, 1000U);
   expect_ends(recording);

@@ -46,6 +46,7 @@ TEST(EstimateJson, HasTheDocumentedKeysInTheDocumentedOrder) {
   "lost_s": [],
   "warnings": [],
   "reasons": [],
+  "reason_codes": [],
   "criteria": {
     "d": {
       "offset_ms": 23.9,
@@ -93,7 +94,7 @@ TEST(EstimateJson, WithoutTimingTwoRunsGiveTheSameBytes) {
 TEST(EstimateJson, ARefusalHasNoOffset) {
   Estimate estimate = stationary_estimate();
   estimate.identifiable = false;
-  estimate.reasons = {"The motor does not move."};
+  estimate.refusals = {refusal(RefusalKind::kMotorDoesNotMove, 0.1, 0.1)};
   const std::string text = estimate_to_json(estimate);
   EXPECT_NE(text.find("\"offset_ms\": null,\n  \"sigma_ms\": null"), std::string::npos);
   EXPECT_NE(text.find("\"The motor does not move.\""), std::string::npos);

@@ -195,7 +195,7 @@ TEST(RigSolve, AWalkTellsHowTheMountIsTurnedAndNothingElse) {
   simulated.mount_error_deg = {0, 1.2, -0.9};
   const Estimate found =
       solved(simulate(simulated, Job()).value().recording, {.mount = true, .play = true, .encoder = true});
-  ASSERT_TRUE(found.identifiable) << testing::PrintToString(found.reasons);
+  ASSERT_TRUE(found.identifiable) << testing::PrintToString(found.reasons());
   ASSERT_TRUE(found.rig && found.rig->along_walk);
   ASSERT_TRUE(found.rig->mount.identifiable);
   EXPECT_FALSE(found.rig->play.identifiable);

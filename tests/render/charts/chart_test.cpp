@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/offset/candidates.hpp"
+#include "core/offset/prepared/candidates.hpp"
 #include "render/charts/chart_layout.hpp"
 #include "render/charts/curve_charts.hpp"
 #include "render/charts/over_time_chart.hpp"

@@ -99,7 +99,7 @@ TEST(Comparison, TheGatePassesItselfAndFailsEveryControl) {
 
 TEST(Comparison, EmptyMapsAndAnEmptyCurveStillMakeAPicture) {
   Estimate refused;
-  refused.reasons = {"The motor does not move."};
+  refused.refusals = {{RefusalKind::kUnknown, {}, {}, "The motor does not move."}};
   std::vector<ComparedMap> maps(2);
   maps[1].cloud.reset(new MapCloud);
   const Image with_words = drawn(maps, small_options(), &refused);

@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "core/map/offset_map.hpp"
-#include "core/offset/walk.hpp"
+#include "core/offset/walk/walk.hpp"
 #include "render/comparison/colouring.hpp"
 #include "render/comparison/comparison.hpp"
 #include "render/comparison/comparison_points.hpp"

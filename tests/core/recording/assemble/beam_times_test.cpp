@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "core/offset/estimator.hpp"
-#include "core/offset/expectations.hpp"
+#include "core/offset/summary.hpp"
 #include "core/recording/assemble/assemble.hpp"
 #include "core/recording/inspect.hpp"
 #include "core/simulation/sensor.hpp"
@@ -141,7 +141,8 @@ TEST(BeamTimes, WrongOnesGiveNoAnswerThatIsSureAndWrong) {
     EXPECT_NE(recording.report.warnings[0].find("laser.time_increment_s"), std::string::npos);
     const Estimate direct = estimated(recording, Method::kDirect);
     EXPECT_FALSE(direct.identifiable) << factor;
-    EXPECT_EQ(direct.reasons.at(0).find("When the beams were fired is not known"), 0U) << direct.reasons[0];
+    EXPECT_EQ(direct.reasons().at(0).find("When the beams were fired is not known"), 0U)
+        << direct.reasons()[0];
     std::string expectations;
     for (const std::string& line :
          sweepscope::expectations(recording, inspect(recording), find_sweeps(recording.motor)))
@@ -155,7 +156,7 @@ TEST(BeamTimes, WrongOnesGiveNoAnswerThatIsSureAndWrong) {
 TEST(BeamTimes, ThePapersMethodSaysHowUnsureItIs) {
   for (const double factor : {1e-7, 0.5, 2.0}) {
     const Estimate found = estimated(room(factor).value(), Method::kStationary);
-    ASSERT_TRUE(found.offset_s) << factor << testing::PrintToString(found.reasons);
+    ASSERT_TRUE(found.offset_s) << factor << testing::PrintToString(found.reasons());
     ASSERT_TRUE(found.sigma_s);
     EXPECT_LT(std::abs(*found.offset_s - kTruth_s), 3 * *found.sigma_s) << factor;
     EXPECT_GT(*found.sigma_s, 1e-3);

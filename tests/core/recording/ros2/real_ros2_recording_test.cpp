@@ -1,5 +1,5 @@
 #include "core/offset/estimator.hpp"
-#include "core/offset/expectations.hpp"
+#include "core/offset/summary.hpp"
 #include "core/recording/formats/read_recording.hpp"
 #include "core/recording/inspect.hpp"
 #include "tests/core/recording/test_bag.hpp"

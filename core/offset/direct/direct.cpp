@@ -1,0 +1,323 @@
+#include "core/offset/direct/direct.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/numbers.hpp"
+#include "core/offset/direct/direct_moving.hpp"
+#include "core/offset/judgement/identifiability.hpp"
+#include "core/offset/judgement/limits.hpp"
+#include "core/offset/judgement/unseen_sigma.hpp"
+#include "core/offset/judgement/warnings.hpp"
+#include "core/offset/stationary/direct_stationary.hpp"
+#include "core/offset/walk/motion_source.hpp"
+#include "core/rig_solve/rig_check.hpp"
+#include "core/uncertainty.hpp"
+
+namespace sweepscope {
+namespace {
+
+using enum RefusalKind;
+
+constexpr double kMinPart_s = 5;  // of a walk over time: shorter parts hold too few turns
+
+// Where neighbours in time err together, their scatter hides it, and the halves disagree.
+struct HalvesCheck {
+  std::optional<double> sigma_s;  // widened where they do
+  Remark warning;
+};
+
+HalvesCheck check_halves(std::optional<double> sigma_s, const std::vector<double>& series_s) {
+  if (!sigma_s || series_s.size() < 4) return {sigma_s, {}};
+  double halves_s[2] = {0, 0};
+  const std::size_t middle = series_s.size() / 2;
+  for (std::size_t i = 0; i < series_s.size(); ++i)
+    halves_s[i < middle ? 0 : 1] += series_s[i] / double(i < middle ? middle : series_s.size() - middle);
+  const double half_apart_s = std::abs(halves_s[1] - halves_s[0]) / 2;
+  if (half_apart_s < 3 * *sigma_s) return {sigma_s, {}};
+  return {half_apart_s, fmt::format("The halves of the recording disagree: {:.3f} ms and {:.3f} ms.",
+                                    halves_s[0] * 1e3, halves_s[1] * 1e3)};
+}
+
+// The answer with its offset, where nothing speaks against one.
+Answer concluded(Answer answer, double offset_s, std::optional<double> sigma_s, double value,
+                 const OffsetSearch& search) {
+  answer.criteria.push_back({"direct", offset_s, value});
+  const auto& window = search.coarse.curve;
+  if (offset_s < window.front().offset_s || offset_s > window.back().offset_s)
+    answer.refusals.push_back(refusal(kBeyondSearch, offset_s * 1e3, offset_s * 1e3));
+  add(answer.refusals, sigma_refusal(sigma_s, search.scale));
+  if (!answer.refusals.empty()) return answer;
+  answer.offset_s = offset_s;
+  answer.sigma_s = sigma_s;
+  return answer;
+}
+
+// Matches come and go, so that the last steps may go to and fro: by less than sigma they leave an answer.
+void judge_convergence(Answer& answer, bool converged, double last_step_s, double sigma_s) {
+  if (converged) return;
+  const Refusal refused = refusal(kNotConverged, last_step_s * 1e3);
+  if (std::abs(last_step_s) < sigma_s)
+    answer.warnings.push_back(refused.text);
+  else
+    answer.refusals.push_back(refused);
+}
+
+// What the motion of a rig that is treated as stationary leaves uncertain. From one sweep to the next it
+// moves half as far as to the next but one, and an error of the offset turns the two against each other by
+// twice the motor's speed times it; motion one way and the other averages out over the pairs.
+double motion_sigma_s(const MotionTest& motion, double lever_m, double speed_rad_s) {
+  if (!motion.moving()) return 0;
+  return motion.median_apart_m / 2 / (2 * speed_rad_s * lever_m) /
+         std::sqrt(double(std::max<std::size_t>(1, motion.pairs)));
+}
+
+MaybeRefusal motion_refusal(double sigma_s, const SearchScale& scale) {
+  if (sigma_s < kLimits.max_motion_sigma_units * scale.unit_s) return std::nullopt;
+  return refusal(kMovedTooFar, sigma_s / scale.unit_s, sigma_s * 1e3);
+}
+
+// Gear play h turns the directions against each other as an offset of h / (2 omega) does.
+RigEffects rig_effects(const MotorMotion& motor) {
+  return {1 / (2 * motor.median_speed_rad_s), std::nullopt};
+}
+
+// What the rig could add, and whether surfaces would be flatter with another one.
+void judge_rig(Answer& answer, const OffsetSearch& search, double offset_s, const Job& job) {
+  const RigCheck check = check_rig(search.problem, offset_s, job);
+  answer.rig_effects->mount_tilt_s_rad = check.offset_per_tilt_s_rad;
+  add(answer.warnings, check.warning);
+}
+
+// A gear whose play differs with the angle, or a loose mount, makes the offset that fits depend on it.
+Remark sectors_warning(const StationaryDirect& found) {
+  if (!found.depends_on_angle) return std::nullopt;
+  constexpr double kMinShare = 0.05;  // of less, a sector's offset is hardly determined
+  std::vector<SectorOffset> sectors = found.sectors;
+  std::erase_if(sectors, [](const SectorOffset& sector) { return sector.share < kMinShare; });
+  const auto [min, max] = std::ranges::minmax_element(sectors, {}, &SectorOffset::offset_s);
+  if (min == max) return std::nullopt;
+  return fmt::format(
+      "The offset that fits depends on the motor's angle: {:.1f} ms at {:.0f} deg, {:.1f} ms at {:.0f} deg. A "
+      "loose gear or mount can cause this.",
+      min->offset_s * 1e3, min->angle_rad * kDegPerRad, max->offset_s * 1e3, max->angle_rad * kDegPerRad);
+}
+
+Answer of_stationary(const OffsetSearch& search, Answer answer, const Job& job) {
+  const Recording& recording = *search.problem.recording;
+  const StationaryDirect found = solve_stationary(search.grid, search.coarse.offset_s(), {}, job);
+  if (job.cancelled()) return answer;
+  answer.fit = FitEvidence{found.converged,  found.iterations, found.features, found.matches,
+                           found.residual_m, found.lever_m,    found.reach_m};
+  if (found.matches < StationaryDirectOptions().min_matches) {
+    answer.refusals.push_back(refusal(kFewMatches, double(found.matches), found.matches, found.features));
+    return answer;
+  }
+  add(answer.refusals, lever_refusal(found.lever_m, found.reach_m));
+  add(answer.warnings, few_matches_warning(found.matches, found.features));
+  add(answer.warnings, sectors_warning(found));
+  std::optional<double> sigma_s = sigma_of(found, recording);
+  judge_convergence(answer, found.converged, found.step_s, sigma_s.value_or(0));
+  const double stamps_s = stamps_sigma_s(recording),
+               encoder_s = unseen_sigma_s(recording, search.problem.motor, found.offset_s);
+  if (sigma_s) {
+    answer.sigma_parts = {{"statistical", *sigma_s}, {"stamps", stamps_s}, {"encoder", encoder_s}};
+    sigma_s = std::hypot(*sigma_s, encoder_s);
+  }
+  const double of_motion_s =
+      motion_sigma_s(search.motion, found.lever_m, search.problem.motor.lever_speed_rad_s());
+  if (const auto moved_far = motion_refusal(of_motion_s, search.scale))
+    answer.refusals.push_back(*moved_far);
+  else if (sigma_s)
+    sigma_s = std::hypot(*sigma_s, of_motion_s);
+  answer.sigma_parts.push_back({"motion", of_motion_s});
+  if (const auto trend = trend_of(found.block_s, found.block_offset_s)) {
+    answer.drift_ppm = trend->slope * 1e6;
+    if (!search.options.over_time_s)
+      add(answer.refusals, drift_refusal(*trend, search.recorded_s(), sigma_s.value_or(0)));
+  }
+  const HalvesCheck halves = check_halves(sigma_s, found.block_offset_s);
+  add(answer.warnings, halves.warning);
+  if (halves.warning) answer.sigma_parts.push_back({"halves", *halves.sigma_s});
+  answer.rig_effects = rig_effects(search.problem.motor);
+  judge_rig(answer, search, found.offset_s, job);
+  return concluded(std::move(answer), found.offset_s, halves.sigma_s, found.residual_m, search);
+}
+
+// The map must be sharpest at the offset that fits the walk best.
+MaybeRefusal sharpest_refusal(const std::vector<CurvePoint>& sides) {
+  const auto &below = sides.front().e_m, &here = sides[1].e_m, &above = sides.back().e_m;
+  if (!here) return refusal(kNoMatchesAtOffset, {});
+  if ((!below || *below >= *here) && (!above || *above >= *here)) return std::nullopt;
+  return refusal(kMapNotSharpest, {}, *here * 1e3, below.value_or(0) * 1e3, above.value_or(0) * 1e3);
+}
+
+// A body that sways in step with the motor looks much like an offset.
+Remark sway_warning(double sway_rad) {
+  constexpr double kUsual_rad = 0.014;  // of any walk: the sweeps' own scatter
+  if (sway_rad < kUsual_rad) return std::nullopt;
+  return fmt::format(
+      "The trajectory turns back and forth in step with the motor, by {:.1f} deg from sweep to sweep: the "
+      "rig swayed in this way, or the sweeps overlap too little. Walk at another pace or turn the motor at "
+      "another speed.",
+      sway_rad * kDegPerRad);
+}
+
+// Why nothing can be said of a walk.
+Refusal missing_refusal(const OffsetProblem& problem, const SolvedWalk& walk,
+                        const std::optional<MotionSource>& source) {
+  if (!walk.lost) return refusal(kFewSharedSurfaces, {}, "");
+  if (source && source->motion.is_truth()) return refusal(kPosesCoverFewSweeps, {}, source->name);
+  return lost_refusal(walk, *problem.recording);
+}
+
+Remark left_out_warning(const std::vector<Interval>& lost, const std::optional<MotionSource>& source) {
+  const Remark warning = lost_warning(lost);
+  if (!warning || !source || !source->motion.is_truth()) return warning;
+  return fmt::format(
+      "{} does not cover all scans: {} intervals are left out, the first from {:.1f} to {:.1f} s.",
+      source->name, lost.size(), lost.front().begin_s, lost.front().end_s);
+}
+
+std::vector<double> offsets_of_parts(const JointWalk& walk) {
+  std::vector<double> offsets_s;
+  for (const JointWalkPart& part : walk.parts) offsets_s.push_back(part.offset_s);
+  return offsets_s;
+}
+
+// What the parts' own sigmas leave of their mean. Where the offset may change, the parts' scatter says
+// nothing.
+double sigma_of_parts(const JointWalk& walk) {
+  double information = 0;
+  for (const JointWalkPart& part : walk.parts) information += 1 / (part.sigma_s * part.sigma_s);
+  return 1 / std::sqrt(information);
+}
+
+// Sweeps so long that no walk of theirs could determine the offset: solving for it would cost minutes.
+MaybeRefusal hopeless_sweeps_refusal(const OffsetSearch& search, double part_s) {
+  const OffsetProblem& problem = search.problem;
+  const double parts = std::max(1.0, search.recorded_s() / part_s),
+               sweeps = std::max(1.0, part_s / problem.motor.median_sweep_s),
+               unseen_s = unseen_of_part_s(*problem.recording, problem.motor, std::size_t(sweeps)) /
+                          std::sqrt(parts);
+  if (unseen_s < kLimits.max_hopeless_units * search.scale.unit_s) return std::nullopt;
+  return long_sweeps_refusal(*problem.recording, problem.motor, unseen_s, unseen_s);
+}
+
+// Of a rig whose trajectory goes by `source`, as far as it is in `mapping`.
+Answer of_walk(const OffsetSearch& search, const MappingOptions& mapping,
+               const std::optional<MotionSource>& source, Answer answer, const Job& job) {
+  const OffsetProblem& problem = search.problem;
+  const SearchScale& scale = search.scale;
+  WalkOptions walk_by = walk_options(mapping, scale);
+  if (search.options.over_time_s && *search.options.over_time_s > 0)
+    walk_by.joint.part_s = std::max(kMinPart_s, *search.options.over_time_s);
+  if (!source || !source->motion.is_truth())
+    add(answer.refusals, hopeless_sweeps_refusal(search, walk_by.joint.part_s));
+  if (!answer.refusals.empty()) return answer;
+  const auto solved = solve_moving(problem, search.coarse.offset_s(),
+                                   {walk_by, kLimits.sharpest_side_units * scale.unit_s}, job);
+  if (!solved) return answer;
+  answer.walk = solved->walk;
+  answer.lost = lost_times(answer.walk->sweeps, *problem.recording);
+  if (answer.walk->lost || !answer.walk->joint) {
+    answer.refusals.push_back(missing_refusal(problem, *answer.walk, source));
+    return answer;
+  }
+  add(answer.warnings, left_out_warning(answer.lost, source));
+  const JointWalk& walk = *answer.walk->joint;
+  if (source && walk.time_shift)
+    answer.motion = source->used(walk.time_shift);
+  else if (source && mapping.given)
+    answer.warnings.push_back(
+        fmt::format("{} is not used: the rig deviates from it less smoothly than it moves.", source->name));
+  answer.curve = united(std::move(answer.curve), solved->curve);
+  const double e_m = solved->curve[1].e_m.value_or(0);
+  answer.fit =
+      FitEvidence{solved->converged, 0, walk.features, walk.matches, e_m, walk.lever_m, walk.reach_m};
+  judge_convergence(answer, solved->converged, walk.step_s, walk.sigma_s);
+  add(answer.refusals, lever_refusal(walk.lever_m, walk.reach_m));
+  if (!source || !source->motion.is_truth()) add(answer.warnings, sway_warning(solved->sway_rad));
+  const bool may_change = search.options.over_time_s.has_value();
+  const double encoder_s = unseen_sigma_s(*problem.recording, problem.motor, walk.offset_s),
+               sigma_of_walk_s = may_change ? sigma_of_parts(walk) : walk.sigma_s,
+               of_walk_s = std::hypot(walk.unseen_sigma_s, walk.sway_sigma_s);
+  const std::optional<double> sigma_s = std::hypot(sigma_of_walk_s, encoder_s);
+  const bool is_known = !sigma_refusal(sigma_s, scale);
+  // What warns of the uncertainty of an answer is the reason where it is too large for one.
+  for (const MaybeRefusal& limit :
+       {long_sweeps_refusal(*problem.recording, problem.motor, walk.unseen_sigma_s, walk.sigma_s),
+        smooth_motor_refusal(walk.sway_sigma_s, walk.sigma_s)}) {
+    if (limit && is_known)
+      answer.warnings.push_back(limit->text);
+    else
+      add(answer.refusals, limit);
+  }
+  answer.sigma_parts = {
+      {"statistical", std::sqrt(std::max(0.0, sigma_of_walk_s * sigma_of_walk_s - of_walk_s * of_walk_s))},
+      {"path", walk.unseen_sigma_s},
+      {"sway", walk.sway_sigma_s},
+      {"encoder", encoder_s}};
+  answer.rig_effects = rig_effects(problem.motor);
+  // Parts that determine nothing scatter as if the clocks drifted apart, and their mean is not where the map
+  // is sharpest.
+  if (is_known) add(answer.refusals, sharpest_refusal(solved->curve));
+  const auto drift = is_known ? drift_of(walk) : std::nullopt;
+  if (drift) {
+    answer.drift_ppm = drift->slope * 1e6;
+    if (!may_change) add(answer.refusals, drift_refusal(*drift, search.recorded_s(), walk.sigma_s));
+  }
+  const HalvesCheck halves =
+      may_change ? HalvesCheck{sigma_s, {}} : check_halves(sigma_s, offsets_of_parts(walk));
+  add(answer.warnings, halves.warning);
+  if (halves.warning) answer.sigma_parts.push_back({"halves", *halves.sigma_s});
+  add(answer.warnings, few_matches_warning(walk.matches, walk.features));
+  return concluded(std::move(answer), walk.offset_s, halves.sigma_s, e_m, search);
+}
+
+Result<Answer> of_moving(const OffsetSearch& search, Answer answer, const Job& job) {
+  const auto source = motion_source(*search.problem.recording, search.options.poses);
+  MappingOptions mapping = mapping_of(search.options);
+  if (source) {
+    auto aligned = align_motion(search.problem, search.coarse.offset_s(), mapping, *source, job);
+    if (!aligned) return tl::unexpected(aligned.error());
+    mapping.given = aligned->motion;
+    for (std::string& warning : aligned->warnings) answer.warnings.push_back(std::move(warning));
+    answer.motion = source->used(aligned->shift);
+  }
+  return of_walk(search, mapping, source, std::move(answer), job);
+}
+
+}  // namespace
+
+Result<Answer> answer_directly(const OffsetSearch& search, const Job& job) {
+  const Recording& recording = *search.problem.recording;
+  const MotorMotion& motor = search.problem.motor;
+  const CoarseSearch& coarse = search.coarse;
+  Answer answer;
+  answer.curve = coarse.curve;
+  if (!coarse.best) {
+    add(answer.refusals, unrepeated_lines_refusal(recording));
+    answer.refusals.push_back(refusal(kFewSharedSurfaces, {}, " at any candidate offset"));
+    return answer;
+  }
+  add(answer.refusals, beam_times_refusal(recording, search.scale));
+  // A walk blurs the valley of the coarse search: only the least squares tells whether there is one.
+  if (!search.as_moving()) {
+    add(answer.refusals, edge_refusal(coarse.curve, *coarse.best));
+    const MaybeRefusal flat = flat_refusal(coarse.curve, *coarse.best);
+    if (flat) add(answer.refusals, unrepeated_lines_refusal(recording));
+    add(answer.refusals, flat);
+    add(answer.refusals, rival_refusal(coarse.curve, *coarse.best, search.scale));
+  }
+  add(answer.warnings, aliased_warning(recording, motor));
+  add(answer.warnings, encoder_warning(recording.motor));
+  add(answer.warnings, slow_motor_warning(motor));
+  if (!answer.refusals.empty()) return answer;
+  return search.as_moving() ? of_moving(search, std::move(answer), job)
+                            : of_stationary(search, std::move(answer), job);
+}
+
+}  // namespace sweepscope

@@ -1,0 +1,29 @@
+#pragma once
+
+// The mathematics: docs/algorithms.md, section 9.
+
+#include <vector>
+
+#include "core/offset/kind/rig_motion.hpp"
+#include "core/offset/stationary/stationary_points.hpp"
+
+namespace sweepscope {
+
+/// The motion test on the grid, at any one offset.
+///
+/// A pair of sweeps moved where the shift between them has evidence: clearly more points on surfaces than at
+/// rest. A long shift between sweeps that overlap too little for that counts where the next pair shows the
+/// same one.
+MotionTest test_motion(const StationaryGrid& grid, double offset_s);
+
+/// Whether a test has too few pairs, so that `add_neighbours` should follow.
+bool has_few_pairs(const MotionTest& test);
+
+/// Adds the pairs of neighbouring sweeps, of opposite directions. `offset_s` must be the one at which these
+/// fit best: a wrong one turns them against each other about the motor's axis, which is no motion.
+void add_neighbours(const StationaryGrid& grid, double offset_s, MotionTest& test);
+
+/// The same evidence, pair by pair.
+std::vector<MotionPart> motion_over_time(const StationaryGrid& grid, double offset_s);
+
+}  // namespace sweepscope

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/offset/prepared/curve_point.hpp"
+
+namespace sweepscope {
+
+/// A store of finished candidates, so that none is computed twice. Called from any thread.
+class CandidateStore {
+ public:
+  virtual ~CandidateStore() = default;
+  virtual std::optional<CurvePoint> find(double offset_s) = 0;
+  virtual void keep(const CurvePoint& point) = 0;
+  /// The error if keeping a candidate failed, which ends the search.
+  virtual std::optional<Error> failed() const = 0;
+};
+
+/// Part `number` of `count`, from 1: of the candidates of a search, ascending, each count-th from there on.
+struct Shard {
+  int number = 1, count = 1;
+
+  template <typename T>
+  std::vector<T> part_of(const std::vector<T>& all) const {
+    std::vector<T> part;
+    for (std::size_t i = std::size_t(number - 1); i < all.size(); i += std::size_t(count))
+      part.push_back(all[i]);
+    return part;
+  }
+};
+
+/// The store and the shard of a search.
+struct KeptCandidates {
+  CandidateStore* store = nullptr;  // null: every candidate is computed
+  std::optional<Shard> shard;       // of the candidates, with a store; nothing is concluded
+  /// Called from any thread for each candidate that is finished: first those of the coarse search, then those
+  /// of the method. The candidates of a long recording are first those of a sample of its sweeps; if the rig
+  /// moved they are computed again, of all of it.
+  std::function<void(const CurvePoint&)> finished = {};
+};
+
+}  // namespace sweepscope

@@ -1,0 +1,82 @@
+#include "core/offset/prepared/prepared.hpp"
+
+#include <algorithm>
+
+#include "core/numbers.hpp"
+
+namespace sweepscope {
+namespace {
+
+double median_spacing_s(const std::vector<double>& times_s) {
+  std::vector<double> spacings_s;
+  for (std::size_t i = 1; i < times_s.size(); ++i) spacings_s.push_back(times_s[i] - times_s[i - 1]);
+  return median(std::move(spacings_s));
+}
+
+}  // namespace
+
+Result<PreparedRecording> prepare(std::shared_ptr<const Recording> recording, const FeatureOptions& options,
+                                  const Job& job) {
+  auto features = extract_features(*recording, options, job);
+  if (!features) return tl::unexpected(features.error());
+  PreparedRecording prepared;
+  prepared.feature_options = options;
+  prepared.features = std::make_shared<const FeatureSet>(std::move(*features));
+  prepared.motor = find_sweeps(recording->motor);
+  std::vector<double> stamps_s;
+  for (const LaserScan& scan : recording->scans)
+    if (scan.ring == recording->scans.front().ring) stamps_s.push_back(scan.first_beam_s);
+  prepared.line_spacing_rad = prepared.motor.median_speed_rad_s * median_spacing_s(stamps_s);
+  prepared.recording = std::move(recording);
+  return prepared;
+}
+
+Result<PreparedRecording> prepare(const Recording& recording, const FeatureOptions& options, const Job& job) {
+  return prepare(borrowed(recording), options, job);
+}
+
+std::shared_ptr<const Recording> borrowed(const Recording& recording) {
+  return {std::shared_ptr<const Recording>(), &recording};
+}
+
+std::vector<char> scans_covered(const Recording& recording, double min_s, double max_s) {
+  const double max_gap_s = std::max(0.05, 5 * median_spacing_s(recording.motor.time_s));
+  std::vector<char> covered(recording.scans.size(), 0);
+  for (std::size_t i = 0; i < recording.scans.size(); ++i)
+    covered[i] = recording.motor.covers(recording.scans[i].first_beam_s + min_s,
+                                        recording.scans[i].last_beam_s() + max_s, max_gap_s);
+  return covered;
+}
+
+OffsetProblem problem_for(const PreparedRecording& prepared, double min_s, double max_s) {
+  OffsetProblem problem;
+  problem.recording = prepared.recording.get();
+  problem.feature_options = prepared.feature_options;
+  problem.features = prepared.features;
+  problem.motor = prepared.motor;
+  problem.scan_used = scans_covered(*prepared.recording, min_s, max_s);
+  problem.line_spacing_rad = prepared.line_spacing_rad;
+  return problem;
+}
+
+OffsetProblem beginning_of(const OffsetProblem& problem, double offset_s, std::size_t max_sweeps) {
+  OffsetProblem part = problem;
+  const std::vector<std::size_t> sweep_of = assign_sweeps(part.recording->scans, part.motor.sweeps, offset_s);
+  for (std::size_t i = 0; i < part.scan_used.size(); ++i)
+    if (sweep_of[i] != kNoSweep && sweep_of[i] >= max_sweeps) part.scan_used[i] = 0;
+  return part;
+}
+
+OffsetProblem beginnings_of_sides(const OffsetProblem& problem, double offset_s, std::size_t max_sweeps) {
+  OffsetProblem part = problem;
+  const std::vector<Sweep>& sweeps = part.motor.sweeps;
+  std::size_t of_side[2] = {0, 0};
+  std::vector<char> kept;
+  for (const Sweep& sweep : sweeps) kept.push_back(of_side[sweep.side > 0]++ < max_sweeps);
+  const std::vector<std::size_t> sweep_of = assign_sweeps(part.recording->scans, sweeps, offset_s);
+  for (std::size_t i = 0; i < part.scan_used.size(); ++i)
+    if (sweep_of[i] != kNoSweep && !kept[sweep_of[i]]) part.scan_used[i] = 0;
+  return part;
+}
+
+}  // namespace sweepscope

@@ -1,0 +1,124 @@
+#include "core/offset/search/coarse_search.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include "core/offset/prepared/candidates.hpp"
+#include "core/offset/prepared/prepared.hpp"
+#include "core/offset/stationary/stationary_points.hpp"
+#include "core/parallel.hpp"
+
+namespace sweepscope {
+namespace {
+
+// 20 s of sweeps of 0.5 s, so that the cost ends growing with the length. More would not move the valley by
+// a unit.
+constexpr std::size_t kMaxSweeps = 40;
+
+// As MappingOptions::cost_cap_m. Beside edges ranges differ by metres at any offset.
+constexpr double kCoarseCap_m = 0.3;
+
+struct CoarseSum {
+  double sum_m = 0;
+  std::size_t count = 0, asked = 0;
+};
+
+// Differences between a line's ranges and another sweep's at the same motor angle and beam. On a plane
+// 1 / r goes as A cos(angle) + B sin(angle), which two lines tell.
+void add_differences(const StationaryGrid& grid, const StationaryPoints& points, std::size_t line,
+                     const LinePool& pool, const StationaryPatchOptions& patches, CoarseSum& total) {
+  StationaryNeighbours neighbours(points, pool, line, patches);
+  for (std::size_t bin = line % 2; bin < points.bins; bin += 2) {
+    const std::size_t cell = line * points.bins + bin;
+    if (!points.placed[cell]) continue;
+    ++total.asked;
+    const double angle_rad = points.angle_rad[cell];
+    const auto [found, below, above] = neighbours.bracket(angle_rad, bin);
+    if (!found) continue;
+    // In single precision, as the ranges are: sines cost less in it.
+    const float up = float(angle_rad - points.angle_rad[below]),
+                down = float(points.angle_rad[above] - angle_rad);
+    const float inverse_range = (std::sin(down) / grid.range_m[below] + std::sin(up) / grid.range_m[above]) /
+                                std::max(1e-9F, std::sin(up + down));
+    total.sum_m += std::min(double(std::abs(grid.range_m[cell] - 1 / inverse_range)), kCoarseCap_m);
+    ++total.count;
+  }
+}
+
+std::optional<double> coarse_cost_m(const StationaryGrid& grid, const StationaryPatchOptions& patches,
+                                    double offset_s) {
+  const StationaryPoints points = place_stationary(grid, offset_s, StationaryDetail::kAngles);
+  const std::vector<LinePool> pools = pools_by_sweep(points);
+  CoarseSum total;
+  const bool one_way = grid.problem->motor.one_way();
+  for (std::size_t line = 0; line < points.lines(); ++line) {
+    const std::size_t sweep = points.sweep[line];
+    if (sweep == kNoSweep) continue;
+    if (one_way) {
+      add_differences(grid, points, line, points.against(points.direction[line]), patches, total);
+      continue;
+    }
+    if (sweep > 0) add_differences(grid, points, line, pools[sweep - 1], patches, total);
+    if (sweep + 1 < pools.size()) add_differences(grid, points, line, pools[sweep + 1], patches, total);
+  }
+  if (total.count < 100 || 5 * total.count < total.asked) return std::nullopt;
+  return total.sum_m / double(total.count);
+}
+
+// Mean difference of range between the directions at each candidate offset, each at most a cap: needs no
+// registration, so it is valid far from the minimum too. Absent if the directions hardly overlap. `finished`
+// is called from any thread for each that is not.
+std::vector<CurvePoint> coarse_curve(const StationaryGrid& grid, const std::vector<double>& offsets_s,
+                                     const Job& job, const std::function<void(const CurvePoint&)>& finished) {
+  const StationaryPatchOptions patches = stationary_patch_options(*grid.problem);
+  std::vector<CurvePoint> curve(offsets_s.size());
+  std::atomic<std::size_t> done{0};
+  for_each_index(offsets_s.size(), [&](std::size_t i) {
+    curve[i].offset_s = offsets_s[i];
+    if (!job.cancelled()) curve[i].capped_cost_m = coarse_cost_m(grid, patches, offsets_s[i]);
+    if (finished && curve[i].capped_cost_m) finished(curve[i]);
+    job.report("searching", double(++done) / double(offsets_s.size()));
+  });
+  return curve;
+}
+
+std::vector<double> every_second(const std::vector<double>& offsets_s) {
+  std::vector<double> chosen_s;
+  for (std::size_t i = 0; i < offsets_s.size(); i += 2) chosen_s.push_back(offsets_s[i]);
+  if (chosen_s.back() != offsets_s.back()) chosen_s.push_back(offsets_s.back());
+  return chosen_s;
+}
+
+}  // namespace
+
+CoarseSearch search_coarsely(const OffsetProblem& problem, double from_s, double to_s,
+                             const SearchScale& scale, const Job& job,
+                             const std::function<void(const CurvePoint&)>& finished) {
+  const double middle_s = (from_s + to_s) / 2;
+  const OffsetProblem part = problem.motor.one_way() ? beginnings_of_sides(problem, middle_s, kMaxSweeps / 2)
+                                                     : beginning_of(problem, middle_s, kMaxSweeps);
+  const StationaryGrid grid = stationary_grid(part);
+  CoarseSearch search;
+  const auto compute = [&](const std::vector<double>& offsets_s) {
+    search.curve = united(std::move(search.curve), coarse_curve(grid, offsets_s, job, finished));
+    const std::size_t best = index_of_min(search.curve, &CurvePoint::capped_cost_m);
+    if (best < search.curve.size()) search.best = best;
+  };
+  const std::vector<double> all_s = offsets_of({{from_s, to_s, scale.unit_s}});
+  compute(every_second(all_s));
+  if (!search.best) return search;
+  const double best_s = search.offset_s();
+  std::vector<double> beside_s;
+  const auto is_computed = [&](double offset_s) {
+    return std::any_of(search.curve.begin(), search.curve.end(),
+                       [&](const CurvePoint& point) { return point.offset_s == offset_s; });
+  };
+  for (const double offset_s : all_s)
+    if (std::abs(offset_s - best_s) < 1.5 * scale.unit_s && !is_computed(offset_s))
+      beside_s.push_back(offset_s);
+  compute(beside_s);
+  return search;
+}
+
+}  // namespace sweepscope

@@ -1,0 +1,30 @@
+#pragma once
+
+// The mathematics: docs/algorithms.md, section 7.
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "core/job.hpp"
+#include "core/offset/prepared/curve_point.hpp"
+#include "core/offset/prepared/search_window.hpp"
+
+namespace sweepscope {
+
+/// The capped cost over a window of candidates, in steps of a unit: the ranges of neighbouring sweeps
+/// compared at equal motor angle and beam, as if nothing had moved. On a walk motion blurs the valley, but
+/// leaves it where it is. From the first 40 sweeps of the recording, each candidate computed once. `finished`
+/// is called from any thread for each.
+struct CoarseSearch {
+  std::vector<CurvePoint> curve;  // ascending; capped_cost_m
+  std::optional<std::size_t> best;
+  double offset_s() const { return curve[*best].offset_s; }
+  /// The best candidate, or where there is none another offset.
+  double offset_or(double other_s) const { return best ? offset_s() : other_s; }
+};
+CoarseSearch search_coarsely(const OffsetProblem& problem, double from_s, double to_s,
+                             const SearchScale& scale, const Job& job,
+                             const std::function<void(const CurvePoint&)>& finished = {});
+
+}  // namespace sweepscope

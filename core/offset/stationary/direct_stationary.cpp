@@ -1,0 +1,442 @@
+#include "core/offset/stationary/direct_stationary.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/loam/least_squares.hpp"
+#include "core/numbers.hpp"
+#include "core/offset/judgement/unseen_sigma.hpp"
+#include "core/parallel.hpp"
+
+namespace sweepscope {
+namespace {
+
+// One line's points against the other direction's patches.
+struct LineResiduals {
+  std::vector<PatchDistance> residuals;
+  std::vector<std::size_t> cells;  // of the residuals, ascending
+  std::size_t features = 0;
+
+  void add(std::size_t cell, const PatchDistance& residual) {
+    residuals.push_back(residual);
+    cells.push_back(cell);
+  }
+};
+
+// Which part each cell belongs to, kNoSweep where to none.
+struct Parts {
+  static constexpr std::size_t kMost = 32;  // bits of PartsOfPatches
+  std::vector<std::size_t> of_cell;
+  std::size_t count = 0;
+};
+
+// The parts that each cell's patch takes points from, a bit for each.
+using PartsOfPatches = std::vector<std::uint32_t>;
+
+class Linearisation {
+ public:
+  Linearisation(const StationaryGrid& grid, const StationaryPatchOptions& patches, double offset_s)
+      : grid_(grid),
+        patches_(patches),
+        axis_(grid.problem->recording->rig.mount.axis.normalized()),
+        points_(place_stationary(grid, offset_s, StationaryDetail::kPoints)) {}
+
+  const StationaryPoints& points() const { return points_; }
+
+  /// All lines against the other direction's.
+  std::vector<LineResiduals> residuals() const {
+    std::vector<LineResiduals> found(points_.lines());
+    for_each_index(points_.lines(), [&](std::size_t line) {
+      if (points_.sweep[line] != kNoSweep)
+        found[line] = of_line(line, points_.against(points_.direction[line]));
+    });
+    return found;
+  }
+
+  /// Each line against the other direction's lines of its own block: what the blocks say independently of
+  /// each other.
+  std::vector<LineResiduals> residuals_within(const std::vector<std::size_t>& block_of_line,
+                                              std::size_t blocks) const {
+    std::vector<std::array<LinePool, 2>> pools(blocks);
+    for (std::size_t side = 0; side < 2; ++side)
+      for (const std::uint32_t line : points_.pool[side])
+        if (block_of_line[line] < blocks) pools[block_of_line[line]][side].push_back(line);
+    std::vector<LineResiduals> found(points_.lines());
+    for_each_index(points_.lines(), [&](std::size_t line) {
+      if (block_of_line[line] < blocks)
+        found[line] = of_line(line, pools[block_of_line[line]][points_.direction[line] > 0 ? 0 : 1]);
+    });
+    return found;
+  }
+
+  PartsOfPatches parts_of_patches(const Parts& parts) const {
+    PartsOfPatches found(points_.placed.size(), 0);
+    for_each_index(points_.lines(), [&](std::size_t line) {
+      if (points_.sweep[line] == kNoSweep) return;
+      StationaryNeighbours neighbours(points_, points_.against(points_.direction[line]), line, patches_);
+      for (std::size_t bin = 0; bin < points_.bins; ++bin) {
+        const std::size_t cell = line * points_.bins + bin;
+        if (!points_.placed[cell]) continue;
+        for (const std::size_t near : neighbours.around(points_.angle_rad[cell], bin))
+          if (parts.of_cell[near] < parts.count) found[cell] |= std::uint32_t{1} << parts.of_cell[near];
+      }
+    });
+    return found;
+  }
+
+  /// Has all points of `whole` but those of a part.
+  void leave_out(const Parts& parts, std::size_t part, const Linearisation& whole) {
+    for (std::size_t cell = 0; cell < points_.placed.size(); ++cell)
+      points_.placed[cell] = char(whole.points_.placed[cell] && parts.of_cell[cell] != part);
+  }
+
+  /// All lines after leave_out. A patch without points of the part is as it was: its residual is that of
+  /// `lines`, which had all points.
+  std::vector<LineResiduals> residuals_without(std::size_t part, const PartsOfPatches& of_patches,
+                                               const std::vector<LineResiduals>& lines) const {
+    std::vector<LineResiduals> found(points_.lines());
+    for_each_index(points_.lines(), [&](std::size_t line) {
+      if (points_.sweep[line] != kNoSweep) found[line] = of_line_without(part, of_patches, line, lines[line]);
+    });
+    return found;
+  }
+
+ private:
+  LineResiduals of_line(std::size_t line, const LinePool& pool) const {
+    LineResiduals found;
+    StationaryNeighbours neighbours(points_, pool, line, patches_);
+    for (std::size_t cell = line * points_.bins; cell < (line + 1) * points_.bins; ++cell) {
+      if (!points_.placed[cell]) continue;
+      ++found.features;
+      if (const auto residual = of_cell(cell, neighbours)) found.add(cell, *residual);
+    }
+    return found;
+  }
+  LineResiduals of_line_without(std::size_t part, const PartsOfPatches& of_patches, std::size_t line,
+                                const LineResiduals& whole) const {
+    LineResiduals found;
+    StationaryNeighbours neighbours(points_, points_.against(points_.direction[line]), line, patches_);
+    std::size_t next = 0;  // of the whole line's residuals
+    for (std::size_t cell = line * points_.bins; cell < (line + 1) * points_.bins; ++cell) {
+      while (next < whole.cells.size() && whole.cells[next] < cell) ++next;
+      if (!points_.placed[cell]) continue;
+      ++found.features;
+      if ((of_patches[cell] >> part & 1u) == 0) {
+        if (next < whole.cells.size() && whole.cells[next] == cell) found.add(cell, whole.residuals[next]);
+      } else if (const auto residual = of_cell(cell, neighbours)) {
+        found.add(cell, *residual);
+      }
+    }
+    return found;
+  }
+  std::optional<PatchDistance> of_cell(std::size_t cell, StationaryNeighbours& neighbours) const {
+    const StationaryPatch patch =
+        neighbours.patch(points_.angle_rad[cell], cell % points_.bins, grid_.range_m[cell]);
+    if (!patch.found) return std::nullopt;
+    return distance_to_patch(patch, points_.p_m[cell], points_.speed_rad_s[cell], axis_);
+  }
+
+  const StationaryGrid& grid_;
+  const StationaryPatchOptions& patches_;
+  Eigen::Vector3d axis_;
+  StationaryPoints points_;
+};
+
+double robust_deviation_m(const std::vector<LineResiduals>& lines) {
+  std::vector<float> sizes_m;
+  for (const LineResiduals& line : lines)
+    for (const PatchDistance& residual : line.residuals)
+      sizes_m.push_back(float(std::abs(residual.distance_m)));
+  return kSigmaPerMedianDeviation * double(median(std::move(sizes_m)));
+}
+
+struct Sums {
+  double jj = 0, jr = 0;  // weighted
+  std::size_t features = 0, matches = 0;
+
+  void add(const LineResiduals& line, double loss_width_m) {
+    features += line.features;
+    matches += line.residuals.size();
+    for (const PatchDistance& residual : line.residuals) {
+      const double weight = cauchy_weight(residual.distance_m, loss_width_m);
+      jj += weight * residual.jacobian_m_s * residual.jacobian_m_s;
+      jr += weight * residual.jacobian_m_s * residual.distance_m;
+    }
+  }
+};
+
+Sums summed(const std::vector<LineResiduals>& lines, double loss_width_m) {
+  Sums sums;
+  for (const LineResiduals& line : lines) sums.add(line, loss_width_m);
+  return sums;
+}
+
+// Which block of sweeps each line belongs to, kNoSweep where none.
+struct Blocks {
+  std::vector<std::size_t> of_line;
+  std::size_t count = 0;
+};
+
+Blocks blocks_of_sweeps(const StationaryPoints& points, std::size_t most) {
+  std::vector<std::size_t> sweeps;
+  for (const std::size_t sweep : points.sweep)
+    if (sweep != kNoSweep && (sweeps.empty() || sweeps.back() != sweep)) sweeps.push_back(sweep);
+  Blocks blocks{std::vector<std::size_t>(points.lines(), kNoSweep), std::min(most, sweeps.size())};
+  for (std::size_t line = 0; line < points.lines(); ++line) {
+    if (points.sweep[line] == kNoSweep) continue;
+    const auto place = std::lower_bound(sweeps.begin(), sweeps.end(), points.sweep[line]) - sweeps.begin();
+    blocks.of_line[line] = std::size_t(place) * blocks.count / sweeps.size();
+  }
+  return blocks;
+}
+
+Parts parts_of(const Blocks& blocks, std::size_t bins) {
+  Parts parts{{}, blocks.count};
+  for (const std::size_t block : blocks.of_line) parts.of_cell.insert(parts.of_cell.end(), bins, block);
+  return parts;
+}
+
+// Every so many-th line, of each direction: what errs with the scan, as its stamp does.
+Parts combs(const StationaryPoints& points, std::size_t count) {
+  Parts parts{{}, count};
+  std::array<std::size_t, 2> lines{};
+  for (std::size_t line = 0; line < points.lines(); ++line) {
+    const std::size_t part =
+        points.sweep[line] == kNoSweep ? kNoSweep : lines[points.direction[line] > 0]++ % count;
+    parts.of_cell.insert(parts.of_cell.end(), points.bins, part);
+  }
+  return parts;
+}
+
+// Sectors of the motor's angle, both directions', times sections of the beams: what was seen of the scene.
+Parts views(const StationaryPoints& points, std::size_t sectors, std::size_t sections) {
+  const std::size_t middle = points.bins / 2;
+  std::vector<double> angles_rad;
+  for (std::size_t line = 0; line < points.lines(); ++line)
+    if (points.sweep[line] != kNoSweep) angles_rad.push_back(points.angle_rad[line * points.bins + middle]);
+  std::sort(angles_rad.begin(), angles_rad.end());
+  Parts parts{std::vector<std::size_t>(points.placed.size(), kNoSweep), sectors * sections};
+  for (std::size_t line = 0; line < points.lines(); ++line) {
+    if (points.sweep[line] == kNoSweep) continue;
+    const auto place = std::lower_bound(angles_rad.begin(), angles_rad.end(),
+                                        points.angle_rad[line * points.bins + middle]) -
+                       angles_rad.begin();
+    const std::size_t sector = std::size_t(place) * sectors / angles_rad.size();
+    for (std::size_t bin = 0; bin < points.bins; ++bin)
+      parts.of_cell[line * points.bins + bin] = sector * sections + bin * sections / points.bins;
+  }
+  return parts;
+}
+
+// The offset without each part, a step from the answer.
+std::vector<WithoutPart> offsets_without(const Linearisation& at, const std::vector<LineResiduals>& lines,
+                                         const Parts& parts, double loss_width_m) {
+  const double whole_jj = summed(lines, loss_width_m).jj;
+  const PartsOfPatches of_patches = at.parts_of_patches(parts);
+  Linearisation rest = at;
+  std::vector<WithoutPart> without;
+  for (std::size_t part = 0; part < parts.count; ++part) {
+    rest.leave_out(parts, part, at);
+    const Sums sums = summed(rest.residuals_without(part, of_patches, lines), loss_width_m);
+    if (sums.jj > 0) without.push_back({at.points().offset_s - sums.jr / sums.jj, 1 - sums.jj / whole_jj});
+  }
+  return without;
+}
+
+// The step that some lines ask for by themselves, and their information: iterated, since lines that ask for
+// another offset than the rest lie in the tails of the loss.
+std::pair<double, double> own_step(const std::vector<const LineResiduals*>& lines, double loss_width_m) {
+  constexpr int kMaxIterations = 20;
+  constexpr double kTolerance_s = 1e-5;
+  double step_s = 0, jj = 0;
+  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
+    double jr = 0;
+    jj = 0;
+    for (const LineResiduals* line : lines) {
+      for (const PatchDistance& residual : line->residuals) {
+        const double distance_m = residual.distance_m + residual.jacobian_m_s * step_s,
+                     weight = cauchy_weight(distance_m, loss_width_m);
+        jj += weight * residual.jacobian_m_s * residual.jacobian_m_s;
+        jr += weight * residual.jacobian_m_s * distance_m;
+      }
+    }
+    if (!(jj > 0)) break;
+    step_s -= jr / jj;
+    if (std::abs(jr / jj) < kTolerance_s) break;
+  }
+  return {step_s, jj};
+}
+
+// Whether the sectors' offsets differ clearly, as those of a rig do whose play depends on the angle.
+bool sectors_differ(const StationaryDirect& found, const StationaryGrid& grid) {
+  // Of 322 simulated rooms (sweepscope_calibration --lines) four go beyond all of these: two with 30 mm of
+  // noise, two whose stamps jitter by 1 ms.
+  constexpr double kMinTurn_rad = 0.5 * kRadPerDeg, kMinFormalSigmas = 8;
+  constexpr double kMinSamples = 8;  // of the motor per sweep: of fewer, 13.3 has the uncertainty
+  double squares_s2 = 0, formal_s2 = 0;
+  for (const SectorOffset& sector : found.sectors) {
+    const double off_s = sector.offset_s - found.offset_s;
+    squares_s2 += sector.share * off_s * off_s;
+    formal_s2 += sector.share * sector.formal_sigma_s * sector.formal_sigma_s;
+  }
+  const MotorMotion& motor = grid.problem->motor;
+  return 2 * motor.lever_speed_rad_s() * std::sqrt(squares_s2) > kMinTurn_rad &&
+         squares_s2 > kMinFormalSigmas * kMinFormalSigmas * formal_s2 &&
+         samples_per_sweep(grid.problem->recording->motor, motor) >= kMinSamples;
+}
+
+// What each sector of the motor's angle asks for by itself. A point lies beside its patch in angle, so the
+// sectors share no matches.
+void fill_sectors(const StationaryGrid& grid, const StationaryPoints& points,
+                  const std::vector<LineResiduals>& lines, double loss_width_m, StationaryDirect& result) {
+  constexpr std::size_t kSectors = 8;  // 11 to 23 deg each of usual swings: gear play holds over such
+  const std::size_t middle = points.bins / 2;
+  std::vector<std::pair<double, std::size_t>> by_angle;  // and line
+  for (std::size_t line = 0; line < points.lines(); ++line)
+    if (points.sweep[line] != kNoSweep && !lines[line].residuals.empty())
+      by_angle.push_back({points.angle_rad[line * points.bins + middle], line});
+  std::sort(by_angle.begin(), by_angle.end());
+  const double whole_jj = summed(lines, loss_width_m).jj;
+  for (std::size_t sector = 0; sector < kSectors; ++sector) {
+    const std::size_t first = sector * by_angle.size() / kSectors,
+                      end = (sector + 1) * by_angle.size() / kSectors;
+    std::vector<const LineResiduals*> own;
+    for (std::size_t i = first; i < end; ++i) own.push_back(&lines[by_angle[i].second]);
+    const auto [step_s, jj] = own_step(own, loss_width_m);
+    if (jj > 0)
+      result.sectors.push_back({by_angle[(first + end) / 2].first, points.offset_s + step_s,
+                                result.residual_m / std::sqrt(jj), jj / whole_jj});
+  }
+  result.depends_on_angle = sectors_differ(result, grid);
+}
+
+// What each block of at least two sweeps asks for by itself.
+void fill_blocks(const Linearisation& at, const StationaryGrid& grid, double loss_width_m,
+                 StationaryDirect& result) {
+  constexpr std::size_t kMaxBlocks = 10;  // a trend over time needs no more, and each wants several sweeps
+  const Blocks sweeps = blocks_of_sweeps(at.points(), std::size_t(-1));
+  const Blocks blocks =
+      blocks_of_sweeps(at.points(), std::clamp<std::size_t>(sweeps.count / 2, 1, kMaxBlocks));
+  const std::vector<LineResiduals> lines = at.residuals_within(blocks.of_line, blocks.count);
+  std::vector<Sums> sums(blocks.count);
+  std::vector<double> time_s(blocks.count, 0.0), count(blocks.count, 0.0);
+  for (std::size_t line = 0; line < lines.size(); ++line) {
+    const std::size_t block = blocks.of_line[line];
+    if (block == kNoSweep) continue;
+    sums[block].add(lines[line], loss_width_m);
+    time_s[block] += grid.time_s[line * at.points().bins];
+    count[block] += 1;
+  }
+  for (std::size_t block = 0; block < blocks.count; ++block) {
+    if (!(sums[block].jj > 0)) continue;
+    result.block_s.push_back(time_s[block] / count[block]);
+    result.block_offset_s.push_back(result.offset_s - sums[block].jr / sums[block].jj);
+  }
+}
+
+void fill_levers(const std::vector<LineResiduals>& lines, StationaryDirect& result) {
+  double lever_m2 = 0, reach_m2 = 0;
+  for (const LineResiduals& line : lines) {
+    for (const PatchDistance& residual : line.residuals) {
+      lever_m2 += double(residual.lever_m) * residual.lever_m;
+      reach_m2 += double(residual.reach_m) * residual.reach_m;
+    }
+  }
+  const double n = std::max(1.0, double(result.matches));
+  result.lever_m = std::sqrt(lever_m2 / n);
+  result.reach_m = std::sqrt(reach_m2 / n);
+}
+
+double middle_of_matches_s(const StationaryGrid& grid, const std::vector<LineResiduals>& lines,
+                           double loss_width_m) {
+  double weights = 0, sum_s = 0;
+  for (std::size_t line = 0; line < lines.size(); ++line) {
+    Sums of_line;
+    of_line.add(lines[line], loss_width_m);
+    weights += of_line.jj;
+    sum_s += of_line.jj * grid.time_s[line * grid.bins + grid.bins / 2];
+  }
+  return weights > 0 ? sum_s / weights : 0;
+}
+
+// Sweeps are the parts where there are enough of them.
+void resample(const StationaryGrid& grid, const Linearisation& at, const std::vector<LineResiduals>& lines,
+              double loss_width_m, Resampling resampling, StationaryDirect& result) {
+  // The sigma of a jackknife of n parts is itself uncertain by 1 / sqrt(2 (n - 1)): by 24 % of 10 parts, 32 %
+  // of 6, 15 % of 24 views and 21 % of 12 combs. A part
+  // costs as many patches as have points of it.
+  constexpr std::size_t kMaxParts = 10, kMinBlocks = 6, kSectors = 8, kSections = 3, kCombs = 12;
+  static_assert(std::max({kMaxParts, kSectors * kSections, kCombs}) <= Parts::kMost);
+  const Blocks blocks = blocks_of_sweeps(at.points(), kMaxParts);
+  const Parts parts = blocks.count < kMinBlocks ? views(at.points(), kSectors, kSections)
+                                                : parts_of(blocks, at.points().bins);
+  result.without_part = offsets_without(at, lines, parts, loss_width_m);
+  result.middle_s = middle_of_matches_s(grid, lines, loss_width_m);
+  fill_levers(lines, result);
+  fill_sectors(grid, at.points(), lines, loss_width_m, result);
+  if (resampling == Resampling::kParts) return;
+  result.without_comb = offsets_without(at, lines, combs(at.points(), kCombs), loss_width_m);
+  fill_blocks(at, grid, loss_width_m, result);
+}
+
+// By the offsets without each sector, whose matches are its own.
+double sigma_of_sectors_s(const StationaryDirect& found) {
+  std::vector<WithoutPart> without;
+  for (const SectorOffset& sector : found.sectors)
+    if (sector.share < 1)
+      without.push_back(
+          {(found.offset_s - sector.share * sector.offset_s) / (1 - sector.share), sector.share});
+  return jackknife_sigma(found.offset_s, without).value_or(0);
+}
+
+}  // namespace
+
+PatchDistance distance_to_patch(const StationaryPatch& patch, const Eigen::Vector3d& p_m, double speed_rad_s,
+                                const Eigen::Vector3d& motor_axis) {
+  const Eigen::Vector3d turned_m = motor_axis.cross(p_m);
+  const double lever_m = patch.normal.dot(turned_m);
+  return {(speed_rad_s - patch.speed_rad_s) * lever_m, patch.normal.dot(p_m - patch.centre_m), float(lever_m),
+          float(turned_m.norm())};
+}
+
+StationaryDirect solve_stationary(const StationaryGrid& grid, double first_offset_s,
+                                  const StationaryDirectOptions& options, const Job& job) {
+  const StationaryPatchOptions patches = stationary_patch_options(*grid.problem);
+  StationaryDirect result;
+  result.offset_s = first_offset_s;
+  double loss_width_m = options.first_loss_width_m;
+  bool narrowed = false;
+  for (; result.iterations < options.max_iterations && !job.cancelled(); ++result.iterations) {
+    const Linearisation at(grid, patches, result.offset_s);
+    const std::vector<LineResiduals> lines = at.residuals();
+    const Sums sums = summed(lines, loss_width_m);
+    result.features = sums.features;
+    result.matches = sums.matches;
+    if (sums.matches < options.min_matches || !(sums.jj > 0)) return result;
+    const double step_s = -sums.jr / sums.jj;
+    result.step_s = step_s;
+    result.residual_m = robust_deviation_m(lines);
+    result.converged = narrowed && std::abs(step_s) < options.step_tolerance_s;
+    const bool last = result.converged || result.iterations + 1 == options.max_iterations;
+    result.offset_s += step_s;
+    if (last) {
+      if (options.resampling != Resampling::kNone)
+        resample(grid, at, lines, loss_width_m, options.resampling, result);
+      break;
+    }
+    const double width_m = std::max(options.min_loss_width_m, options.loss_widths * result.residual_m);
+    narrowed = width_m > 0.7 * loss_width_m;
+    loss_width_m = std::min(width_m, loss_width_m);
+  }
+  return result;
+}
+
+std::optional<double> sigma_of(const StationaryDirect& found, const Recording& recording) {
+  const auto of_parts_s = jackknife_sigma(found.offset_s, found.without_part);
+  if (!of_parts_s) return std::nullopt;
+  const double of_combs_s = jackknife_sigma(found.offset_s, found.without_comb).value_or(0),
+               of_sectors_s = found.depends_on_angle ? sigma_of_sectors_s(found) : 0;
+  return std::max({*of_parts_s, of_combs_s, of_sectors_s, stamps_sigma_s(recording)});
+}
+
+}  // namespace sweepscope

@@ -1,0 +1,160 @@
+#include "core/offset/walk/walk.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/loam/given_motion.hpp"
+#include "core/loam/relocalisation.hpp"
+#include "core/loam/straighten.hpp"
+#include "core/offset/search/coarse_search.hpp"
+#include "core/offset/walk/jerk_prior.hpp"
+
+namespace sweepscope {
+
+WalkOptions walk_options(const MappingOptions& mapping, const SearchScale& scale) {
+  WalkOptions options;
+  options.mapping = options.joint.mapping = mapping;
+  options.step_tolerance_s = scale.unit_s / 2;
+  options.max_step_s = 10 * scale.unit_s;
+  options.max_sigma_s = scale.unit_s;
+  return options;
+}
+
+namespace {
+
+std::optional<SolvedWalk> iterate(const OffsetProblem& problem, double first_offset_s,
+                                  const WalkOptions& options, const Job& job) {
+  SolvedWalk walk;
+  double offset_s = first_offset_s;
+  MappingOptions mapping = options.mapping;
+  JointWalkOptions joint = options.joint;
+  constexpr std::size_t kStartsAgain = 2;  // of those tried at the first offset
+  constexpr double kFarTolerances = 2;     // by judgement: the other iterations move the offset by less
+  for (int pass = 0; pass < options.max_passes && !walk.near; ++pass) {
+    auto tracked = track(problem, offset_s, mapping, job);
+    if (!tracked) return std::nullopt;
+    mapping.starts = tracked->starts;
+    mapping.starts.resize(std::min(tracked->starts.size(), tracked->well ? 1 : kStartsAgain));
+    walk.tracked_at_s = offset_s;
+    walk.lost = tracked->tracked() < options.min_sweeps;
+    walk.sweeps = std::move(tracked->sweeps);
+    if (walk.lost) return walk;
+    const bool last = pass + 1 == options.max_passes;
+    joint.far_s = last ? std::numeric_limits<double>::infinity() : kFarTolerances * options.step_tolerance_s;
+    walk.joint = solve_joint_walk(problem, walk.sweeps, offset_s, joint, job);
+    if (job.cancelled()) return std::nullopt;
+    if (!walk.joint) return walk;
+    const double step_s = walk.joint->offset_s - offset_s;
+    if (walk.joint->sigma_s > options.max_sigma_s) return walk;
+    walk.near = std::abs(step_s) < options.step_tolerance_s;
+    if (walk.joint->time_shift && mapping.given) {
+      const double shift_s = walk.joint->time_shift->time_s;
+      walk.near = walk.near && std::abs(shift_s - mapping.given->time_shift_s()) < options.shift_tolerance_s;
+      mapping.given = std::make_shared<const GivenMotion>(mapping.given->with_time_shift(shift_s));
+      joint.mapping.given = mapping.given;
+    }
+    offset_s += std::clamp(step_s, -options.max_step_s, options.max_step_s);
+  }
+  return walk;
+}
+
+}  // namespace
+
+std::optional<SolvedWalk> solve_walk(const OffsetProblem& problem, double first_offset_s,
+                                     const WalkOptions& options, const Job& job) {
+  auto walk = iterate(problem, first_offset_s, options, job);
+  if (!walk) return walk;
+  if (!options.mapping.given && !turns_back_smoothly(problem))
+    walk->sweeps = straightened(std::move(walk->sweeps));
+  SweepPlacer placer(problem, walk->tracked_at_s);
+  const auto place = [&](std::size_t i) {
+    PlacedSweep sweep;
+    placer.place(i, sweep);
+    return sweep;
+  };
+  walk->sweeps = relocalised(std::move(walk->sweeps), place, options.mapping, job);
+  return job.cancelled() ? std::nullopt : std::move(walk);
+}
+
+std::optional<SolvedWalk> find_walk(const OffsetProblem& problem, double middle_s,
+                                    const MappingOptions& mapping, const Job& job) {
+  const SearchScale scale = search_scale(problem.motor);
+  const CoarseSearch coarse =
+      search_coarsely(problem, middle_s - scale.half_width_s, middle_s + scale.half_width_s, scale, job);
+  if (job.cancelled()) return std::nullopt;
+  return solve_walk(problem, coarse.offset_or(middle_s), walk_options(mapping, scale), job);
+}
+
+namespace {
+
+double length_s(const std::vector<Interval>& intervals) {
+  double sum_s = 0;
+  for (const Interval& interval : intervals) sum_s += interval.end_s - interval.begin_s;
+  return sum_s;
+}
+
+// The fastest that the rig turned while it was followed.
+double followed_rad_s(const std::vector<SweepPose>& sweeps) {
+  double fastest_rad_s = 0;
+  for (const SweepPose& sweep : sweeps)
+    if (!sweep.lost)
+      for (const Vector6d& twist_per_s : twists_per_s(sweep, 2))
+        fastest_rad_s = std::max(fastest_rad_s, twist_per_s.head<3>().norm());
+  return fastest_rad_s;
+}
+
+}  // namespace
+
+std::vector<Interval> lost_times(const std::vector<SweepPose>& sweeps, const Recording& recording) {
+  std::vector<Interval> lost = lost_intervals(sweeps);
+  const double first_s = recording.scans.front().first_beam_s;
+  for (Interval& interval : lost) {
+    interval.begin_s = std::max(0.0, interval.begin_s - first_s);
+    interval.end_s -= first_s;
+  }
+  return lost;
+}
+
+std::optional<std::string> lost_warning(const std::vector<Interval>& lost) {
+  if (lost.empty()) return std::nullopt;
+  std::string when;
+  constexpr std::size_t kMax = 5;  // a sentence holds no more
+  for (std::size_t i = 0; i < std::min(kMax, lost.size()); ++i)
+    when += fmt::format("{}{:.1f} to {:.1f} s", i == 0 ? "" : ", ", lost[i].begin_s, lost[i].end_s);
+  if (lost.size() > kMax) when += fmt::format(" and {} more times", lost.size() - kMax);
+  return fmt::format("Track was lost for {:.1f} s, which are left out: {}.", length_s(lost), when);
+}
+
+std::optional<std::string> pieces_warning(const std::vector<SweepPose>& sweeps, const Recording& recording) {
+  std::vector<std::size_t> pieces;
+  std::string from;
+  constexpr std::size_t kMax = 5;  // a sentence holds no more
+  for (const SweepPose& sweep : sweeps) {
+    if (sweep.stretch == 0 || std::ranges::find(pieces, sweep.stretch) != pieces.end()) continue;
+    pieces.push_back(sweep.stretch);
+    if (pieces.size() == 1 || pieces.size() > kMax + 1) continue;
+    const double begins_s = sweep.begin_s - recording.scans.front().first_beam_s;
+    from += fmt::format("{}{:.1f} s", from.empty() ? "" : ", ", begins_s);
+  }
+  if (pieces.size() < 2) return std::nullopt;
+  return fmt::format(
+      "The map is in {} pieces that do not fit each other: track was lost, and what was seen from {} on lies where "
+      "the rig may have been.",
+      pieces.size(), from);
+}
+
+Refusal lost_refusal(const SolvedWalk& walk, const Recording& recording) {
+  const std::vector<Interval> lost = lost_times(walk.sweeps, recording);
+  std::string text = fmt::format("LOAM lost track for {:.1f} s", length_s(lost));
+  if (!lost.empty()) text += fmt::format(", first at {:.1f} s", lost.front().begin_s);
+  const double followed_deg_s = followed_rad_s(walk.sweeps) / kRadPerDeg;
+  if (followed_deg_s > 1) text += fmt::format("; it followed turns of up to {:.0f} deg/s", followed_deg_s);
+  const auto tracked = std::ranges::count(walk.sweeps, false, &SweepPose::lost);
+  return refusal(RefusalKind::kTrackLost, double(tracked),
+                 text + ". Turn more slowly, at most by 40 deg/s, above all in the first 5 s.");
+}
+
+}  // namespace sweepscope

@@ -1,0 +1,77 @@
+#pragma once
+
+// The mathematics: docs/algorithms.md, section 11.
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "core/job.hpp"
+#include "core/loam/guided_path.hpp"
+#include "core/loam/patch_search.hpp"
+#include "core/loam/sweep_features.hpp"
+#include "core/offset/walk/jerk_prior.hpp"
+#include "core/offset/walk/joint_walk.hpp"
+#include "core/offset/walk/walk_equations.hpp"
+
+namespace sweepscope {
+
+/// One part of a walk on its way to its own offset, see solve_joint_walk. First `settle`, then `average`.
+class WalkPart {
+ public:
+  /// From `sweeps` as they were tracked at `offset_s`. All but the sweeps must outlive the part.
+  WalkPart(const OffsetProblem& problem, const std::vector<SweepPose>& sweeps, double offset_s,
+           const JointWalkOptions& options);
+
+  /// The first iterations, after which the result holds the offset of the last one with the sigma of its
+  /// least squares. `iterated` is called after each.
+  void settle(const Job& job, const std::function<void()>& iterated);
+  /// The others, after which it holds their mean. Does nothing where a part could not settle.
+  void average(const Job& job, const std::function<void()>& iterated);
+  /// Gives back the memory of a factor, 8 MB of a part of 10 s, which `average` would start with.
+  void forget_factor() { factor_.reset(); }
+
+  /// `sigma_s` is 0 where too few points match.
+  const JointWalkPart& result() const { return result_; }
+  const GuidedPath& path() const { return path_; }
+
+ private:
+  OffsetProblem cut() const;
+  bool iterate(const OffsetProblem& part, bool is_last);
+  void conclude(const std::vector<double>& offsets_s, double sigma_s);
+  double offset_sigma_s() const;
+  double shift_sigma_s(std::size_t block) const;
+  void match(const OffsetProblem& part);
+  void forget_matches();
+  void add(std::uint32_t line, const Eigen::Vector3d& p_m, const MatchResidual& match,
+           const Neighbours& near);
+  double clustered_sigma_s(const Eigen::VectorXd& influences, double sigma_s) const;
+  void insert(const PlacedSweep& sweep, const PlacedFeature& feature, FeatureMap& map);
+  double turning_rad_s(const Sweep& sweep, double motor_s) const;
+  std::uint32_t line_of(const PlacedSweep& sweep, const PlacedFeature& feature) const;
+  Eigen::Vector3d in_map_m(const PlacedSweep& sweep, const PlacedFeature& feature) const;
+  Eigen::Vector3d arm_m(std::uint32_t line, const Eigen::Vector3d& p_m) const;
+
+  const OffsetProblem& problem_;  // of the whole walk
+  const JointWalkOptions& options_;
+  double tracked_at_s_;
+  std::size_t first_sweep_, last_sweep_;
+  std::uint32_t slices_;          // of every scan
+  std::uint32_t first_scan_ = 0;  // of the recording's, that the part uses
+  GuidedPath path_;
+  Eigen::Vector2d jerk_sigma_;  // rad/s^3 and m/s^3
+  std::optional<JerkEvidence> evidence_;
+  JointWalkPart result_;
+  std::optional<WalkEquations::Solution> solution_;  // the last iteration's
+  std::optional<WalkEquations::Factor> factor_;      // an earlier iteration's
+  std::vector<ScanMotion> scans_;
+  static constexpr std::uint32_t kNoLine = 0xffffffffu;
+  std::uint32_t last_line_ = kNoLine;  // whose motion was worked out last
+  // The last iteration's matches, and where their points lie.
+  std::optional<ScanEquations> matches_;
+  std::vector<Eigen::Vector3d> matched_m_;
+};
+
+}  // namespace sweepscope

@@ -1,0 +1,81 @@
+#include "core/offset/search/coarse_search.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+
+#include "tests/core/engine_fixtures.hpp"
+
+namespace sweepscope {
+namespace {
+
+using test::kMs;
+
+// As if nothing had moved, and yet the valley is where it belongs.
+class CoarseSearchIn : public testing::TestWithParam<const char*> {};
+
+TEST_P(CoarseSearchIn, FindsTheRightMillisecondFromAnywhere) {
+  for (const double truth_s : {-0.047, 0.024}) {
+    const Recording& recording = test::simulated(GetParam(), truth_s, 8).recording;
+    const OffsetProblem problem = test::problem_of(recording);
+    const CoarseSearch found =
+        search_coarsely(problem, -60 * kMs, 60 * kMs, search_scale(problem.motor), Job());
+    ASSERT_TRUE(found.best);
+    EXPECT_NEAR(found.offset_s(), truth_s, 1.5 * kMs);
+    EXPECT_NEAR(found.curve.front().offset_s, -60 * kMs, 1e-12);
+    EXPECT_NEAR(found.curve.back().offset_s, 60 * kMs, 1e-12);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(StandingAndWalking, CoarseSearchIn,
+                         testing::Values("room-2", "metro-station", "cemetery"));
+
+CoarseSearch searched(double from_s, double to_s, const Job& job) {
+  const OffsetProblem problem = test::problem_of(test::room(0.024));
+  return search_coarsely(problem, from_s, to_s, search_scale(problem.motor), job);
+}
+
+TEST(CoarseSearch, ComputesEverySecondUnitAndThoseBesideTheBest) {
+  const CoarseSearch found = searched(0, 60 * kMs, Job());
+  ASSERT_TRUE(found.best);
+  std::vector<double> offsets_ms;
+  for (const CurvePoint& point : found.curve) {
+    offsets_ms.push_back(point.offset_s / kMs);
+    EXPECT_TRUE(point.capped_cost_m) << point.offset_s;
+  }
+  EXPECT_TRUE(std::is_sorted(offsets_ms.begin(), offsets_ms.end()));
+  EXPECT_EQ(offsets_ms.size(), 31U + 2U);
+  EXPECT_NEAR(found.offset_s(), 24 * kMs, 1e-9);
+  for (const double beside_ms : {23.0, 25.0})
+    EXPECT_TRUE(std::any_of(offsets_ms.begin(), offsets_ms.end(), [&](double ms) {
+      return std::abs(ms - beside_ms) < 1e-6;
+    })) << beside_ms;
+}
+
+TEST(CoarseSearch, SaysEachCandidateOnceWhenItIsFinished) {
+  const OffsetProblem problem = test::problem_of(test::room(0.024));
+  std::mutex mutex;
+  std::vector<double> said_s;
+  const CoarseSearch found =
+      search_coarsely(problem, 0, 60 * kMs, search_scale(problem.motor), Job(), [&](const CurvePoint& point) {
+        const std::lock_guard lock(mutex);
+        EXPECT_TRUE(point.capped_cost_m);
+        said_s.push_back(point.offset_s);
+      });
+  std::sort(said_s.begin(), said_s.end());
+  ASSERT_EQ(said_s.size(), found.curve.size());
+  for (std::size_t i = 0; i < said_s.size(); ++i) EXPECT_EQ(said_s[i], found.curve[i].offset_s);
+}
+
+TEST(CoarseSearch, ACancelledOneHasNoBest) {
+  Job job;
+  job.cancel();
+  const CoarseSearch found = searched(0, 60 * kMs, job);
+  EXPECT_FALSE(found.best);
+  EXPECT_EQ(found.offset_or(5 * kMs), 5 * kMs);
+}
+
+}  // namespace
+}  // namespace sweepscope
