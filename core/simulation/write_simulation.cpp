@@ -10,7 +10,7 @@
 
 #include "core/io/atomic_file.hpp"
 #include "core/recording/ros1/write_ros1_bag.hpp"
-#include "core/simulation/portable_math.hpp"
+#include "core/simulation/math/portable_math.hpp"
 #include "core/simulation/sensor.hpp"
 
 namespace sweepscope {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <functional>
 
-#include "core/simulation/portable_math.hpp"
+#include "core/simulation/math/portable_math.hpp"
 #include "tests/core/engine_fixtures.hpp"
 
 namespace sweepscope {
