@@ -13,8 +13,10 @@
 
 #include "core/error.hpp"
 #include "core/job.hpp"
+#include "core/recording/messages/messages.hpp"
 #include "core/recording/packed/decompress.hpp"
 #include "core/recording/packed/unpacked_file.hpp"
+#include "core/recording/packed/unpacking_limit.hpp"
 
 namespace sweepscope {
 
@@ -38,8 +40,10 @@ struct StreamRecording {
   std::vector<StreamFile> files;  // at least one; a ROS 1 bag is alone
 };
 
-/// Opens a recording; the format is detected from the content. A folder of CSV tables, which has no messages,
-/// is ExitCode::kWrongUsage. Compressed files are decompressed into the folder for temporary files.
+/// Opens a file; the format is detected from the content. A file that is compressed as a whole is
+/// decompressed into the folder for temporary files, which counts towards `limit`.
+Result<StreamFile> open_stream_file(const std::filesystem::path& path, UnpackingLimit& limit, const Job& job);
+/// Opens all files of a recording. A folder of CSV tables, which has no messages, is ExitCode::kWrongUsage.
 Result<StreamRecording> open_stream(const std::filesystem::path& path, const Job& job);
 
 /// A connection of a ROS 1 bag, a channel of an MCAP file or a topic of a database.
@@ -58,6 +62,9 @@ struct StreamTopic {
   std::string metadata_of(std::string_view key) const;
 };
 
+/// A topic of a type that sweepscope writes (message_definition), which is in ROS 1's spelling.
+StreamTopic written_topic(const std::string& name, std::string_view type, Encoding encoding);
+
 struct StreamMessage {
   std::size_t topic = 0;  // the number returned by StreamVisitor::topic
   std::int64_t log_ns = 0, publish_ns = 0;
@@ -65,6 +72,7 @@ struct StreamMessage {
   std::int64_t id = 0;  // in a database; else 0
   Compression compression = Compression::kNone;
   std::span<const std::byte> bytes;
+  BagPlace place = {};  // not in a database
 };
 
 struct StreamVisitor {
@@ -74,7 +82,10 @@ struct StreamVisitor {
 };
 
 /// Reads one file from its first message to its last, with one chunk in memory at a time. Returns warnings
-/// about damaged or missing parts. The intact part of a damaged file is visited.
+/// about damaged or missing parts. The intact part of a damaged file is visited. What chunks unpack to counts
+/// towards `limit`.
+Result<std::vector<std::string>> read_stream(const StreamFile& file, UnpackingLimit& limit,
+                                             const StreamVisitor& visitor, const Job& job);
 Result<std::vector<std::string>> read_stream(const StreamFile& file, const StreamVisitor& visitor,
                                              const Job& job);
 

@@ -4,9 +4,8 @@
 #include <algorithm>
 #include <memory>
 
-#include "core/apply/message_sink.hpp"
-#include "core/apply/provenance.hpp"
 #include "core/io/atomic_file.hpp"
+#include "core/recording/streams/message_sink.hpp"
 
 namespace sweepscope {
 namespace {
@@ -139,7 +138,7 @@ Result<void> SqliteSink::finish(const std::vector<std::string>& records) {
 }  // namespace
 
 Result<std::unique_ptr<MessageSink>> create_sqlite_sink(const std::filesystem::path& path) {
-  auto file = AtomicFile::create_regular(path);
+  auto file = AtomicFile::create_seekable(path);
   if (!file) return tl::unexpected(file.error());
   auto sink = std::make_unique<SqliteSink>(std::move(*file));
   if (const auto begun = sink->begin(); !begun) return tl::unexpected(begun.error());

@@ -9,19 +9,17 @@
 #include <limits>
 #include <map>
 
-#include "core/apply/message_sink.hpp"
-#include "core/apply/provenance.hpp"
 #include "core/io/atomic_file.hpp"
 #include "core/numbers.hpp"
 #include "core/recording/messages/messages.hpp"
 #include "core/recording/packed/compress.hpp"
 #include "core/recording/ros1/ros1_record.hpp"
+#include "core/recording/streams/message_sink.hpp"
 
 namespace sweepscope {
 namespace {
 
-constexpr std::size_t kChunk_bytes = std::size_t{768} << 10;  // as rosbag
-constexpr std::size_t kBagHeader_bytes = 4096;                // the record with its padding
+constexpr std::size_t kBagHeader_bytes = 4096;  // the record with its padding
 
 template <typename T>
 std::string as_bytes(T value) {
@@ -241,7 +239,7 @@ Result<void> Ros1Sink::finish(const std::vector<std::string>& records) {
 
 Result<std::unique_ptr<MessageSink>> create_ros1_sink(const std::filesystem::path& path,
                                                       Compression compression) {
-  auto file = AtomicFile::create_regular(path);
+  auto file = AtomicFile::create_seekable(path);
   if (!file) return tl::unexpected(file.error());
   auto sink = std::make_unique<Ros1Sink>(std::move(*file), compression);
   if (const auto begun = sink->begin(); !begun) return tl::unexpected(begun.error());

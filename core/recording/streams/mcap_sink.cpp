@@ -1,17 +1,36 @@
-#include "core/recording/ros2/mcap_writer.hpp"
-
 #include <algorithm>
 #include <limits>
+#include <map>
 
+#include "core/io/atomic_file.hpp"
 #include "core/recording/packed/compress.hpp"
-#include "core/recording/ros2/mcap_content.hpp"
+#include "core/recording/ros2/mcap_extras.hpp"
+#include "core/recording/ros2/mcap_records.hpp"
+#include "core/recording/streams/message_sink.hpp"
 
 namespace sweepscope {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kChunk_bytes = std::size_t{768} << 10;  // as the reference writers have it
+/// The content of a record, little-endian.
+class McapContent {
+ public:
+  template <typename T>
+  McapContent& number(T value) {
+    bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
+    return *this;
+  }
+  McapContent& text(std::string_view text) {
+    number(static_cast<std::uint32_t>(text.size()));
+    bytes_.append(text);
+    return *this;
+  }
+  const std::string& bytes() const { return bytes_; }
+
+ private:
+  std::string bytes_;
+};
 
 McapContent metadata_map(const std::vector<std::pair<std::string, std::string>>& entries) {
   McapContent map;
@@ -24,34 +43,83 @@ std::string record_header(McapOp op, std::uint64_t bytes) {
   return McapContent().number(static_cast<std::uint8_t>(op)).number(bytes).bytes();
 }
 
-}  // namespace
-
-void McapWriter::TimeSpan::add(std::uint64_t ns) {
-  first_ns = std::min(first_ns, ns);
-  last_ns = std::max(last_ns, ns);
+std::string mcap_record(McapOp op, const McapContent& content) {
+  return record_header(op, content.bytes().size()) + content.bytes();
 }
 
-Result<McapWriter> McapWriter::create(const fs::path& path, Compression compression,
-                                      std::string_view profile) {
-  auto file = AtomicFile::create(path);
-  if (!file) return tl::unexpected(file.error());
-  McapWriter writer(std::move(*file), compression);
+std::uint64_t unsigned_ns(std::int64_t ns) {
+  return ns < 0 ? 0 : static_cast<std::uint64_t>(ns);
+}
+
+/// Messages are in chunks with checksums and indexes; a summary has the schemas, channels, statistics and
+/// places of all else (https://mcap.dev/spec).
+class McapSink : public MessageSink {
+ public:
+  McapSink(AtomicFile file, Compression compression) : file_(std::move(file)), compression_(compression) {}
+
+  Result<void> begin(std::string_view profile);
+  Result<void> add_topic(const StreamTopic& topic) override;
+  Result<void> write(const StreamMessage& message) override;
+  Result<void> finish(const std::vector<std::string>& records) override;
+  /// An attachment, metadata or a private record of another file, as it is there.
+  Result<void> copy(const fs::path& from, const McapExtra& extra);
+
+ private:
+  struct IndexEntry {
+    std::uint64_t ns, at;  // in the unpacked chunk
+  };
+  struct Schema {
+    std::string name, encoding, definition;
+    bool operator==(const Schema&) const = default;
+  };
+  /// The times of messages.
+  struct TimeSpan {
+    std::uint64_t first_ns = UINT64_MAX, last_ns = 0;
+
+    void add(std::uint64_t ns) {
+      first_ns = std::min(first_ns, ns);
+      last_ns = std::max(last_ns, ns);
+    }
+    std::uint64_t start_ns() const { return std::min(first_ns, last_ns); }
+  };
+
+  Result<void> put(std::string_view bytes);
+  std::uint16_t schema_of(const StreamTopic& topic);
+  void note_metadata(std::uint64_t bytes, std::string_view name);
+  Result<void> write_record(const std::string& record);
+  std::string message_indexes(std::string& places);
+  Result<void> end_chunk();
+  std::string statistics() const;
+  std::string summary() const;
+
+  AtomicFile file_;
+  Compression compression_;
+  std::uint64_t at_ = 0;  // the bytes written so far
+  std::string schema_records_, channel_records_;
+  std::vector<Schema> schemas_;
+  std::vector<std::uint64_t> counts_;  // of messages, by channel
+  std::string chunk_;
+  std::map<std::uint16_t, std::vector<IndexEntry>> index_;  // of the chunk, by channel
+  TimeSpan chunk_times_, times_;
+  std::string chunk_indexes_, attachment_indexes_, metadata_indexes_;
+  std::uint32_t chunks_ = 0, attachments_ = 0, metadata_ = 0;
+};
+
+Result<void> McapSink::begin(std::string_view profile) {
   const std::string header =
       mcap_record(McapOp::kHeader, McapContent().text(profile).text("sweepscope " SWEEPSCOPE_VERSION));
-  if (auto written = writer.put(std::string(kMcapMagic) + header); !written)
-    return tl::unexpected(written.error());
-  return writer;
+  return put(std::string(kMcapMagic) + header);
 }
 
-Result<void> McapWriter::put(std::string_view bytes) {
+Result<void> McapSink::put(std::string_view bytes) {
   at_ += bytes.size();
   return file_.write(bytes);
 }
 
 /// The number of the channel's schema, which may have been described for another one; 0: it has none.
-std::uint16_t McapWriter::schema_of(const McapChannel& channel) {
-  if (channel.type.empty()) return 0;
-  const Schema schema{channel.type, channel.schema_encoding, channel.definition};
+std::uint16_t McapSink::schema_of(const StreamTopic& topic) {
+  if (topic.type.empty()) return 0;
+  const Schema schema{topic.type, topic.schema_encoding, topic.definition};
   const auto known = std::ranges::find(schemas_, schema);
   const auto number = static_cast<std::uint16_t>(known - schemas_.begin() + 1);
   if (known != schemas_.end()) return number;
@@ -64,52 +132,54 @@ std::uint16_t McapWriter::schema_of(const McapChannel& channel) {
   return number;
 }
 
-Result<std::uint16_t> McapWriter::add_channel(const McapChannel& channel) {
+Result<void> McapSink::add_topic(const StreamTopic& topic) {
   if (counts_.size() >= std::numeric_limits<std::uint16_t>::max())
     return tl::unexpected(file_.error("an MCAP file holds no more than 65535 channels"));
-  const std::uint16_t schema = schema_of(channel);
-  const auto number = static_cast<std::uint16_t>(counts_.size());
-  const std::string record = mcap_record(McapOp::kChannel, McapContent()
-                                                               .number(number)
-                                                               .number(schema)
-                                                               .text(channel.topic)
-                                                               .text(channel.encoding)
-                                                               .text(metadata_map(channel.metadata).bytes()));
+  const std::uint16_t schema = schema_of(topic);
+  const std::string record =
+      mcap_record(McapOp::kChannel, McapContent()
+                                        .number(static_cast<std::uint16_t>(counts_.size()))
+                                        .number(schema)
+                                        .text(topic.name)
+                                        .text(topic.encoding)
+                                        .text(metadata_map(topic.metadata).bytes()));
   channel_records_ += record;
   chunk_ += record;
   counts_.push_back(0);
-  return number;
+  return {};
 }
 
-Result<void> McapWriter::write(const McapMessageHeader& message, std::span<const std::byte> data) {
-  index_[message.channel].push_back({message.log_ns, chunk_.size()});
-  chunk_times_.add(message.log_ns);
-  times_.add(message.log_ns);
-  ++counts_[message.channel];
+Result<void> McapSink::write(const StreamMessage& message) {
+  const auto channel = static_cast<std::uint16_t>(message.topic);
+  const std::uint64_t log_ns = unsigned_ns(message.log_ns);
+  index_[channel].push_back({log_ns, chunk_.size()});
+  chunk_times_.add(log_ns);
+  times_.add(log_ns);
+  ++counts_[channel];
   McapContent fields;
-  fields.number(message.channel).number(message.sequence).number(message.log_ns).number(message.publish_ns);
-  chunk_ += record_header(McapOp::kMessage, fields.bytes().size() + data.size());
+  fields.number(channel).number(message.sequence).number(log_ns).number(unsigned_ns(message.publish_ns));
+  chunk_ += record_header(McapOp::kMessage, fields.bytes().size() + message.bytes.size());
   chunk_ += fields.bytes();
-  chunk_.append(reinterpret_cast<const char*>(data.data()), data.size());
+  chunk_.append(reinterpret_cast<const char*>(message.bytes.data()), message.bytes.size());
   return chunk_.size() < kChunk_bytes ? Result<void>() : end_chunk();
 }
 
-void McapWriter::note_metadata(std::uint64_t bytes, std::string_view name) {
+void McapSink::note_metadata(std::uint64_t bytes, std::string_view name) {
   metadata_indexes_ +=
       mcap_record(McapOp::kMetadataIndex, McapContent().number(at_).number(bytes).text(name));
   ++metadata_;
 }
 
-Result<void> McapWriter::write_metadata(std::string_view name,
-                                        const std::vector<std::pair<std::string, std::string>>& entries) {
+Result<void> McapSink::write_record(const std::string& record) {
   if (auto ended = end_chunk(); !ended) return ended;
-  const std::string record =
-      mcap_record(McapOp::kMetadata, McapContent().text(name).text(metadata_map(entries).bytes()));
-  note_metadata(record.size(), name);
-  return put(record);
+  const std::string metadata =
+      mcap_record(McapOp::kMetadata,
+                  McapContent().text(kAppliedMetadata).text(metadata_map({{"record", record}}).bytes()));
+  note_metadata(metadata.size(), kAppliedMetadata);
+  return put(metadata);
 }
 
-Result<void> McapWriter::copy(const fs::path& from, const McapExtra& extra) {
+Result<void> McapSink::copy(const fs::path& from, const McapExtra& extra) {
   constexpr std::uint64_t kBeginning_bytes = std::uint64_t{64} << 10;  // of an attachment: before its data
   if (auto ended = end_chunk(); !ended) return ended;
   std::string beginning;
@@ -135,7 +205,7 @@ Result<void> McapWriter::copy(const fs::path& from, const McapExtra& extra) {
 }
 
 /// The indexes of the chunk's messages, written from here on; `places` gets where each of them is.
-std::string McapWriter::message_indexes(std::string& places) {
+std::string McapSink::message_indexes(std::string& places) {
   std::string indexes;
   McapContent offsets;
   for (auto& [channel, entries] : index_) {
@@ -151,7 +221,7 @@ std::string McapWriter::message_indexes(std::string& places) {
 }
 
 /// Writes the chunk, if there is one, and the indexes of its messages.
-Result<void> McapWriter::end_chunk() {
+Result<void> McapSink::end_chunk() {
   if (chunk_.empty()) return {};
   const std::uint64_t chunk_at = at_;
   const bool plain = compression_ == Compression::kNone;
@@ -178,7 +248,7 @@ Result<void> McapWriter::end_chunk() {
   return put(indexes);
 }
 
-std::string McapWriter::statistics() const {
+std::string McapSink::statistics() const {
   McapContent counts;
   std::uint64_t messages = 0;
   for (std::size_t i = 0; i < counts_.size(); ++i) {
@@ -198,7 +268,7 @@ std::string McapWriter::statistics() const {
 }
 
 /// The groups of the summary, which begins here, the places of the groups, and the footer.
-std::string McapWriter::summary() const {
+std::string McapSink::summary() const {
   std::string groups, places;
   const auto add = [&](McapOp op, const std::string& records) {
     if (records.empty()) return;
@@ -219,12 +289,36 @@ std::string McapWriter::summary() const {
   return groups + places + mcap_record(McapOp::kFooter, footer);
 }
 
-Result<void> McapWriter::finish() {
+Result<void> McapSink::finish(const std::vector<std::string>& records) {
+  for (const std::string& record : records)
+    if (auto written = write_record(record); !written) return written;
   return end_chunk()
       .and_then([&] { return put(mcap_record(McapOp::kDataEnd, McapContent().number(std::uint32_t{0}))); })
       .and_then([&] { return put(summary()); })
       .and_then([&] { return put(kMcapMagic); })
       .and_then([&] { return file_.commit(); });
+}
+
+}  // namespace
+
+Result<std::unique_ptr<MessageSink>> create_mcap_sink(const fs::path& path, Compression compression,
+                                                      const std::string& profile,
+                                                      const std::vector<fs::path>& kept_from) {
+  std::vector<McapExtras> all;
+  for (const fs::path& kept : kept_from) {
+    auto extras = find_mcap_extras(kept);
+    if (!extras) return tl::unexpected(extras.error());
+    all.push_back(std::move(*extras));
+  }
+  auto file = AtomicFile::create(path);
+  if (!file) return tl::unexpected(file.error());
+  auto sink = std::make_unique<McapSink>(std::move(*file), compression);
+  if (auto begun = sink->begin(all.empty() ? profile : all.front().profile); !begun)
+    return tl::unexpected(begun.error());
+  for (std::size_t i = 0; i < all.size(); ++i)
+    for (const McapExtra& extra : all[i].records)
+      if (auto copied = sink->copy(kept_from[i], extra); !copied) return tl::unexpected(copied.error());
+  return sink;
 }
 
 }  // namespace sweepscope

@@ -1,4 +1,4 @@
-#include "core/apply/message_stream.hpp"
+#include "core/recording/streams/message_stream.hpp"
 
 #include <fmt/format.h>
 
@@ -7,37 +7,17 @@
 
 #include "core/io/input_file.hpp"
 #include "core/recording/csv/csv_recording.hpp"
+#include "core/recording/messages/message_definitions.hpp"
 #include "core/recording/ros1/ros1_bag.hpp"
 #include "core/recording/ros1/ros1_record.hpp"
+#include "core/recording/ros2/bag_files.hpp"
 #include "core/recording/ros2/mcap_file.hpp"
-#include "core/recording/ros2/ros2_recording.hpp"
 #include "core/recording/ros2/sqlite_bag.hpp"
 
 namespace sweepscope {
 namespace {
 
 namespace fs = std::filesystem;
-
-Result<StreamFile> open_file(const fs::path& path, const Job& job) {
-  auto file = InputFile::open(path);
-  if (!file) return tl::unexpected(file.error());
-  std::string beginning(kBagMagic.size(), '\0');
-  file->read(std::as_writable_bytes(std::span(beginning)));
-  if (beginning == kBagMagic) return StreamFile{path, StreamFormat::kRos1};
-  const auto stored = stored_as(path);
-  if (!stored)
-    return unreadable(
-        fmt::format("{}: byte 0 begins neither a ROS 1 bag of format 2.0, nor an MCAP file, nor the database "
-                    "of a ROS 2 bag",
-                    path.string()));
-  const bool mcap = stored->storage == BagStorage::kMcap;
-  StreamFile opened{path, mcap ? StreamFormat::kMcap : StreamFormat::kSqlite};
-  if (!stored->packed) return opened;
-  auto plain = UnpackedFile::unpack(path, job);
-  if (!plain) return tl::unexpected(plain.error());
-  opened.plain = std::make_shared<const UnpackedFile>(std::move(*plain));
-  return opened;
-}
 
 StreamTopic topic_of(const BagConnection& connection) {
   StreamTopic topic{connection.topic, connection.type, "ros1", "ros1msg", "", connection.header, {}};
@@ -82,19 +62,18 @@ Result<std::vector<std::string>> read_bag(const fs::path& path, const StreamVisi
   Numbers<BagConnection> numbers(visitor);
   const auto visit = [&](const BagMessage& m) {
     return visitor.message(
-        {numbers.of(m.connection), m.receive_ns, m.receive_ns, 0, 0, m.compression, m.bytes});
+        {numbers.of(m.connection), m.receive_ns, m.receive_ns, 0, 0, m.compression, m.bytes, m.place});
   };
   return read_ros1_bag(path, visit, job, numbers.describe());
 }
 
-Result<std::vector<std::string>> read_mcap_file(const fs::path& path, const StreamVisitor& visitor,
-                                                const Job& job) {
+Result<std::vector<std::string>> read_mcap_file(const fs::path& path, UnpackingLimit& limit,
+                                                const StreamVisitor& visitor, const Job& job) {
   Numbers<McapChannel> numbers(visitor);
   const auto visit = [&](const McapMessage& m) {
     return visitor.message(
-        {numbers.of(m.channel), m.log_ns, m.publish_ns, m.sequence, 0, m.compression, m.bytes});
+        {numbers.of(m.channel), m.log_ns, m.publish_ns, m.sequence, 0, m.compression, m.bytes, m.place});
   };
-  UnpackingLimit limit(path);
   return read_mcap(path, limit, visit, job, numbers.describe());
 }
 
@@ -108,12 +87,53 @@ Result<std::vector<std::string>> read_database(const fs::path& path, const Strea
   return read_sqlite_bag(path, visit, job, numbers.describe());
 }
 
+/// What a sentence says of `file`, said of `other`.
+std::string renamed(std::string sentence, const fs::path& file, const fs::path& other) {
+  const std::string name = file.string();
+  for (std::size_t at = 0; (at = sentence.find(name, at)) != std::string::npos; at += other.string().size())
+    sentence.replace(at, name.size(), other.string());
+  return sentence;
+}
+
 }  // namespace
 
 std::string StreamTopic::metadata_of(std::string_view key) const {
   for (const auto& [known, value] : metadata)
     if (known == key) return value;
   return "";
+}
+
+StreamTopic written_topic(const std::string& name, std::string_view type, Encoding encoding) {
+  StreamTopic topic{name, std::string(type), "ros1", "ros1msg", message_definition(type, encoding), "", {}};
+  if (encoding == Encoding::kRos1) {
+    topic.metadata.emplace_back("md5sum", find_message_type(type)->md5);
+    return topic;
+  }
+  topic.type.insert(type.find('/'), "/msg");
+  topic.encoding = "cdr";
+  topic.schema_encoding = "ros2msg";
+  return topic;
+}
+
+Result<StreamFile> open_stream_file(const fs::path& path, UnpackingLimit& limit, const Job& job) {
+  auto file = InputFile::open(path);
+  if (!file) return tl::unexpected(file.error());
+  std::string beginning(kBagMagic.size(), '\0');
+  file->read(std::as_writable_bytes(std::span(beginning)));
+  if (beginning == kBagMagic) return StreamFile{path, StreamFormat::kRos1};
+  const auto stored = stored_as(path);
+  if (!stored)
+    return unreadable(
+        fmt::format("{}: byte 0 begins neither a ROS 1 bag of format 2.0, nor an MCAP file, nor the database "
+                    "of a ROS 2 bag, nor one of these packed by zstd",
+                    path.string()));
+  const bool mcap = stored->storage == BagStorage::kMcap;
+  StreamFile opened{path, mcap ? StreamFormat::kMcap : StreamFormat::kSqlite};
+  if (!stored->packed) return opened;
+  auto plain = UnpackedFile::unpack(path, limit, job);
+  if (!plain) return tl::unexpected(plain.error());
+  opened.plain = std::make_shared<const UnpackedFile>(std::move(*plain));
+  return opened;
 }
 
 Result<StreamRecording> open_stream(const fs::path& path, const Job& job) {
@@ -135,21 +155,31 @@ Result<StreamRecording> open_stream(const fs::path& path, const Job& job) {
     files = std::move(*found);
   }
   for (const fs::path& name : files) {
-    auto file = open_file(name, job);
+    UnpackingLimit limit(name);
+    auto file = open_stream_file(name, limit, job);
     if (!file) return tl::unexpected(file.error());
     recording.files.push_back(std::move(*file));
   }
   return recording;
 }
 
-Result<std::vector<std::string>> read_stream(const StreamFile& file, const StreamVisitor& visitor,
-                                             const Job& job) {
+Result<std::vector<std::string>> read_stream(const StreamFile& file, UnpackingLimit& limit,
+                                             const StreamVisitor& visitor, const Job& job) {
   const fs::path& path = file.readable();
   if (file.format == StreamFormat::kRos1) return read_bag(path, visitor, job);
-  auto damage = file.format == StreamFormat::kMcap ? read_mcap_file(path, visitor, job)
+  auto damage = file.format == StreamFormat::kMcap ? read_mcap_file(path, limit, visitor, job)
                                                    : read_database(path, visitor, job);
-  if (damage && file.plain && !file.plain->problem().empty()) damage->push_back(file.plain->problem());
+  if (!file.plain) return damage;
+  if (!damage) return failure(damage.error().code, renamed(damage.error().message, path, file.path));
+  for (std::string& what : *damage) what = renamed(what, path, file.path);
+  if (!file.plain->problem().empty()) damage->push_back(file.plain->problem());
   return damage;
+}
+
+Result<std::vector<std::string>> read_stream(const StreamFile& file, const StreamVisitor& visitor,
+                                             const Job& job) {
+  UnpackingLimit limit(file.readable());
+  return read_stream(file, limit, visitor, job);
 }
 
 }  // namespace sweepscope

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "core/apply/message_stream.hpp"
 #include "core/error.hpp"
+#include "core/recording/streams/message_stream.hpp"
 
 namespace sweepscope {
 
@@ -24,9 +24,18 @@ class MessageSink {
   /// ExitCode::kWrongUsage.
   virtual Result<void> add_topic(const StreamTopic& topic) = 0;
   virtual Result<void> write(const StreamMessage& message) = 0;
-  /// Call once, last. `records` are provenance records (provenance.hpp).
+  /// Call once, last. `records` go beside the messages: see the names below.
   virtual Result<void> finish(const std::vector<std::string>& records) = 0;
 };
+
+/// Where the records of an applied offset are: a topic of std_msgs/String in a ROS 1 bag, metadata records in
+/// an MCAP file, a table in a database.
+inline constexpr const char* kAppliedTopic = "/sweepscope/applied";
+inline constexpr const char* kAppliedMetadata = "sweepscope.apply";
+inline constexpr const char* kAppliedTable = "sweepscope_apply";
+
+/// The size of chunks, as the reference writers of bags and of MCAP files have it.
+inline constexpr std::size_t kChunk_bytes = std::size_t{768} << 10;
 
 /// A ROS 1 bag of format 2.0; chunks are compressed as `compression` says (none, bz2 or LZ4).
 Result<std::unique_ptr<MessageSink>> create_ros1_sink(const std::filesystem::path& path,
