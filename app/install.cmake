@@ -74,7 +74,7 @@ set(CPACK_DEBIAN_ENGINE_DESCRIPTION "engine of sweepscope, for other programs
  package: find_package(sweepscope) and link sweepscope::core.")
 # What the program is built with, for whoever builds with its engine.
 set(CPACK_DEBIAN_ENGINE_PACKAGE_DEPENDS
-    "libbz2-dev, libdeflate-dev, libeigen3-dev, libembree-dev, libexpected-dev, libfmt-dev, liblz4-dev, libpcl-dev, librosbag-storage-dev, libroscpp-core-dev, libsensor-msgs-dev, libsqlite3-dev, libtbb-dev, libxxhash-dev, libyaml-cpp-dev, libzstd-dev, nlohmann-json3-dev, pkg-config")
+    "libbz2-dev, libdeflate-dev, libeigen3-dev, libembree-dev, libexpected-dev, libfmt-dev, liblz4-dev, libpcl-dev, libsqlite3-dev, libtbb-dev, libxxhash-dev, libyaml-cpp-dev, libzstd-dev, nlohmann-json3-dev, pkg-config")
 if(roscpp_FOUND)
   string(APPEND CPACK_DEBIAN_ENGINE_PACKAGE_DEPENDS ", libroscpp-dev")
 endif()

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <iterator>
 #include <numbers>
 #include <vector>
@@ -22,6 +24,15 @@ Number median(std::vector<Number> values) {
   const auto middle = values.begin() + std::ssize(values) / 2;
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
+}
+
+/// From each value to the next.
+template <typename Values, typename Projection = std::identity>
+std::vector<double> spacings(const Values& values, Projection projection = {}) {
+  std::vector<double> all;
+  for (std::size_t i = 1; i < values.size(); ++i)
+    all.push_back(std::invoke(projection, values[i]) - std::invoke(projection, values[i - 1]));
+  return all;
 }
 
 /// The quantile of `fraction`, in [0, 1]. Reorders `values`, which must not be empty.

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "core/simulation/scene.hpp"
+#include "core/simulation/scenes/scene.hpp"
 
 namespace sweepscope::test {
 

@@ -5,7 +5,7 @@
 
 #include "app/python/handles.hpp"
 #include "core/io/output_check.hpp"
-#include "core/simulation/scene.hpp"
+#include "core/simulation/scenes/scene.hpp"
 #include "core/simulation/simulate.hpp"
 #include "core/simulation/typed_simulation.hpp"
 #include "core/simulation/write_simulation.hpp"

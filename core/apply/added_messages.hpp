@@ -4,17 +4,11 @@
 #include <string>
 #include <string_view>
 
-#include "core/apply/message_stream.hpp"
 #include "core/geometry/map_cloud.hpp"
 #include "core/geometry/pose.hpp"
 #include "core/recording/messages/messages.hpp"
 
 namespace sweepscope {
-
-/// A topic of sensor_msgs/PointCloud2, with the definition in ROS 1's or ROS 2's form.
-StreamTopic cloud_topic(const std::string& name, Encoding encoding);
-/// The topic /tf, of tf2_msgs/TFMessage.
-StreamTopic transform_topic(Encoding encoding);
 
 /// A cloud as sensor_msgs/PointCloud2 with the fields x, y, z (m), intensity and time (s since the stamp),
 /// all float32. `begin_s` is the time of the stamp on the clock of the points' times.

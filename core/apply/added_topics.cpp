@@ -35,7 +35,7 @@ Result<std::shared_ptr<const Sweeps>> sweeps_of(Recording recording, const MapOp
 AddedTopic added_clouds(const std::shared_ptr<const Sweeps>& sweeps, const AddOptions& options,
                         Encoding encoding, const StampMap& stamped) {
   AddedTopic added;
-  added.topic = cloud_topic(options.clouds_topic, encoding);
+  added.topic = written_topic(options.clouds_topic, "sensor_msgs/PointCloud2", encoding);
   for (std::size_t i = 0; i < sweeps->clouds->size(); ++i)
     added.ready_ns.push_back(ns_of(sweeps->recording, sweeps->clouds->end_s(i)));
   added.message = [sweeps, encoding, stamped, frame = options.base_frame](std::size_t i) {
@@ -49,7 +49,7 @@ AddedTopic added_clouds(const std::shared_ptr<const Sweeps>& sweeps, const AddOp
 AddedTopic added_transforms(const Recording& recording, const AddOptions& options, Encoding encoding,
                             const std::string& laser_frame, const StampMap& stamped) {
   AddedTopic added;
-  added.topic = transform_topic(encoding);
+  added.topic = written_topic("/tf", "tf2_msgs/TFMessage", encoding);
   for (const double time_s : recording.motor.time_s) added.ready_ns.push_back(ns_of(recording, time_s));
   const Mount mount = recording.rig.mount;
   const Pose motor_from_laser{rotation_from_rpy(mount.laser_in_motor_rpy_deg), mount.laser_in_motor_xyz_m};

@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "core/apply/clock_shift.hpp"
-#include "core/apply/message_stream.hpp"
 #include "core/apply/stamp_shift.hpp"
 #include "core/error.hpp"
 #include "core/job.hpp"
 #include "core/map/sweep_clouds.hpp"
 #include "core/recording/messages/messages.hpp"
+#include "core/recording/streams/message_stream.hpp"
 
 namespace sweepscope {
 

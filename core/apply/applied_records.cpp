@@ -5,8 +5,8 @@
 
 #include <memory>
 
-#include "core/apply/provenance.hpp"
 #include "core/recording/ros2/mcap_extras.hpp"
+#include "core/recording/streams/message_sink.hpp"
 
 namespace sweepscope {
 namespace {

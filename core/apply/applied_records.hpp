@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "core/apply/message_stream.hpp"
 #include "core/error.hpp"
+#include "core/recording/streams/message_stream.hpp"
 
 namespace sweepscope {
 

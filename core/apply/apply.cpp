@@ -11,12 +11,12 @@
 #include "core/apply/apply_output.hpp"
 #include "core/apply/clock_shift.hpp"
 #include "core/apply/copier.hpp"
-#include "core/apply/message_sink.hpp"
 #include "core/apply/survey.hpp"
 #include "core/io/atomic_file.hpp"
 #include "core/io/atomic_folder.hpp"
 #include "core/recording/formats/read_recording.hpp"
 #include "core/recording/formats/recording_file.hpp"
+#include "core/recording/streams/message_sink.hpp"
 
 namespace sweepscope {
 namespace {

@@ -11,20 +11,12 @@
 #include "core/io/atomic_file.hpp"
 #include "core/io/input_file.hpp"
 #include "core/io/printable_text.hpp"
-#include "core/recording/ros2/cdr_writer.hpp"
+#include "core/recording/messages/message_definitions.hpp"
 
 namespace sweepscope {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Definitions of the types that sweepscope writes itself, for bags without them.
-std::string known_definition(std::string_view type) {
-  if (type == "sensor_msgs/msg/LaserScan") return laser_scan_definition();
-  if (type == "sensor_msgs/msg/PointCloud2") return point_cloud_definition();
-  if (type == "sensor_msgs/msg/JointState") return joint_state_definition();
-  return "";
-}
 
 std::string topics_yaml(const std::vector<WrittenFile>& files) {
   std::vector<StreamTopic> topics;
@@ -80,7 +72,7 @@ StreamTopic topic_in(StreamFormat format, const StreamTopic& topic) {
   if (format != StreamFormat::kRos1) same.connection_header.clear();
   if (format != StreamFormat::kMcap || !same.schema_encoding.empty() || same.encoding != "cdr") return same;
   same.schema_encoding = "ros2msg";
-  if (same.definition.empty()) same.definition = known_definition(same.type);
+  if (same.definition.empty()) same.definition = message_definition(same.type, Encoding::kCdr);
   return same;
 }
 

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "core/apply/message_sink.hpp"
-#include "core/apply/message_stream.hpp"
 #include "core/apply/survey.hpp"
 #include "core/io/atomic_folder.hpp"
+#include "core/recording/streams/message_sink.hpp"
+#include "core/recording/streams/message_stream.hpp"
 
 namespace sweepscope {
 

@@ -9,8 +9,8 @@
 #include "core/apply/added_topics.hpp"
 #include "core/apply/apply_output.hpp"
 #include "core/apply/clock_shift.hpp"
-#include "core/apply/message_sink.hpp"
 #include "core/apply/survey.hpp"
+#include "core/recording/streams/message_sink.hpp"
 
 namespace sweepscope {
 

@@ -50,10 +50,4 @@ struct Provenance {
 /// The record as a JSON object in one line, schema "sweepscope.apply/1".
 std::string to_json(const Provenance& provenance);
 
-/// The place of the record: a topic of std_msgs/String in a ROS 1 bag, a metadata record in an MCAP file, a
-/// table in a database.
-inline constexpr const char* kAppliedTopic = "/sweepscope/applied";
-inline constexpr const char* kAppliedMetadata = "sweepscope.apply";
-inline constexpr const char* kAppliedTable = "sweepscope_apply";
-
 }  // namespace sweepscope

@@ -4,23 +4,16 @@
 #include <array>
 #include <bit>
 #include <cstring>
-#include <limits>
 #include <optional>
 #include <vector>
 
 #include "core/numbers.hpp"
+#include "core/recording/messages/message_archives.hpp"
 
 namespace sweepscope {
 namespace {
 
 constexpr std::size_t kStamp_bytes = 8;  // seconds and nanoseconds
-
-std::uint32_t load(const std::byte* at, bool swapped) {
-  std::array<std::byte, 4> bytes;
-  std::memcpy(bytes.data(), at, bytes.size());
-  if (swapped) std::ranges::reverse(bytes);
-  return std::bit_cast<std::uint32_t>(bytes);
-}
 
 void store(std::byte* at, std::uint32_t value, bool swapped) {
   auto bytes = std::bit_cast<std::array<std::byte, 4>>(value);
@@ -29,18 +22,14 @@ void store(std::byte* at, std::uint32_t value, bool swapped) {
 }
 
 std::int64_t stamp_at(const std::byte* at, bool swapped) {
-  return load(at, swapped) * kSecond_ns + load(at + 4, swapped);
+  return loaded<std::uint32_t>(at, swapped) * kSecond_ns + loaded<std::uint32_t>(at + 4, swapped);
 }
 
 StampShift shift_stamp(std::byte* at, Encoding encoding, bool swapped, const StampMap& moved) {
   const std::int64_t before_ns = stamp_at(at, swapped);
   if (before_ns == 0) return StampShift::kNone;
   const std::int64_t after_ns = moved(before_ns);
-  // Seconds are signed in ROS 2.
-  const std::int64_t max_s = encoding == Encoding::kCdr
-                                 ? std::int64_t{std::numeric_limits<std::int32_t>::max()}
-                                 : std::int64_t{std::numeric_limits<std::uint32_t>::max()};
-  if (after_ns <= 0 || after_ns / kSecond_ns > max_s) return StampShift::kOutOfRange;
+  if (after_ns == 0 || !holds_stamp(encoding, after_ns)) return StampShift::kOutOfRange;
   store(at, static_cast<std::uint32_t>(after_ns / kSecond_ns), swapped);
   store(at + 4, static_cast<std::uint32_t>(after_ns % kSecond_ns), swapped);
   return StampShift::kShifted;
@@ -53,9 +42,9 @@ std::optional<std::vector<std::size_t>> stamp_places(MessageKind kind, Encoding 
   constexpr std::size_t kFrameLength_bytes = 4;
   std::vector<std::size_t> places;
   if (kind == MessageKind::kTransforms) {
-    std::vector<DecodedTransform> transforms;
+    std::vector<TransformMessage> transforms;
     if (!decode_transforms(encoding, message, transforms)) return std::nullopt;
-    for (const DecodedTransform& transform : transforms) {
+    for (const TransformMessage& transform : transforms) {
       if (transform.child != joint) continue;
       // Layout: stamp, length of the parent's name, the name.
       const auto* const name = reinterpret_cast<const std::byte*>(transform.parent.data());

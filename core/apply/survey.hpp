@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/apply/message_stream.hpp"
 #include "core/recording/messages/messages.hpp"
 #include "core/recording/raw_recording.hpp"
+#include "core/recording/streams/message_stream.hpp"
 
 namespace sweepscope {
 

@@ -7,11 +7,12 @@
 
 #include "core/apply/added_topics.hpp"
 #include "core/apply/applied_records.hpp"
-#include "core/apply/message_stream.hpp"
 #include "core/io/atomic_folder.hpp"
 #include "core/io/cloud_file.hpp"
 #include "core/io/trajectory_file.hpp"
 #include "core/recording/formats/read_recording.hpp"
+#include "core/recording/streams/message_sink.hpp"
+#include "core/recording/streams/message_stream.hpp"
 
 namespace sweepscope {
 namespace {

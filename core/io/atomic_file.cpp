@@ -11,8 +11,7 @@
 #include <cstring>
 #include <fstream>
 #include <system_error>
-
-#include "core/io/temporary_file.hpp"
+#include <utility>
 
 namespace sweepscope {
 
@@ -113,10 +112,14 @@ Result<AtomicFile> AtomicFile::create(const fs::path& path) {
   return AtomicFile(path, target->path, part.path, fdopen(part.descriptor, "wb"));
 }
 
-Result<AtomicFile> AtomicFile::create_regular(const fs::path& path) {
+Result<AtomicFile> AtomicFile::create_seekable(const fs::path& path) {
   auto file = create(path);
-  if (file && file->part_path().empty())
-    return tl::unexpected(file->error("a recording is written to a regular file only"));
+  if (!file || !file->part_path_.empty()) return file;
+  auto whole = TemporaryFile::create();
+  if (!whole) return tl::unexpected(whole.error());
+  file->pipe_ = std::exchange(file->file_, {std::fopen(whole->path().c_str(), "wb"), {}});
+  file->whole_.emplace(std::move(*whole));
+  if (!file->file_) return failed_to("created", file->part_path());
   return file;
 }
 
@@ -137,7 +140,21 @@ Result<void> AtomicFile::flush() {
   return {};
 }
 
+/// Into the pipe or the device.
+Result<void> AtomicFile::copy_whole() {
+  if (auto flushed = flush(); !flushed) return flushed;
+  file_ = std::move(pipe_);
+  std::string block(std::size_t{1} << 20, '\0');
+  std::ifstream input(whole_->path(), std::ios::binary);
+  while (input.read(block.data(), static_cast<std::streamsize>(block.size())), input.gcount() > 0)
+    if (auto written = write({block.data(), static_cast<std::size_t>(input.gcount())}); !written)
+      return written;
+  return {};
+}
+
 Result<void> AtomicFile::commit() {
+  if (whole_)
+    if (auto copied = copy_whole(); !copied) return copied;
   if (auto flushed = flush(); !flushed) return flushed;
   if (std::fclose(file_.release()) != 0 ||
       (!part_path_.empty() && std::rename(part_path_.c_str(), target_.c_str()) != 0)) {

@@ -3,10 +3,12 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include "core/error.hpp"
+#include "core/io/temporary_file.hpp"
 
 namespace sweepscope {
 
@@ -21,8 +23,9 @@ namespace sweepscope {
 class AtomicFile {
  public:
   static Result<AtomicFile> create(const std::filesystem::path& path);
-  /// The same for a recording whose writer goes back to what it wrote: a pipe or a device is an error.
-  static Result<AtomicFile> create_regular(const std::filesystem::path& path);
+  /// The same for a writer that goes back to what it wrote: a pipe or a device gets the whole file at
+  /// `commit`.
+  static Result<AtomicFile> create_seekable(const std::filesystem::path& path);
 
   AtomicFile(AtomicFile&& other) noexcept = default;
   AtomicFile& operator=(AtomicFile&&) = delete;
@@ -31,9 +34,9 @@ class AtomicFile {
   Result<void> write(std::string_view bytes);
   /// The error that a library reports for this file, which it writes by name.
   Error error(std::string_view reason) const;
-  /// The regular file that `commit` renames, for a library that opens files by name; empty for files written
-  /// in place.
-  const std::filesystem::path& part_path() const { return part_path_; }
+  /// The regular file that `commit` renames or copies, for a library that opens files by name; empty for
+  /// files written in place.
+  const std::filesystem::path& part_path() const { return whole_ ? whole_->path() : part_path_; }
 
   /// Flushes the data to the disk, so that `commit` only has to rename. Call it on all files of a set before
   /// committing the first.
@@ -47,9 +50,11 @@ class AtomicFile {
   };
   AtomicFile(std::filesystem::path path, std::filesystem::path target, std::filesystem::path part,
              std::FILE* file);
+  Result<void> copy_whole();
 
   std::filesystem::path path_, target_, part_path_;
-  std::unique_ptr<std::FILE, Close> file_;
+  std::optional<TemporaryFile> whole_;  // what a pipe or a device gets
+  std::unique_ptr<std::FILE, Close> file_, pipe_;
 };
 
 /// The target of a file's symbolic links, also if the target does not exist yet; an error if they do not

@@ -10,12 +10,25 @@
 namespace sweepscope {
 namespace {
 
+struct Scalar {
+  std::size_t size;
+  double (*load)(const char* bytes);
+};
+
 template <typename T>
-double load_as_double(const char* bytes) {
-  T value;
-  std::memcpy(&value, bytes, sizeof value);
-  return static_cast<double>(value);
+constexpr Scalar scalar() {
+  return {sizeof(T), [](const char* bytes) {
+            T value;
+            std::memcpy(&value, bytes, sizeof value);
+            return static_cast<double>(value);
+          }};
 }
+
+/// In the order of ScalarType.
+constexpr Scalar kScalars[] = {scalar<std::int8_t>(),   scalar<std::uint8_t>(),  scalar<std::int16_t>(),
+                               scalar<std::uint16_t>(), scalar<std::int32_t>(),  scalar<std::uint32_t>(),
+                               scalar<std::int64_t>(),  scalar<std::uint64_t>(), scalar<float>(),
+                               scalar<double>()};
 
 std::uint32_t to_sweep(double value) {
   constexpr double kMax = std::numeric_limits<std::uint32_t>::max();
@@ -25,49 +38,11 @@ std::uint32_t to_sweep(double value) {
 }  // namespace
 
 double load_scalar(ScalarType type, const char* bytes) {
-  switch (type) {
-    case ScalarType::kI8:
-      return load_as_double<std::int8_t>(bytes);
-    case ScalarType::kU8:
-      return load_as_double<std::uint8_t>(bytes);
-    case ScalarType::kI16:
-      return load_as_double<std::int16_t>(bytes);
-    case ScalarType::kU16:
-      return load_as_double<std::uint16_t>(bytes);
-    case ScalarType::kI32:
-      return load_as_double<std::int32_t>(bytes);
-    case ScalarType::kU32:
-      return load_as_double<std::uint32_t>(bytes);
-    case ScalarType::kI64:
-      return load_as_double<std::int64_t>(bytes);
-    case ScalarType::kU64:
-      return load_as_double<std::uint64_t>(bytes);
-    case ScalarType::kF32:
-      return load_as_double<float>(bytes);
-    case ScalarType::kF64:
-      return load_as_double<double>(bytes);
-  }
-  return 0;
+  return kScalars[static_cast<std::size_t>(type)].load(bytes);
 }
 
 std::size_t size_of(ScalarType type) {
-  switch (type) {
-    case ScalarType::kI8:
-    case ScalarType::kU8:
-      return 1;
-    case ScalarType::kI16:
-    case ScalarType::kU16:
-      return 2;
-    case ScalarType::kI32:
-    case ScalarType::kU32:
-    case ScalarType::kF32:
-      return 4;
-    case ScalarType::kI64:
-    case ScalarType::kU64:
-    case ScalarType::kF64:
-      return 8;
-  }
-  return 0;
+  return kScalars[static_cast<std::size_t>(type)].size;
 }
 
 std::size_t PointLayout::record_bytes() const {

@@ -16,9 +16,8 @@ using Eigen::Vector3d;
 constexpr double kLongestBridgedGap_s = 0.25, kLongestGapInSpacings = 3;
 
 double longest_gap_s(const std::vector<StampedPose>& poses) {
-  std::vector<double> spacings_s;
-  for (std::size_t i = 1; i < poses.size(); ++i) spacings_s.push_back(poses[i].time_s - poses[i - 1].time_s);
-  return std::max(kLongestBridgedGap_s, kLongestGapInSpacings * median(std::move(spacings_s)));
+  return std::max(kLongestBridgedGap_s,
+                  kLongestGapInSpacings * median(spacings(poses, &StampedPose::time_s)));
 }
 
 Vector3d turn_rad(const StampedPose& from, const StampedPose& to) {

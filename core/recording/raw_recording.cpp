@@ -1,8 +1,19 @@
 #include "core/recording/raw_recording.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace sweepscope {
+
+double range_of(const RawJoint& joint) {
+  double min = HUGE_VAL, max = -HUGE_VAL;
+  for (const double position : joint.positions) {
+    if (!std::isfinite(position)) continue;
+    min = std::min(min, position);
+    max = std::max(max, position);
+  }
+  return max > min ? max - min : 0;
+}
 
 std::vector<WrittenMessage> write_order(const RawLaser& laser, const RawJoint& joint) {
   std::vector<WrittenMessage> all;

@@ -83,6 +83,9 @@ struct RawJoint {
   std::size_t left_out = 0;       // samples that were counted and not kept
 };
 
+/// The largest minus the smallest finite position; 0 without any.
+double range_of(const RawJoint& joint);
+
 /// The known poses of a frame in its parent frame: the first transform, and the one rotated farthest from it.
 struct RawFrame {
   struct Pose {

@@ -149,8 +149,7 @@ TimeOrder order_by_time(std::span<const double> times_s) {
 }
 
 double unevenness_s(std::span<const double> times_s) {
-  std::vector<double> left_s;
-  for (std::size_t i = 1; i < times_s.size(); ++i) left_s.push_back(times_s[i] - times_s[i - 1]);
+  std::vector<double> left_s = spacings(times_s);
   const double period_s = median(left_s);
   if (left_s.size() < 2 || !(period_s > 0)) return 0;
   for (double& spacing_s : left_s) spacing_s = std::abs(std::remainder(spacing_s, period_s));
@@ -160,8 +159,7 @@ double unevenness_s(std::span<const double> times_s) {
 
 Spacing spacing(std::span<const double> times_s, double factor) {
   Spacing result;
-  std::vector<double> spacings_s;
-  for (std::size_t i = 1; i < times_s.size(); ++i) spacings_s.push_back(times_s[i] - times_s[i - 1]);
+  const std::vector<double> spacings_s = spacings(times_s);
   result.median_s = median(spacings_s);
   for (const double spacing_s : spacings_s) {
     if (spacing_s <= factor * result.median_s) continue;

@@ -214,9 +214,8 @@ double distinct_lines(const Recording& recording, const MotorMotion& motor, doub
   for (std::vector<double>& of_direction : places) {
     if (of_direction.empty()) continue;
     std::sort(of_direction.begin(), of_direction.end());
-    std::vector<double> gaps{of_direction.front() + 1 - of_direction.back()};
-    for (std::size_t i = 1; i < of_direction.size(); ++i)
-      gaps.push_back(of_direction[i] - of_direction[i - 1]);
+    std::vector<double> gaps = spacings(of_direction);
+    gaps.push_back(of_direction.front() + 1 - of_direction.back());
     std::sort(gaps.begin(), gaps.end());
     std::size_t i = 0;
     for (double within = gaps[0]; i + 1 < gaps.size() && within < 0.5; within += gaps[i]) ++i;

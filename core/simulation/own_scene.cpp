@@ -4,7 +4,7 @@
 
 #include "core/io/atomic_file.hpp"
 #include "core/io/content_hash.hpp"
-#include "core/simulation/mesh_file.hpp"
+#include "core/simulation/meshes/mesh_file.hpp"
 
 namespace sweepscope::simulation {
 

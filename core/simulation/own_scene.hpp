@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "core/simulation/scene.hpp"
+#include "core/simulation/scenes/scene.hpp"
 #include "core/simulation/simulate.hpp"
 
 namespace sweepscope::simulation {

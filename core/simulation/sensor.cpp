@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "core/simulation/portable_math.hpp"
+#include "core/simulation/math/portable_math.hpp"
 
 namespace sweepscope::simulation {
 namespace {

@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "core/recording/recording.hpp"
-#include "core/simulation/glass.hpp"
-#include "core/simulation/motor.hpp"
-#include "core/simulation/people.hpp"
-#include "core/simulation/ray_caster.hpp"
-#include "core/simulation/scene.hpp"
+#include "core/simulation/meshes/ray_caster.hpp"
+#include "core/simulation/motion/motor.hpp"
+#include "core/simulation/motion/trajectory.hpp"
+#include "core/simulation/scenes/glass.hpp"
+#include "core/simulation/scenes/people.hpp"
+#include "core/simulation/scenes/scene.hpp"
 #include "core/simulation/simulate.hpp"
-#include "core/simulation/trajectory.hpp"
 
 namespace sweepscope::simulation {
 

@@ -10,14 +10,14 @@
 #include <utility>
 
 #include "core/parallel.hpp"
-#include "core/simulation/free_space.hpp"
+#include "core/simulation/math/portable_math.hpp"
+#include "core/simulation/meshes/ray_caster.hpp"
+#include "core/simulation/motion/trajectory.hpp"
 #include "core/simulation/own_scene.hpp"
-#include "core/simulation/people.hpp"
-#include "core/simulation/portable_math.hpp"
-#include "core/simulation/ray_caster.hpp"
-#include "core/simulation/scene.hpp"
+#include "core/simulation/scenes/free_space.hpp"
+#include "core/simulation/scenes/people.hpp"
+#include "core/simulation/scenes/scene.hpp"
 #include "core/simulation/sensor.hpp"
-#include "core/simulation/trajectory.hpp"
 
 namespace sweepscope {
 namespace {

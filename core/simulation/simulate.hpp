@@ -11,8 +11,8 @@
 #include "core/error.hpp"
 #include "core/job.hpp"
 #include "core/recording/recording.hpp"
-#include "core/simulation/motor.hpp"
-#include "core/simulation/recorded_path.hpp"
+#include "core/simulation/motion/motor.hpp"
+#include "core/simulation/motion/recorded_path.hpp"
 
 namespace sweepscope {
 

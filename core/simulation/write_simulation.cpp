@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/io/atomic_file.hpp"
-#include "core/recording/ros1/write_ros1_bag.hpp"
-#include "core/simulation/portable_math.hpp"
+#include "core/recording/formats/recording_writer.hpp"
+#include "core/simulation/math/portable_math.hpp"
 #include "core/simulation/sensor.hpp"
 
 namespace sweepscope {
@@ -165,7 +165,8 @@ std::filesystem::path stem_of(std::filesystem::path bag_path) {
 }  // namespace
 
 Result<void> write_bag(const Simulation& simulation, const std::filesystem::path& path, const Job& job) {
-  return write_ros1_bag(raw_laser(simulation), raw_joint(simulation), path, "none", job, raw_imu(simulation));
+  return write_recording(raw_laser(simulation), raw_joint(simulation), RecordingFormat::kRos1, "none", path,
+                         job, raw_imu(simulation));
 }
 
 std::filesystem::path truth_json_path(const std::filesystem::path& bag_path) {

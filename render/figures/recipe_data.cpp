@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "core/simulation/scene.hpp"
+#include "core/simulation/scenes/scene.hpp"
 #include "render/figures/recipe_parts.hpp"
 
 namespace sweepscope::recipe_parts {

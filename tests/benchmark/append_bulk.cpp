@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "core/recording/ros1/ros_libraries.hpp"
+#include "tests/core/recording/message_allocator.hpp"
 
 namespace {
 

@@ -22,7 +22,7 @@
 
 #include "core/offset/estimator.hpp"
 #include "core/recording/sweeps.hpp"
-#include "core/simulation/portable_math.hpp"
+#include "core/simulation/math/portable_math.hpp"
 #include "core/simulation/simulate.hpp"
 
 namespace sweepscope {

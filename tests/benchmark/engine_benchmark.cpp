@@ -3,6 +3,8 @@
 #include <benchmark/benchmark.h>
 #include <tbb/global_control.h>
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -14,6 +16,7 @@
 #include <vector>
 
 #include "core/loam/feature_map.hpp"
+#include "core/loam/matching.hpp"
 #include "core/map/offset_map.hpp"
 #include "core/map/surface_thickness.hpp"
 #include "core/offset/criteria/moving_candidate.hpp"
@@ -241,6 +244,58 @@ void growth_with_map_size(State& state) {
   state.counters["peak_mb"] = PeakMemory::mb();
 }
 
+// Neighbours on planes and along lines, as a map gives them: 10 mm thick, on 5 scan lines.
+std::vector<Neighbours> neighbourhoods() {
+  simulation::Random random(1, 2, 1);
+  const auto within = [&](double size) { return float(size * (random.uniform() - 0.5)); };
+  std::vector<Neighbours> all(1000);
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const float width_m = k % 2 == 0 ? 0.5F : 0.01F;
+    const Eigen::Matrix3f turn = Eigen::Quaternionf::UnitRandom().toRotationMatrix();
+    Neighbours& near = all[k];
+    near.count = Neighbours::kMax;
+    near.lines = near.count / 2;
+    for (Eigen::Vector3f& p_m : near.p_m)
+      p_m = Eigen::Vector3f(20, -10, 1) +
+            turn * Eigen::Vector3f(within(0.5), within(double(width_m)), within(0.01));
+  }
+  return all;
+}
+
+void planes_and_lines(State& state) {
+  const std::vector<Neighbours> all = neighbourhoods();
+  const PatchOptions options;
+  for (auto _ : state)
+    for (std::size_t k = 0; k < all.size(); ++k)
+      if (k % 2 == 0)
+        benchmark::DoNotOptimize(fit_plane(all[k], options, 0.5));
+      else
+        benchmark::DoNotOptimize(fit_line(all[k], options, 0.5));
+  state.counters["s_per_patch"] =
+      Counter(double(all.size()), Counter::kIsIterationInvariantRate | Counter::kInvert);
+}
+
+// The eigenvectors of the same neighbours by Eigen's closed formula, without the checks of a patch.
+void planes_and_lines_by_eigen(State& state) {
+  const std::vector<Neighbours> all = neighbourhoods();
+  for (auto _ : state)
+    for (const Neighbours& near : all) {
+      Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+      Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+      for (const Eigen::Vector3f& p_m : near.p_m) {
+        const Eigen::Vector3d d = p_m.cast<double>() - near.p_m[0].cast<double>();
+        sum += d;
+        squares += d * d.transpose();
+      }
+      const Eigen::Vector3d mean = sum / near.count;
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+      solver.computeDirect(squares / near.count - mean * mean.transpose());
+      benchmark::DoNotOptimize(solver.eigenvectors());
+    }
+  state.counters["s_per_patch"] =
+      Counter(double(all.size()), Counter::kIsIterationInvariantRate | Counter::kInvert);
+}
+
 // The map of 60 s of walking, 1.7 million points, at the offset and 5 ms off; on all cores.
 void thickness_of_a_map(State& state) {
   const double offset_s = kTruth_s - 1e-3 * double(state.range(0));
@@ -263,6 +318,8 @@ BENCHMARK(thickness_of_a_map)
     ->Unit(benchmark::kMillisecond)
     ->MeasureProcessCPUTime()
     ->UseRealTime();
+BENCHMARK(planes_and_lines)->Unit(benchmark::kMicrosecond);
+BENCHMARK(planes_and_lines_by_eigen)->Unit(benchmark::kMicrosecond);
 BENCHMARK(features)->Unit(benchmark::kMillisecond);
 BENCHMARK(place_beams)->Unit(benchmark::kMillisecond);
 BENCHMARK(place_features)->Unit(benchmark::kMillisecond);

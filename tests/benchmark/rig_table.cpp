@@ -29,7 +29,7 @@
 #include "core/rig_solve/rig_check.hpp"
 #include "core/rig_solve/rig_least_squares.hpp"
 #include "core/rig_solve/rig_solve.hpp"
-#include "core/simulation/portable_math.hpp"
+#include "core/simulation/math/portable_math.hpp"
 #include "core/simulation/simulate.hpp"
 #include "tests/scene_mesh.hpp"
 #include "tests/scratch_folder.hpp"

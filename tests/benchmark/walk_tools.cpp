@@ -18,8 +18,8 @@
 
 #include "core/io/cloud_file.hpp"
 #include "core/io/trajectory_file.hpp"
-#include "core/simulation/mesh_file.hpp"
-#include "core/simulation/ray_caster.hpp"
+#include "core/simulation/meshes/mesh_file.hpp"
+#include "core/simulation/meshes/ray_caster.hpp"
 #include "tests/scene_mesh.hpp"
 
 namespace sweepscope {

@@ -16,10 +16,10 @@
 #include "core/offset/prepared/prepared.hpp"
 #include "core/offset/prepared/search_window.hpp"
 #include "core/recording/sweeps.hpp"
-#include "core/simulation/mesh.hpp"
-#include "core/simulation/motor.hpp"
-#include "core/simulation/portable_math.hpp"
-#include "core/simulation/ray_caster.hpp"
+#include "core/simulation/math/portable_math.hpp"
+#include "core/simulation/meshes/mesh.hpp"
+#include "core/simulation/meshes/ray_caster.hpp"
+#include "core/simulation/motion/motor.hpp"
 #include "core/simulation/simulate.hpp"
 
 namespace sweepscope::test {

@@ -40,7 +40,7 @@ class Receiver : public std::enable_shared_from_this<Receiver> {
     const auto size = parser_.content_length();
     if (size) upload_ = context_->hub.begin_upload(id, *size, Clock::now());
     if (!upload_) return answer(404, "No such file is waited for.\n");
-    auto file = AtomicFile::create_regular(upload_->path);
+    auto file = AtomicFile::create(upload_->path);
     if (!file) return fail(file.error().message);
     file_.emplace(std::move(*file));
     if (*size == 0) return finish();

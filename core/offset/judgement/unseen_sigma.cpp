@@ -95,10 +95,7 @@ double unseen_sigma_s(const Recording& recording, const MotorMotion& motor, doub
 }
 
 double scans_a_sweep(const Recording& recording, const MotorMotion& motor) {
-  const std::vector<double> stamps_s = scan_stamps_s(recording);
-  std::vector<double> periods_s;
-  for (std::size_t i = 1; i < stamps_s.size(); ++i) periods_s.push_back(stamps_s[i] - stamps_s[i - 1]);
-  const double period_s = median(periods_s);
+  const double period_s = median(spacings(scan_stamps_s(recording)));
   return period_s > 0 ? motor.median_sweep_s / period_s : 0;
 }
 

@@ -19,9 +19,7 @@ Remark aliased_warning(const Recording& recording, const MotorMotion& motor) {
 }
 
 Remark encoder_warning(const MotorTrack& track) {
-  std::vector<double> spacings_s;
-  for (std::size_t i = 1; i < track.time_s.size(); ++i)
-    spacings_s.push_back(track.time_s[i] - track.time_s[i - 1]);
+  std::vector<double> spacings_s = spacings(track.time_s);
   const double median_s = median(spacings_s);
   if (spacings_s.size() < 4) return std::nullopt;
   std::sort(spacings_s.begin(), spacings_s.end());

@@ -5,15 +5,6 @@
 #include "core/numbers.hpp"
 
 namespace sweepscope {
-namespace {
-
-double median_spacing_s(const std::vector<double>& times_s) {
-  std::vector<double> spacings_s;
-  for (std::size_t i = 1; i < times_s.size(); ++i) spacings_s.push_back(times_s[i] - times_s[i - 1]);
-  return median(std::move(spacings_s));
-}
-
-}  // namespace
 
 Result<PreparedRecording> prepare(std::shared_ptr<const Recording> recording, const FeatureOptions& options,
                                   const Job& job) {
@@ -26,7 +17,7 @@ Result<PreparedRecording> prepare(std::shared_ptr<const Recording> recording, co
   std::vector<double> stamps_s;
   for (const LaserScan& scan : recording->scans)
     if (scan.ring == recording->scans.front().ring) stamps_s.push_back(scan.first_beam_s);
-  prepared.line_spacing_rad = prepared.motor.median_speed_rad_s * median_spacing_s(stamps_s);
+  prepared.line_spacing_rad = prepared.motor.median_speed_rad_s * median(spacings(stamps_s));
   prepared.recording = std::move(recording);
   return prepared;
 }
@@ -40,7 +31,7 @@ std::shared_ptr<const Recording> borrowed(const Recording& recording) {
 }
 
 std::vector<char> scans_covered(const Recording& recording, double min_s, double max_s) {
-  const double max_gap_s = std::max(0.05, 5 * median_spacing_s(recording.motor.time_s));
+  const double max_gap_s = std::max(0.05, 5 * median(spacings(recording.motor.time_s)));
   std::vector<char> covered(recording.scans.size(), 0);
   for (std::size_t i = 0; i < recording.scans.size(); ++i)
     covered[i] = recording.motor.covers(recording.scans[i].first_beam_s + min_s,

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/numbers.hpp"
 #include "core/recording/stream_stamps.hpp"
 
 namespace sweepscope {
@@ -95,7 +96,7 @@ double scan_period_s(const std::vector<RawScan>& scans, StampSource stamps) {
   std::vector<double> times_s;
   times_s.reserve(all_ns.size());
   for (const std::int64_t ns : all_ns) times_s.push_back(static_cast<double>(ns - all_ns.front()) * 1e-9);
-  const double period_s = spacing(times_s, 1).median_s;
+  const double period_s = median(spacings(times_s));
   return unevenness_s(times_s) < period_s / 4 ? period_s : 0;
 }
 

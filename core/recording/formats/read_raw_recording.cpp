@@ -8,10 +8,11 @@
 
 #include "core/io/input_file.hpp"
 #include "core/recording/csv/csv_recording.hpp"
+#include "core/recording/messages/message_collector.hpp"
 #include "core/recording/packed/unpacked_file.hpp"
 #include "core/recording/ros1/ros1_record.hpp"
-#include "core/recording/ros1/ros1_recording.hpp"
-#include "core/recording/ros2/ros2_recording.hpp"
+#include "core/recording/ros2/bag_files.hpp"
+#include "core/recording/streams/message_stream.hpp"
 
 namespace sweepscope {
 namespace {
@@ -39,6 +40,74 @@ std::string not_readable(std::string_view start) {
   return "its first bytes are of no known recording format";
 }
 
+RawRecording named_recording(const fs::path& path) {
+  RawRecording raw;
+  raw.file = path.string();
+  raw.name = (path.has_filename() ? path : path.parent_path()).filename().string();
+  return raw;
+}
+
+/// "cdr" or "ros1"; messages of other encodings are only counted.
+MessageCollector::Topic collected_topic(const StreamTopic& topic) {
+  const bool ros1 = topic.encoding == "ros1", cdr = topic.encoding == "cdr";
+  const std::string md5sum = ros1 ? topic.metadata_of("md5sum") : "";
+  return {topic.name, topic.type, cdr ? Encoding::kCdr : Encoding::kRos1, ros1 || cdr,
+          md5sum.empty() ? "*" : md5sum};
+}
+
+/// Collects the messages of a file. Gives warnings about what was damaged or missing.
+Result<std::vector<std::string>> collect(const fs::path& path, MessageCollector& collector, const Job& job) {
+  UnpackingLimit limit(path);
+  const auto file = open_stream_file(path, limit, job);
+  if (!file) return tl::unexpected(file.error());
+  collector.begin_file(limit);
+  struct Topic {
+    MessageCollector::Topic topic;
+    std::optional<std::size_t> number;  // given by its first message
+  };
+  std::vector<Topic> topics;
+  const auto visit_topic = [&](const StreamTopic& topic) {
+    topics.push_back({collected_topic(topic), std::nullopt});
+    return topics.size() - 1;
+  };
+  const auto visit_message = [&](const StreamMessage& message) {
+    auto& [topic, number] = topics[message.topic];
+    if (!number) number = collector.number_of(topic);
+    return collector.add(*number, message.log_ns, message.bytes, [&] {
+      return file->format == StreamFormat::kSqlite ? fmt::format("message {}", message.id)
+                                                   : message.place.text();
+    });
+  };
+  return read_stream(*file, limit, {visit_topic, visit_message}, job);
+}
+
+Result<RawRecording> read_messages(const fs::path& path, const std::vector<fs::path>& files, const Rig& rig,
+                                   const Job& job, const ReadDetail& detail) {
+  RawRecording raw = named_recording(path);
+  MessageCollector collector(rig, raw, detail);
+  std::vector<std::string> damages;
+  for (const fs::path& file : files) {
+    const auto damage = collect(file, collector, job);
+    if (!damage) return tl::unexpected(damage.error());
+    for (const std::string& what : *damage)
+      damages.push_back(file == path ? what : fmt::format("{}: {}", file.filename().string(), what));
+  }
+  collector.finish();
+  raw.warnings.insert(raw.warnings.begin(), damages.begin(), damages.end());
+  return raw;
+}
+
+Result<RawRecording> read_ros2_folder(const fs::path& folder, const Rig& rig, const Job& job,
+                                      const ReadDetail& detail) {
+  const auto files = bag_files_of(folder);
+  if (!files) return tl::unexpected(files.error());
+  auto raw = read_messages(folder, *files, rig, job, detail);
+  if (raw && !is_described(folder))
+    raw->warnings.insert(raw->warnings.begin(),
+                         "the folder has no metadata.yaml; its bags were read in the order of their names");
+  return raw;
+}
+
 Result<RawRecording> read_folder(const fs::path& folder, const Rig& rig, const Job& job,
                                  const ReadDetail& detail) {
   std::error_code error;
@@ -60,9 +129,9 @@ Result<RawRecording> read_raw_recording(const fs::path& path, const Rig& rig, co
   if (fs::is_directory(path, ignored)) return read_folder(path, rig, job, detail);
   const auto start = beginning(path);
   if (!start) return tl::unexpected(start.error());
-  if (start->starts_with(kBagMagic)) return read_ros1_recording(path, rig, job, detail);
-  if (bag_storage(*start) || begins_zstd(std::as_bytes(std::span(*start))))
-    return read_ros2_file(path, rig, job, detail);
+  const bool packed = begins_zstd(std::as_bytes(std::span(*start)));
+  if (start->starts_with(kBagMagic) || bag_storage(*start) || packed)
+    return read_messages(path, {path}, rig, job, detail);
   return unreadable(fmt::format("{}: {}; {}", path.string(), not_readable(*start), kReadable));
 }
 

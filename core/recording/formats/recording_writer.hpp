@@ -27,12 +27,19 @@ bool can_compress(RecordingFormat format, std::string_view compression);
 /// The files that `write_recording` writes: the output, or the tables in its folder.
 std::vector<std::string> written_files(const std::filesystem::path& output, RecordingFormat format);
 
+/// An IMU's gyroscope as a topic of sensor_msgs/Imu.
+struct RawImu {
+  std::string topic;
+  RawTurnRates rates;
+};
+
 /// Writes a laser and a motor's joint as they were read: both stamps, unfiltered ranges, positions before the
-/// rig's scale and zero, the names of topics and joint. All formats read back as the same recording. MCAP
-/// files are of the ROS 2 profile. Clouds must have been read completely (CloudDetail), and are not written
-/// as CSV.
+/// rig's scale and zero, the names of topics and joint. All formats read back as the same recording. ROS 1
+/// bags are of format 2.0, MCAP files of the ROS 2 profile; their messages are in the order in which they
+/// were received, and one without a receive time gets its header stamp. Equal input gives equal bytes. Clouds
+/// must have been read completely (CloudDetail). Neither they nor an IMU are written as CSV.
 Result<void> write_recording(const RawLaser& laser, const RawJoint& joint, RecordingFormat format,
                              const std::string& compression, const std::filesystem::path& output,
-                             const Job& job);
+                             const Job& job, const std::optional<RawImu>& imu = std::nullopt);
 
 }  // namespace sweepscope

@@ -163,7 +163,7 @@ bool MessageCollector::add_cloud(Entry& entry, std::int64_t receive_ns, std::spa
   return used;
 }
 
-void MessageCollector::keep_cloud(const DecodedCloud& decoded, std::int64_t receive_ns, RawLaser& laser) {
+void MessageCollector::keep_cloud(const CloudMessage& decoded, std::int64_t receive_ns, RawLaser& laser) {
   RawCloud& cloud = laser.clouds.emplace_back();
   cloud.stamps = {decoded.header_ns, receive_ns};
   cloud.frame = decoded.frame;
@@ -218,7 +218,7 @@ bool MessageCollector::add_frames(const Entry& entry, std::int64_t receive_ns,
                                   std::span<const std::byte> message) {
   constexpr std::size_t kMaxFrames = 4096;
   if (!decode_transforms(entry.topic.encoding, message, transforms_)) return false;
-  for (const DecodedTransform& decoded : transforms_) {
+  for (const TransformMessage& decoded : transforms_) {
     if (!decoded.rotation.coeffs().allFinite() || !(decoded.rotation.norm() > 0.5)) continue;
     const RawFrame::Pose pose{
         {decoded.header_ns, receive_ns}, decoded.rotation.normalized(), decoded.translation_m};

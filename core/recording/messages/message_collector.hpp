@@ -76,7 +76,7 @@ class MessageCollector {
   bool add_scan(Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message);
   void leave_ranges_out();
   bool add_cloud(Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message);
-  void keep_cloud(const DecodedCloud& decoded, std::int64_t receive_ns, RawLaser& laser);
+  void keep_cloud(const CloudMessage& decoded, std::int64_t receive_ns, RawLaser& laser);
   bool add_joints(Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message);
   bool add_motion(const Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message);
   bool add_frames(const Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message);
@@ -90,7 +90,7 @@ class MessageCollector {
   std::map<std::tuple<std::string, std::string, Encoding>, std::size_t> numbers_;
   std::vector<std::byte> unpacked_;
   std::vector<DecodedJoint> joints_;
-  std::vector<DecodedTransform> transforms_;
+  std::vector<TransformMessage> transforms_;
   std::map<std::string, std::size_t, std::less<>> frames_;  // by the child, in RawRecording::frames
   std::size_t beams_ = 0, scan_beams_ = 0, joint_samples_ = 0, cloud_bytes_ = 0;
   bool ranges_left_out_ = false;

@@ -2,17 +2,16 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
+#include <concepts>
 #include <cstring>
 #include <limits>
 #include <numbers>
 
 #include "core/numbers.hpp"
+#include "core/recording/messages/message_archives.hpp"
 
 namespace sweepscope {
-
-static_assert(std::endian::native == std::endian::little, "messages are read as they lie");
 
 namespace {
 
@@ -34,124 +33,130 @@ constexpr MessageType kTypes[] = {
 
 constexpr std::string_view kOnlyJoint = "data";
 
-template <typename T>
-T loaded(const std::byte* bytes, bool swapped) {
-  std::array<std::byte, sizeof(T)> copy;
-  std::memcpy(copy.data(), bytes, sizeof(T));
-  if (swapped) std::reverse(copy.begin(), copy.end());
-  return std::bit_cast<T>(copy);
+// The fields of each message, in order: for MessageReader, whose messages are not const, and MessageWriter.
+
+template <typename Message, typename Type>
+concept Is = std::same_as<std::remove_const_t<Message>, Type>;
+
+template <typename Archive, Is<ScanMessage> Scan>
+void visit_fields(Archive& archive, Scan& scan) {
+  archive.header(scan.header_ns, scan.frame);
+  archive.numbers(scan.angle_min_rad, scan.angle_max_rad, scan.angle_increment_rad, scan.time_increment_s,
+                  scan.scan_time_s, scan.range_min_m, scan.range_max_m);
+  archive.array(scan.ranges_m);
+  archive.array(scan.intensities);
 }
 
-/// Walks through a message. Once something did not fit, all that follows is empty and `whole` is false.
-class Cursor {
- public:
-  Cursor(Encoding encoding, std::span<const std::byte> message) : cdr_(encoding == Encoding::kCdr) {
-    bytes_ = message;
-    if (!cdr_) return;
-    // The representation's identifier, big-endian: 0 or 1 for plain CDR; and two bytes of options.
-    whole_ = message.size() >= 4 && message[0] == std::byte{0} && message[1] <= std::byte{1};
-    if (!whole_) return;
-    swapped_ = message[1] == std::byte{0};
-    bytes_ = message.subspan(4);
-  }
+template <typename Archive, Is<CloudMessage> Cloud>
+void visit_fields(Archive& archive, Cloud& cloud) {
+  constexpr std::uint32_t kMaxFields = 256;
+  archive.header(cloud.header_ns, cloud.frame);
+  archive.numbers(cloud.height, cloud.width);
+  const auto visit_field = [](Archive& of_field, auto& field) {
+    of_field.text(field.name);
+    of_field.numbers(field.offset, field.datatype, field.count);
+  };
+  archive.list(cloud.fields, visit_field, kMaxFields);
+  archive.flag(cloud.swapped);
+  archive.numbers(cloud.point_bytes, cloud.row_bytes);
+  archive.bytes(cloud.data);
+  archive.flag(cloud.dense);
+}
 
-  template <typename T>
-  T number() {
-    align(sizeof(T));
-    const auto bytes = take(sizeof(T));
-    return bytes.empty() ? T{} : loaded<T>(bytes.data(), swapped_);
-  }
-  /// Passes over so many doubles.
-  void numbers(std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i) number<double>();
-  }
-  std::string_view text() {
-    const auto bytes = take(number<std::uint32_t>());
-    std::string_view text{reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-    if (cdr_ && text.ends_with('\0')) text.remove_suffix(1);
-    return text;
-  }
-  template <typename T>
-  PackedArray<T> array() {
-    const std::uint64_t count = number<std::uint32_t>();
-    if (count > 0) align(sizeof(T));
-    return {take(count * sizeof(T)), swapped_};
-  }
-  /// An array of so many bytes each; in CDR their first number is aligned to 4, and none lie behind the last.
-  std::span<const std::byte> records(std::uint32_t count, std::uint32_t record_bytes) {
-    constexpr std::uint32_t kAligned_bytes = 4;
-    if (count == 0) return {};
-    align(kAligned_bytes);
-    const std::uint64_t bytes = record_bytes;
-    const std::uint64_t step = cdr_ ? (bytes + kAligned_bytes - 1) / kAligned_bytes * kAligned_bytes : bytes;
-    return take(step * (count - 1) + record_bytes);
-  }
-  bool swapped() const { return swapped_; }
-  /// std_msgs/Header: in ROS 1 a number; the stamp, the frame's name.
-  std::int64_t header_ns(std::string_view* frame = nullptr) {
-    if (!cdr_) number<std::uint32_t>();
-    // ROS 2's seconds are signed; before 1970 there is no stamp.
-    const auto seconds = number<std::uint32_t>();
-    const std::int64_t nanoseconds = number<std::uint32_t>();
-    const std::string_view name = text();
-    if (frame != nullptr) *frame = name;
-    if (cdr_ && static_cast<std::int32_t>(seconds) < 0) return 0;
-    return seconds * kSecond_ns + nanoseconds;
-  }
-  bool whole() const { return whole_; }
-  /// Middlewares fill a message of CDR up to a multiple of four bytes.
-  bool at_end() const { return whole_ && bytes_.size() - at_ <= (cdr_ ? 3 : 0); }
+template <typename Archive, Is<JointStateMessage> JointState>
+void visit_fields(Archive& archive, JointState& state) {
+  archive.header(state.header_ns, state.frame);
+  archive.list(state.joints, [](Archive& of_joint, auto& joint) { of_joint.text(joint.name); });
+  archive.array(state.positions);
+  archive.array(state.velocities);
+  archive.array(state.efforts);
+}
 
- private:
-  void align(std::size_t size) {
-    if (cdr_) take((size - at_ % size) % size);
-  }
-  std::span<const std::byte> take(std::uint64_t count) {
-    if (!whole_ || count > bytes_.size() - at_) {
-      whole_ = false;
-      return {};
-    }
-    at_ += count;
-    return bytes_.subspan(at_ - count, count);
-  }
+template <typename Archive, Is<ImuMessage> Imu>
+void visit_fields(Archive& archive, Imu& imu) {
+  archive.header(imu.header_ns, imu.frame);
+  archive.numbers(imu.orientation.coeffs(), imu.orientation_covariance, imu.rate_rad_s, imu.rate_covariance,
+                  imu.acceleration_mps2, imu.acceleration_covariance);
+}
 
-  std::span<const std::byte> bytes_;
-  std::size_t at_ = 0;
-  bool cdr_, swapped_ = false, whole_ = true;
-};
+template <typename Archive, Is<std::vector<TransformMessage>> Transforms>
+void visit_fields(Archive& archive, Transforms& transforms) {
+  archive.list(transforms, [](Archive& of_transform, auto& transform) {
+    of_transform.header(transform.header_ns, transform.parent);
+    of_transform.text(transform.child);
+    of_transform.numbers(transform.translation_m, transform.rotation.coeffs());  // x, y, z, w
+  });
+}
 
-bool decode_joint_state(Cursor& cursor, std::vector<DecodedJoint>& joints) {
-  const std::int64_t header_ns = cursor.header_ns();
-  const auto names = cursor.number<std::uint32_t>();
-  for (std::uint32_t i = 0; i < names && cursor.whole(); ++i) joints.push_back({header_ns, cursor.text(), 0});
-  const auto positions = cursor.array<double>();
-  cursor.array<double>();  // velocity, which drivers leave at 0 or get wrong
-  cursor.array<double>();  // effort
-  if (positions.size() == 0) joints.clear();
-  if (!cursor.at_end() || positions.size() != joints.size()) return false;
-  for (std::size_t i = 0; i < joints.size(); ++i) joints[i].position = positions[i];
+/// False if the message is malformed.
+template <typename Message>
+bool decode(Encoding encoding, std::span<const std::byte> bytes, Message& message) {
+  MessageReader reader(encoding, bytes);
+  visit_fields(reader, message);
+  return reader.at_end();
+}
+
+bool decode_joint_state(Encoding encoding, std::span<const std::byte> message,
+                        std::vector<DecodedJoint>& joints) {
+  JointStateMessage state;
+  state.joints.swap(joints);
+  const bool whole = decode(encoding, message, state);
+  joints.swap(state.joints);
+  if (state.positions.size() == 0) joints.clear();
+  if (!whole || state.positions.size() != joints.size()) return false;
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    joints[i].header_ns = state.header_ns;
+    joints[i].position = state.positions[i];
+  }
   return true;
 }
 
-bool decode_dynamixel(Cursor& cursor, std::vector<DecodedJoint>& joints) {
-  DecodedJoint joint;
-  joint.header_ns = cursor.header_ns();
-  joint.name = cursor.text();
-  cursor.array<std::int32_t>();  // motor_ids
-  cursor.array<std::int32_t>();  // motor_temps
-  cursor.number<double>();       // goal_pos
-  joint.position = cursor.number<double>();
-  for (int i = 0; i < 3; ++i) cursor.number<double>();  // error, velocity, load
-  cursor.number<std::uint8_t>();                        // is_moving
-  joints.push_back(joint);
-  return cursor.at_end();
+bool decode_dynamixel(MessageReader reader, std::vector<DecodedJoint>& joints) {
+  DecodedJoint& joint = joints.emplace_back();
+  std::string_view frame;
+  PackedArray<std::int32_t> ids, temperatures;
+  double goal = 0;
+  std::array<double, 3> error_velocity_load{};
+  bool moving = false;
+  reader.header(joint.header_ns, frame);
+  reader.text(joint.name);
+  reader.array(ids);
+  reader.array(temperatures);
+  reader.numbers(goal, joint.position, error_velocity_load);
+  reader.flag(moving);
+  return reader.at_end();
 }
 
 template <typename T>
-bool decode_number(Cursor& cursor, std::vector<DecodedJoint>& joints) {
-  joints.push_back({0, kOnlyJoint, static_cast<double>(cursor.number<T>())});
-  return cursor.at_end();
+bool decode_number(MessageReader reader, std::vector<DecodedJoint>& joints) {
+  T value{};
+  reader.numbers(value);
+  joints.push_back({0, kOnlyJoint, static_cast<double>(value)});
+  return reader.at_end();
 }
+
+struct CloudNumber {
+  std::size_t size = 0;
+  double (*load)(const std::byte* bytes, bool swapped) = nullptr;
+};
+
+template <typename T>
+constexpr CloudNumber cloud_number() {
+  return {sizeof(T), [](const std::byte* bytes, bool swapped) {
+            return static_cast<double>(loaded<T>(bytes, swapped));
+          }};
+}
+
+/// As sensor_msgs/PointField numbers them, from 1.
+constexpr CloudNumber kCloudNumbers[] = {{},
+                                         cloud_number<std::int8_t>(),
+                                         cloud_number<std::uint8_t>(),
+                                         cloud_number<std::int16_t>(),
+                                         cloud_number<std::uint16_t>(),
+                                         cloud_number<std::int32_t>(),
+                                         cloud_number<std::uint32_t>(),
+                                         cloud_number<float>(),
+                                         cloud_number<double>()};
 
 /// The part of a rotation that is about an axis (the twist of its swing-twist decomposition).
 double angle_about(const Eigen::Vector3d& axis, const Eigen::Vector3d& vector, double scalar) {
@@ -159,23 +164,14 @@ double angle_about(const Eigen::Vector3d& axis, const Eigen::Vector3d& vector, d
   return std::remainder(2 * std::atan2(axis.dot(vector), scalar), kTurn);
 }
 
-DecodedTransform decode_transform(Cursor& cursor) {
-  DecodedTransform transform;
-  transform.header_ns = cursor.header_ns(&transform.parent);
-  transform.child = cursor.text();
-  for (double& part : transform.translation_m) part = cursor.number<double>();
-  for (double& part : transform.rotation.coeffs()) part = cursor.number<double>();  // x, y, z, w
-  return transform;
-}
-
-bool decode_turned_frames(Cursor& cursor, const Eigen::Vector3d& axis, std::vector<DecodedJoint>& joints) {
-  const auto transforms = cursor.number<std::uint32_t>();
-  for (std::uint32_t i = 0; i < transforms && cursor.whole(); ++i) {
-    const DecodedTransform frame = decode_transform(cursor);
+bool decode_turned_frames(Encoding encoding, std::span<const std::byte> message, const Eigen::Vector3d& axis,
+                          std::vector<DecodedJoint>& joints) {
+  std::vector<TransformMessage> frames;
+  const bool whole = decode(encoding, message, frames);
+  for (const TransformMessage& frame : frames)
     joints.push_back(
         {frame.header_ns, frame.child, angle_about(axis, frame.rotation.vec(), frame.rotation.w())});
-  }
-  return cursor.at_end();
+  return whole;
 }
 
 }  // namespace
@@ -208,70 +204,44 @@ void PackedArray<T>::append_to(std::vector<T>& numbers) const {
 template struct PackedArray<float>;
 template struct PackedArray<double>;
 
-std::optional<DecodedScan> decode_laser_scan(Encoding encoding, std::span<const std::byte> message) {
-  Cursor cursor(encoding, message);
-  DecodedScan scan;
-  scan.header_ns = cursor.header_ns(&scan.frame);
-  for (float* value : {&scan.angle_min_rad, &scan.angle_max_rad, &scan.angle_increment_rad,
-                       &scan.time_increment_s, &scan.scan_time_s, &scan.range_min_m, &scan.range_max_m}) {
-    *value = cursor.number<float>();
-  }
-  scan.ranges_m = cursor.array<float>();
-  scan.intensities = cursor.array<float>();
-  if (!cursor.at_end()) return std::nullopt;
-  return scan;
+template <typename Message>
+std::string encode(Encoding encoding, const Message& message, std::uint32_t sequence) {
+  MessageWriter writer(encoding, sequence);
+  visit_fields(writer, message);
+  return writer.take();
+}
+
+template std::string encode(Encoding, const ScanMessage&, std::uint32_t);
+template std::string encode(Encoding, const CloudMessage&, std::uint32_t);
+template std::string encode(Encoding, const JointStateMessage&, std::uint32_t);
+template std::string encode(Encoding, const ImuMessage&, std::uint32_t);
+template std::string encode(Encoding, const std::vector<TransformMessage>&, std::uint32_t);
+
+bool holds_stamp(Encoding encoding, std::int64_t ns) {
+  const std::int64_t max_s = encoding == Encoding::kCdr
+                                 ? std::int64_t{std::numeric_limits<std::int32_t>::max()}
+                                 : std::int64_t{std::numeric_limits<std::uint32_t>::max()};
+  return ns >= 0 && ns / kSecond_ns <= max_s;
+}
+
+std::optional<ScanMessage> decode_laser_scan(Encoding encoding, std::span<const std::byte> message) {
+  ScanMessage scan;
+  return decode(encoding, message, scan) ? std::optional(scan) : std::nullopt;
 }
 
 std::size_t CloudField::size() const {
-  constexpr std::size_t kSizes[] = {0, 1, 1, 2, 2, 4, 4, 4, 8};  // int8, uint8, int16, ... float32, float64
-  return datatype < std::size(kSizes) ? kSizes[datatype] : 0;
+  return datatype < std::size(kCloudNumbers) ? kCloudNumbers[datatype].size : 0;
 }
 
-double DecodedCloud::value(std::size_t point, const CloudField& field) const {
+double CloudMessage::value(std::size_t point, const CloudField& field) const {
   const std::byte* bytes =
       data.data() + point / width * row_bytes + point % width * point_bytes + field.offset;
-  switch (field.datatype) {
-    case 1:
-      return loaded<std::int8_t>(bytes, false);
-    case 2:
-      return loaded<std::uint8_t>(bytes, false);
-    case 3:
-      return loaded<std::int16_t>(bytes, swapped);
-    case 4:
-      return loaded<std::uint16_t>(bytes, swapped);
-    case 5:
-      return loaded<std::int32_t>(bytes, swapped);
-    case 6:
-      return loaded<std::uint32_t>(bytes, swapped);
-    case 7:
-      return double{loaded<float>(bytes, swapped)};
-    default:
-      return loaded<double>(bytes, swapped);
-  }
+  return kCloudNumbers[field.datatype].load(bytes, swapped);
 }
 
-std::optional<DecodedCloud> decode_cloud(Encoding encoding, std::span<const std::byte> message) {
-  constexpr std::uint32_t kMaxFields = 256;
-  Cursor cursor(encoding, message);
-  DecodedCloud cloud;
-  cloud.header_ns = cursor.header_ns(&cloud.frame);
-  cloud.height = cursor.number<std::uint32_t>();
-  cloud.width = cursor.number<std::uint32_t>();
-  const auto fields = cursor.number<std::uint32_t>();
-  if (fields > kMaxFields) return std::nullopt;
-  for (std::uint32_t i = 0; i < fields && cursor.whole(); ++i) {
-    CloudField& field = cloud.fields.emplace_back();
-    field.name = cursor.text();
-    field.offset = cursor.number<std::uint32_t>();
-    field.datatype = cursor.number<std::uint8_t>();
-    field.count = cursor.number<std::uint32_t>();
-  }
-  cloud.swapped = cursor.number<std::uint8_t>() != 0;
-  cloud.point_bytes = cursor.number<std::uint32_t>();
-  cloud.row_bytes = cursor.number<std::uint32_t>();
-  cloud.data = cursor.array<std::byte>().bytes;
-  cloud.dense = cursor.number<std::uint8_t>() != 0;
-  if (!cursor.at_end()) return std::nullopt;
+std::optional<CloudMessage> decode_cloud(Encoding encoding, std::span<const std::byte> message) {
+  CloudMessage cloud;
+  if (!decode(encoding, message, cloud)) return std::nullopt;
   if (cloud.points() == 0) return cloud;
   for (const CloudField& field : cloud.fields)
     if (std::uint64_t{field.offset} + field.size() > cloud.point_bytes) return std::nullopt;
@@ -283,23 +253,23 @@ std::optional<DecodedCloud> decode_cloud(Encoding encoding, std::span<const std:
   return cloud;
 }
 
-std::optional<DecodedCloud> decode_livox(Encoding encoding, std::span<const std::byte> message) {
+std::optional<CloudMessage> decode_livox(Encoding encoding, std::span<const std::byte> message) {
   constexpr std::uint32_t kPoint_bytes = 19, kPointInCdr_bytes = 20;
   constexpr std::uint64_t kSince1970_ns = 100'000'000'000'000'000, kLatest_ns = std::uint64_t{1} << 62;
   constexpr std::uint8_t kUint8 = 2, kUint32 = 6, kFloat32 = 7;
-  Cursor cursor(encoding, message);
-  DecodedCloud cloud;
-  cloud.header_ns = cursor.header_ns(&cloud.frame);
-  const auto base_ns = cursor.number<std::uint64_t>();
-  cursor.number<std::uint32_t>();                                 // point_num: the array says it too
-  for (int i = 0; i < 1 + 3; ++i) cursor.number<std::uint8_t>();  // lidar_id, and three that are reserved
+  MessageReader reader(encoding, message);
+  CloudMessage cloud;
+  std::uint64_t base_ns = 0;
+  std::uint32_t point_num = 0;  // the array says it too
+  std::array<std::uint8_t, 4> id_and_reserved{};
+  reader.header(cloud.header_ns, cloud.frame);
+  reader.numbers(base_ns, point_num, id_and_reserved, cloud.width);
   cloud.height = 1;
-  cloud.width = cursor.number<std::uint32_t>();
   cloud.point_bytes = encoding == Encoding::kCdr ? kPointInCdr_bytes : kPoint_bytes;
   cloud.row_bytes = cloud.width * cloud.point_bytes;
-  cloud.data = cursor.records(cloud.width, kPoint_bytes);
-  cloud.swapped = cursor.swapped();
-  if (!cursor.at_end() || cloud.data.size() > std::numeric_limits<std::uint32_t>::max()) return std::nullopt;
+  cloud.data = reader.records(cloud.width, kPoint_bytes);
+  cloud.swapped = reader.swapped();
+  if (!reader.at_end() || cloud.data.size() > std::numeric_limits<std::uint32_t>::max()) return std::nullopt;
   cloud.fields = {{"offset_time", 0, kUint32},  {"x", 4, kFloat32},  {"y", 8, kFloat32},  {"z", 12, kFloat32},
                   {"reflectivity", 16, kUint8}, {"tag", 17, kUint8}, {"line", 18, kUint8}};
   cloud.time_unit_s = 1e-9;
@@ -311,20 +281,20 @@ std::optional<DecodedCloud> decode_livox(Encoding encoding, std::span<const std:
 bool decode_joints(MessageKind kind, Encoding encoding, std::span<const std::byte> message,
                    const Eigen::Vector3d& axis, std::vector<DecodedJoint>& joints) {
   joints.clear();
-  Cursor cursor(encoding, message);
+  const MessageReader reader(encoding, message);
   switch (kind) {
     case MessageKind::kJointState:
-      return decode_joint_state(cursor, joints);
+      return decode_joint_state(encoding, message, joints);
     case MessageKind::kDynamixel:
-      return decode_dynamixel(cursor, joints);
+      return decode_dynamixel(reader, joints);
     case MessageKind::kFloat64:
-      return decode_number<double>(cursor, joints);
+      return decode_number<double>(reader, joints);
     case MessageKind::kFloat32:
-      return decode_number<float>(cursor, joints);
+      return decode_number<float>(reader, joints);
     case MessageKind::kInt32:
-      return decode_number<std::int32_t>(cursor, joints);
+      return decode_number<std::int32_t>(reader, joints);
     case MessageKind::kTransforms:
-      return decode_turned_frames(cursor, axis, joints);
+      return decode_turned_frames(encoding, message, axis, joints);
     case MessageKind::kLaserScan:
     case MessageKind::kCloud:
     case MessageKind::kLivox:
@@ -335,37 +305,27 @@ bool decode_joints(MessageKind kind, Encoding encoding, std::span<const std::byt
   return false;
 }
 
-std::optional<DecodedTurnRate> decode_imu(Encoding encoding, std::span<const std::byte> message) {
-  Cursor cursor(encoding, message);
-  DecodedTurnRate imu;
-  imu.header_ns = cursor.header_ns();
-  cursor.numbers(4 + 9);  // orientation and its covariance
-  for (double& part : imu.rate_rad_s) part = cursor.number<double>();
-  const auto rate_variance = cursor.number<double>();
-  cursor.numbers(8 + 3 + 9);  // the other covariances of the rate; acceleration and its covariance
-  if (!cursor.at_end() || rate_variance == -1) return std::nullopt;
+std::optional<ImuMessage> decode_imu(Encoding encoding, std::span<const std::byte> message) {
+  ImuMessage imu;
+  if (!decode(encoding, message, imu) || imu.rate_covariance[0] == -1) return std::nullopt;
   return imu;
 }
 
-std::optional<DecodedOdometry> decode_odometry(Encoding encoding, std::span<const std::byte> message) {
-  Cursor cursor(encoding, message);
-  DecodedOdometry odometry;
-  odometry.header_ns = cursor.header_ns();
-  cursor.text();  // child_frame_id
-  for (double& part : odometry.position_m) part = cursor.number<double>();
-  for (double& part : odometry.orientation.coeffs()) part = cursor.number<double>();  // x, y, z, w
-  cursor.numbers(36 + 6 + 36);  // the pose's covariance; the velocity and its covariance
-  if (!cursor.at_end()) return std::nullopt;
-  return odometry;
+std::optional<OdometryMessage> decode_odometry(Encoding encoding, std::span<const std::byte> message) {
+  MessageReader reader(encoding, message);
+  OdometryMessage odometry;
+  std::string_view frame, child;
+  std::array<double, 36 + 6 + 36> rest{};  // the pose's covariance; the velocity and its covariance
+  reader.header(odometry.header_ns, frame);
+  reader.text(child);
+  reader.numbers(odometry.position_m, odometry.orientation.coeffs(), rest);
+  return reader.at_end() ? std::optional(odometry) : std::nullopt;
 }
 
 bool decode_transforms(Encoding encoding, std::span<const std::byte> message,
-                       std::vector<DecodedTransform>& transforms) {
+                       std::vector<TransformMessage>& transforms) {
   transforms.clear();
-  Cursor cursor(encoding, message);
-  const auto count = cursor.number<std::uint32_t>();
-  for (std::uint32_t i = 0; i < count && cursor.whole(); ++i) transforms.push_back(decode_transform(cursor));
-  return cursor.at_end();
+  return decode(encoding, message, transforms);
 }
 
 }  // namespace sweepscope

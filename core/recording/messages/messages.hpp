@@ -1,10 +1,12 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -12,7 +14,7 @@ namespace sweepscope {
 
 /// The messages that an actuated scanner is recorded with, as ROS 1 and ROS 2 serialise them. Each decoder is
 /// bounded: a length beyond the message's end, or excess bytes, make it malformed, and nothing is allocated
-/// for it. The results point into the message's bytes.
+/// for it. A message's struct points to texts and arrays: after decoding into the message's bytes.
 
 /// How a message is serialised: by ROS 1, or by ROS 2 as plain CDR (XCDR1) of either byte order.
 enum class Encoding { kRos1, kCdr };
@@ -64,7 +66,7 @@ struct PackedArray {
   void append_to(std::vector<T>& numbers) const;
 };
 
-struct DecodedScan {
+struct ScanMessage {
   std::int64_t header_ns = 0;
   std::string_view frame;
   float angle_min_rad = 0, angle_max_rad = 0, angle_increment_rad = 0;
@@ -84,7 +86,7 @@ struct CloudField {
   bool whole_number() const { return datatype < 7; }
 };
 
-struct DecodedCloud {
+struct CloudMessage {
   std::int64_t header_ns = 0;
   std::string_view frame;
   std::uint32_t height = 0, width = 0, point_bytes = 0, row_bytes = 0;
@@ -107,39 +109,59 @@ struct DecodedJoint {
 };
 
 /// A frame's pose in its parent frame.
-struct DecodedTransform {
+struct TransformMessage {
   std::int64_t header_ns = 0;
   std::string_view parent, child;
   Eigen::Vector3d translation_m = Eigen::Vector3d::Zero();
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
 };
 
-/// An IMU's angular velocity, in its own frame.
-struct DecodedTurnRate {
+/// A motor's joints, as one message has them; DecodedJoint::position and header_ns are not used.
+struct JointStateMessage {
   std::int64_t header_ns = 0;
-  Eigen::Vector3d rate_rad_s = Eigen::Vector3d::Zero();
+  std::string_view frame;
+  std::vector<DecodedJoint> joints;
+  PackedArray<double> positions, velocities, efforts;
+};
+
+/// What an IMU measures, in its own frame. A covariance that begins with -1: it is not measured.
+struct ImuMessage {
+  using Covariance = std::array<double, 9>;
+  std::int64_t header_ns = 0;
+  std::string_view frame;
+  Eigen::Quaterniond orientation{0, 0, 0, 0};
+  Eigen::Vector3d rate_rad_s = Eigen::Vector3d::Zero(), acceleration_mps2 = Eigen::Vector3d::Zero();
+  Covariance orientation_covariance{}, rate_covariance{}, acceleration_covariance{};
 };
 
 /// The pose of the base frame by odometry, in odometry's own fixed frame.
-struct DecodedOdometry {
+struct OdometryMessage {
   std::int64_t header_ns = 0;
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
 };
 
+/// The bytes of a ScanMessage, CloudMessage, JointStateMessage, ImuMessage, or of a vector of
+/// TransformMessage (TFMessage). A header's number, which ROS 1 has, is `sequence`.
+template <typename Message>
+std::string encode(Encoding encoding, const Message& message, std::uint32_t sequence = 0);
+
+/// Whether a header holds the time: seconds are 32 bits, in ROS 2 with a sign.
+bool holds_stamp(Encoding encoding, std::int64_t ns);
+
 /// Empty where the message is malformed.
-std::optional<DecodedScan> decode_laser_scan(Encoding encoding, std::span<const std::byte> message);
+std::optional<ScanMessage> decode_laser_scan(Encoding encoding, std::span<const std::byte> message);
 
 /// A cloud's fields lie within its points, and its points within its data.
-std::optional<DecodedCloud> decode_cloud(Encoding encoding, std::span<const std::byte> message);
+std::optional<CloudMessage> decode_cloud(Encoding encoding, std::span<const std::byte> message);
 
 /// A CustomMsg of livox_ros_driver or livox_ros_driver2, as the cloud with the same numbers; its last point
 /// may be shorter than `point_bytes` by what lies behind the last field. The header's stamp is that of the
 /// cloud's base time where this counts since 1970: the header's own may then be the publisher's. A base time
 /// since the scanner was switched on is on no other clock, and the header's own stamp stands for it.
-std::optional<DecodedCloud> decode_livox(Encoding encoding, std::span<const std::byte> message);
+std::optional<CloudMessage> decode_livox(Encoding encoding, std::span<const std::byte> message);
 /// Either of the two, as `kind` says.
-inline std::optional<DecodedCloud> decode_points(MessageKind kind, Encoding encoding,
+inline std::optional<CloudMessage> decode_points(MessageKind kind, Encoding encoding,
                                                  std::span<const std::byte> message) {
   return kind == MessageKind::kLivox ? decode_livox(encoding, message) : decode_cloud(encoding, message);
 }
@@ -151,11 +173,11 @@ bool decode_joints(MessageKind kind, Encoding encoding, std::span<const std::byt
                    const Eigen::Vector3d& axis, std::vector<DecodedJoint>& joints);
 
 /// Also empty if an IMU reports that it has no gyroscope: -1 as the first covariance of its angular velocity.
-std::optional<DecodedTurnRate> decode_imu(Encoding encoding, std::span<const std::byte> message);
-std::optional<DecodedOdometry> decode_odometry(Encoding encoding, std::span<const std::byte> message);
+std::optional<ImuMessage> decode_imu(Encoding encoding, std::span<const std::byte> message);
+std::optional<OdometryMessage> decode_odometry(Encoding encoding, std::span<const std::byte> message);
 
 /// All transforms of a message of transforms, in the same way.
 bool decode_transforms(Encoding encoding, std::span<const std::byte> message,
-                       std::vector<DecodedTransform>& transforms);
+                       std::vector<TransformMessage>& transforms);
 
 }  // namespace sweepscope

@@ -17,7 +17,7 @@ constexpr std::uint32_t kMaxBeams_a_line = 60'000;  // features count beams in 1
 constexpr std::size_t kSparsest = 8;                // steps of the time's grid per point, at the most
 
 /// The first of the names that the cloud has, with a datatype that is a number.
-const CloudField* field_of(const DecodedCloud& cloud, std::initializer_list<std::string_view> names) {
+const CloudField* field_of(const CloudMessage& cloud, std::initializer_list<std::string_view> names) {
   for (const std::string_view name : names)
     for (const CloudField& field : cloud.fields)
       if (field.name == name && field.size() > 0) return &field;
@@ -36,9 +36,8 @@ double wrapped(double angle_rad) {
 
 template <typename Points>
 double median_step(const Points& points) {
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < points.size(); ++i)
-    if (points[i].time > points[i - 1].time) steps.push_back(points[i].time - points[i - 1].time);
+  std::vector<double> steps = spacings(points, &Points::value_type::time);
+  std::erase_if(steps, [](double step) { return !(step > 0); });
   return median(std::move(steps));
 }
 
@@ -92,7 +91,7 @@ std::string no_line(const Points& points) {
 
 }  // namespace
 
-bool CloudReader::read_points(const DecodedCloud& cloud) {
+bool CloudReader::read_points(const CloudMessage& cloud) {
   const CloudField* const xyz[] = {field_of(cloud, {"x"}), field_of(cloud, {"y"}), field_of(cloud, {"z"})};
   const CloudField* const time = field_of(cloud, {"t", "time", "timestamp", "offset_time"});
   const CloudField* const ring = field_of(cloud, {"ring", "line", "channel"});
@@ -219,12 +218,12 @@ void CloudReader::number_slices(double first_time) {
   }
 }
 
-bool CloudReader::counts_since_1970(const DecodedCloud& cloud) {
+bool CloudReader::counts_since_1970(const CloudMessage& cloud) {
   CloudReader reader;
   return cloud.has_time_base || (reader.read_points(cloud) && reader.absolute_);
 }
 
-bool CloudReader::add(const std::optional<DecodedCloud>& cloud, std::int64_t receive_ns, RawLaser& laser) {
+bool CloudReader::add(const std::optional<CloudMessage>& cloud, std::int64_t receive_ns, RawLaser& laser) {
   problem_.clear();
   if (!cloud) return problem_ = "it is malformed", false;
   if (!read_points(*cloud)) return false;

@@ -29,7 +29,7 @@ class CloudReader {
  public:
   /// Adds a cloud's lines; `cloud` is what decoding it gave, empty if the message is malformed. Adds nothing
   /// and returns false if it is, or if its points have no position or no time.
-  bool add(const std::optional<DecodedCloud>& cloud, std::int64_t receive_ns, RawLaser& laser);
+  bool add(const std::optional<CloudMessage>& cloud, std::int64_t receive_ns, RawLaser& laser);
   /// The same of a sensor_msgs/PointCloud2.
   bool add(Encoding encoding, std::span<const std::byte> message, std::int64_t receive_ns, RawLaser& laser) {
     return add(decode_cloud(encoding, message), receive_ns, laser);
@@ -38,7 +38,7 @@ class CloudReader {
   const std::string& problem() const { return problem_; }
 
   /// Whether a cloud's points tell the time since 1970, so that its header's stamp does not matter.
-  static bool counts_since_1970(const DecodedCloud& cloud);
+  static bool counts_since_1970(const CloudMessage& cloud);
 
  private:
   struct Point {
@@ -47,7 +47,7 @@ class CloudReader {
     float intensity = 0;
     std::uint32_t ring = 0;
   };
-  bool read_points(const DecodedCloud& cloud);
+  bool read_points(const CloudMessage& cloud);
   void number_slices(double first_time);
   bool choose_unit(bool whole_numbers, double known_s);
   std::size_t beams_before(double azimuth_rad, double step_rad);

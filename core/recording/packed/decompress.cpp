@@ -13,13 +13,15 @@ namespace {
 
 constexpr std::size_t kFirstBuffer_bytes = std::size_t{1} << 20;
 
-/// The part of a buffer that is still free. It grows by doubling, so that a header's claim alone allocates
-/// nothing.
+/// What a block unpacks to. The buffer grows by doubling, so that a header's claim alone allocates nothing.
 class Output {
  public:
   Output(std::vector<std::byte>& buffer, std::size_t max_bytes) : buffer_(buffer), max_bytes_(max_bytes) {}
 
-  std::span<std::byte> free_space() {
+  /// Where the next bytes go. Once full, one byte more tells an end that is due from a block that is longer
+  /// than it may be.
+  std::span<std::byte> space() {
+    if (full()) return std::span(&overflow_, 1);
     if (used_ == buffer_.size()) {
       const std::size_t bytes = std::min(max_bytes_, std::max(kFirstBuffer_bytes, 2 * buffer_.size()));
       buffer_.reserve(bytes);  // exactly, where resize() alone would take up to twice what was there
@@ -27,19 +29,28 @@ class Output {
     }
     return std::span(buffer_).first(std::min(buffer_.size(), max_bytes_)).subspan(used_);
   }
-  void take(std::size_t bytes) { used_ += bytes; }
-  bool full() const { return used_ == max_bytes_; }
-  std::span<const std::byte> bytes() const { return std::span(buffer_).first(used_); }
+  /// False where the block is too long.
+  bool take(std::size_t bytes) {
+    if (full()) return bytes == 0;
+    used_ += bytes;
+    return true;
+  }
+  Decompressed ended(std::string problem = "") const {
+    return {std::span(buffer_).first(used_), std::move(problem)};
+  }
+  Decompressed too_long() const {
+    return {std::span(buffer_).first(used_), fmt::format("it unpacks to more than {} bytes", max_bytes_),
+            true};
+  }
 
  private:
+  bool full() const { return used_ == max_bytes_; }
+
   std::vector<std::byte>& buffer_;
   std::size_t max_bytes_;
   std::size_t used_ = 0;
+  std::byte overflow_{};
 };
-
-std::string too_long(std::size_t max_bytes) {
-  return fmt::format("it unpacks to more than {} bytes", max_bytes);
-}
 
 Decompressed unpack_bz2(std::span<const std::byte> block, std::size_t max_bytes,
                         std::vector<std::byte>& buffer) {
@@ -51,20 +62,15 @@ Decompressed unpack_bz2(std::span<const std::byte> block, std::size_t max_bytes,
   stream.avail_in = static_cast<unsigned>(block.size());
   Output output(buffer, max_bytes);
   while (true) {
-    // Once full, one byte more tells an end that is due from a block that is longer than it may be.
-    char overflow = 0;
-    const bool full = output.full();
-    const std::span<std::byte> space =
-        full ? std::as_writable_bytes(std::span(&overflow, 1)) : output.free_space();
+    const std::span<std::byte> space = output.space();
     stream.next_out = reinterpret_cast<char*>(space.data());
     stream.avail_out = static_cast<unsigned>(space.size());
     const int code = BZ2_bzDecompress(&stream);
     const std::size_t written = space.size() - stream.avail_out;
-    if (full && written > 0) return {output.bytes(), too_long(max_bytes), true};
-    output.take(written);
-    if (code == BZ_STREAM_END) return {output.bytes(), ""};
-    if (code != BZ_OK) return {output.bytes(), "its bz2 data is damaged"};
-    if (stream.avail_in == 0 && written == 0) return {output.bytes(), "its bz2 data ends too early"};
+    if (!output.take(written)) return output.too_long();
+    if (code == BZ_STREAM_END) return output.ended();
+    if (code != BZ_OK) return output.ended("its bz2 data is damaged");
+    if (stream.avail_in == 0 && written == 0) return output.ended("its bz2 data ends too early");
   }
 }
 
@@ -77,20 +83,16 @@ Decompressed unpack_lz4(std::span<const std::byte> block, std::size_t max_bytes,
                                                                          LZ4F_freeDecompressionContext);
   Output output(buffer, max_bytes);
   while (true) {
-    char overflow = 0;
-    const bool full = output.full();
-    const std::span<std::byte> space =
-        full ? std::as_writable_bytes(std::span(&overflow, 1)) : output.free_space();
+    const std::span<std::byte> space = output.space();
     std::size_t written = space.size();
     std::size_t eaten = block.size();
     // Not LZ4F_decompressOptions_t::stableDst: the buffer moves as it grows.
     const std::size_t hint = LZ4F_decompress(context, space.data(), &written, block.data(), &eaten, nullptr);
-    if (LZ4F_isError(hint)) return {output.bytes(), "its lz4 data is damaged"};
-    if (full && written > 0) return {output.bytes(), too_long(max_bytes), true};
-    output.take(written);
+    if (LZ4F_isError(hint)) return output.ended("its lz4 data is damaged");
+    if (!output.take(written)) return output.too_long();
     block = block.subspan(eaten);
-    if (hint == 0) return {output.bytes(), ""};
-    if (eaten == 0 && written == 0) return {output.bytes(), "its lz4 data ends too early"};
+    if (hint == 0) return output.ended();
+    if (eaten == 0 && written == 0) return output.ended("its lz4 data ends too early");
   }
 }
 
@@ -101,19 +103,14 @@ Decompressed unpack_zstd(std::span<const std::byte> block, std::size_t max_bytes
   Output output(buffer, max_bytes);
   ZSTD_inBuffer input{block.data(), block.size(), 0};
   while (true) {
-    char overflow = 0;
-    const bool full = output.full();
-    const std::span<std::byte> space =
-        full ? std::as_writable_bytes(std::span(&overflow, 1)) : output.free_space();
+    const std::span<std::byte> space = output.space();
     ZSTD_outBuffer written{space.data(), space.size(), 0};
     const std::size_t eaten_before = input.pos;
     const std::size_t hint = ZSTD_decompressStream(context.get(), &written, &input);
-    if (ZSTD_isError(hint)) return {output.bytes(), "its zstd data is damaged"};
-    if (full && written.pos > 0) return {output.bytes(), too_long(max_bytes), true};
-    output.take(written.pos);
-    if (hint == 0 && input.pos == input.size) return {output.bytes(), ""};
-    if (input.pos == eaten_before && written.pos == 0)
-      return {output.bytes(), "its zstd data ends too early"};
+    if (ZSTD_isError(hint)) return output.ended("its zstd data is damaged");
+    if (!output.take(written.pos)) return output.too_long();
+    if (hint == 0 && input.pos == input.size) return output.ended();
+    if (input.pos == eaten_before && written.pos == 0) return output.ended("its zstd data ends too early");
   }
 }
 

@@ -29,13 +29,7 @@ LaserChoice choice_of(const RawLaser& laser) {
 }
 
 JointChoice choice_of(const RawJoint& joint, double scale) {
-  double least = HUGE_VAL, most = -HUGE_VAL;
-  for (const double position : joint.positions) {
-    if (!std::isfinite(position)) continue;
-    least = std::min(least, position);
-    most = std::max(most, position);
-  }
-  const double turned_deg = most > least ? (most - least) * std::abs(scale) * kDegPerRad : 0;
+  const double turned_deg = range_of(joint) * std::abs(scale) * kDegPerRad;
   return {joint.topic, joint.joint, joint.source, joint.positions.size(), turned_deg};
 }
 

@@ -70,10 +70,10 @@ TEST_F(AddedTopics, ATransformIsThatOfTheTrueTime) {
   ApplyOptions options = at_24_ms();
   options.add.transforms = true;
   ASSERT_TRUE(apply(turning_bag(folder_ / "in.bag"), "out.bag", options));
-  std::vector<DecodedTransform> transforms;
+  std::vector<TransformMessage> transforms;
   for (const Seen& seen : of_topic(of_bag(folder_ / "out.bag"), "/tf")) {
     ASSERT_TRUE(decode_transforms(Encoding::kRos1, std::as_bytes(std::span(seen.bytes)), transforms));
-    const DecodedTransform& laser = transforms.front();
+    const TransformMessage& laser = transforms.front();
     EXPECT_EQ(laser.parent, "base_link");
     EXPECT_EQ(laser.child, "laser");
     const double since_s = static_cast<double>(laser.header_ns) * 1e-9 - test::kStart_s;

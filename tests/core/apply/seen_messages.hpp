@@ -31,7 +31,6 @@ struct Seen {
 
 /// But for the record of what was done.
 inline std::vector<Seen> of_bag(const fs::path& path) {
-  const RosHome home;
   rosbag::Bag bag(path.string());
   rosbag::View view(bag);
   std::vector<Seen> all;

@@ -14,12 +14,12 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "core/apply/message_stream.hpp"
 #include "core/live/calibration.hpp"
 #include "core/live/foxglove_protocol.hpp"
 #include "core/recording/formats/read_raw_recording.hpp"
 #include "core/recording/formats/read_recording.hpp"
 #include "core/recording/formats/recording_writer.hpp"
+#include "core/recording/streams/message_stream.hpp"
 #include "core/simulation/simulate.hpp"
 #include "core/simulation/write_simulation.hpp"
 #include "tests/folder_test.hpp"

@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "core/geometry/map_cloud.hpp"
-#include "core/simulation/portable_math.hpp"
+#include "core/simulation/math/portable_math.hpp"
 
 namespace sweepscope::test {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/offset/estimator.hpp"
-#include "core/simulation/scene.hpp"
+#include "core/simulation/scenes/scene.hpp"
 #include "tests/core/cloud_bench.hpp"
 
 namespace sweepscope {

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "core/recording/ros1/ros_libraries.hpp"
+#include "tests/core/recording/message_allocator.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace sweepscope::test {

@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 
-#include "core/simulation/glass.hpp"
-#include "core/simulation/people.hpp"
-#include "core/simulation/portable_math.hpp"
+#include "core/simulation/math/portable_math.hpp"
+#include "core/simulation/scenes/glass.hpp"
+#include "core/simulation/scenes/people.hpp"
 #include "core/simulation/sensor.hpp"
 #include "core/simulation/simulate.hpp"
 

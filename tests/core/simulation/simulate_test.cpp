@@ -7,7 +7,7 @@
 #include <bit>
 #include <cmath>
 
-#include "core/simulation/portable_math.hpp"
+#include "core/simulation/math/portable_math.hpp"
 #include "core/simulation/sensor.hpp"
 
 namespace sweepscope {

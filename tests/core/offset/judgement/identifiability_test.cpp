@@ -7,7 +7,7 @@
 
 #include "core/offset/judgement/unseen_sigma.hpp"
 #include "core/offset/judgement/warnings.hpp"
-#include "core/simulation/portable_math.hpp"
+#include "core/simulation/math/portable_math.hpp"
 #include "tests/core/engine_fixtures.hpp"
 
 namespace sweepscope {

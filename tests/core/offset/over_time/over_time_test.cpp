@@ -12,7 +12,7 @@
 #include "core/offset/estimator.hpp"
 #include "core/recording/formats/recording_file.hpp"
 #include "core/results/estimate_json.hpp"
-#include "core/simulation/portable_math.hpp"
+#include "core/simulation/math/portable_math.hpp"
 #include "core/simulation/write_simulation.hpp"
 #include "tests/core/engine_fixtures.hpp"
 #include "tests/folder_test.hpp"

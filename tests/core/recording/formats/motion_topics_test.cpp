@@ -9,7 +9,7 @@
 #include "core/recording/messages/messages.hpp"
 #include "core/recording/rig.hpp"
 #include "core/recording/rig/detect_rig.hpp"
-#include "core/recording/ros2/mcap_writer.hpp"
+#include "core/recording/streams/message_sink.hpp"
 #include "tests/core/recording/message_bytes.hpp"
 #include "tests/core/recording/test_bag.hpp"
 #include "tests/core/recording/test_database.hpp"
@@ -177,15 +177,14 @@ TEST(MotionTopics, OfARos2DatabaseAreRead) {
 
 TEST(MotionTopics, OfAnMcapFileAreRead) {
   const test::ScratchFolder folder;
-  auto writer = McapWriter::create(folder / "a.mcap", Compression::kZstd, "ros2").value();
+  const auto sink = create_mcap_sink(folder / "a.mcap", Compression::kZstd, "ros2", {}).value();
   for (const auto& [name, type] : kTopics)
-    ASSERT_TRUE(writer.add_channel({name, "cdr", type, "*", "ros2msg", "", {}}));
+    ASSERT_TRUE(sink->add_topic({name, type, "cdr", "ros2msg", "", "", {}}));
   write_messages([&](std::size_t topic, std::int64_t receive_ns, const std::string& bytes) {
-    const auto ns = static_cast<std::uint64_t>(receive_ns);
-    ASSERT_TRUE(
-        writer.write({static_cast<std::uint16_t>(topic - 1), 0, ns, ns}, std::as_bytes(std::span(bytes))));
+    ASSERT_TRUE(sink->write(
+        {topic - 1, receive_ns, receive_ns, 0, 0, Compression::kNone, std::as_bytes(std::span(bytes))}));
   });
-  ASSERT_TRUE(writer.finish());
+  ASSERT_TRUE(sink->finish({}));
   expect_both(folder / "a.mcap");
 }
 

@@ -4,7 +4,7 @@
 #include "core/recording/formats/read_raw_recording.hpp"
 #include "core/recording/formats/read_recording.hpp"
 #include "core/recording/formats/recording_writer.hpp"
-#include "core/recording/ros2/cdr_writer.hpp"
+#include "core/recording/messages/raw_messages.hpp"
 #include "core/simulation/write_simulation.hpp"
 #include "tests/core/engine_fixtures.hpp"
 #include "tests/core/recording/test_bag.hpp"
@@ -45,9 +45,9 @@ class RecordingForms : public testing::Test {
     database.topic(1, laser.topic, "sensor_msgs/msg/LaserScan");
     database.topic(2, joint.topic, "sensor_msgs/msg/JointState");
     for (std::size_t i = 0; i < laser.scans.size(); ++i)
-      database.message(1, laser.scans[i].stamps.receive_ns, packed(cdr_laser_scan(laser, i)));
+      database.message(1, laser.scans[i].stamps.receive_ns, packed(message_of(Encoding::kCdr, laser, i)));
     for (std::size_t i = 0; i < joint.stamps.size(); ++i)
-      database.message(2, joint.stamps[i].receive_ns, packed(cdr_joint_state(joint, i)));
+      database.message(2, joint.stamps[i].receive_ns, packed(message_of(Encoding::kCdr, joint, i)));
   }
   /// As rosbag2 leaves a file of its compression mode FILE.
   void pack(const std::string& name) const {

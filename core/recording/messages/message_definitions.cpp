@@ -1,0 +1,82 @@
+#include "core/recording/messages/message_definitions.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace sweepscope {
+namespace {
+
+/// The members of a type, which differ between ROS 1 and ROS 2 where `ros2` is not empty.
+struct Members {
+  std::string_view type, members, ros2 = "";
+};
+
+constexpr Members kMembers[] = {
+    {"sensor_msgs/LaserScan",
+     "std_msgs/Header header\nfloat32 angle_min\nfloat32 angle_max\nfloat32 angle_increment\n"
+     "float32 time_increment\nfloat32 scan_time\nfloat32 range_min\nfloat32 range_max\nfloat32[] ranges\n"
+     "float32[] intensities\n"},
+    {"sensor_msgs/PointCloud2",
+     "std_msgs/Header header\nuint32 height\nuint32 width\nPointField[] fields\nbool is_bigendian\n"
+     "uint32 point_step\nuint32 row_step\nuint8[] data\nbool is_dense\n"},
+    {"sensor_msgs/PointField",
+     "uint8 INT8=1\nuint8 UINT8=2\nuint8 INT16=3\nuint8 UINT16=4\nuint8 INT32=5\nuint8 UINT32=6\n"
+     "uint8 FLOAT32=7\nuint8 FLOAT64=8\nstring name\nuint32 offset\nuint8 datatype\nuint32 count\n"},
+    {"sensor_msgs/JointState",
+     "std_msgs/Header header\nstring[] name\nfloat64[] position\nfloat64[] velocity\nfloat64[] effort\n"},
+    {"sensor_msgs/Imu",
+     "std_msgs/Header header\ngeometry_msgs/Quaternion orientation\nfloat64[9] orientation_covariance\n"
+     "geometry_msgs/Vector3 angular_velocity\nfloat64[9] angular_velocity_covariance\n"
+     "geometry_msgs/Vector3 linear_acceleration\nfloat64[9] linear_acceleration_covariance\n"},
+    {"tf2_msgs/TFMessage", "geometry_msgs/TransformStamped[] transforms\n"},
+    {"geometry_msgs/TransformStamped",
+     "std_msgs/Header header\nstring child_frame_id\nTransform transform\n"},
+    {"geometry_msgs/Transform", "Vector3 translation\nQuaternion rotation\n"},
+    {"geometry_msgs/Vector3", "float64 x\nfloat64 y\nfloat64 z\n"},
+    {"geometry_msgs/Quaternion", "float64 x\nfloat64 y\nfloat64 z\nfloat64 w\n",
+     "float64 x 0\nfloat64 y 0\nfloat64 z 0\nfloat64 w 1\n"},
+    {"std_msgs/Header", "uint32 seq\ntime stamp\nstring frame_id\n",
+     "builtin_interfaces/Time stamp\nstring frame_id\n"},
+    {"builtin_interfaces/Time", "", "int32 sec\nuint32 nanosec\n"},
+};
+
+/// A message and the types that it uses besides its header, in the order of the definition.
+struct Message {
+  std::string_view type;
+  std::array<std::string_view, 4> uses;
+};
+
+constexpr Message kMessages[] = {
+    {"sensor_msgs/LaserScan", {}},
+    {"sensor_msgs/PointCloud2", {"sensor_msgs/PointField"}},
+    {"sensor_msgs/JointState", {}},
+    {"sensor_msgs/Imu", {"geometry_msgs/Quaternion", "geometry_msgs/Vector3"}},
+    {"tf2_msgs/TFMessage",
+     {"geometry_msgs/TransformStamped", "geometry_msgs/Transform", "geometry_msgs/Vector3",
+      "geometry_msgs/Quaternion"}},
+};
+
+std::string_view members_of(std::string_view type, Encoding encoding) {
+  const Members& found = *std::ranges::find(kMembers, type, &Members::type);
+  return encoding == Encoding::kCdr && !found.ros2.empty() ? found.ros2 : found.members;
+}
+
+}  // namespace
+
+std::string message_definition(std::string_view type, Encoding encoding) {
+  const MessageType* known = find_message_type(type);
+  if (known == nullptr) return "";
+  const auto* const message = std::ranges::find(kMessages, known->name, &Message::type);
+  if (message == std::end(kMessages)) return "";
+  std::string text(members_of(message->type, encoding));
+  const auto add = [&](std::string_view used) {
+    text.append(80, '=').append("\nMSG: ").append(used).append("\n").append(members_of(used, encoding));
+  };
+  for (const std::string_view used : message->uses)
+    if (!used.empty()) add(used);
+  add("std_msgs/Header");
+  if (encoding == Encoding::kCdr) add("builtin_interfaces/Time");
+  return text;
+}
+
+}  // namespace sweepscope

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "core/recording/messages/messages.hpp"
+
+namespace sweepscope {
+
+/// The definition of a message that sweepscope writes, with those that it uses, as ROS 1 bags and MCAP's
+/// schemas
+/// ("ros1msg", "ros2msg") hold it. `type` is in ROS 1's spelling or in ROS 2's; empty for other types.
+std::string message_definition(std::string_view type, Encoding encoding);
+
+}  // namespace sweepscope
