@@ -3,7 +3,10 @@
 #include <sys/wait.h>
 
 #include <cstdlib>
+#include <map>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "tests/folder_test.hpp"
 
@@ -39,6 +42,20 @@ class ProgramTest : public FolderTest {
 
   Outcome run(const std::string& arguments, const std::string& environment = "-u DISPLAY") const {
     return run_program(folder_, arguments, environment);
+  }
+  /// Puts here what these command lines make in an empty folder. They run once per program of tests.
+  void make(const std::vector<std::string>& commands) const {
+    static std::map<std::vector<std::string>, std::unique_ptr<ScratchFolder>> made;
+    if (!made.contains(commands)) {
+      auto folder = std::make_unique<ScratchFolder>();
+      for (const std::string& command : commands) {
+        const Outcome outcome = run_program(folder->path(), command);
+        ASSERT_EQ(outcome.exit_code, 0) << command << ": " << outcome.err;
+      }
+      for (const char* said : {"said.out", "said.err"}) std::filesystem::remove(*folder / said);
+      made[commands] = std::move(folder);
+    }
+    std::filesystem::copy(made[commands]->path(), folder_, std::filesystem::copy_options::recursive);
   }
   bool exists(const std::string& name) const { return std::filesystem::exists(folder_ / name); }
 };

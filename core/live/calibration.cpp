@@ -59,27 +59,28 @@ bool exceeds(const RawRecording& raw, const HeardSoFar& heard, const HeardLimits
 /// Since when nothing has come that brings the end nearer: a scan stamped later than all before.
 class Silence {
  public:
-  void hear(const HeardSoFar& heard) {
-    if (heard.scans != now_.scans || heard.motor_samples != now_.motor_samples) newest_ = Clock::now();
+  explicit Silence(Clock::time_point begin) : latest_(begin), newest_(begin) {}
+  void hear(const HeardSoFar& heard, Clock::time_point now) {
+    if (heard.scans != now_.scans || heard.motor_samples != now_.motor_samples) newest_ = now;
     now_ = heard;
     if (heard.scans == 0 || heard.seconds <= furthest_s_) return;
     furthest_s_ = heard.seconds;
-    latest_ = Clock::now();
+    latest_ = now;
     then_ = heard;
   }
   /// None before it has lasted so long. Whether all is silent, or something still comes, shows only then: a
   /// driver that stops may send its last motor samples after its last scan.
-  std::optional<ListeningEnd> ended(double after_s) const {
+  std::optional<ListeningEnd> ended(double after_s, Clock::time_point now) const {
     const std::chrono::duration<double> after(after_s);
-    if (Clock::now() - newest_ > after) return ListeningEnd::kSilence;
+    if (now - newest_ > after) return ListeningEnd::kSilence;
     if (newest_ - latest_ <= after) return std::nullopt;
     return now_.scans != then_.scans ? ListeningEnd::kStampsStandStill : ListeningEnd::kNoScans;
   }
 
  private:
   HeardSoFar now_, then_;
-  double furthest_s_ = -1;                                      // the first scan is at 0
-  Clock::time_point latest_ = Clock::now(), newest_ = latest_;  // newest_: of anything
+  double furthest_s_ = -1;             // the first scan is at 0
+  Clock::time_point latest_, newest_;  // newest_: of anything
 };
 
 Estimate refused(const RawRecording& raw, const std::string& reason) {
@@ -123,18 +124,19 @@ Result<ListeningEnd> listen(
   constexpr std::chrono::milliseconds kAtATime(50);
   RunningAnswer running;
   const HeardLimits limits = limits_of(options);
-  Silence silence;
+  Silence silence(options.now());
   double next_answer_s = options.every_s;
   while (!job.cancelled()) {
     const auto more = source.listen(kAtATime);
     if (!more) return tl::unexpected(more.error());
     const HeardSoFar heard = heard_so_far(source.so_far());
-    silence.hear(heard);
+    const Clock::time_point now = options.now();
+    silence.hear(heard, now);
     job.report("listening", heard.seconds / options.seconds);
     if (heard.seconds >= options.seconds) return ListeningEnd::kHeardEnough;
     if (!*more) return ListeningEnd::kInputEnded;
     if (exceeds(source.so_far(), heard, limits)) return ListeningEnd::kTooMuch;
-    if (const auto end = silence.ended(options.silence_s)) return *end;
+    if (const auto end = silence.ended(options.silence_s, now)) return *end;
     if (const auto answer = running.take()) tell(running.about(), *answer);
     if (running.idle() && heard.seconds >= next_answer_s) {
       running.begin(source, options);

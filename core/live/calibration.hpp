@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -22,6 +23,8 @@ struct CalibrationOptions {
   Rig rig;
   std::optional<StampSource> stamps;
   EstimateOptions estimate;
+  std::function<std::chrono::steady_clock::time_point()> now =
+      std::chrono::steady_clock::now;  // what silence is measured by
 };
 
 /// How much was received: from the laser with the most scans, and from all joints.

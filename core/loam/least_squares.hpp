@@ -2,9 +2,7 @@
 
 // The mathematics: docs/algorithms.md, section 2.
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
 
 #include "core/geometry/pose.hpp"
 
@@ -35,20 +33,7 @@ inline double cauchy_weight(double residual, double scale) {
 
 /// Minimises x' A x / 2 + g' x. Directions whose eigenvalue is below `min_eigenvalue` are not changed: what
 /// the scene does not determine keeps its value. `free_directions` counts them.
-inline Vector6d solve_determined(const Matrix6d& a, const Vector6d& g, double min_eigenvalue,
-                                 int& free_directions) {
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(a);
-  Vector6d step = Vector6d::Zero();
-  free_directions = 0;
-  for (int i = 0; i < 6; ++i) {
-    if (solver.eigenvalues()[i] < min_eigenvalue) {
-      ++free_directions;
-      continue;
-    }
-    step -= solver.eigenvectors().col(i) * (solver.eigenvectors().col(i).dot(g) / solver.eigenvalues()[i]);
-  }
-  return step;
-}
+Vector6d solve_determined(const Matrix6d& a, const Vector6d& g, double min_eigenvalue, int& free_directions);
 
 /// Normal equations of the step of a rigid pose, about the map's origin, from points at distances along
 /// normals.

@@ -9,8 +9,7 @@ namespace {
 class ApplyCommand : public test::ProgramTest {
  protected:
   void SetUp() override {
-    ASSERT_EQ(run("simulate room-1 -o room.bag").exit_code, 0);
-    ASSERT_EQ(run("estimate room.bag --no-timing --json room.json").exit_code, 0);
+    make({"simulate room-1 -o room.bag", "estimate room.bag --no-timing --json room.json"});
   }
   nlohmann::json estimate(const std::string& recording) const {
     const Outcome outcome = run("estimate " + recording + " --no-timing --json -");

@@ -2,6 +2,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "tests/app/self_signal.hpp"
 #include "tests/program.hpp"
 
 namespace sweepscope {
@@ -11,8 +12,7 @@ namespace {
 class CalibrateCommand : public test::ProgramTest {
  protected:
   void SetUp() override {
-    ASSERT_EQ(run("simulate room-1 --duration-s 6 --offset-ms 17.3 -o room.bag").exit_code, 0);
-    ASSERT_EQ(run("convert room.bag -o tables").exit_code, 0);
+    make({"simulate room-1 --duration-s 6 --offset-ms 17.3 -o room.bag", "convert room.bag -o tables"});
     std::ofstream stream(folder_ / "stream.csv");
     std::multimap<std::string, std::string> lines;  // by the stamp, whose digits are as many everywhere
     for (const char* word : {"scan", "motor"}) {
@@ -29,6 +29,8 @@ class CalibrateCommand : public test::ProgramTest {
     return nlohmann::json::parse(text, nullptr, false);
   }
 };
+
+const std::string kOwnTime = test::preloaded(SWEEPSCOPE_OWN_TIME);
 
 TEST_F(CalibrateCommand, FindsWhatEstimateFindsInTheSameRecording) {
   const Outcome live = run("calibrate - --seconds 60 --record kept.bag --json - --no-timing <stream.csv");
@@ -66,21 +68,20 @@ TEST_F(CalibrateCommand, HearsForTheSecondsAskedForAndSaysHowFarItIs) {
 }
 
 TEST_F(CalibrateCommand, AnInterruptionEndsTheListeningAndUsesWhatWasHeard) {
-  // The input stays open behind what there is; the signal comes once all of that was taken. The process then
-  // stands still for longer than the 5 s after which other commands end: a slow machine has its answer too.
-  std::ofstream(folder_ / "interrupt.sh") << "mkfifo lines\n"
-                                             "(cat stream.csv; echo > sent; exec sleep 60) > lines &\n"
+  // The input stays open behind what there is; the signal comes once all of that was taken. The 5 s after
+  // which other commands end are over at once.
+  std::ofstream(folder_ / "interrupt.sh") << "mkfifo lines taken\n"
+                                             "(cat stream.csv; echo >taken; exec sleep infinity) >lines &\n"
                                              "feeder=$!\n"
-                                             "\"$1\" calibrate - --seconds 300 --silence-s 300 "
-                                             "--record kept.mcap --json out.json < lines &\n"
+                                             "env \"$@\" calibrate - --seconds 300 --silence-s 300 "
+                                             "--record kept.mcap --json out.json <lines &\n"
                                              "calibrate=$!\n"
-                                             "while [ ! -e sent ]; do sleep 0.05; done\n"
-                                             "kill -TERM $calibrate; sleep 0.03; kill -STOP $calibrate\n"
-                                             "sleep 6; kill -CONT $calibrate\n"
-                                             "wait $calibrate; code=$?\n"
+                                             "read <taken\n"
+                                             "kill -TERM $calibrate; wait $calibrate; code=$?\n"
                                              "kill $feeder\n"
                                              "exit $code\n";
-  const Outcome interrupted = test::run_shell(folder_, "bash interrupt.sh '" SWEEPSCOPE_EXECUTABLE "'");
+  const Outcome interrupted =
+      test::run_shell(folder_, "bash interrupt.sh " + kOwnTime + " '" SWEEPSCOPE_EXECUTABLE "'");
   EXPECT_EQ(interrupted.exit_code, 0) << interrupted.err;
   const auto said = parsed(test::contents_of(folder_ / "out.json"));
   ASSERT_TRUE(said.is_object());
@@ -103,17 +104,14 @@ TEST_F(CalibrateCommand, WhatIsTooLittleIsRefused) {
 }
 
 TEST_F(CalibrateCommand, WhatDoesNotAdvanceEndsItWithTheTrueReason) {
-  std::ofstream(folder_ / "endless.sh")
-      << "grep -m 1 ^motor stream.csv; grep -m 1 ^scan stream.csv\n"
-         "line=$(grep \"^$1,1\" stream.csv | head -n 1); while echo \"$line\" 2>&-; do :; done\n";
+  std::ofstream(folder_ / "endless.sh") << "grep -m 1 ^motor stream.csv; grep -m 1 ^scan stream.csv\n"
+                                           "exec yes \"$(grep -m 1 \"^$1,1\" stream.csv)\" 2>/dev/null\n";
   const auto reason = [&](const std::string& word) {
-    const std::string command = "cd '" + folder_.string() + "' && bash endless.sh " + word +
-                                " | '" SWEEPSCOPE_EXECUTABLE
-                                "' calibrate - --silence-s 0.5 --seconds 600 --json said.json >said.out "
-                                "2>said.err; exit ${PIPESTATUS[1]}";
-    std::ofstream(folder_ / "calibrate.sh") << command;
-    const int status = std::system(("bash '" + (folder_ / "calibrate.sh").string() + "'").c_str());
-    EXPECT_EQ(WEXITSTATUS(status), 4) << test::contents_of(folder_ / "said.err");
+    const Outcome outcome =
+        test::run_shell(folder_, "bash endless.sh " + word + " | env " + kOwnTime +
+                                     " '" SWEEPSCOPE_EXECUTABLE
+                                     "' calibrate - --silence-s 0.5 --seconds 600 --json said.json");
+    EXPECT_EQ(outcome.exit_code, 4) << outcome.err;
     return parsed(test::contents_of(folder_ / "said.json"))["reasons"][0].get<std::string>();
   };
   EXPECT_EQ(reason("motor").rfind("No scan arrived for 0.5 s, after 0.0 of 600 s; ", 0), 0U)

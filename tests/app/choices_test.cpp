@@ -22,7 +22,7 @@ namespace {
 class Choices : public test::ProgramTest {
  protected:
   void SetUp() override {
-    ASSERT_EQ(run("simulate room-3 -o room.bag --duration-s 5").exit_code, 0);
+    make({"simulate room-3 -o room.bag --duration-s 5"});
     const auto raw = read_raw_recording(folder_ / "room.bag", {}, Job());
     ASSERT_TRUE(raw);
     ASSERT_TRUE(write_csv_recording(raw->lasers.at(0), raw->joints.at(0), folder_ / "rec", Job()));

@@ -7,7 +7,7 @@ namespace {
 
 class ConvertCommand : public test::ProgramTest {
  protected:
-  void SetUp() override { ASSERT_EQ(run("simulate room-1 --duration-s 2 -o room.bag").exit_code, 0); }
+  void SetUp() override { make({"simulate room-1 --duration-s 2 -o room.bag"}); }
   std::string offset_of(const std::string& recording) const {
     const Outcome outcome =
         run("estimate " + recording + " --method stationary --range 23:25:1 --no-timing --json -");

@@ -10,16 +10,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-class EstimateCommand : public test::ProgramTest {
- protected:
-  void simulate(const std::string& arguments) {
-    const Outcome outcome = run("simulate " + arguments);
-    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  }
-};
+class EstimateCommand : public test::ProgramTest {};
 
 TEST_F(EstimateCommand, WritesTheJsonOfTheContract) {
-  simulate("room-1 -o room.bag --offset-ms 7.3 --seed 5");
+  make({"simulate room-1 -o room.bag --offset-ms 7.3 --seed 5"});
   const Outcome outcome = run("estimate room.bag --method stationary --json -");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const Json json = Json::parse(outcome.out);
@@ -39,7 +33,7 @@ TEST_F(EstimateCommand, WritesTheJsonOfTheContract) {
 }
 
 TEST_F(EstimateCommand, SaysTheAnswerInWholeLines) {
-  simulate("room-1 -o room.bag");
+  make({"simulate room-1 -o room.bag"});
   const Outcome outcome = run("estimate room.bag");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(outcome.out.find('\\'), std::string::npos) << "nothing of it is escaped: " << outcome.out;
@@ -49,14 +43,14 @@ TEST_F(EstimateCommand, SaysTheAnswerInWholeLines) {
 }
 
 TEST_F(EstimateCommand, AsksForCandidatesByThePapersMethods) {
-  simulate("room-1 -o room.bag --offset-ms 7.3 --seed 5");
+  make({"simulate room-1 -o room.bag --offset-ms 7.3 --seed 5"});
   const Outcome outcome = run("estimate room.bag --range 5:9:1 --json -");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(Json::parse(outcome.out)["method"], "stationary");
 }
 
 TEST_F(EstimateCommand, AnswersDirectlyWhereNothingElseIsAskedFor) {
-  simulate("room-1 -o room.bag --offset-ms 7.3 --seed 5");
+  make({"simulate room-1 -o room.bag --offset-ms 7.3 --seed 5"});
   const Outcome outcome = run("estimate room.bag --json -");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const Json json = Json::parse(outcome.out);
@@ -76,14 +70,14 @@ TEST_F(EstimateCommand, AnswersDirectlyWhereNothingElseIsAskedFor) {
 }
 
 TEST_F(EstimateCommand, TheDirectAnswerIsTheSameBytesForAnyNumberOfThreads) {
-  simulate("room-2 -o room.bag");
+  make({"simulate room-2 -o room.bag"});
   ASSERT_EQ(run("estimate room.bag --method direct --no-timing --threads 1 --json one.json").exit_code, 0);
   ASSERT_EQ(run("estimate room.bag --method direct --no-timing --threads 2 --json two.json").exit_code, 0);
   EXPECT_EQ(test::contents_of(folder_ / "one.json"), test::contents_of(folder_ / "two.json"));
 }
 
 TEST_F(EstimateCommand, GivesTheSameBytesForAnyNumberOfThreads) {
-  simulate("room-2 -o room.bag");
+  make({"simulate room-2 -o room.bag"});
   const std::string search = "estimate room.bag --range 20:28:0.5 --no-timing";
   ASSERT_EQ(run(search + " --threads 1 --json one.json --csv one.csv").exit_code, 0);
   ASSERT_EQ(run(search + " --threads 2 --json two.json --csv two.csv").exit_code, 0);
@@ -92,7 +86,7 @@ TEST_F(EstimateCommand, GivesTheSameBytesForAnyNumberOfThreads) {
 }
 
 TEST_F(EstimateCommand, SearchesAsThePaperDid) {
-  simulate("room-3 -o room.bag --offset-ms 24");
+  make({"simulate room-3 -o room.bag"});
   const Outcome outcome =
       run("estimate room.bag --method stationary --range 19:29:1 --range 22:26:0.1 --json -");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
@@ -105,7 +99,7 @@ TEST_F(EstimateCommand, SearchesAsThePaperDid) {
 }
 
 TEST_F(EstimateCommand, RefusesAStuckMotorAndStillWritesTheJson) {
-  simulate("room-1 -o room.bag --motor stuck");
+  make({"simulate room-1 -o room.bag --motor stuck"});
   const Outcome outcome = run("estimate room.bag --json refused.json");
   EXPECT_EQ(outcome.exit_code, 4);
   EXPECT_NE(outcome.out.find("does not move"), std::string::npos) << outcome.out;
@@ -117,28 +111,28 @@ TEST_F(EstimateCommand, RefusesAStuckMotorAndStillWritesTheJson) {
 }
 
 TEST_F(EstimateCommand, RefusesAMotorThatTurnsOneWay) {
-  simulate("room-1 -o room.bag --motor one-way");
+  make({"simulate room-1 -o room.bag --motor one-way"});
   const Outcome outcome = run("estimate room.bag");
   EXPECT_EQ(outcome.exit_code, 4);
   EXPECT_NE(outcome.out.find("one way"), std::string::npos) << outcome.out;
 }
 
 TEST_F(EstimateCommand, RefusesAWalkThatIsSaidToStandStill) {
-  simulate("metro-station -o walk.bag --duration-s 10");
+  make({"simulate metro-station -o walk.bag --duration-s 10"});
   const Outcome outcome = run("estimate walk.bag --method stationary");
   EXPECT_EQ(outcome.exit_code, 4);
   EXPECT_NE(outcome.out.find("moved"), std::string::npos) << outcome.out;
 }
 
 TEST_F(EstimateCommand, RefusesAnExtremumOnTheEdgeOfTheRange) {
-  simulate("room-1 -o room.bag --offset-ms 24");
+  make({"simulate room-1 -o room.bag"});
   const Outcome outcome = run("estimate room.bag --range 10:20:1");
   EXPECT_EQ(outcome.exit_code, 4);
   EXPECT_NE(outcome.out.find("edge"), std::string::npos) << outcome.out;
 }
 
 TEST_F(EstimateCommand, FollowsAnOffsetOverTime) {
-  simulate("room-2 -o room.bag --sweep-s 0.51 --duration-s 44 --clock-drift-ppm 200");
+  make({"simulate room-2 -o room.bag --sweep-s 0.51 --duration-s 44 --clock-drift-ppm 200"});
   const Outcome refused = run("estimate room.bag");
   EXPECT_EQ(refused.exit_code, 4);
   EXPECT_NE(refused.out.find("--over-time"), std::string::npos) << refused.out;
@@ -160,7 +154,7 @@ TEST_F(EstimateCommand, FollowsAnOffsetOverTime) {
 }
 
 TEST_F(EstimateCommand, RefusesWrongUsage) {
-  simulate("room-1 -o room.bag --duration-s 2");
+  make({"simulate room-1 -o room.bag --duration-s 2"});
   EXPECT_EQ(run("estimate room.bag --range 29:19:1").exit_code, 2);
   EXPECT_EQ(run("estimate room.bag --range 19:29").exit_code, 2);
   EXPECT_EQ(run("estimate room.bag --around 24:0:4").exit_code, 2);
@@ -189,7 +183,7 @@ TEST_F(EstimateCommand, AFileThatIsNotThereIsExit3AndNothingIsWritten) {
 }
 
 TEST_F(EstimateCommand, MapAndCompareWorkWithNoDisplay) {
-  simulate("room-4 -o room.bag");
+  make({"simulate room-4 -o room.bag"});
   const Outcome map = run("map room.bag --offset-ms 24 -o map.pcd --trajectory map.tum");
   ASSERT_EQ(map.exit_code, 0) << map.err;
   EXPECT_TRUE(exists("map.pcd"));

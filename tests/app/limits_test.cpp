@@ -30,7 +30,7 @@ TEST_F(Limits, TooLittleMemoryNamesTheFile) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "sanitizers take more address space than any limit leaves";
 #endif
-  ASSERT_EQ(run("simulate metro-station -o walk.bag --duration-s 20").exit_code, 0);
+  make({"simulate metro-station -o walk.bag --duration-s 20"});
   const char* const commands[] = {"map walk.bag --offset-ms 24 -o map.pcd --threads 1", "info walk.bag"};
   constexpr int kFirst_kB = 100'000, kStep_kB = 10'000, kLast_kB = 2'000'000;
   bool too_little = false, enough = false;
@@ -63,7 +63,7 @@ TEST_F(Limits, FewerThreadsThanProcessorsGiveTheSameResult) {
 #endif
   if (geteuid() != 0 || !can_run("setpriv --reuid=54321 --clear-groups true"))
     GTEST_SKIP() << "a limit of processes wants a user who has none: root, and setpriv";
-  ASSERT_EQ(run("simulate room-2 -o room.bag").exit_code, 0);
+  make({"simulate room-2 -o room.bag"});
   for (const fs::path& path : {folder_, folder_ / "room.bag"}) chmod(path.c_str(), 0777);
   const auto as_limited = [&](int processes, const std::string& arguments) {
     // Root has no limit, and another user has no other processes. What it says is written by root's shell.
@@ -94,7 +94,7 @@ TEST_F(Limits, FewerThreadsThanProcessorsGiveTheSameResult) {
 }
 
 TEST_F(Limits, WithoutTheLibraryThatDrawsItIsSaidWhatToInstall) {
-  ASSERT_EQ(run("simulate room-2 -o room.bag").exit_code, 0);
+  make({"simulate room-2 -o room.bag"});
   fs::create_directory(folder_ / "bogus");
   std::ofstream(folder_ / "bogus/libOSMesa.so.8") << "no library";
   for (const char* arguments : {"compare room.bag --offsets-ms 19,24 -o out.png", "report room.bag -o out",
@@ -120,8 +120,7 @@ TEST_F(Limits, WithoutADisplayAWindowIsNoUnreadableInput) {
 }
 
 TEST_F(Limits, WhatAKilledRunUnpackedIsRemovedByTheNext) {
-  ASSERT_EQ(run("simulate room-2 -o room.bag").exit_code, 0);
-  ASSERT_EQ(run("convert room.bag -o room.mcap").exit_code, 0);
+  make({"simulate room-2 -o room.bag", "convert room.bag -o room.mcap"});
   std::ofstream(folder_ / "room.mcap.zstd", std::ios::binary)
       << test::packed_by_zstd(test::contents_of(folder_ / "room.mcap"));
   fs::create_directory(folder_ / "tmp");

@@ -16,8 +16,7 @@ class Names : public test::ProgramTest {
  protected:
   /// A folder of tables whose own name, topics and joint all steer.
   void SetUp() override {
-    ASSERT_EQ(run("simulate room-3 -o r.bag --duration-s 4").exit_code, 0);
-    ASSERT_EQ(run("convert r.bag -o plain").exit_code, 0);
+    make({"simulate room-3 -o r.bag --duration-s 4", "convert r.bag -o plain"});
     std::filesystem::create_directory(folder_ / recording_);
     rename_in("scans.csv", ",/scan,", ",/scan" + kSteering + ",");
     rename_in("motor.csv", ",roll_motor", ",roll" + kSteering);

@@ -81,7 +81,7 @@ class OutputsOntoInputs : public test::ProgramTest, public ::testing::WithParamI
   }
 
   void make_inputs() const {
-    ASSERT_EQ(run("simulate room-1 --duration-s 2 -o room.bag").exit_code, 0);
+    make({"simulate room-1 --duration-s 2 -o room.bag"});
     ASSERT_EQ(run("rig room.bag -o rig.yaml").exit_code, 0);
     fs::rename(folder_ / "room.truth.tum", folder_ / "poses.tum");
     ASSERT_EQ(run("estimate room.bag --rig rig.yaml --method stationary --range 23:25:1 --json estimate.json")
@@ -151,7 +151,7 @@ INSTANTIATE_TEST_SUITE_P(OfEveryCommand, OutputsOntoInputs, ::testing::ValuesIn(
 
 class OutputFiles : public test::ProgramTest {
  protected:
-  void SetUp() override { ASSERT_EQ(run("simulate room-1 --duration-s 2 -o room.bag").exit_code, 0); }
+  void SetUp() override { make({"simulate room-1 --duration-s 2 -o room.bag"}); }
 };
 
 TEST_F(OutputFiles, TablesOfARecordingsFolderAreInputs) {

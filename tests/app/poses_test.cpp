@@ -9,7 +9,7 @@ namespace {
 class Poses : public test::ProgramTest {
  protected:
   void SetUp() override {
-    ASSERT_EQ(run("simulate room-3 -o r.bag --duration-s 4").exit_code, 0);
+    make({"simulate room-3 -o r.bag --duration-s 4"});
     // The truth of a room begins with the recording, at a time of today.
     const std::string truth = test::contents_of(folder_ / "r.truth.tum");
     const std::size_t first = truth.find('\n') + 1;

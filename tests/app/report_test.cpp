@@ -13,7 +13,7 @@ class ReportCommand : public test::ProgramTest {
 };
 
 TEST_F(ReportCommand, IsOnePageWithTheAnswerAndItsEvidence) {
-  ASSERT_EQ(run("simulate room-3 -o 'a <room>.bag' --offset-ms 7 --duration-s 4").exit_code, 0);
+  make({"simulate room-3 -o 'a <room>.bag' --offset-ms 7 --duration-s 4"});
   const Outcome outcome = run("report 'a <room>.bag' -o out --threads 2");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(outcome.out, "out/report.html\n");
@@ -30,7 +30,7 @@ TEST_F(ReportCommand, IsOnePageWithTheAnswerAndItsEvidence) {
 }
 
 TEST_F(ReportCommand, PointsDecideHowMuchOfTheMapIsInThePage) {
-  ASSERT_EQ(run("simulate room-3 -o r.bag --duration-s 4").exit_code, 0);
+  make({"simulate room-3 -o r.bag --duration-s 4"});
   ASSERT_EQ(run("report r.bag -o out --points 0").exit_code, 0);
   EXPECT_EQ(page().find("<script"), std::string::npos);
   EXPECT_NE(page().find("data:image/png;base64,"), std::string::npos);
@@ -44,7 +44,7 @@ TEST_F(ReportCommand, PointsDecideHowMuchOfTheMapIsInThePage) {
 }
 
 TEST_F(ReportCommand, IsTheSameToTheByteEachTime) {
-  ASSERT_EQ(run("simulate room-3 -o r.bag --duration-s 4").exit_code, 0);
+  make({"simulate room-3 -o r.bag --duration-s 4"});
   ASSERT_EQ(run("report r.bag -o out").exit_code, 0);
   const std::string first = page();
   ASSERT_EQ(run("report r.bag -o out").exit_code, 0);
@@ -56,7 +56,7 @@ TEST_F(ReportCommand, IsTheSameToTheByteWhereverFilesLieAndForAnyNumberOfThreads
   std::ofstream(folder_ / "rig.yaml") << "mount: {axis: [1, 0, 0]}\n";
   std::filesystem::copy(folder_ / "rig.yaml", folder_ / "far/a rig.yaml");
   std::filesystem::copy(folder_ / "rig.yaml", folder_ / "a rig.yaml");
-  ASSERT_EQ(run("simulate room-3 -o r.bag --duration-s 4").exit_code, 0);
+  make({"simulate room-3 -o r.bag --duration-s 4"});
   std::filesystem::copy(folder_ / "r.bag", folder_ / "far/away/r.bag");
   ASSERT_EQ(run("report r.bag -o out --rig 'a rig.yaml' --threads 1").exit_code, 0);
   const std::string elsewhere = "'" + (folder_ / "far/away/r.bag").string() + "'";
@@ -69,7 +69,7 @@ TEST_F(ReportCommand, IsTheSameToTheByteWhereverFilesLieAndForAnyNumberOfThreads
 }
 
 TEST_F(ReportCommand, SolvesForTheRigAsEstimateDoes) {
-  ASSERT_EQ(run("simulate room-2 --duration-s 4 --mount-error-deg 0,3,-4 -o r.bag").exit_code, 0);
+  make({"simulate room-2 --duration-s 4 --mount-error-deg 0,3,-4 -o r.bag"});
   const Outcome outcome = run("report r.bag -o out --points 0 --solve offset,mount,play --prior mount_deg=5");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_NE(page().find(
@@ -87,7 +87,7 @@ TEST_F(ReportCommand, SolvesForTheRigAsEstimateDoes) {
 }
 
 TEST_F(ReportCommand, ARecordingThatCannotAnswerGetsThePageWithTheReasons) {
-  ASSERT_EQ(run("simulate room-1 -o stuck.bag --motor stuck --duration-s 3").exit_code, 0);
+  make({"simulate room-1 -o stuck.bag --motor stuck --duration-s 3"});
   const Outcome outcome = run("report stuck.bag -o out");
   EXPECT_EQ(outcome.exit_code, 4);
   EXPECT_NE(page().find("cannot be determined from this recording"), std::string::npos);
@@ -95,7 +95,7 @@ TEST_F(ReportCommand, ARecordingThatCannotAnswerGetsThePageWithTheReasons) {
 }
 
 TEST_F(ReportCommand, AFolderThatCannotBeMadeIsSaidInASentence) {
-  ASSERT_EQ(run("simulate room-1 -o r.bag --duration-s 3").exit_code, 0);
+  make({"simulate room-1 -o r.bag --duration-s 3"});
   std::ofstream(folder_ / "taken") << "a file";
   const Outcome outcome = run("report r.bag -o taken");
   EXPECT_EQ(outcome.exit_code, 2);

@@ -9,7 +9,7 @@ namespace {
 class RigCommand : public test::ProgramTest {};
 
 TEST_F(RigCommand, WritesARigThatEstimateReadsAsItReadsTheRecordingWithoutOne) {
-  ASSERT_EQ(run("simulate room-1 --duration-s 2 -o room.bag").exit_code, 0);
+  make({"simulate room-1 --duration-s 2 -o room.bag"});
   const Outcome said = run("rig room.bag");
   EXPECT_EQ(said.exit_code, 0) << said.err;
   EXPECT_NE(said.out.find("topic: /scan"), std::string::npos) << said.out;
@@ -24,9 +24,7 @@ TEST_F(RigCommand, WritesARigThatEstimateReadsAsItReadsTheRecordingWithoutOne) {
 }
 
 TEST_F(RigCommand, WhatEstimateSolvesForIsWrittenAndReadBack) {
-  ASSERT_EQ(run("simulate room-2 --duration-s 4 --mount-error-deg 0,3,-4 --eccentricity-deg 0.3 -o room.bag")
-                .exit_code,
-            0);
+  make({"simulate room-2 --duration-s 4 --mount-error-deg 0,3,-4 --eccentricity-deg 0.3 -o room.bag"});
   const Outcome solved =
       run("estimate room.bag --solve offset,mount,encoder --rig-out rig.yaml --no-timing --json solved.json");
   ASSERT_EQ(solved.exit_code, 0) << solved.err;
@@ -60,7 +58,7 @@ TEST_F(RigCommand, WhatEstimateSolvesForIsWrittenAndReadBack) {
 }
 
 TEST_F(RigCommand, WhatTheRecordingDoesNotDetermineIsNamedInTheRigFile) {
-  ASSERT_EQ(run("simulate room-1 --duration-s 4 -o room.bag").exit_code, 0);
+  make({"simulate room-1 --duration-s 4 -o room.bag"});
   ASSERT_EQ(run("estimate room.bag --solve offset,play --json E.json --rig-out rig.yaml").exit_code, 0);
   const Outcome said = run("rig room.bag --estimate E.json");
   for (const std::string& text : {said.out, test::contents_of(folder_ / "rig.yaml")}) {
@@ -70,7 +68,7 @@ TEST_F(RigCommand, WhatTheRecordingDoesNotDetermineIsNamedInTheRigFile) {
 }
 
 TEST_F(RigCommand, AnEstimateThatSolvedForNothingHasNoRig) {
-  ASSERT_EQ(run("simulate room-1 --duration-s 3 -o room.bag").exit_code, 0);
+  make({"simulate room-1 --duration-s 3 -o room.bag"});
   ASSERT_EQ(run("estimate room.bag --json E.json").exit_code, 0);
   const Outcome said = run("rig room.bag --estimate E.json");
   EXPECT_EQ(said.exit_code, 2);
@@ -78,7 +76,7 @@ TEST_F(RigCommand, AnEstimateThatSolvedForNothingHasNoRig) {
 }
 
 TEST_F(RigCommand, SolveTakesTheNamesOfPartsAndPriorsAboveZero) {
-  ASSERT_EQ(run("simulate room-1 --duration-s 1 -o room.bag").exit_code, 0);
+  make({"simulate room-1 --duration-s 1 -o room.bag"});
   EXPECT_EQ(run("estimate room.bag --solve offset,axis").exit_code, 2);
   EXPECT_EQ(run("estimate room.bag --solve mount --prior mount_deg=0").exit_code, 2);
   EXPECT_EQ(run("estimate room.bag --solve mount --prior tilt_deg=1").exit_code, 2);
@@ -91,12 +89,12 @@ TEST_F(RigCommand, SolveTakesTheNamesOfPartsAndPriorsAboveZero) {
 
 TEST_F(RigCommand, WhatItCannotReadOrWriteIsSaid) {
   EXPECT_EQ(run("rig missing.bag").exit_code, 3);
-  ASSERT_EQ(run("simulate room-1 --duration-s 1 -o room.bag").exit_code, 0);
+  make({"simulate room-1 --duration-s 1 -o room.bag"});
   EXPECT_EQ(run("rig room.bag -o no/such/rig.yaml").exit_code, 2);
 }
 
 TEST_F(RigCommand, AsWritesTheMountAndTheOffsetOfARecordingOrARigFile) {
-  ASSERT_EQ(run("simulate room-1 --duration-s 3 --offset-ms 24 -o room.bag").exit_code, 0);
+  make({"simulate room-1 --duration-s 3 --offset-ms 24 -o room.bag"});
   ASSERT_EQ(run("rig room.bag -o rig.yaml").exit_code, 0);
   ASSERT_EQ(run("estimate room.bag --no-timing --json E.json").exit_code, 0);
   const double offset_ms =
@@ -117,7 +115,7 @@ TEST_F(RigCommand, AsWritesTheMountAndTheOffsetOfARecordingOrARigFile) {
 }
 
 TEST_F(RigCommand, AsNeedsASystemAndOneOffset) {
-  ASSERT_EQ(run("simulate room-1 --duration-s 1 -o room.bag").exit_code, 0);
+  make({"simulate room-1 --duration-s 1 -o room.bag"});
   ASSERT_EQ(run("rig room.bag -o rig.yaml").exit_code, 0);
   for (const char* arguments :
        {"room.bag --as urdf", "room.bag --as sdf --offset-ms 24", "room.bag --offset-ms 24",

@@ -20,7 +20,7 @@ std::size_t lines_in(const std::string& text) {
 
 class Shards : public test::ProgramTest {
  protected:
-  void SetUp() override { ASSERT_EQ(run("simulate room-2 -o room.bag --offset-ms 24").exit_code, 0); }
+  void SetUp() override { make({"simulate room-2 -o room.bag"}); }
   std::string file(const std::string& name) const { return contents_of(folder_ / name); }
   void expect_done(const std::string& arguments) const {
     const Outcome outcome = run(arguments);

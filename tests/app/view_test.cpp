@@ -12,7 +12,7 @@ namespace {
 
 class View : public test::ProgramTest {
  protected:
-  void SetUp() override { ASSERT_EQ(run("simulate room-3 -o room.bag --duration-s 5").exit_code, 0); }
+  void SetUp() override { make({"simulate room-3 -o room.bag --duration-s 5"}); }
   /// Width and height as the file's header says.
   std::pair<int, int> size_of_png(const std::string& name) const {
     const std::string bytes = test::contents_of(folder_ / name);

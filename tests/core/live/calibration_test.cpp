@@ -118,6 +118,12 @@ class Calibration : public testing::Test {
     heard_ = source.heard();
     return end.value();
   }
+  /// From now on the clock that silence is measured by advances by 1 ms with each listening.
+  void count_listenings() {
+    options_.now = [passed = std::chrono::steady_clock::time_point()]() mutable {
+      return passed += std::chrono::milliseconds(1);
+    };
+  }
   CalibrationOptions options_;
   RawRecording heard_;
   int told_ = 0;
@@ -184,10 +190,13 @@ TEST_F(Calibration, ARigThatMovedIsRefused) {
 }
 
 TEST_F(Calibration, SilenceAndCancellationEndIt) {
+  std::vector<std::string> lines = lines_of(test::simulated("room-1", 0.0137, 4.5).recording);
+  while (!lines.back().starts_with("scan")) lines.pop_back();
   Pipe silent;
-  silent.write_lines(lines_of(test::simulated("room-1", 0.0137, 4.5).recording), true);
+  silent.write_lines(std::move(lines), true);
+  count_listenings();
   options_.seconds = 60;
-  options_.silence_s = 0.2;
+  options_.silence_s = 0.01;
   EXPECT_EQ(*listen_to(silent), ListeningEnd::kSilence);
   Pipe other;
   other.write_lines({}, true);
@@ -197,12 +206,13 @@ TEST_F(Calibration, SilenceAndCancellationEndIt) {
 }
 
 TEST_F(Calibration, AMotorAloneEndsItForWantOfScans) {
+  count_listenings();
   options_.silence_s = 0.05;
-  options_.seconds = 600;  // for as many samples as a fast machine adds
   EXPECT_EQ(end_of([](int, RawLaser&, RawJoint& joint) { add_samples(joint, 1); }), ListeningEnd::kNoScans);
 }
 
 TEST_F(Calibration, SilenceAfterALastMotorSampleIsSilence) {
+  count_listenings();
   options_.silence_s = 0.05;
   EXPECT_EQ(end_of([](int number, RawLaser& laser, RawJoint& joint) {
               if (number < 3) add_scan(laser, 1000 + 0.025 * number);
@@ -212,8 +222,8 @@ TEST_F(Calibration, SilenceAfterALastMotorSampleIsSilence) {
 }
 
 TEST_F(Calibration, ScansWhoseStampsDoNotAdvanceEndIt) {
+  count_listenings();
   options_.silence_s = 0.05;
-  options_.seconds = 600;
   const auto same = [](int, RawLaser& laser, RawJoint& joint) {
     add_scan(laser, 1000);
     add_samples(joint, 1);

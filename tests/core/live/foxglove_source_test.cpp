@@ -193,42 +193,44 @@ class Server {
   std::thread thread_;
 };
 
-class FoxgloveSource : public test::FolderTest {
+class FoxgloveSource : public testing::Test {
  protected:
-  void SetUp() override {
+  static void SetUpTestSuite() {
+    folder_ = std::make_unique<test::ScratchFolder>();
     SimulationOptions options;
     options.scene = "room-1";
     options.offset_s = 0.0173;
     options.duration_s = 5.0;
     const auto simulated = simulate(options, Job());
     ASSERT_TRUE(simulated);
-    ASSERT_TRUE(write_bag(*simulated, folder_ / "room.bag", Job()));
-    const auto raw = read_raw_recording(folder_ / "room.bag", {}, Job());
+    ASSERT_TRUE(write_bag(*simulated, *folder_ / "room.bag", Job()));
+    const auto raw = read_raw_recording(*folder_ / "room.bag", {}, Job());
     ASSERT_TRUE(raw);
     ASSERT_TRUE(write_recording(raw->lasers.at(0), raw->joints.at(0), RecordingFormat::kMcap, "none",
-                                folder_ / "room.mcap", Job()));
+                                *folder_ / "room.mcap", Job()));
   }
+  static void TearDownTestSuite() { folder_.reset(); }
   /// Of the file, and of what a server that plays it says.
   void expect_same(const char* file, const char* subprotocol, std::vector<std::size_t> cuts) const {
-    const auto recording = read_recording(folder_ / file, {}, Job());
+    const auto recording = read_recording(*folder_ / file, {}, Job());
     ASSERT_TRUE(recording);
     const auto of_file = estimate(*recording, {}, Job());
     ASSERT_TRUE(of_file && of_file->offset_s);
     CalibrationOptions options;
     options.seconds = recording->scans.back().first_beam_s - recording->scans.front().first_beam_s - 1e-6;
-    options.every_s = 1e9;
-    const Server server(playlist_of(folder_ / file), subprotocol, std::move(cuts));
+    options.every_s = options.silence_s = 1e9;
+    const Server server(playlist_of(*folder_ / file), subprotocol, std::move(cuts));
     auto source = open_foxglove_source(server.url(), options.rig);
     ASSERT_TRUE(source) << source.error().message;
     const auto end = listen(**source, options, Job(), [](const HeardSoFar&, const Result<Estimate>&) {});
     ASSERT_TRUE(end) << end.error().message;
     EXPECT_EQ(*end, ListeningEnd::kHeardEnough);
     // What comes behind the last scan counts in the file, too.
-    for (std::size_t before = 0, now = 1; now != before;) {
-      before = (*source)->so_far().joints.at(0).positions.size();
-      ASSERT_TRUE((*source)->listen(std::chrono::milliseconds(300)));
-      now = (*source)->so_far().joints.at(0).positions.size();
-    }
+    const auto last_ns = [](const RawRecording& raw) { return raw.joints.at(0).stamps.back().header_ns; };
+    const auto whole = read_raw_recording(*folder_ / file, {}, Job());
+    ASSERT_TRUE(whole);
+    while (last_ns((*source)->so_far()) != last_ns(*whole))
+      ASSERT_TRUE((*source)->listen(std::chrono::seconds(1)));
     const auto heard = calibrate((*source)->heard(), options, Job());
     source->reset();
     ASSERT_TRUE(heard) << heard.error().message;
@@ -236,6 +238,7 @@ class FoxgloveSource : public test::FolderTest {
     EXPECT_EQ(*heard->offset_s, *of_file->offset_s);
     EXPECT_EQ(heard->scans, of_file->scans);
   }
+  inline static std::unique_ptr<test::ScratchFolder> folder_;
 };
 
 TEST_F(FoxgloveSource, FindsTheOffsetOfTheFileInBothDialectsAndEncodings) {
@@ -251,7 +254,7 @@ TEST_F(FoxgloveSource, GoesOnAfterACutConnection) {
 }
 
 TEST_F(FoxgloveSource, AServerOfAnotherProtocolIsRefused) {
-  const Server server(playlist_of(folder_ / "room.bag"), "chat.v1", {});
+  const Server server(playlist_of(*folder_ / "room.bag"), "chat.v1", {});
   const Rig rig;
   const auto source = open_foxglove_source(server.url(), rig);
   ASSERT_FALSE(source);

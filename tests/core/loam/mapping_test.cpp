@@ -17,7 +17,6 @@ using test::kMs;
 
 // A rig that goes at 0.5 m/s from the first beam on, which the tracker begins to follow as if it stood.
 class SteadyWalk : public testing::Test {
- protected:
   static Recording record() {
     test::Bench bench;
     bench.mesh = test::hall();
@@ -28,9 +27,20 @@ class SteadyWalk : public testing::Test {
     };
     return bench.record();
   }
-  const Recording recording_ = record();
-  const OffsetProblem problem_ = test::problem_of(recording_);
-  const TrackedWalk walk_ = track(problem_, 0, MappingOptions(), Job()).value();
+  struct Tracked {
+    Recording recording = record();
+    OffsetProblem problem = test::problem_of(recording);
+    TrackedWalk walk = track(problem, 0, MappingOptions(), Job()).value();
+  };
+  static const Tracked& tracked() {
+    static const Tracked once;
+    return once;
+  }
+
+ protected:
+  const Recording& recording_ = tracked().recording;
+  const OffsetProblem& problem_ = tracked().problem;
+  const TrackedWalk& walk_ = tracked().walk;
 };
 
 TEST_F(SteadyWalk, StepsComeOutEqual) {
@@ -184,13 +194,20 @@ TEST(LostIntervals, AreRunsOfLostSweeps) {
 
 // A minute through the metro station at a true offset of 24 ms.
 class Walk : public testing::Test {
+  struct Tracked {
+    OffsetProblem problem = test::problem_of(test::simulated("metro-station", 0.024, 60).recording);
+    TrackedWalk walk = track(problem, 0.024, MappingOptions(), Job()).value();
+  };
+  static const Tracked& tracked() {
+    static const Tracked once;
+    return once;
+  }
+
  protected:
   CurvePoint candidate(double off_s) const {
-    return moving_candidate(problem_, 0.024 + off_s, walk_.sweeps, MappingOptions());
+    return moving_candidate(problem_, 0.024 + off_s, tracked().walk.sweeps, MappingOptions());
   }
-  const Recording& recording_ = test::simulated("metro-station", 0.024, 60).recording;
-  const OffsetProblem problem_ = test::problem_of(recording_);
-  const TrackedWalk walk_ = track(problem_, 0.024, MappingOptions(), Job()).value();
+  const OffsetProblem& problem_ = tracked().problem;
 };
 
 TEST_F(Walk, ARollThatAlternatesTellsHowFarTheOffsetIsOff) {

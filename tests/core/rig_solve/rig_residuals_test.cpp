@@ -23,6 +23,11 @@ Recording in_room(const Eigen::Vector3d& mount_error_deg) {
   return simulate(options, Job()).value().recording;
 }
 
+const Recording& unturned_rig() {
+  static const Recording recording = in_room({0, 0, 0});
+  return recording;
+}
+
 RigUnknowns at_offset() {
   RigUnknowns rig;
   rig.offset_s = kFoundOffset_s;
@@ -31,8 +36,7 @@ RigUnknowns at_offset() {
 
 // What the perfect rig's recording shows with a mount turned by `turn_rad`, and with the true one.
 RigResiduals residuals_of_turn(const Eigen::Vector2d& turn_rad) {
-  const Recording recording = in_room({0, 0, 0});
-  const PreparedRecording prepared = prepare(recording, FeatureOptions(), Job()).value();
+  const PreparedRecording prepared = prepare(unturned_rig(), FeatureOptions(), Job()).value();
   RigUnknowns wrong = at_offset();
   wrong.turn_rad = turn_rad;
   return rig_residuals(problem_for(prepared, kFoundOffset_s, kFoundOffset_s), wrong, at_offset(),
@@ -82,8 +86,7 @@ TEST(RigResiduals, AreTheSameToTheByteForOneAndForManyThreads) {
 }
 
 TEST(RigResiduals, WithoutAnySurfaceThereIsNoGrid) {
-  const Recording recording = in_room({0, 0, 0});
-  PreparedRecording prepared = prepare(recording, FeatureOptions(), Job()).value();
+  const PreparedRecording prepared = prepare(unturned_rig(), FeatureOptions(), Job()).value();
   OffsetProblem problem = problem_for(prepared, kFoundOffset_s, kFoundOffset_s);
   std::ranges::fill(problem.scan_used, 0);
   EXPECT_TRUE(rig_residuals(problem, at_offset(), at_offset(), {}).before.empty());

@@ -25,6 +25,25 @@ SimulationOptions rig_in_room(simulation::MotorKind motor = simulation::MotorKin
   return options;
 }
 
+const Recording& perfect_rig() {
+  static const Recording recording = simulate(rig_in_room(), Job()).value().recording;
+  return recording;
+}
+
+SimulationOptions walk_with_turned_mount() {
+  SimulationOptions options;
+  options.scene = "metro-station";
+  options.offset_s = kOffset_s;
+  options.duration_s = 14;
+  options.mount_error_deg = {0, 1.2, -0.9};
+  return options;
+}
+
+const Recording& turned_walk() {
+  static const Recording recording = simulate(walk_with_turned_mount(), Job()).value().recording;
+  return recording;
+}
+
 // Between the directions of the motor's axis as the laser has them: what a turn about the axis leaves alone.
 double axis_apart_deg(const Eigen::Vector3d& rpy_deg, const Eigen::Vector3d& other_rpy_deg) {
   const Eigen::Vector3d a = rotation_from_rpy(rpy_deg).conjugate() * Eigen::Vector3d::UnitX(),
@@ -153,23 +172,21 @@ TEST(RigSolve, AWrongMountIsWarnedOfAndAPerfectRigIsNot) {
       return warning.find("--solve offset,mount") != std::string::npos;
     });
   };
+  EXPECT_FALSE(warned(perfect_rig()));
   SimulationOptions options = rig_in_room();
-  EXPECT_FALSE(warned(simulate(options, Job()).value().recording));
   options.mount_error_deg = {0, 0.6, -0.8};
   EXPECT_TRUE(warned(simulate(options, Job()).value().recording));
 }
 
 TEST(RigSolve, APerfectRigIsFoundToBeOne) {
-  const Estimate found =
-      solved(simulate(rig_in_room(), Job()).value().recording, {.mount = true, .encoder = true});
+  const Estimate found = solved(perfect_rig(), {.mount = true, .encoder = true});
   const RigVector x = found.rig->found.vector();
   for (int i = kTurnU; i < kRigUnknowns; ++i)
     EXPECT_LT(std::abs(x[i]), 3.5 * std::sqrt(found.rig->covariance(i, i)) + 1e-12) << i;
 }
 
 TEST(RigSolve, WithoutAnySurfaceNothingIsIdentifiable) {
-  const Recording recording = simulate(rig_in_room(), Job()).value().recording;
-  const PreparedRecording prepared = prepare(recording, FeatureOptions(), Job()).value();
+  const PreparedRecording prepared = prepare(perfect_rig(), FeatureOptions(), Job()).value();
   OffsetProblem problem = problem_for(prepared, kOffset_s, kOffset_s);
   std::ranges::fill(problem.scan_used, 0);
   const SolvedRig found = solve_rig(problem, kOffset_s, {.mount = true, .encoder = true}, Job());
@@ -178,23 +195,17 @@ TEST(RigSolve, WithoutAnySurfaceNothingIsIdentifiable) {
 }
 
 TEST(RigSolve, IsTheSameForAnyNumberOfThreads) {
-  const Recording recording = simulate(rig_in_room(), Job()).value().recording;
   RigVector found[2];
   for (const int threads : {1, 2}) {
     const tbb::global_control limited(tbb::global_control::max_allowed_parallelism, std::size_t(threads));
-    found[threads - 1] = solved(recording, {.mount = true}).rig->found.vector();
+    found[threads - 1] = solved(perfect_rig(), {.mount = true}).rig->found.vector();
   }
   EXPECT_EQ(found[0], found[1]);
 }
 
 TEST(RigSolve, AWalkTellsHowTheMountIsTurnedAndNothingElse) {
-  SimulationOptions simulated;
-  simulated.scene = "metro-station";
-  simulated.offset_s = kOffset_s;
-  simulated.duration_s = 14;
-  simulated.mount_error_deg = {0, 1.2, -0.9};
-  const Estimate found =
-      solved(simulate(simulated, Job()).value().recording, {.mount = true, .play = true, .encoder = true});
+  const SimulationOptions simulated = walk_with_turned_mount();
+  const Estimate found = solved(turned_walk(), {.mount = true, .play = true, .encoder = true});
   ASSERT_TRUE(found.identifiable) << testing::PrintToString(found.reasons());
   ASSERT_TRUE(found.rig && found.rig->along_walk);
   ASSERT_TRUE(found.rig->mount.identifiable);
@@ -243,13 +254,7 @@ TEST(RigSolve, AWalkThatBeginsStandingTellsTheWholeMount) {
 
 // A prior as narrow as what the walk shows takes half of it back, however often the walk is solved.
 TEST(RigSolve, ANarrowPriorHoldsTheMountOfAWalk) {
-  SimulationOptions simulated;
-  simulated.scene = "metro-station";
-  simulated.offset_s = kOffset_s;
-  simulated.duration_s = 14;
-  simulated.mount_error_deg = {0, 1.2, -0.9};
-  const Estimate found =
-      solved(simulate(simulated, Job()).value().recording, {.mount = true, .mount_deg = 0.12});
+  const Estimate found = solved(turned_walk(), {.mount = true, .mount_deg = 0.12});
   ASSERT_TRUE(found.rig && found.rig->mount.identifiable);
   EXPECT_LT(found.rig->found.turn_rad.norm() * kDegPerRad, 0.6 * 1.5);
   EXPECT_GT(found.rig->found.turn_rad.norm() * kDegPerRad, 0.1 * 1.5);

@@ -18,8 +18,8 @@ class DirectMoving : public testing::Test {
     options.walk = walk_options(MappingOptions(), search_scale(problem_.motor));
     return solve_moving(problem_, first_offset_s, options, job);
   }
-  const Recording& recording_ = test::simulated("metro-station", kMovingTruth_s, 20).recording;
-  const OffsetProblem problem_ = test::problem_of(recording_);
+  const OffsetProblem problem_ =
+      test::problem_of(test::simulated("metro-station", kMovingTruth_s, 20).recording);
 };
 
 TEST_F(DirectMoving, AtItsAnswerEIsLeastAndNGreatest) {
