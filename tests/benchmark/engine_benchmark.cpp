@@ -15,7 +15,7 @@
 
 #include "core/loam/feature_map.hpp"
 #include "core/map/offset_map.hpp"
-#include "core/map/surface_thickness.hpp"
+#include "core/map/surfaces/surface_thickness.hpp"
 #include "core/offset/estimator.hpp"
 #include "core/offset/moving.hpp"
 #include "core/offset/stationary.hpp"

@@ -1,4 +1,4 @@
-#include "core/map/voxel_grid.hpp"
+#include "core/map/surfaces/voxel_grid.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/geometry/map_cloud.hpp"
-#include "core/map/surface_thickness.hpp"
-#include "core/map/voxel_grid.hpp"
+#include "core/map/surfaces/surface_thickness.hpp"
+#include "core/map/surfaces/voxel_grid.hpp"
 
 namespace sweepscope {
 

@@ -1,11 +1,11 @@
-#include "core/map/cross_section.hpp"
+#include "core/map/sections/cross_section.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "core/map/section_points.hpp"
+#include "core/map/sections/section_points.hpp"
 #include "core/numbers.hpp"
 #include "core/parallel.hpp"
 

@@ -1,4 +1,4 @@
-#include "core/map/surface_thickness.hpp"
+#include "core/map/surfaces/surface_thickness.hpp"
 
 #include <fmt/format.h>
 
@@ -9,8 +9,8 @@
 #include <limits>
 #include <span>
 
-#include "core/map/surface_column.hpp"
-#include "core/map/voxel_grid.hpp"
+#include "core/map/surfaces/surface_column.hpp"
+#include "core/map/surfaces/voxel_grid.hpp"
 #include "core/numbers.hpp"
 #include "core/parallel.hpp"
 

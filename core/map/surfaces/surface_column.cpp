@@ -1,4 +1,4 @@
-#include "core/map/surface_column.hpp"
+#include "core/map/surfaces/surface_column.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
