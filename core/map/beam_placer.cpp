@@ -16,6 +16,12 @@ bool BeamPlacer::start(std::size_t scan) {
   const std::uint32_t number = poses_.pose_of(scan);
   if (number == ScanPoses::kNone) return false;
   scan_ = &recording_.scans[scan];
+  if (scan_->angle_min_rad != angle_min_rad_ || scan_->angle_increment_rad != angle_increment_rad_ ||
+      scan_->beams > directions_.size()) {
+    angle_min_rad_ = scan_->angle_min_rad;
+    angle_increment_rad_ = scan_->angle_increment_rad;
+    directions_.assign(scan_->beams, std::nullopt);
+  }
   if (number == pose_) return true;
   pose_ = number;
   const SweepPose& pose = poses_.poses()[number];
@@ -28,10 +34,17 @@ bool BeamPlacer::start(std::size_t scan) {
   return true;
 }
 
+Eigen::Vector3d BeamPlacer::direction(std::uint32_t beam) {
+  if (!recording_.directions.empty()) return recording_.direction(*scan_, beam);
+  std::optional<Eigen::Vector3d>& known = directions_[beam];
+  if (!known) known = recording_.direction(*scan_, beam);
+  return *known;
+}
+
 Eigen::Vector3d BeamPlacer::p_m(std::uint32_t beam) {
   const double time_s = scan_->beam_s(beam);
   const Eigen::Vector3d p_in_motor_m =
-      kinematics_.point_in_motor(recording_.ranges(*scan_)[beam], recording_.direction(*scan_, beam));
+      kinematics_.point_in_motor(recording_.ranges(*scan_)[beam], direction(beam));
   const double angle_rad = motor_.angle_at(time_s + poses_.offset_s());
   return (*motion_)(kinematics_.base_from_motor(p_in_motor_m, angle_rad),
                     (time_s - begin_s_) / (end_s_ - begin_s_));

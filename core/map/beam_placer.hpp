@@ -28,6 +28,8 @@ class BeamPlacer {
   MapPoint point(std::uint32_t beam);
 
  private:
+  Eigen::Vector3d direction(std::uint32_t beam);
+
   const Recording& recording_;
   const ScanPoses& poses_;
   std::optional<Pose> frame_from_map_;
@@ -37,6 +39,9 @@ class BeamPlacer {
   std::uint32_t pose_ = ScanPoses::kNone;  // that `motion_` is of
   std::optional<SweepMotion> motion_;
   double begin_s_ = 0, end_s_ = 1;
+  // Of the beams of scans with these angles, as they are first asked for: sines cost a fifth of the time.
+  double angle_min_rad_ = 0, angle_increment_rad_ = 0;
+  std::vector<std::optional<Eigen::Vector3d>> directions_;
 };
 
 }  // namespace sweepscope
