@@ -40,17 +40,21 @@ std::string table_bytes(const ColourTable& table) {
   return bytes;
 }
 
+/// Of each map, the points that are shown.
+using ShownIndices = std::vector<std::vector<std::uint32_t>>;
+
 /// What colours the points, as make_colouring() has it for the maps at first.
-Result<Colouring> colouring_of(const LiveMap& live, ColourBy by, const std::vector<HeightRange>& slabs) {
-  std::vector<SlabPoints> shown;
-  std::vector<std::span<const float>> values;
-  for (const ComparedMap& map : live.still) {
-    const auto of_map = colour_values(map, nullptr, by);
+Result<Colouring> colouring_of(const LiveMap& live, ColourBy by, const ShownIndices& shown) {
+  std::vector<std::vector<float>> of_maps;
+  for (std::size_t m = 0; m < shown.size(); ++m) {
+    const auto of_map = colour_values(live.still[m], nullptr, by);
     if (!of_map) return tl::unexpected(of_map.error());
-    shown.push_back(points_in_slabs(map, *of_map, slabs));
+    std::vector<float>& values = of_maps.emplace_back();
+    values.reserve(shown[m].size());
+    for (const std::uint32_t i : shown[m]) values.push_back((*of_map)[i]);
   }
-  for (const SlabPoints& points : shown) values.push_back(points.points.values);
-  return make_colouring(by, "viridis", values, std::nullopt);
+  return make_colouring(by, "viridis", std::vector<std::span<const float>>(of_maps.begin(), of_maps.end()),
+                        std::nullopt);
 }
 
 Json json_of(const Colouring& colouring, ColourBy by) {
@@ -124,9 +128,11 @@ void add_blur(PageColours& colours, const LiveMap& live, Colouring colouring) {
 
 Result<PageColours> page_colours(const LiveMap& live, const std::vector<HeightRange>& slabs) {
   PageColours colours;
+  ShownIndices shown;
+  for (const ComparedMap& map : live.still) shown.push_back(indices_in_slabs(map, slabs));
   for (const ColourBy by : {ColourBy::kElevation, ColourBy::kDirection, ColourBy::kTime, ColourBy::kIntensity,
                             ColourBy::kFeatures, ColourBy::kBlur}) {
-    const auto colouring = colouring_of(live, by, slabs);
+    const auto colouring = colouring_of(live, by, shown);
     if (!colouring) return tl::unexpected(colouring.error());
     if (by == ColourBy::kIntensity)
       add_intensity(colours, live, *colouring);
