@@ -14,11 +14,11 @@
 #include "app/say.hpp"
 #include "core/io/cloud_file.hpp"
 #include "core/io/trajectory_file.hpp"
-#include "core/map/offset_map.hpp"
+#include "core/map/criteria_about.hpp"
 #include "core/recording/formats/read_raw_recording.hpp"
 #include "core/results/estimate_json.hpp"
 #include "render/charts/curve_charts.hpp"
-#include "render/comparison/compared_recording.hpp"
+#include "render/comparison/comparison.hpp"
 #include "render/comparison/comparison_json.hpp"
 #include "render/vector/vector_file.hpp"
 
@@ -84,15 +84,6 @@ struct Compared {
   std::unique_ptr<CandidateFile> kept;  // the estimate's candidates, until the picture is there
 };
 
-/// Finished candidates are kept beside the picture.
-Result<Estimate> curve_about(const PreparedRecording& prepared, const ComparedRecording& compared,
-                             const CompareOptions& options, CandidateFile& kept, const Job& job) {
-  auto curve = estimate(prepared, criteria_about(compared, options.offsets_ms), {&kept, {}}, job);
-  if (curve && curve->interrupted) curve = failure(ExitCode::kInterrupted, "interrupted");
-  if (!curve) return tl::unexpected(ended(curve.error(), kept));
-  return curve;
-}
-
 Result<MapOptions> map_options(const CompareOptions& options, const Recording& recording) {
   MapOptions map_options;
   map_options.assume = options.recording.assumed_kind();
@@ -118,19 +109,20 @@ Result<Compared> from_recording(const CompareOptions& options, bool by_features)
   warn_of_memory(*recording, offsets_s.size(), progress);
   const auto prepared = prepare(*recording, how->features, progress.job());
   if (!prepared) return tl::unexpected(prepared.error());
-  auto maps = compared_recording(*prepared, offsets_s, *how, by_features, progress.job());
+  const auto maps = build_maps(*prepared, offsets_s, *how, progress.job());
   if (!maps) return tl::unexpected(maps.error());
-  if (!maps->warning.empty()) progress.say("warning: " + maps->warning);
+  if (!maps->front().warning.empty()) progress.say("warning: " + maps->front().warning);
   Compared compared;
   if (options.curve.empty() && !options.no_curve) {
     auto kept = keep_while_working(kept_candidates(options), reading, options.given);
     if (!kept) return tl::unexpected(kept.error());
     compared.kept = std::move(*kept);
-    auto curve = curve_about(*prepared, *maps, options, *compared.kept, progress.job());
-    if (!curve) return tl::unexpected(curve.error());
+    auto curve = criteria_about(*prepared, *maps, {compared.kept.get(), {}}, progress.job());
+    if (!curve) return tl::unexpected(ended(curve.error(), *compared.kept));
     compared.estimate = std::move(*curve);
   }
-  compared.maps = std::move(maps->maps);
+  for (const OffsetMap& map : *maps)
+    compared.maps.push_back(compared_map(*recording, map, by_features ? prepared->features.get() : nullptr));
   return compared;
 }
 

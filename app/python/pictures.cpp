@@ -7,9 +7,8 @@
 #include "app/python/handles.hpp"
 #include "core/io/cloud_file.hpp"
 #include "core/io/output_check.hpp"
-#include "core/offset/estimator.hpp"
+#include "core/map/criteria_about.hpp"
 #include "render/charts/curve_charts.hpp"
-#include "render/comparison/compared_recording.hpp"
 #include "render/comparison/comparison.hpp"
 #include "render/comparison/comparison_json.hpp"
 #include "render/comparison/look_options.hpp"
@@ -88,17 +87,17 @@ Result<Drawn> draw_recording(const Opened& opened, const std::vector<double>& of
   for (const double offset_ms : offsets_ms) offsets_s.push_back(offset_ms * 1e-3);
   const auto prepared = prepare(opened.recording, options.features, job);
   if (!prepared) return tl::unexpected(prepared.error());
-  auto compared =
-      compared_recording(*prepared, offsets_s, options, look.colour_by == ColourBy::kFeatures, job);
-  if (!compared) return tl::unexpected(compared.error());
+  const auto built = build_maps(*prepared, offsets_s, options, job);
+  if (!built) return tl::unexpected(built.error());
   Result<Estimate> curve;
-  if (below.computed) {
-    curve = estimate(*prepared, criteria_about(*compared, offsets_ms), {}, job);
-    if (!curve) return tl::unexpected(curve.error());
-    if (curve->interrupted) return failure(ExitCode::kInterrupted, "interrupted");
-  }
+  if (below.computed) curve = criteria_about(*prepared, *built, {}, job);
+  if (!curve) return tl::unexpected(curve.error());
+  std::vector<ComparedMap> maps;
+  const bool by_features = look.colour_by == ColourBy::kFeatures;
+  for (const OffsetMap& map : *built)
+    maps.push_back(compared_map(opened.recording, map, by_features ? prepared->features.get() : nullptr));
   const Estimate* const drawn = below.given ? &below.given->estimate : below.computed ? &*curve : nullptr;
-  return draw(compared->maps, drawn, look, output, job);
+  return draw(maps, drawn, look, output, job);
 }
 
 py::tuple compare_recording(const OpenedPtr& opened, const std::vector<double>& offsets_ms, const Texts& look,

@@ -1,5 +1,5 @@
 #version 300 es
-// Places one beam at an offset, as core/map/turnable_map.cpp does: the motor turns it by the angle at its own time
+// Places one beam at an offset, as core/map/beam_placer.cpp does: the motor turns it by the angle at its own time
 // plus the offset, and the pose of its scan's sweep takes it into the map frame. Times are whole ticks, so that no
 // digit of a long recording is lost; angles are small parts of a motor sample, so that the card's sine does not count.
 precision highp float;

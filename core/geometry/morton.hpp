@@ -44,9 +44,12 @@ struct MortonKey {
 
 constexpr int kMortonBits = 21;
 
-/// The chosen points ordered along the curve through cubes of `edge_m`, counted from `origin_m`; points of
-/// one cube are in the order of their indices. Points beyond the last cube belong to it. The result is the
-/// same for any number of threads.
+/// Orders keys whose indices ascend along the curve; equal codes stay in the order of their indices.
+void sort_along_curve(std::vector<MortonKey>& keys);
+
+/// The chosen points, given by ascending indices, ordered along the curve through cubes of `edge_m`, counted
+/// from `origin_m`; points of one cube are in the order of their indices. Points beyond the last cube belong
+/// to it. The result is the same for any number of threads.
 std::vector<MortonKey> along_morton_curve(std::span<const std::array<float, 3>> points_m,
                                           std::span<const std::uint32_t> chosen,
                                           const std::array<float, 3>& origin_m, double edge_m);

@@ -1,52 +1,47 @@
 #pragma once
 
-#include <cmath>
+// The mathematics: docs/algorithms.md, section 2.
+
+#include <optional>
 
 #include "core/geometry/kinematics.hpp"
 #include "core/geometry/map_cloud.hpp"
-#include "core/loam/sweep_pose.hpp"
+#include "core/map/scan_poses.hpp"
 #include "core/recording/recording.hpp"
 
 namespace sweepscope {
 
-/// Places beams with the motor angle of their own instant, t_motor = t_laser + offset, along poses. The
-/// recording must outlive it.
+/// Places beams of a recording at an offset: p = X(t) R(a, phi(t + offset)) p_motor, with the motor angle of
+/// the beam's own instant and the pose of its scan. All that places beams does it by this class. One for each
+/// thread: scans mostly ascend. Recording and poses must outlive it.
 class BeamPlacer {
  public:
-  BeamPlacer(const Recording& recording, double offset_s)
-      : recording_(recording),
-        kinematics_(recording.rig.mount),
-        motor_(recording.motor),
-        offset_s_(offset_s) {}
+  /// `frame_from_map`: into a frame other than the map's.
+  BeamPlacer(const Recording& recording, const ScanPoses& poses,
+             const std::optional<Pose>& frame_from_map = std::nullopt);
 
-  /// Appends every beam of a scan with a range, in the frame that the pose leads to. Scans mostly ascend.
-  void place(const LaserScan& scan, const SweepPose& pose, MapCloud& cloud) {
-    const SweepMotion motion = pose.motion();
-    const auto ranges_m = recording_.ranges(scan);
-    for (std::uint32_t beam = 0; beam < scan.beams; ++beam) {
-      if (!std::isfinite(ranges_m[beam])) continue;
-      const double time_s = scan.beam_s(beam);
-      const double u = (time_s - pose.begin_s) / (pose.end_s - pose.begin_s);
-      const Eigen::Vector3d p_in_motor_m =
-          kinematics_.point_in_motor(ranges_m[beam], recording_.direction(scan, beam));
-      const Eigen::Vector3d p_m =
-          motion(kinematics_.base_from_motor(p_in_motor_m, motor_.angle_at(time_s + offset_s_)), u);
-      MapPoint point{};
-      point.getVector3fMap() = p_m.cast<float>();
-      point.data[3] = 1.0f;
-      point.intensity =
-          recording_.intensities.empty() ? 0.0f : recording_.intensities[scan.first_range + beam];
-      point.sweep = static_cast<std::uint32_t>(pose.sweep);
-      point.time_s = time_s;
-      cloud.points.push_back(point);
-    }
-  }
+  /// Beams are those of this scan from now on. False: it is not placed.
+  bool start(std::size_t scan);
+  /// Where a beam lies that returned something.
+  Eigen::Vector3d p_m(std::uint32_t beam);
+  /// The same as a point of a map.
+  MapPoint point(std::uint32_t beam);
 
  private:
+  Eigen::Vector3d direction(std::uint32_t beam);
+
   const Recording& recording_;
+  const ScanPoses& poses_;
+  std::optional<Pose> frame_from_map_;
   Kinematics kinematics_;
   MotorReader motor_;
-  double offset_s_;
+  const LaserScan* scan_ = nullptr;
+  std::uint32_t pose_ = ScanPoses::kNone;  // that `motion_` is of
+  std::optional<SweepMotion> motion_;
+  double begin_s_ = 0, end_s_ = 1;
+  // Of the beams of scans with these angles, as they are first asked for: sines cost a fifth of the time.
+  double angle_min_rad_ = 0, angle_increment_rad_ = 0;
+  std::vector<std::optional<Eigen::Vector3d>> directions_;
 };
 
 }  // namespace sweepscope

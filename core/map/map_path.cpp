@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "core/map/pose_reader.hpp"
+#include <algorithm>
+
+#include "core/map/stamped_poses.hpp"
 #include "core/offset/judgement/identifiability.hpp"
 #include "core/offset/kind/stationary_motion.hpp"
 
@@ -21,8 +23,9 @@ Result<void> check_scans(const OffsetProblem& problem, double offset_s) {
   const Recording& recording = *problem.recording;
   if (const auto refused = motor_refusal(recording.motor, problem.motor))
     return failure(ExitCode::kNotIdentifiable, fmt::format("{}: {}", recording.name, refused->text));
-  PlacedSweep any;
-  if (SweepPlacer(problem, offset_s).next(any)) return {};
+  const std::vector<std::size_t> sweep_of = assign_sweeps(recording.scans, problem.motor.sweeps, offset_s);
+  for (std::size_t i = 0; i < sweep_of.size(); ++i)
+    if (problem.scan_used[i] != 0 && sweep_of[i] != kNoSweep) return {};
   return failure(
       ExitCode::kNotIdentifiable,
       fmt::format("{}: no scan is covered by the motor's samples at these offsets.", recording.name));
@@ -30,27 +33,18 @@ Result<void> check_scans(const OffsetProblem& problem, double offset_s) {
 
 }  // namespace
 
-std::vector<SweepPose> stationary_poses(const OffsetProblem& problem, double offset_s) {
-  std::vector<SweepPose> poses;
-  SweepPlacer placer(problem, offset_s);
-  for (PlacedSweep sweep; placer.next(sweep);) {
-    SweepPose& pose = poses.emplace_back();
-    pose.sweep = sweep.sweep;
-    pose.direction = sweep.direction;
-    pose.begin_s = sweep.begin_s;
-    pose.end_s = sweep.end_s;
-  }
-  return poses;
-}
-
-Result<MapPath> find_map_path(const OffsetProblem& problem, double from_s, double to_s,
+Result<MapPath> find_map_path(const PreparedRecording& prepared, double from_s, double to_s,
                               const MapOptions& options, const Job& job) {
+  const OffsetProblem problem = problem_for(prepared, from_s, to_s);
   if (const auto checked = check_scans(problem, from_s); !checked) return tl::unexpected(checked.error());
   MapPath path;
   path.moving = taken_for_moving(problem, from_s, options);
+  path.used = problem.scan_used;
+  path.sweeps = problem.motor.sweeps;
+  path.poses = options.poses;
   if (path.moving) path.walk = options.walk;
-  if (!options.poses.empty()) {
-    auto covered = check_pose_coverage(*problem.recording, options.poses, problem.scan_used);
+  if (!path.poses.empty()) {
+    auto covered = check_pose_coverage(*problem.recording, path.poses, path.used);
     if (!covered) return tl::unexpected(covered.error());
     path.warning = std::move(*covered);
     return path;
@@ -62,6 +56,18 @@ Result<MapPath> find_map_path(const OffsetProblem& problem, double from_s, doubl
     path.walk = std::make_shared<const SolvedWalk>(std::move(*solved));
   }
   path.warning = pieces_warning(path.walk->sweeps, *problem.recording).value_or("");
+  return path;
+}
+
+MapPath path_without_solving(const PreparedRecording& prepared, std::vector<char> used,
+                             std::vector<StampedPose> poses) {
+  constexpr double kForEver_s = 1e9;
+  MapPath path;
+  path.moving = !poses.empty();
+  path.used = std::move(used);
+  path.sweeps = prepared.motor.sweeps;
+  if (path.sweeps.empty()) path.sweeps.push_back({-kForEver_s, kForEver_s});
+  path.poses = std::move(poses);
   return path;
 }
 

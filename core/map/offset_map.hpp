@@ -17,6 +17,8 @@
 
 namespace sweepscope {
 
+struct MapPath;
+
 struct MapOptions {
   std::optional<RigKind> assume;  // instead of the motion test
   /// The trajectory of the base frame, used instead of LOAM's; ascending in time. Poses are interpolated
@@ -53,6 +55,9 @@ Result<std::vector<OffsetMap>> build_maps(const PreparedRecording& prepared,
 /// The same for a recording that is not used for anything else.
 Result<std::vector<OffsetMap>> build_maps(const Recording& recording, std::span<const double> offsets_s,
                                           const MapOptions& options, const Job& job);
+
+/// The map along a path that is known already.
+OffsetMap map_along(const Recording& recording, const MapPath& path, double offset_s);
 
 /// An upper estimate of the memory that building this number of maps of a recording takes.
 std::uint64_t map_memory_bytes(const Recording& recording, std::size_t maps);

@@ -8,6 +8,8 @@
 #include "core/geometry/map_cloud.hpp"
 #include "core/job.hpp"
 #include "core/map/map_path.hpp"
+#include "core/map/place_beams.hpp"
+#include "core/map/scan_poses.hpp"
 #include "core/offset/prepared/prepared.hpp"
 
 namespace sweepscope {
@@ -38,25 +40,20 @@ class SweepClouds {
   SweepCloud at(std::size_t sweep) const;
 
   bool moving() const { return path_.moving; }
-  bool lost() const { return path_.walk && path_.walk->lost; }
+  bool lost() const { return path_.lost(); }
   /// Of poses that do not cover every scan; empty where they do.
   const std::string& warning() const { return path_.warning; }
 
  private:
   struct ScannedSweep {
-    std::size_t sweep = 0;             // index into MotorMotion::sweeps
-    std::vector<std::uint32_t> scans;  // those that are placed
-    const SweepPose* pose = nullptr;   // null: by poses from elsewhere
+    ScanRange scans;         // those that are placed are all of this sweep
+    std::uint32_t pose = 0;  // of the first of them
   };
-  SweepClouds(OffsetProblem problem, double offset_s, std::vector<StampedPose> poses, MapPath path)
-      : problem_(std::move(problem)), offset_s_(offset_s), poses_(std::move(poses)), path_(std::move(path)) {}
-  void find_sweeps();
+  SweepClouds(const Recording& recording, MapPath path, double offset_s);
 
-  OffsetProblem problem_;
-  double offset_s_;
-  std::vector<StampedPose> poses_;
+  const Recording* recording_;
   MapPath path_;
-  std::vector<SweepPose> stationary_;
+  ScanPoses poses_;
   std::vector<ScannedSweep> sweeps_;
 };
 

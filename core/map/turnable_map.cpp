@@ -11,59 +11,6 @@
 namespace sweepscope {
 namespace {
 
-constexpr std::size_t kMaxBeams = 4'000'000;
-
-std::size_t usable_beams(const Recording& recording, std::span<const char> used) {
-  std::size_t beams = 0;
-  for (std::size_t i = 0; i < recording.scans.size(); ++i) {
-    if (!used[i]) continue;
-    const auto ranges_m = recording.ranges(recording.scans[i]);
-    beams += static_cast<std::size_t>(
-        std::ranges::count_if(ranges_m, [](float range_m) { return std::isfinite(range_m); }));
-  }
-  return beams;
-}
-
-// Keeps every n-th of all the beams that it is given.
-class BeamCollector {
- public:
-  BeamCollector(const Recording& recording, std::size_t stride, std::vector<TurnableBeam>& beams)
-      : recording_(recording), kinematics_(recording.rig.mount), stride_(stride), beams_(beams) {}
-
-  void add(const LaserScan& scan) {
-    const auto ranges_m = recording_.ranges(scan);
-    for (std::uint32_t beam = 0; beam < scan.beams; ++beam) {
-      if (!std::isfinite(ranges_m[beam]) || seen_++ % stride_ != 0) continue;
-      const Eigen::Vector3f p_m =
-          kinematics_.point_in_motor(ranges_m[beam], recording_.direction(scan, beam)).cast<float>();
-      const float intensity =
-          recording_.intensities.empty() ? 0.0F : recording_.intensities[scan.first_range + beam];
-      beams_.push_back({{p_m.x(), p_m.y(), p_m.z()}, intensity, scan.beam_s(beam)});
-    }
-  }
-
- private:
-  const Recording& recording_;
-  Kinematics kinematics_;
-  std::size_t stride_, seen_ = 0;
-  std::vector<TurnableBeam>& beams_;
-};
-
-// The sweep of each scan as assign_sweeps() finds it, which needs no more of a scan than its middle.
-std::vector<std::size_t> sweep_of_scans(const TurnableMap& map, double offset_s) {
-  std::vector<LaserScan> middles(map.scans.size());
-  for (std::size_t i = 0; i < middles.size(); ++i) {
-    middles[i].first_beam_s = map.scans[i].middle_s;
-    middles[i].beams = 1;
-  }
-  return assign_sweeps(middles, map.sweeps, offset_s);
-}
-
-const SweepPose* pose_of(const TurnableMap& map, std::size_t sweep) {
-  const auto found = std::ranges::lower_bound(map.path, sweep, {}, &SweepPose::sweep);
-  return found != map.path.end() && found->sweep == sweep ? &*found : nullptr;
-}
-
 // The coarsest cubes, of 2^level mm, of which a point is the first on the curve; -1 where it shares even the
 // finest with the one before it.
 int first_of_level(const std::vector<MortonKey>& keys, std::size_t k) {
@@ -87,72 +34,28 @@ std::vector<MortonKey> along_curve(std::span<const std::array<float, 3>> points_
 
 }  // namespace
 
-TurnableMap turnable_map(const PreparedRecording& prepared, const std::vector<SweepPose>* path, double from_s,
-                         double to_s) {
-  const Recording& recording = *prepared.recording;
-  const std::vector<char> used = scans_covered(recording, from_s, to_s);
+TurnableMap turnable_map(const Beams& beams, const MapPath& path, std::span<const std::uint32_t> chosen) {
+  const Recording& recording = *beams.recording;
+  const Kinematics kinematics(recording.rig.mount);
   TurnableMap map;
-  map.axis = Kinematics(recording.rig.mount).axis();
+  map.axis = kinematics.axis();
   map.motor = recording.motor;
-  map.sweeps = prepared.motor.sweeps;
-  map.moving = path != nullptr;
-  if (path != nullptr) map.path = *path;
-  map.usable_beams = usable_beams(recording, used);
-  BeamCollector collector(recording, 1 + map.usable_beams / kMaxBeams, map.beams);
-  for (std::size_t i = 0; i < recording.scans.size(); ++i) {
-    if (!used[i]) continue;
-    const LaserScan& scan = recording.scans[i];
-    const std::size_t before = map.beams.size();
-    collector.add(scan);
-    map.scans.push_back({(scan.first_beam_s + scan.last_beam_s()) / 2, map.beams.size() - before});
+  map.sweeps = path.sweeps;
+  map.moving = path.walk != nullptr;
+  if (path.walk) map.path = path.walk->sweeps;
+  std::uint32_t last = ~std::uint32_t{0};
+  for (const std::uint32_t i : chosen) {
+    const LaserScan& scan = recording.scans[beams.scan[i]];
+    if (beams.scan[i] != last) map.scans.push_back({(scan.first_beam_s + scan.last_beam_s()) / 2, 0});
+    last = beams.scan[i];
+    ++map.scans.back().beams;
+    const Eigen::Vector3f p_m =
+        kinematics.point_in_motor(beams.range_m(i), recording.direction(scan, beams.beam[i])).cast<float>();
+    map.beams.push_back({{p_m.x(), p_m.y(), p_m.z()},
+                         beam_intensity(recording, scan, beams.beam[i]),
+                         scan.beam_s(beams.beam[i])});
   }
   return map;
-}
-
-std::vector<std::array<float, 3>> positions_at(const TurnableMap& map, double offset_s) {
-  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-  std::vector<std::array<float, 3>> positions_m(map.beams.size(), {kNan, kNan, kNan});
-  const std::vector<std::size_t> sweep_of = sweep_of_scans(map, offset_s);
-  Mount mount;
-  mount.axis = map.axis;
-  const Kinematics kinematics(mount);
-  MotorReader motor(map.motor);
-  std::size_t first = 0;
-  for (std::size_t s = 0; s < map.scans.size(); first += map.scans[s++].beams) {
-    if (sweep_of[s] == kNoSweep) continue;
-    const SweepPose* pose = map.moving ? pose_of(map, sweep_of[s]) : nullptr;
-    if (map.moving && pose == nullptr) continue;
-    const SweepMotion motion = pose != nullptr ? pose->motion() : SweepPose().motion();
-    for (std::size_t i = first; i < first + map.scans[s].beams; ++i) {
-      const TurnableBeam& beam = map.beams[i];
-      const Eigen::Vector3d p_in_motor_m(beam.p_in_motor_m[0], beam.p_in_motor_m[1], beam.p_in_motor_m[2]);
-      Eigen::Vector3d p_m = kinematics.base_from_motor(p_in_motor_m, motor.angle_at(beam.time_s + offset_s));
-      if (pose != nullptr) p_m = motion(p_m, (beam.time_s - pose->begin_s) / (pose->end_s - pose->begin_s));
-      const Eigen::Vector3f position_m = p_m.cast<float>();
-      positions_m[i] = {position_m.x(), position_m.y(), position_m.z()};
-    }
-  }
-  return positions_m;
-}
-
-MapCloud cloud_at(const TurnableMap& map, double offset_s) {
-  MapCloud cloud;
-  const auto positions_m = positions_at(map, offset_s);
-  const std::vector<std::size_t> sweep_of = sweep_of_scans(map, offset_s);
-  std::size_t first = 0;
-  for (std::size_t s = 0; s < map.scans.size(); first += map.scans[s++].beams) {
-    for (std::size_t i = first; i < first + map.scans[s].beams; ++i) {
-      if (std::isnan(positions_m[i][0])) continue;
-      MapPoint point{};
-      point.getVector3fMap() = Eigen::Vector3f::Map(positions_m[i].data());
-      point.data[3] = 1.0F;
-      point.intensity = map.beams[i].intensity;
-      point.sweep = static_cast<std::uint32_t>(sweep_of[s]);
-      point.time_s = map.beams[i].time_s;
-      cloud.push_back(point);
-    }
-  }
-  return cloud;
 }
 
 std::vector<std::uint32_t> evenly_in_space(std::span<const std::array<float, 3>> points_m,
@@ -179,21 +82,6 @@ std::vector<std::uint32_t> evenly_in_space(std::span<const std::array<float, 3>>
   }
   std::ranges::sort(chosen);
   return chosen;
-}
-
-TurnableMap with_beams(const TurnableMap& map, std::span<const std::uint32_t> kept) {
-  TurnableMap part = map;
-  part.beams.clear();
-  part.scans.clear();
-  std::size_t first = 0, next = 0;
-  for (const TurnableScan& scan : map.scans) {
-    TurnableScan fewer{scan.middle_s, 0};
-    for (; next < kept.size() && kept[next] < first + scan.beams; ++next, ++fewer.beams)
-      part.beams.push_back(map.beams[kept[next]]);
-    if (fewer.beams > 0) part.scans.push_back(fewer);
-    first += scan.beams;
-  }
-  return part;
 }
 
 }  // namespace sweepscope

@@ -6,9 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "core/geometry/map_cloud.hpp"
-#include "core/loam/sweep_pose.hpp"
-#include "core/offset/prepared/prepared.hpp"
+#include "core/map/beams.hpp"
+#include "core/map/map_path.hpp"
 
 namespace sweepscope {
 
@@ -26,10 +25,11 @@ struct TurnableScan {
   std::size_t beams = 0;  // that follow one another in TurnableMap::beams
 };
 
-/// A map for every offset: the beams, and all that places them at t_motor = t_laser + offset. A beam's point
-/// in the map frame is pose(u) * Rot(axis, motor angle at time_s + offset) * p_in_motor_m, where the pose is
-/// that of its scan's sweep and u = (time_s - begin_s) / (end_s - begin_s). What the offset does not change:
-/// the trajectory, which was solved for once.
+/// A map for every offset, as plain data for a program that has neither recording nor engine, such as a web
+/// page: the beams, and all that places them at t_motor = t_laser + offset. A beam's point in the map frame
+/// is pose(u) * Rot(axis, motor angle at time_s + offset) * p_in_motor_m, where the pose is that of its
+/// scan's sweep and u = (time_s - begin_s) / (end_s - begin_s); see place_beams(). What the offset does not
+/// change: the trajectory, which was solved for once.
 struct TurnableMap {
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  // of the motor, in the base frame, unit length
   MotorTrack motor;
@@ -38,28 +38,14 @@ struct TurnableMap {
   std::vector<SweepPose> path;      // of a moving rig, ascending; a sweep without a pose is not placed
   std::vector<TurnableScan> scans;  // ascending in time
   std::vector<TurnableBeam> beams;  // in the order of the scans
-  std::size_t usable_beams = 0;     // of the recording at these offsets; `beams` may be fewer
 };
 
-/// The map of a recording for offsets from `from_s` to `to_s`: of the scans that the motor's track covers at
-/// all of them. `path`: a solved trajectory, or null where the rig is stationary. Of more than four million
-/// beams only every n-th is kept.
-TurnableMap turnable_map(const PreparedRecording& prepared, const std::vector<SweepPose>* path, double from_s,
-                         double to_s);
-
-/// The position of each beam in the map frame at an offset, as build_maps() places it along the same
-/// trajectory; NaN where it belongs to no sweep.
-std::vector<std::array<float, 3>> positions_at(const TurnableMap& map, double offset_s);
-
-/// The same as a cloud, without the beams that belong to no sweep.
-MapCloud cloud_at(const TurnableMap& map, double offset_s);
+/// Of the chosen beams, given as ascending indices, along a path without poses from elsewhere.
+TurnableMap turnable_map(const Beams& beams, const MapPath& path, std::span<const std::uint32_t> chosen);
 
 /// At most `count` of the points, evenly distributed in space, as ascending indices: one for each cube of the
 /// finest edge (in steps of 2) for which that is not too many, and of the next finer cubes every n-th. What
 /// is blurred fills more cubes and keeps more of its points. Points that are NaN are left out.
 std::vector<std::uint32_t> evenly_in_space(std::span<const std::array<float, 3>> points_m, std::size_t count);
-
-/// The map of only these beams, given as ascending indices.
-TurnableMap with_beams(const TurnableMap& map, std::span<const std::uint32_t> kept);
 
 }  // namespace sweepscope

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include "core/map/cloud_distance.hpp"
-#include "core/map/surface_thickness.hpp"
+#include "core/map/surfaces/cloud_distance.hpp"
+#include "core/map/surfaces/surface_thickness.hpp"
 #include "core/numbers.hpp"
 #include "core/parallel.hpp"
 

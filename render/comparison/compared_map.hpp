@@ -8,7 +8,8 @@
 #include "core/geometry/map_cloud.hpp"
 #include "core/geometry/pose.hpp"
 #include "core/map/feature_points.hpp"
-#include "core/map/surface_thickness.hpp"
+#include "core/map/offset_map.hpp"
+#include "core/map/surfaces/surface_thickness.hpp"
 #include "render/pictures/scanner_mark.hpp"
 
 namespace sweepscope {
@@ -27,6 +28,11 @@ struct ComparedMap {
 
   std::size_t size() const { return cloud ? cloud->size() : 0; }
 };
+
+/// The map at an offset, with the scanner at its end; with `features`, those of the recording, the kind of
+/// each point.
+ComparedMap compared_map(const Recording& recording, const OffsetMap& map,
+                         const FeatureSet* features = nullptr);
 
 /// Measures the thickness of the map's surfaces unless that was done. If `job` is cancelled it stays as it
 /// was.

@@ -49,6 +49,11 @@ bool is_inside(const MapPoint& point, const Box& box) {
   return (p >= box.from_m.array()).all() && (p <= box.to_m.array()).all();
 }
 
+bool in_any(std::span<const HeightRange> slabs, double height_m) {
+  return std::ranges::any_of(
+      slabs, [&](const HeightRange& slab) { return height_m >= slab.from_m && height_m <= slab.to_m; });
+}
+
 /// How far above the path a ceiling begins to hide what is below it; infinite where there is none.
 double ceiling_above_path_m(std::span<const ComparedMap> maps) {
   constexpr double kBin_m = 0.1, kMinShare = 0.12;
@@ -85,14 +90,19 @@ std::vector<HeightRange> choose_slabs(std::span<const ComparedMap> maps, const C
   return {{-kInfinity, -kBlindHeight_m}, {kBlindHeight_m, ceiling_m}};
 }
 
+std::vector<std::uint32_t> indices_in_slabs(const ComparedMap& map, std::span<const HeightRange> slabs) {
+  std::vector<std::uint32_t> indices;
+  for_each_point(map, [&](std::size_t index, const MapPoint&, double height_m) {
+    if (in_any(slabs, height_m)) indices.push_back(static_cast<std::uint32_t>(index));
+  });
+  return indices;
+}
+
 SlabPoints points_in_slabs(const ComparedMap& map, std::span<const float> values,
                            std::span<const HeightRange> slabs, const std::optional<Box>& box) {
   SlabPoints out;
   for_each_point(map, [&](std::size_t index, const MapPoint& point, double height_m) {
-    const bool at_height = std::any_of(slabs.begin(), slabs.end(), [&](const HeightRange& slab) {
-      return height_m >= slab.from_m && height_m <= slab.to_m;
-    });
-    if (!at_height || (box && !is_inside(point, *box))) return;
+    if (!in_any(slabs, height_m) || (box && !is_inside(point, *box))) return;
     out.points.add({point.x, point.y, point.z}, values[index]);
     out.above_path_m.push_back(static_cast<float>(height_m));
   });

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -18,6 +19,9 @@ struct SlabPoints {
 
 /// The slabs of the options, or the default ones for these maps.
 std::vector<HeightRange> choose_slabs(std::span<const ComparedMap> maps, const ComparisonOptions& options);
+
+/// The points of a map at these heights, as ascending indices.
+std::vector<std::uint32_t> indices_in_slabs(const ComparedMap& map, std::span<const HeightRange> slabs);
 
 /// `values`: one for each point of the map. Without a box all positions are inside.
 SlabPoints points_in_slabs(const ComparedMap& map, std::span<const float> values,

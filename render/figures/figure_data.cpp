@@ -1,5 +1,4 @@
 #include "render/figures/figure_data.hpp"
-#include "render/comparison/scanner_pose.hpp"
 
 #include <fmt/format.h>
 
@@ -223,11 +222,8 @@ Result<void> FigureData::build(const std::string& name, bool true_poses, bool wi
   if (!built) return tl::unexpected(built.error());
   for (std::size_t k = 0; k < indices.size(); ++k) {
     ComparedMap& map = maps[indices[k]];
+    map = compared_map((*data)->recording, (*built)[k]);
     map.label = specs[indices[k]].label;
-    map.offset_s = offsets_s[k];
-    map.cloud = (*built)[k].cloud;
-    map.scanner = scanner_pose((*data)->recording, (*built)[k].trajectory, offsets_s[k]);
-    map.path = std::move((*built)[k].trajectory);
     const bool features_only = specs[indices[k]].features_only;
     if (!with_features && !features_only) continue;
     const auto features = extract_features((*data)->recording, FeatureOptions(), job_);
@@ -263,9 +259,8 @@ Result<LiveMap> FigureData::live(const InteractiveFigure& figure) {
     still[i].cloud = (*built)[i].cloud;
     still[i].path = std::move((*built)[i].trajectory);
   }
-  const auto& walk = built->front().walk;
-  LiveMap live = live_map(*prepared, walk ? &walk->sweeps : nullptr, std::move(still), std::move(criteria),
-                          figure.points, job_);
+  LiveMap live =
+      live_map(*prepared, built->front().walk, std::move(still), std::move(criteria), figure.points, job_);
   if (job_.cancelled()) return failure(ExitCode::kInterrupted, "interrupted while measuring the map");
   return live;
 }

@@ -3,8 +3,8 @@
 #include <span>
 #include <string>
 
-#include "core/map/cross_section.hpp"
 #include "core/map/feature_points.hpp"
+#include "core/map/sections/cross_section.hpp"
 #include "core/offset/estimate.hpp"
 #include "render/charts/chart.hpp"
 #include "render/comparison/comparison.hpp"

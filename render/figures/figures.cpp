@@ -12,7 +12,7 @@
 #include "core/io/output_check.hpp"
 #include "core/io/table.hpp"
 #include "core/loam/features.hpp"
-#include "core/map/cross_section.hpp"
+#include "core/map/sections/cross_section.hpp"
 #include "core/recording/formats/read_raw_recording.hpp"
 #include "render/charts/curve_charts.hpp"
 #include "render/charts/over_time_chart.hpp"

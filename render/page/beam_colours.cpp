@@ -1,7 +1,6 @@
 #include "render/page/beam_colours.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -19,11 +18,11 @@ std::size_t point_of_beam(const MapCloud& cloud, double time_s, const std::array
 
 }  // namespace
 
-BeamBlur blur_of_beams(const TurnableMap& drawn, const ComparedMap& map) {
+BeamBlur blur_of_beams(const TurnableMap& drawn, std::span<const std::array<float, 3>> positions_m,
+                       const ComparedMap& map) {
   BeamBlur blur{map.offset_s.value(), {}};
   blur.thickness_m.assign(drawn.beams.size(), std::numeric_limits<float>::quiet_NaN());
   if (!map.thickness) return blur;
-  const auto positions_m = positions_at(drawn, blur.offset_s);
   for (std::size_t i = 0; i < drawn.beams.size(); ++i) {
     if (std::isnan(positions_m[i][0])) continue;
     const std::size_t point = point_of_beam(*map.cloud, drawn.beams[i].time_s, positions_m[i]);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -23,7 +24,9 @@ struct BeamColours {
 };
 
 /// The blur as it was measured in a map of the same recording, whose points are identified by the time of
-/// their beam and, of beams of the same time, by their place.
-BeamBlur blur_of_beams(const TurnableMap& drawn, const ComparedMap& map);
+/// their beam and, of beams of the same time, by their position; `positions_m`: of the drawn beams at the
+/// map's offset.
+BeamBlur blur_of_beams(const TurnableMap& drawn, std::span<const std::array<float, 3>> positions_m,
+                       const ComparedMap& map);
 
 }  // namespace sweepscope

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/io/printable_text.hpp"
+#include "core/map/place_beams.hpp"
 #include "core/offset/prepared/search_window.hpp"
 #include "render/charts/curve_charts.hpp"
 #include "render/comparison/comparison_points.hpp"
@@ -39,17 +40,21 @@ std::string table_bytes(const ColourTable& table) {
   return bytes;
 }
 
+/// Of each map, the points that are shown.
+using ShownIndices = std::vector<std::vector<std::uint32_t>>;
+
 /// What colours the points, as make_colouring() has it for the maps at first.
-Result<Colouring> colouring_of(const LiveMap& live, ColourBy by, const std::vector<HeightRange>& slabs) {
-  std::vector<SlabPoints> shown;
-  std::vector<std::span<const float>> values;
-  for (const ComparedMap& map : live.still) {
-    const auto of_map = colour_values(map, nullptr, by);
+Result<Colouring> colouring_of(const LiveMap& live, ColourBy by, const ShownIndices& shown) {
+  std::vector<std::vector<float>> of_maps;
+  for (std::size_t m = 0; m < shown.size(); ++m) {
+    const auto of_map = colour_values(live.still[m], nullptr, by);
     if (!of_map) return tl::unexpected(of_map.error());
-    shown.push_back(points_in_slabs(map, *of_map, slabs));
+    std::vector<float>& values = of_maps.emplace_back();
+    values.reserve(shown[m].size());
+    for (const std::uint32_t i : shown[m]) values.push_back((*of_map)[i]);
   }
-  for (const SlabPoints& points : shown) values.push_back(points.points.values);
-  return make_colouring(by, "viridis", values, std::nullopt);
+  return make_colouring(by, "viridis", std::vector<std::span<const float>>(of_maps.begin(), of_maps.end()),
+                        std::nullopt);
 }
 
 Json json_of(const Colouring& colouring, ColourBy by) {
@@ -123,9 +128,11 @@ void add_blur(PageColours& colours, const LiveMap& live, Colouring colouring) {
 
 Result<PageColours> page_colours(const LiveMap& live, const std::vector<HeightRange>& slabs) {
   PageColours colours;
+  ShownIndices shown;
+  for (const ComparedMap& map : live.still) shown.push_back(indices_in_slabs(map, slabs));
   for (const ColourBy by : {ColourBy::kElevation, ColourBy::kDirection, ColourBy::kTime, ColourBy::kIntensity,
                             ColourBy::kFeatures, ColourBy::kBlur}) {
-    const auto colouring = colouring_of(live, by, slabs);
+    const auto colouring = colouring_of(live, by, shown);
     if (!colouring) return tl::unexpected(colouring.error());
     if (by == ColourBy::kIntensity)
       add_intensity(colours, live, *colouring);
@@ -200,15 +207,16 @@ std::string grouped(std::size_t number) {
   return text;
 }
 
-std::string what_is_drawn(const TurnableMap& map) {
+std::string what_is_drawn(const LiveMap& live) {
+  const std::size_t drawn = live.map.beams.size();
   const std::string points =
-      map.beams.size() == map.usable_beams
-          ? fmt::format("all {} measured points", grouped(map.usable_beams))
+      drawn == live.usable_beams
+          ? fmt::format("all {} measured points", grouped(drawn))
           : fmt::format(
                 "{} of {} measured points, chosen evenly in space where the map is blurred, so that "
                 "blurred places keep theirs",
-                grouped(map.beams.size()), grouped(map.usable_beams));
-  const char* path = map.moving
+                grouped(drawn), grouped(live.usable_beams));
+  const char* path = live.map.moving
                          ? "They follow the trajectory that was solved together with the answer; it does "
                            "not change with the offset."
                          : "The rig stood still: the map is exact at every offset.";
@@ -218,29 +226,52 @@ std::string what_is_drawn(const TurnableMap& map) {
       points, path);
 }
 
+/// The beams that are drawn, of all that may be.
+struct DrawnBeams {
+  Beams beams;
+  MapPath path;
+  std::vector<std::uint32_t> chosen;
+
+  std::vector<std::array<float, 3>> positions_m(double offset_s) const {
+    return place_beams(beams, path, offset_s, chosen);
+  }
+};
+
 /// The blur of the maps at first, and as far beyond B as A is before it.
-std::vector<BeamBlur> blur_of(const TurnableMap& all, const LiveMap& live, const Job& job) {
+std::vector<BeamBlur> blur_of(const DrawnBeams& drawn, const LiveMap& live, const Job& job) {
   // With more points, a third blur would take the page above 12 MB.
   constexpr std::size_t kMaxPointsOfThree = 400'000;
   std::vector<BeamBlur> blur;
-  for (const ComparedMap& map : live.still) blur.push_back(blur_of_beams(live.map, map));
+  const auto add = [&](const ComparedMap& map) {
+    blur.push_back(blur_of_beams(live.map, drawn.positions_m(*map.offset_s), map));
+  };
+  for (const ComparedMap& map : live.still) add(map);
   ComparedMap beyond;
   beyond.offset_s = 2 * live.offset_s[1] - live.offset_s[0];
   if (live.map.beams.size() <= kMaxPointsOfThree && *beyond.offset_s >= live.span.from_s &&
       *beyond.offset_s <= live.span.to_s) {
-    beyond.cloud = MapCloud::Ptr(new MapCloud(cloud_at(all, *beyond.offset_s)));
+    beyond.cloud = map_along(*drawn.beams.recording, drawn.path, *beyond.offset_s).cloud;
     measure_thickness(beyond, job);
-    blur.push_back(blur_of_beams(live.map, beyond));
+    add(beyond);
   }
   std::ranges::sort(blur, {}, &BeamBlur::offset_s);
   return blur;
 }
 
-BeamColours beam_colours(const FeatureSet& features, const TurnableMap& all, const LiveMap& live,
+BeamColours beam_colours(const FeatureSet& features, const DrawnBeams& drawn, const LiveMap& live,
                          const Job& job) {
   MapCloud times;
   for (const TurnableBeam& beam : live.map.beams) times.emplace_back().time_s = beam.time_s;
-  return {feature_kinds(features, times), blur_of(all, live, job)};
+  return {feature_kinds(features, times), blur_of(drawn, live, job)};
+}
+
+/// `usable`: the number of beams to choose from.
+DrawnBeams choose_beams(const Recording& recording, MapPath path, double offset_s, std::size_t points,
+                        std::size_t usable) {
+  constexpr std::size_t kMaxChoice = 4'000'000;
+  DrawnBeams drawn{collect_beams(recording, path.used, 1 + usable / kMaxChoice), std::move(path), {}};
+  drawn.chosen = evenly_in_space(place_beams(drawn.beams, drawn.path, offset_s), points);
+  return drawn;
 }
 
 }  // namespace
@@ -253,21 +284,27 @@ OffsetSpan live_span(const PreparedRecording& prepared, double a_s, double b_s) 
   return {middle_s - half_s, middle_s + half_s};
 }
 
-LiveMap live_map(const PreparedRecording& prepared, const std::vector<SweepPose>* path,
+LiveMap live_map(const PreparedRecording& prepared, std::shared_ptr<const SolvedWalk> walk,
                  std::vector<ComparedMap> still, std::optional<Estimate> criteria, std::size_t points,
                  const Job& job) {
+  const Recording& recording = *prepared.recording;
   LiveMap live;
   live.offset_s = {still.at(0).offset_s.value(), still.at(1).offset_s.value()};
   live.span = live_span(prepared, live.offset_s[0], live.offset_s[1]);
-  const TurnableMap all = turnable_map(prepared, path, live.span.from_s, live.span.to_s);
-  live.map = with_beams(all, evenly_in_space(positions_at(all, live.offset_s[0]), points));
+  MapPath path = path_without_solving(prepared, scans_covered(recording, live.span.from_s, live.span.to_s));
+  path.walk = std::move(walk);
+  for (std::size_t i = 0; i < recording.scans.size(); ++i)
+    if (path.used[i] != 0) live.usable_beams += usable_beams(recording, recording.scans[i]);
+  const DrawnBeams drawn =
+      choose_beams(recording, std::move(path), live.offset_s[0], points, live.usable_beams);
+  live.map = turnable_map(drawn.beams, drawn.path, drawn.chosen);
   for (ComparedMap& map : still) {
     measure_thickness(map, job);
     if (map.feature_kinds.empty()) map.feature_kinds = feature_kinds(*prepared.features, *map.cloud);
   }
   live.still = std::move(still);
   live.criteria = std::move(criteria);
-  live.colours = beam_colours(*prepared.features, all, live, job);
+  live.colours = beam_colours(*prepared.features, drawn, live, job);
   return live;
 }
 
@@ -278,7 +315,7 @@ std::string live_map_part(const LiveMap& live) {
       "<div id=\"live-stage\"><canvas id=\"live-canvas\" tabindex=\"0\" aria-label=\"Maps A and B from the "
       "measured beams\"></canvas></div>\n<div id=\"live-legend\"></div>\n"
       "<div id=\"live-charts\"></div>\n<p class=\"caption\">{}</p>\n</section>\n",
-      label_of(live.still.at(0)), label_of(live.still.at(1)), what_is_drawn(live.map));
+      label_of(live.still.at(0)), label_of(live.still.at(1)), what_is_drawn(live));
 }
 
 Result<std::string> live_map_data(const LiveMap& live) {

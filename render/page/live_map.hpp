@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,6 +32,7 @@ OffsetSpan live_span(const PreparedRecording& prepared, double a_s, double b_s);
 /// What a page needs to draw a map at any offset.
 struct LiveMap {
   TurnableMap map;                 // with the beams that are drawn
+  std::size_t usable_beams = 0;    // of which they were chosen
   OffsetSpan span;                 // of the offsets
   std::array<double, 2> offset_s;  // of the maps A and B at first
   /// The maps at those two offsets. Heights shown and ranges of the colours are theirs, as in the picture
@@ -41,11 +43,11 @@ struct LiveMap {
 };
 
 /// The live map of a recording, of at most `points` beams: chosen evenly in space in the map at A, which is
-/// off the answer, so that blurred places keep theirs. `path` as for turnable_map(). `still`: the maps at A
-/// and B. Their blur is measured unless that was done, and that of the map as far beyond B as A is before it,
-/// where the span holds that and the points leave room for it. If `job` is cancelled the result is
-/// unfinished.
-LiveMap live_map(const PreparedRecording& prepared, const std::vector<SweepPose>* path,
+/// off the answer, so that blurred places keep theirs. `walk`: a solved trajectory, or null where the rig is
+/// stationary. `still`: the maps at A and B. Their blur is measured unless that was done, and that of the map
+/// as far beyond B as A is before it, where the span holds that and the points leave room for it. If `job` is
+/// cancelled the result is unfinished.
+LiveMap live_map(const PreparedRecording& prepared, std::shared_ptr<const SolvedWalk> walk,
                  std::vector<ComparedMap> still, std::optional<Estimate> criteria, std::size_t points,
                  const Job& job = {});
 

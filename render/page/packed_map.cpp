@@ -142,7 +142,6 @@ PackedMap pack_map(const TurnableMap& map, std::span<const NamedBytes> more) {
                               {"corner_m", grid.corner_m},
                               {"step_m", grid.step_m},
                               {"moving", map.moving},
-                              {"usable_beams", map.usable_beams},
                               {"arrays", arrays.places()}};
   return {arrays.take_bytes(), json_text(std::move(head))};
 }

@@ -25,8 +25,8 @@ namespace sweepscope {
 /// and more arrays of bytes that are given.
 struct PackedMap {
   std::string bytes;
-  /// JSON: tick_s, laser_origin_s, motor_origin_s, axis, corner_m, step_m, moving, usable_beams, and arrays:
-  /// {NAME: [first byte, bytes]}.
+  /// JSON: tick_s, laser_origin_s, motor_origin_s, axis, corner_m, step_m, moving, and arrays: {NAME: [first
+  /// byte, bytes]}.
   std::string head_json;
 };
 

@@ -43,9 +43,7 @@ Result<void> add_maps(ReportContent& content, const PreparedRecording& prepared,
     if (job.cancelled()) return failure(ExitCode::kInterrupted, "interrupted while measuring the map");
   }
   if (live_points > 0) {
-    const auto& walk = built->front().walk;
-    content.live =
-        live_map(prepared, walk ? &walk->sweeps : nullptr, content.maps, content.criteria, live_points, job);
+    content.live = live_map(prepared, built->front().walk, content.maps, content.criteria, live_points, job);
     if (job.cancelled()) return failure(ExitCode::kInterrupted, "interrupted while measuring the map");
   }
   for (const ComparedMap& map : content.maps) on_paths.push_back({map.cloud.get(), map.path});

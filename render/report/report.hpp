@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "core/map/cross_section.hpp"
+#include "core/map/sections/cross_section.hpp"
 #include "core/offset/estimate.hpp"
 #include "core/recording/inspect.hpp"
 #include "render/comparison/compared_map.hpp"

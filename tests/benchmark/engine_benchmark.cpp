@@ -18,7 +18,7 @@
 #include "core/loam/feature_map.hpp"
 #include "core/loam/matching.hpp"
 #include "core/map/offset_map.hpp"
-#include "core/map/surface_thickness.hpp"
+#include "core/map/surfaces/surface_thickness.hpp"
 #include "core/offset/criteria/moving_candidate.hpp"
 #include "core/offset/criteria/stationary_candidate.hpp"
 #include "core/offset/estimator.hpp"

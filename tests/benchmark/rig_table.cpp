@@ -333,7 +333,7 @@ void run(const Family& family, const Settings& settings) {
       continue;
     }
     ++table.refused;
-    fmt::print("refused: {}\n", found && !found->reasons.empty() ? found->reasons.front() : "");
+    fmt::print("refused: {}\n", found && !found->reasons().empty() ? found->reasons().front() : "");
   }
   print(family, "tuned on", tuned);
   print(family, "held out", others);

@@ -38,8 +38,7 @@ TEST_F(Played, TheScanOfAMomentIsTheLastThatBeganBeforeIt) {
   const PlayedScan played = played_scan(placement, began_s(40) + 0.001);
   const std::size_t first = loaded.beams.first_point[40], end = loaded.beams.first_point[41];
   ASSERT_EQ(played.points_m.size(), end - first);
-  std::vector<std::array<float, 3>> all(loaded.beams.size());
-  replace_points(loaded.beams, placement.map->path, placement.offset_s, all);
+  const auto all = place_beams(loaded.beams, placement.map->path, placement.offset_s);
   EXPECT_EQ(played.points_m.front(), all[first]);
   EXPECT_EQ(played.points_m.back(), all[end - 1]);
 }

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "core/io/trajectory_file.hpp"
-#include "core/map/pose_reader.hpp"
+#include "core/map/stamped_poses.hpp"
 #include "core/numbers.hpp"
 #include "core/offset/kind/rig_motion.hpp"
 #include "core/simulation/simulate.hpp"

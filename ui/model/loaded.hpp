@@ -9,7 +9,7 @@
 
 #include "core/geometry/pose.hpp"
 #include "core/job.hpp"
-#include "core/map/replace_points.hpp"
+#include "core/map/place_beams.hpp"
 #include "core/offset/prepared/prepared.hpp"
 #include "core/offset/walk/walk.hpp"
 #include "core/recording/formats/read_recording.hpp"

@@ -12,10 +12,7 @@ namespace sweepscope::ui {
 namespace {
 
 std::array<float, 3> place_of(const Placement& placement, std::uint32_t beam) {
-  const std::array chosen{beam};
-  std::array<std::array<float, 3>, 1> place{};
-  replace_points(placement.loaded->beams, placement.map->path, placement.offset_s, chosen, place);
-  return place[0];
+  return place_beams(placement.loaded->beams, placement.map->path, placement.offset_s, std::array{beam})[0];
 }
 
 std::string in_words(const std::array<float, 3>& p) {

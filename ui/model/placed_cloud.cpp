@@ -14,14 +14,10 @@ namespace {
 using Places = std::vector<std::array<float, 3>>;
 
 /// Where the beams are whose numbers are `chosen`, or all.
-Places place_beams(const Placement& placement, const std::vector<std::uint32_t>* chosen) {
+Places places_of(const Placement& placement, const std::vector<std::uint32_t>* chosen) {
   const Beams& beams = placement.loaded->beams;
-  Places places(chosen != nullptr ? chosen->size() : beams.size());
-  if (chosen != nullptr)
-    replace_points(beams, placement.map->path, placement.offset_s, *chosen, places);
-  else
-    replace_points(beams, placement.map->path, placement.offset_s, places);
-  return places;
+  return chosen != nullptr ? place_beams(beams, placement.map->path, placement.offset_s, *chosen)
+                           : place_beams(beams, placement.map->path, placement.offset_s);
 }
 
 /// Which beams the look shows.
@@ -122,7 +118,7 @@ struct WholeMap {
 };
 
 WholeMap whole_map(const Placement& placement) {
-  const Places places = place_beams(placement, nullptr);
+  const Places places = places_of(placement, nullptr);
   const Beams& beams = placement.loaded->beams;
   const auto sweep_of =
       assign_sweeps(beams.recording->scans, placement.loaded->prepared.motor.sweeps, placement.offset_s);
@@ -233,7 +229,7 @@ ColourSpan colour_span(ColourBy by, const Loaded& loaded, const SolvedMap* a, co
 
 double difference_span_mm(const Placement& placement, const Placement& other) {
   const auto& chosen = placement.map->order.chosen;
-  const Places a = place_beams(placement, &chosen), b = place_beams(other, &chosen);
+  const Places a = places_of(placement, &chosen), b = places_of(other, &chosen);
   std::vector<double> distances_mm;
   for (std::size_t i = 0; i < a.size(); ++i) {
     if (std::isfinite(a[i][0]) && std::isfinite(b[i][0])) distances_mm.push_back(distance_mm(a[i], b[i]));
@@ -250,8 +246,8 @@ PlacedCloud place_in_order(const Placement& placement, const CloudLook& look,
                            const std::vector<std::uint32_t>* chosen, const std::vector<std::uint32_t>& slots,
                            const Placement* other, const BeamValues* slow,
                            const std::vector<float>* spacing_m) {
-  const Places places = place_beams(placement, chosen);
-  const Places other_places = other != nullptr ? place_beams(*other, chosen) : Places();
+  const Places places = places_of(placement, chosen);
+  const Places other_places = other != nullptr ? places_of(*other, chosen) : Places();
   const std::vector<int> direction =
       look.colouring == ColourBy::kDirection ? directions(placement) : std::vector<int>();
   const double begin_s = placement.loaded->recording.scans.front().first_beam_s;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/map/feature_points.hpp"
-#include "core/map/surface_thickness.hpp"
+#include "core/map/surfaces/surface_thickness.hpp"
 #include "render/comparison/colouring.hpp"
 #include "render/images/colour_table.hpp"
 #include "render/pictures/live_view.hpp"

@@ -21,8 +21,8 @@ struct Heights3d {
 
 Heights3d heights_of(const Placement& placement) {
   const Beams& beams = placement.loaded->beams;
-  Heights3d all{std::vector<std::array<float, 3>>(beams.size()), std::vector<float>(beams.size())};
-  replace_points(beams, placement.map->path, placement.offset_s, all.xyz_m);
+  Heights3d all{place_beams(beams, placement.map->path, placement.offset_s),
+                std::vector<float>(beams.size())};
   for (std::size_t i = 0; i < beams.size(); ++i)
     all.above_path_m[i] = all.xyz_m[i][2] - placement.map->path_height_m[beams.scan[i]];
   return all;

@@ -36,8 +36,7 @@ PlayedScan played_scan(const Placement& placement, double time_s) {
   std::vector<std::uint32_t> chosen;
   for (std::size_t i = beams.first_point[first]; i < beams.first_point[last + 1]; ++i)
     chosen.push_back(static_cast<std::uint32_t>(i));
-  played.points_m.resize(chosen.size());
-  replace_points(beams, placement.map->path, placement.offset_s, chosen, played.points_m);
+  played.points_m = place_beams(beams, placement.map->path, placement.offset_s, chosen);
   std::erase_if(played.points_m, [](const auto& p_m) { return !std::isfinite(p_m[0]); });
   played.sensor_m = position_at(placement.map->trajectory, at_s);
   return played;

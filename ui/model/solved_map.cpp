@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "core/map/offset_map.hpp"
+#include "core/map/place_beams.hpp"
 #include "core/offset/prepared/prepared.hpp"
 #include "render/comparison/comparison_points.hpp"
 
@@ -12,13 +12,13 @@ namespace {
 
 constexpr std::size_t kMaxChosen = 60000;
 
-std::vector<float> path_heights(const Recording& recording, const FixedPath& path) {
+std::vector<float> path_heights(const Recording& recording, const ScanPoses& poses) {
   std::vector<float> heights_m(recording.scans.size(), 0);
   for (std::size_t i = 0; i < heights_m.size(); ++i) {
-    if (path.sweep_of_scan[i] == FixedPath::kNoPose) continue;
-    const SweepPose& sweep = path.sweeps[path.sweep_of_scan[i]];
-    const double u = (recording.scans[i].first_beam_s - sweep.begin_s) / (sweep.end_s - sweep.begin_s);
-    heights_m[i] = static_cast<float>(sweep.at(u).translation_m.z());
+    if (poses.pose_of(i) == ScanPoses::kNone) continue;
+    const SweepPose& pose = poses.poses()[poses.pose_of(i)];
+    const double u = (recording.scans[i].first_beam_s - pose.begin_s) / (pose.end_s - pose.begin_s);
+    heights_m[i] = static_cast<float>(pose.at(u).translation_m.z());
   }
   return heights_m;
 }
@@ -30,9 +30,8 @@ SolvedMap::Span span_of(std::span<const SlabPoints> points, std::size_t axis) {
 
 /// Fills what follows from the path.
 void describe_points(const Loaded& loaded, SolvedMap& map) {
-  map.path_height_m = path_heights(loaded.recording, map.path);
-  std::vector<std::array<float, 3>> places(loaded.beams.size());
-  replace_points(loaded.beams, map.path, map.offset_s, places);
+  map.path_height_m = path_heights(loaded.recording, {loaded.recording, map.path, map.offset_s});
+  const auto places = place_beams(loaded.beams, map.path, map.offset_s);
   map.order = order_for_drawing(places, kMaxChosen);
   ComparedMap compared;
   compared.path = map.trajectory;
@@ -64,19 +63,14 @@ Result<SolvedMapPtr> solve_map(const Loaded& loaded, double offset_s, std::optio
   MapOptions options;
   options.assume = assume;
   options.walk = loaded.walk->get();
-  const std::array offsets_s{offset_s};
-  auto built = build_maps(loaded.prepared, offsets_s, options, job);
-  if (!built) return tl::unexpected(built.error());
-  OffsetMap& solved = built->front();
-  loaded.walk->keep(solved.walk);
+  auto path = find_map_path(loaded.prepared, offset_s, offset_s, options, job);
+  if (!path) return tl::unexpected(path.error());
+  loaded.walk->keep(path->walk);
   auto map = std::make_shared<SolvedMap>();
   map->offset_s = offset_s;
-  map->lost = solved.lost;
-  map->trajectory = std::move(solved.trajectory);
-  const std::vector<char> used = scans_covered(loaded.recording, offset_s, offset_s);
-  map->path = solved.moving ? fix_path(loaded.recording, std::move(solved.sweeps), used)
-                            : standing_path(loaded.recording, used);
-  solved.cloud = nullptr;
+  map->lost = path->lost();
+  map->path = std::move(*path);
+  map->trajectory = ScanPoses(loaded.recording, map->path, offset_s).trajectory();
   describe_points(loaded, *map);
   return SolvedMapPtr(std::move(map));
 }
@@ -88,7 +82,7 @@ SolvedMapPtr map_without_solving(const Loaded& loaded, bool standing, double off
   std::vector<char> used = scans_covered(loaded.recording, offset_s, offset_s);
   if (!loaded.poses.empty()) {
     map->trajectory = loaded.poses;
-    map->path = path_along(loaded.recording, loaded.poses, used);
+    map->path = path_without_solving(loaded.prepared, std::move(used), loaded.poses);
     describe_points(loaded, *map);
     return map;
   }
@@ -99,7 +93,7 @@ SolvedMapPtr map_without_solving(const Loaded& loaded, bool standing, double off
     if (loaded.recording.scans[i].first_beam_s > loaded.recording.scans[from].first_beam_s + kShown_s)
       used[i] = 0;
   }
-  map->path = standing_path(loaded.recording, used);
+  map->path = path_without_solving(loaded.prepared, std::move(used));
   describe_points(loaded, *map);
   return map;
 }

@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/map/offset_map.hpp"
+#include "core/map/map_path.hpp"
 #include "render/comparison/comparison.hpp"
 #include "ui/model/loaded.hpp"
 #include "ui/model/spatial_order.hpp"
@@ -15,7 +15,7 @@ struct SolvedMap {
   double offset_s = 0;
   bool provisional = false;  // not solved: only the first second, as if the rig were stationary
   bool lost = false;         // LOAM lost track
-  FixedPath path;
+  MapPath path;
   std::vector<float> path_height_m;  // of each scan, in the map frame
   std::vector<StampedPose> trajectory;
   DrawOrder order;

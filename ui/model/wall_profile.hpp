@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/map/cross_section.hpp"
+#include "core/map/sections/cross_section.hpp"
 #include "render/charts/chart.hpp"
 #include "ui/model/placed_cloud.hpp"
 #include "ui/state/settings.hpp"

@@ -202,10 +202,9 @@ void draw_picked(const PaneContext& context, Side side, const Projection& projec
   if (!request) return;
   const auto beam = beam_asked(context.settings(), context.explorer.loaded()->beams);
   if (!beam) return;
-  const std::array chosen{*beam};
-  std::array<std::array<float, 3>, 1> place{};
   const Placement& placement = request->placement;
-  replace_points(placement.loaded->beams, placement.map->path, placement.offset_s, chosen, place);
+  const auto place =
+      place_beams(placement.loaded->beams, placement.map->path, placement.offset_s, std::array{*beam});
   if (!std::isfinite(place[0][0])) return;
   const auto at = to_screen(projection, {place[0][0], place[0][1], place[0][2]});
   if (!at) return;

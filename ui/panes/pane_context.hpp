@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/map/cross_section.hpp"
+#include "core/map/sections/cross_section.hpp"
 #include "render/pictures/live_view.hpp"
 #include "ui/host/theme.hpp"
 #include "ui/model/explorer.hpp"

@@ -142,7 +142,7 @@ TEST_F(Calibration, FindsTheOffsetOfWhatItHeardUntilThen) {
   EXPECT_GT(so_far.motor_samples, 400U);
   const auto found = calibrate(heard_, options_, Job());
   ASSERT_TRUE(found);
-  ASSERT_TRUE(found->offset_s) << found->reasons.front();
+  ASSERT_TRUE(found->offset_s) << found->reasons().front();
   EXPECT_EQ(found->kind, RigKind::kStationary);
   EXPECT_NE(found->kind_reason.find("0 of"), std::string::npos) << found->kind_reason;
   EXPECT_NEAR(*found->offset_s * 1e3, 13.7, 0.1);
@@ -170,7 +170,7 @@ TEST_F(Calibration, TooLittleIsRefusedWithTheReason) {
     EXPECT_TRUE(found) << found.error().message;
     if (!found) return std::string();
     EXPECT_FALSE(found->identifiable);
-    return found->reasons.empty() ? std::string() : found->reasons.front();
+    return found->reasons().empty() ? std::string() : found->reasons().front();
   };
   EXPECT_EQ(refusal({}), "No scans were received.");
   EXPECT_EQ(refusal({all[0], all[1], "scan,1000,-1,0.01,1e-4,1 2 3\n"}), "No motor angles were received.");
@@ -186,7 +186,7 @@ TEST_F(Calibration, ARigThatMovedIsRefused) {
   EXPECT_FALSE(found->identifiable);
   EXPECT_FALSE(found->offset_s);
   EXPECT_EQ(found->kind, RigKind::kMoving);
-  EXPECT_EQ(found->reasons.back(), "The rig moved: a calibration requires a stationary rig.");
+  EXPECT_EQ(found->reasons().back(), "The rig moved: a calibration requires a stationary rig.");
 }
 
 TEST_F(Calibration, SilenceAndCancellationEndIt) {

@@ -15,7 +15,7 @@ using test::CloudBench, test::kDegree;
 
 std::string reasons(const Estimate& estimate) {
   std::string text;
-  for (const std::string& reason : estimate.reasons) text += reason + "\n";
+  for (const std::string& reason : estimate.reasons()) text += reason + "\n";
   return text;
 }
 
@@ -170,7 +170,7 @@ TEST(CloudOffset, NoLeverNoAnswer) {
   bench.duration_s = 9;
   const Estimate found = test::estimated(bench.record(), direct());
   EXPECT_FALSE(found.offset_s);
-  EXPECT_FALSE(found.reasons.empty());
+  EXPECT_FALSE(found.reasons().empty());
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ TEST_P(StandingInARoom, TheDefaultSearchFindsTheOffset) {
   const auto [truth_s, sweep_s] = GetParam();
   const Estimate found = estimated(test::room(truth_s, sweep_s), by(Method::kStationary));
   EXPECT_EQ(found.method, Method::kStationary);
-  ASSERT_TRUE(found.identifiable) << testing::PrintToString(found.reasons);
+  ASSERT_TRUE(found.identifiable) << testing::PrintToString(found.reasons());
   EXPECT_NEAR(*found.offset_s, truth_s, 0.5 * kMs);
   EXPECT_EQ(*found.offset_s, optimum_s(found, "d"));
 }
@@ -54,7 +54,7 @@ TEST_P(WalkingThroughAStation, EAndNAreExtremeAtTheOffset) {
   const Recording& recording = test::simulated("metro-station", truth_ms * kMs, 30).recording;
   const Estimate found = estimated(recording, over(truth_ms - 5, truth_ms + 5, 1));
   EXPECT_EQ(found.method, Method::kMoving);
-  ASSERT_TRUE(found.identifiable) << testing::PrintToString(found.reasons);
+  ASSERT_TRUE(found.identifiable) << testing::PrintToString(found.reasons());
   EXPECT_NEAR(optimum_s(found, "e"), truth_ms * kMs, 0.3 * kMs);
   EXPECT_NEAR(optimum_s(found, "n"), truth_ms * kMs, 1.0 * kMs);
   EXPECT_EQ(*found.offset_s, optimum_s(found, "e"));
@@ -66,7 +66,7 @@ TEST(Estimate, TheDefaultSearchOfAWalkComesNearItsOffset) {
   const Estimate found =
       estimated(test::simulated("metro-station", 0.024, 12).recording, by(Method::kMoving));
   EXPECT_EQ(found.method, Method::kMoving);
-  ASSERT_TRUE(found.offset_s) << testing::PrintToString(found.reasons);
+  ASSERT_TRUE(found.offset_s) << testing::PrintToString(found.reasons());
   EXPECT_NEAR(*found.offset_s, 0.024, 1.0 * kMs);
 }
 
@@ -83,7 +83,7 @@ TEST_P(OtherRigs, AreEstimatedToo) {
   // A yawing motor needs a scanner that stands upright.
   if (GetParam().z() == 1) bench.mount.laser_in_motor_rpy_deg = {90, 0, 0};
   const Estimate found = estimated(bench.record(), over(12, 22, 0.5));
-  ASSERT_TRUE(found.identifiable) << testing::PrintToString(found.reasons);
+  ASSERT_TRUE(found.identifiable) << testing::PrintToString(found.reasons());
   EXPECT_NEAR(*found.offset_s, 0.017, 0.6 * kMs);
 }
 
@@ -147,7 +147,7 @@ TEST(Estimate, SigmaKnowsOfWhatPullsAllPairsOfSweepsAlike) {
   options.offset_s = -43.34 * kMs;
   const Recording recording = simulate(options, Job()).value().recording;
   const Estimate found = estimated(recording, over(-47, -39, 0.1));
-  ASSERT_TRUE(found.identifiable) << testing::PrintToString(found.reasons);
+  ASSERT_TRUE(found.identifiable) << testing::PrintToString(found.reasons());
   const double error_s = std::abs(*found.offset_s - options.offset_s);
   EXPECT_GT(error_s, 0.3 * kMs) << "d is off here";
   EXPECT_LT(error_s, 2 * found.sigma_s.value_or(0));
@@ -159,8 +159,8 @@ TEST(Estimate, ClocksThatDriftApartAreRefusedByThePapersMethodToo) {
   options.clock_drift_ppm = 500;
   const Estimate found = estimated(simulate(options, Job()).value().recording, over(20, 32, 1));
   EXPECT_FALSE(found.identifiable);
-  EXPECT_NE(testing::PrintToString(found.reasons).find("drift apart"), std::string::npos)
-      << testing::PrintToString(found.reasons);
+  EXPECT_NE(testing::PrintToString(found.reasons()).find("drift apart"), std::string::npos)
+      << testing::PrintToString(found.reasons());
   EXPECT_NEAR(found.drift_ppm.value_or(0), 500, 50);
 }
 

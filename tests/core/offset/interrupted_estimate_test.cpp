@@ -39,7 +39,7 @@ void expect_whole_or_none(const Recording& recording, const EstimateOptions& opt
     if (!found.interrupted) return estimate_to_json(found, Timing::kNull);
     EXPECT_FALSE(found.identifiable || found.offset_s || found.sigma_s || found.drift_ppm);
     EXPECT_TRUE(found.criteria.empty());
-    EXPECT_EQ(found.reasons.size(), 1U);
+    EXPECT_EQ(found.reasons().size(), 1U);
     return std::nullopt;
   });
 }

@@ -27,14 +27,14 @@ Estimate found_in(const SimulationOptions& made, const EstimateOptions& options 
 void expect_truth(const SimulationOptions& made, double max_error_s) {
   const Estimate found = found_in(made);
   EXPECT_EQ(found.kind, RigKind::kStationary);
-  ASSERT_TRUE(found.identifiable) << testing::PrintToString(found.reasons);
+  ASSERT_TRUE(found.identifiable) << testing::PrintToString(found.reasons());
   EXPECT_NEAR(*found.offset_s, made.offset_s, max_error_s);
   EXPECT_NEAR(*found.offset_s, made.offset_s, 3 * *found.sigma_s);
 }
 
 bool says(const Estimate& estimate, const char* words) {
   return std::ranges::any_of(
-      estimate.reasons, [&](const std::string& reason) { return reason.find(words) != std::string::npos; });
+      estimate.reasons(), [&](const std::string& reason) { return reason.find(words) != std::string::npos; });
 }
 
 TEST(OneWay, TwoSpeedsTellTheOffset) {
@@ -53,7 +53,7 @@ TEST(OneWay, TheEncodersZeroDoesNotMatter) {
   Recording recording = simulate(made, Job()).value().recording;
   for (double& angle_rad : recording.motor.angle_rad) angle_rad += 1;
   const Estimate found = estimate(recording, {}, Job()).value();
-  ASSERT_TRUE(found.identifiable) << testing::PrintToString(found.reasons);
+  ASSERT_TRUE(found.identifiable) << testing::PrintToString(found.reasons());
   EXPECT_NEAR(*found.offset_s, made.offset_s, 0.1 * kMs);
 }
 

@@ -6,10 +6,11 @@
 #include <cstring>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <string_view>
 
 #include "core/map/offset_map.hpp"
-#include "core/offset/walk/walk.hpp"
+#include "core/map/place_beams.hpp"
 #include "render/comparison/colouring.hpp"
 #include "render/comparison/comparison.hpp"
 #include "render/comparison/comparison_points.hpp"
@@ -94,25 +95,65 @@ class Unpacked {
   const std::string& bytes_;
 };
 
-void expect_same_places(const TurnableMap& map, std::initializer_list<double> offsets_s) {
+// Where the page's shader puts its beams, by the formula of TurnableMap; NaN where a scan belongs to no
+// sweep.
+std::vector<std::array<float, 3>> positions_at(const TurnableMap& map, double offset_s) {
+  std::vector<std::array<float, 3>> positions_m;
+  std::size_t first = 0;
+  for (const TurnableScan& scan : map.scans) {
+    const auto in_sweep = [&](const Sweep& sweep) {
+      return sweep.begin_s <= scan.middle_s + offset_s && scan.middle_s + offset_s < sweep.end_s;
+    };
+    const auto sweep = std::ranges::find_if(map.sweeps, in_sweep);
+    const auto number = static_cast<std::size_t>(sweep - map.sweeps.begin());
+    const auto pose = std::ranges::find(map.path, number, &SweepPose::sweep);
+    for (std::size_t i = first; i < first + scan.beams; ++i) {
+      const TurnableBeam& beam = map.beams[i];
+      const auto& [x_m, y_m, z_m] = beam.p_in_motor_m;
+      const Eigen::AngleAxisd turn(map.motor.angle_at(beam.time_s + offset_s), map.axis);
+      Eigen::Vector3d p_m = turn * Eigen::Vector3d(x_m, y_m, z_m);
+      if (map.moving && pose != map.path.end())
+        p_m = pose->at((beam.time_s - pose->begin_s) / (pose->end_s - pose->begin_s)) * p_m;
+      if (sweep == map.sweeps.end() || (map.moving && pose == map.path.end())) p_m.setConstant(std::nan(""));
+      positions_m.push_back({float(p_m.x()), float(p_m.y()), float(p_m.z())});
+    }
+    first += scan.beams;
+  }
+  return positions_m;
+}
+
+double max_apart_m(const std::vector<std::array<float, 3>>& a_m,
+                   const std::vector<std::array<float, 3>>& b_m) {
+  double max_m = 0;
+  for (std::size_t i = 0; i < a_m.size(); ++i) {
+    EXPECT_EQ(std::isnan(a_m[i][0]), std::isnan(b_m[i][0])) << i;
+    for (std::size_t axis = 0; axis < 3 && !std::isnan(a_m[i][0]); ++axis)
+      max_m = std::max(max_m, std::abs(double(a_m[i][axis]) - double(b_m[i][axis])));
+  }
+  return max_m;
+}
+
+// A page places its beams where the engine does.
+void expect_same_places(const PreparedRecording& prepared, const MapPath& path,
+                        std::initializer_list<double> offsets_s) {
+  const Beams beams = collect_beams(*prepared.recording, path.used, 7);
+  std::vector<std::uint32_t> all(beams.size());
+  std::iota(all.begin(), all.end(), 0);
+  const TurnableMap map = turnable_map(beams, path, all);
   const PackedMap packed = pack_map(map);
   const TurnableMap read = Unpacked(packed).map();
   ASSERT_EQ(read.beams.size(), map.beams.size());
   for (const double offset_s : offsets_s) {
-    const auto was_m = positions_at(map, offset_s), is_m = positions_at(read, offset_s);
-    double greatest_m = 0;
-    for (std::size_t i = 0; i < was_m.size(); ++i) {
-      ASSERT_EQ(std::isnan(was_m[i][0]), std::isnan(is_m[i][0]));
-      for (std::size_t axis = 0; axis < 3 && !std::isnan(was_m[i][0]); ++axis)
-        greatest_m = std::max(greatest_m, std::abs(double(was_m[i][axis]) - is_m[i][axis]));
-    }
-    EXPECT_LT(greatest_m, 0.2e-3) << offset_s;
+    const auto placed_m = place_beams(beams, path, offset_s);
+    EXPECT_LT(max_apart_m(positions_at(map, offset_s), placed_m), 2e-5) << offset_s;
+    EXPECT_LT(max_apart_m(positions_at(read, offset_s), placed_m), 0.2e-3) << offset_s;
   }
 }
 
 TEST(PackedMap, OfAStationaryRigIsReadBackWithinAFractionOfAMillimetre) {
   const PreparedRecording prepared = prepare(test::room(24 * kMs), FeatureOptions(), Job()).value();
-  expect_same_places(turnable_map(prepared, nullptr, 10 * kMs, 40 * kMs), {10 * kMs, 24 * kMs, 39.99 * kMs});
+  const MapPath path = path_without_solving(prepared, scans_covered(*prepared.recording, 10 * kMs, 40 * kMs));
+  expect_same_places(prepared, path, {10 * kMs, 24 * kMs, 39.99 * kMs});
 }
 
 TEST(PackedMap, OfAWalkIsReadBackWithinAFractionOfAMillimetre) {
@@ -120,10 +161,8 @@ TEST(PackedMap, OfAWalkIsReadBackWithinAFractionOfAMillimetre) {
   const PreparedRecording prepared = prepare(walk.recording, FeatureOptions(), Job()).value();
   MapOptions options;
   options.assume = RigKind::kMoving;
-  const std::vector<double> offsets_s{24 * kMs};
-  const auto maps = build_maps(prepared, offsets_s, options, Job()).value();
-  expect_same_places(turnable_map(prepared, &maps[0].walk->sweeps, 15 * kMs, 33 * kMs),
-                     {15 * kMs, 24 * kMs, 33 * kMs});
+  const MapPath path = find_map_path(prepared, 15 * kMs, 33 * kMs, options, Job()).value();
+  expect_same_places(prepared, path, {15 * kMs, 24 * kMs, 33 * kMs});
 }
 
 TEST(PackedMap, OfALongRecordingHasCoarserTicksThatAreStillExact) {
@@ -299,7 +338,8 @@ TEST(LiveMap, BlurAsFarBeyondTheAnswerIsThatOfTheMapThere) {
   map.offset_s = offsets_s[0];
   map.cloud = build_maps(prepared, offsets_s, {}, Job()).value()[0].cloud;
   measure_thickness(map);
-  const BeamBlur expected = blur_of_beams(live.map, map), &found = live.colours.blur.at(2);
+  const BeamBlur expected = blur_of_beams(live.map, positions_at(live.map, offsets_s[0]), map),
+                 &found = live.colours.blur.at(2);
   // The map here has the scans at its ends as well, which the motor does not cover at all offsets of the
   // page.
   std::size_t equal = 0;

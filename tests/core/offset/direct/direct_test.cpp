@@ -27,7 +27,7 @@ TEST(Direct, AnswersWhereTheLastStepsGoToAndFroByLessThanTheUncertainty) {
   options.offset_s = 17.3 * kMs;
   options.noise_m = 0.030;
   const Estimate found = directly(made(options));
-  ASSERT_TRUE(found.offset_s) << testing::PrintToString(found.reasons);
+  ASSERT_TRUE(found.offset_s) << testing::PrintToString(found.reasons());
   EXPECT_LT(std::abs(*found.offset_s - options.offset_s), 3 * *found.sigma_s);
 }
 
@@ -48,7 +48,7 @@ TEST_P(DirectInARoom, FindsTheOffsetAndKnowsHowWell) {
   const Estimate found = directly(made(options));
   EXPECT_EQ(found.method, Method::kDirect);
   EXPECT_EQ(found.kind, RigKind::kStationary);
-  ASSERT_TRUE(found.identifiable) << testing::PrintToString(found.reasons);
+  ASSERT_TRUE(found.identifiable) << testing::PrintToString(found.reasons());
   EXPECT_NEAR(*found.offset_s, given.truth_s, given.max_error_s);
   EXPECT_GT(*found.sigma_s, 0);
   EXPECT_LT(*found.sigma_s, given.max_error_s);
@@ -71,7 +71,7 @@ TEST(Direct, FindsTheOffsetWhereManyBeamsReturnNothing) {
     options.offset_s = 17.3 * kMs;
     options.dropout = dropout;
     const Estimate found = directly(made(options));
-    ASSERT_TRUE(found.identifiable) << dropout << testing::PrintToString(found.reasons);
+    ASSERT_TRUE(found.identifiable) << dropout << testing::PrintToString(found.reasons());
     EXPECT_NEAR(*found.offset_s, options.offset_s, 0.06 * kMs) << dropout;
     EXPECT_LT(*found.sigma_s, 0.03 * kMs) << dropout;
   }
@@ -85,7 +85,7 @@ TEST(Direct, KnowsThatScatteredStampsTellLess) {
     options.encoder_step_deg = 0.01;
     options.stamp_jitter_s = 1.1 * kMs;
     const Estimate found = directly(made(options));
-    ASSERT_TRUE(found.identifiable) << testing::PrintToString(found.reasons);
+    ASSERT_TRUE(found.identifiable) << testing::PrintToString(found.reasons());
     EXPECT_NEAR(*found.offset_s, -0.03273, 3 * *found.sigma_s);
     EXPECT_LT(*found.sigma_s, 0.25 * kMs);
   }
@@ -101,7 +101,7 @@ TEST(Direct, KnowsThatAMotorSampledSparselyTellsLess) {
     options.sweep_s = sweep_s;
     options.encoder_hz = encoder_hz;
     const Estimate found = directly(made(options));
-    ASSERT_TRUE(found.identifiable) << sweep_s << testing::PrintToString(found.reasons);
+    ASSERT_TRUE(found.identifiable) << sweep_s << testing::PrintToString(found.reasons());
     EXPECT_LT(std::abs(*found.offset_s - options.offset_s), 3 * *found.sigma_s) << sweep_s;
     EXPECT_GT(*found.sigma_s, 0.1 * kMs) << sweep_s;
   }
@@ -120,7 +120,7 @@ TEST(Direct, KnowsThatPlayWhichDependsOnTheAngleLeavesTheOffsetUncertain) {
     if (angles_rad[i] > 20 * kRadPerDeg)
       recording.motor.angle_rad[i] += (angles_rad[i] > angles_rad[i - 1] ? 1 : -1) * 0.6 * kRadPerDeg;
   const Estimate found = directly(recording);
-  ASSERT_TRUE(found.offset_s) << testing::PrintToString(found.reasons);
+  ASSERT_TRUE(found.offset_s) << testing::PrintToString(found.reasons());
   EXPECT_GT(std::abs(*found.offset_s - 0.024), 0.3 * kMs);
   EXPECT_LT(std::abs(*found.offset_s - 0.024), 3 * *found.sigma_s);
   EXPECT_TRUE(std::ranges::any_of(found.warnings, [](const std::string& warning) {
@@ -134,7 +134,7 @@ TEST(Direct, AWalkOfThreeSweepsIsNotTakenForAStationaryRig) {
     expect_refused(directly(test::simulated(walk, 0.024, 1.1).recording),
                    "neighbouring sweeps do not match at any offset");
   const Estimate standing = directly(test::simulated("room-1", 0.024, 1.1).recording);
-  ASSERT_TRUE(standing.offset_s) << testing::PrintToString(standing.reasons);
+  ASSERT_TRUE(standing.offset_s) << testing::PrintToString(standing.reasons());
   EXPECT_EQ(standing.kind_reason, "0 of 2 pairs of neighbouring sweeps differ at every offset.");
   EXPECT_NEAR(*standing.offset_s, 0.024, 0.1 * kMs);
 }
@@ -151,7 +151,7 @@ TEST(Direct, FindsTheOffsetOfAWalkAndKnowsHowWell) {
   const Estimate found = directly(test::simulated("metro-station", 0.024, 30).recording);
   EXPECT_EQ(found.method, Method::kDirect);
   EXPECT_EQ(found.kind, RigKind::kMoving);
-  ASSERT_TRUE(found.identifiable) << testing::PrintToString(found.reasons);
+  ASSERT_TRUE(found.identifiable) << testing::PrintToString(found.reasons());
   EXPECT_NEAR(*found.offset_s, 0.024, 0.3 * kMs);
   EXPECT_NEAR(*found.offset_s, 0.024, 3 * *found.sigma_s);
   EXPECT_LT(*found.sigma_s, 0.6 * kMs);
@@ -159,7 +159,7 @@ TEST(Direct, FindsTheOffsetOfAWalkAndKnowsHowWell) {
 
 TEST(Direct, AWalkFarFromZeroIsFoundToo) {
   const Estimate found = directly(test::simulated("metro-station", -0.047, 20).recording);
-  ASSERT_TRUE(found.identifiable) << testing::PrintToString(found.reasons);
+  ASSERT_TRUE(found.identifiable) << testing::PrintToString(found.reasons());
   EXPECT_NEAR(*found.offset_s, -0.047, 1 * kMs);
 }
 
@@ -185,7 +185,7 @@ TEST_P(DirectOnOtherRigs, FindsTheOffset) {
   bench.mount.laser_in_motor_xyz_m = {0.06, 0.02, 0.05};
   if (GetParam().z() == 1) bench.mount.laser_in_motor_rpy_deg = {90, 0, 0};
   const Estimate found = directly(bench.record());
-  ASSERT_TRUE(found.identifiable) << testing::PrintToString(found.reasons);
+  ASSERT_TRUE(found.identifiable) << testing::PrintToString(found.reasons());
   EXPECT_NEAR(*found.offset_s, 0.017, 0.06 * kMs);
 }
 
@@ -206,7 +206,7 @@ TEST(Direct, AnswersForARigThatWasNudgedAndIsTreatedAsStationary) {
   EstimateOptions assumed;
   assumed.assume = RigKind::kStationary;
   const Estimate found = directly(made(options), assumed);
-  ASSERT_TRUE(found.identifiable) << testing::PrintToString(found.reasons);
+  ASSERT_TRUE(found.identifiable) << testing::PrintToString(found.reasons());
   EXPECT_NEAR(*found.offset_s, options.offset_s, 3 * *found.sigma_s);
   ASSERT_FALSE(found.warnings.empty());
   EXPECT_NE(found.warnings.front().find("The rig moved"), std::string::npos);
@@ -227,7 +227,7 @@ TEST(DirectRefuses, AWalkWithASlowMotorThatSlowsDownAndSaysWhatWouldHelp) {
   expect_refused(found, "Sweeps of 0.5 s would leave");
   expect_refused(found, "reverses at once does not have this limit");
   expect_refused(found, "There is too little information");
-  EXPECT_EQ(found.reasons.size(), 3U) << testing::PrintToString(found.reasons);
+  EXPECT_EQ(found.reasons().size(), 3U) << testing::PrintToString(found.reasons());
 }
 
 TEST(DirectRefuses, ClocksThatDriftApartAndSaysByHowMuch) {
@@ -262,7 +262,7 @@ TEST(DirectRefuses, NothingOnGoodRecordings) {
       options.scene = scene;
       options.sweep_s = sweep_s;
       const Estimate found = directly(made(options));
-      EXPECT_TRUE(found.identifiable) << scene << testing::PrintToString(found.reasons);
+      EXPECT_TRUE(found.identifiable) << scene << testing::PrintToString(found.reasons());
     }
 }
 

@@ -40,7 +40,7 @@ Result<Estimate> estimated_with(const Recording& recording, std::optional<GivenP
 
 void expect_found(const Result<Estimate>& found, double offset_tolerance_s, double shift_tolerance_s) {
   ASSERT_TRUE(found) << found.error().message;
-  ASSERT_TRUE(found->identifiable) << found->reasons.front();
+  ASSERT_TRUE(found->identifiable) << found->reasons().front();
   EXPECT_NEAR(*found->offset_s, 0.024, offset_tolerance_s);
   EXPECT_NEAR(*found->offset_s, 0.024, 4 * *found->sigma_s);
   ASSERT_TRUE(found->motion);

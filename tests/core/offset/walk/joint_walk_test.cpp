@@ -78,8 +78,7 @@ TEST(JointWalk, ClocksThatDriftApartAreRefusedAndMeasured) {
   EXPECT_FALSE(found->identifiable);
   EXPECT_NEAR(found->drift_ppm.value_or(0), 80, 15);
   const auto says = [](const std::string& text) { return text.find("drift apart") != text.npos; };
-  EXPECT_TRUE(std::any_of(found->reasons.begin(), found->reasons.end(), says))
-      << testing::PrintToString(found->reasons);
+  EXPECT_TRUE(std::ranges::any_of(found->reasons(), says)) << testing::PrintToString(found->reasons());
 }
 
 // A stride takes 1.11 s: with sweeps of half of it, the wearer's sway alternates as a wrong offset's roll
@@ -88,7 +87,7 @@ TEST(JointWalk, ASwayInStepWithTheMotorIsSaidAndWidensSigma) {
   EstimateOptions options;
   options.method = Method::kDirect;
   const auto found = estimate(test::simulated("parking-area", 0.024, 30, 0.556).recording, options, Job());
-  ASSERT_TRUE(found->identifiable) << testing::PrintToString(found->reasons);
+  ASSERT_TRUE(found->identifiable) << testing::PrintToString(found->reasons());
   EXPECT_NEAR(*found->offset_s, 0.024, 3 * *found->sigma_s);
   EXPECT_GT(*found->sigma_s, 0.2 * kMs);
   const auto says = [](const std::string& text) { return text.find("in step with the motor") != text.npos; };

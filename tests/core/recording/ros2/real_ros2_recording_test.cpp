@@ -74,8 +74,9 @@ TEST_F(LidarServo, NoMethodAnswersForIt) {
     ASSERT_TRUE(answer) << answer.error().message;
     EXPECT_FALSE(answer->identifiable);
     EXPECT_FALSE(answer->offset_s);
-    ASSERT_EQ(answer->reasons.size(), 1U);
-    EXPECT_EQ(answer->reasons[0].rfind("The scans' receive times are uneven", 0), 0U) << answer->reasons[0];
+    ASSERT_EQ(answer->reasons().size(), 1U);
+    EXPECT_EQ(answer->reasons()[0].rfind("The scans' receive times are uneven", 0), 0U)
+        << answer->reasons()[0];
   }
 }
 

@@ -1,4 +1,4 @@
-#include "core/map/cloud_distance.hpp"
+#include "core/map/surfaces/cloud_distance.hpp"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "core/map/cross_section.hpp"
+#include "core/map/sections/cross_section.hpp"
 
 /// profile_across and face_fitted for many sections in one pass over a map.
 namespace sweepscope {

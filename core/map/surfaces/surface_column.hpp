@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/geometry/map_cloud.hpp"
-#include "core/map/surface_thickness.hpp"
-#include "core/map/voxel_grid.hpp"
+#include "core/map/surfaces/surface_thickness.hpp"
+#include "core/map/surfaces/voxel_grid.hpp"
 
 namespace sweepscope {
 
@@ -57,8 +57,7 @@ class ColumnLayers {
 /// Its radius is the edge of the level's cubes. Holds working memory; make one for each thread.
 class SurfaceColumn {
  public:
-  SurfaceColumn(const MapCloud& cloud, const VoxelGrid& grid, const VoxelLevel& level,
-                const ColumnOptions& options);
+  SurfaceColumn(const VoxelGrid& grid, const VoxelLevel& level, const ColumnOptions& options);
 
   /// `seed` is a point in the grid's order.
   SurfacePatch patch_at(std::uint32_t seed);
@@ -71,7 +70,7 @@ class SurfaceColumn {
   bool gather_ball();               // false: too few points
   void gather_column();
   template <typename Keep>
-  void take(const VoxelLevel::Place& place, std::uint32_t max_points, const Keep& keep);
+  void take(std::uint64_t key, std::uint32_t max_points, const Keep& keep);
   void forget_points();
   void keep_point(const Eigen::Vector3f& p_m, std::uint32_t i);
   void keep_heights(const ColumnLayers& layers);
@@ -85,7 +84,6 @@ class SurfaceColumn {
   double thickness_m(double within_m);
   double width_m();
 
-  const MapCloud& cloud_;
   const VoxelGrid& grid_;
   const VoxelLevel& level_;
   const ColumnOptions options_;

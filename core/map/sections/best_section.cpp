@@ -5,9 +5,9 @@
 #include <limits>
 #include <numbers>
 
-#include "core/map/cross_section.hpp"
-#include "core/map/section_points.hpp"
-#include "core/map/surface_thickness.hpp"
+#include "core/map/sections/cross_section.hpp"
+#include "core/map/sections/section_points.hpp"
+#include "core/map/surfaces/surface_thickness.hpp"
 #include "core/numbers.hpp"
 #include "core/parallel.hpp"
 

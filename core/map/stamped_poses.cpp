@@ -1,4 +1,4 @@
-#include "core/map/pose_reader.hpp"
+#include "core/map/stamped_poses.hpp"
 
 #include <fmt/format.h>
 
@@ -21,6 +21,18 @@ std::string span_text(const Recording& recording, double from_s, double to_s) {
 
 }  // namespace
 
+bool poses_cover(std::span<const StampedPose> poses, double from_s, double to_s) {
+  return poses.size() > 1 && from_s >= poses.front().time_s && to_s <= poses.back().time_s;
+}
+
+Pose pose_at(std::span<const StampedPose> poses, double time_s) {
+  const auto later = std::lower_bound(poses.begin() + 1, poses.end() - 1, time_s,
+                                      [](const StampedPose& pose, double t_s) { return pose.time_s < t_s; });
+  const StampedPose &a = *(later - 1), &b = *later;
+  return interpolate({a.orientation, a.position_m}, {b.orientation, b.position_m},
+                     (time_s - a.time_s) / (b.time_s - a.time_s));
+}
+
 Result<std::string> check_pose_coverage(const Recording& recording, std::span<const StampedPose> poses,
                                         std::span<const char> used) {
   if (poses.size() < 2)
@@ -30,7 +42,7 @@ Result<std::string> check_pose_coverage(const Recording& recording, std::span<co
     if (!used.empty() && used[i] == 0) continue;
     const LaserScan& scan = recording.scans[i];
     ++scans;
-    covered += scan.first_beam_s >= poses.front().time_s && scan.last_beam_s() <= poses.back().time_s ? 1 : 0;
+    covered += poses_cover(poses, scan.first_beam_s, scan.last_beam_s()) ? 1 : 0;
   }
   const std::string of_poses = span_text(recording, poses.front().time_s, poses.back().time_s);
   if (covered == 0) {

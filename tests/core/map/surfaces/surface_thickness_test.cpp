@@ -1,4 +1,4 @@
-#include "core/map/surface_thickness.hpp"
+#include "core/map/surfaces/surface_thickness.hpp"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>

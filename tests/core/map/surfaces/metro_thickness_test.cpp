@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/map/cross_section.hpp"
 #include "core/map/offset_map.hpp"
-#include "core/map/section_points.hpp"
-#include "core/map/surface_thickness.hpp"
+#include "core/map/sections/cross_section.hpp"
+#include "core/map/sections/section_points.hpp"
+#include "core/map/surfaces/surface_thickness.hpp"
 #include "core/numbers.hpp"
 #include "tests/core/engine_fixtures.hpp"
 

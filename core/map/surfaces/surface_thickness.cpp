@@ -1,4 +1,4 @@
-#include "core/map/surface_thickness.hpp"
+#include "core/map/surfaces/surface_thickness.hpp"
 
 #include <fmt/format.h>
 
@@ -9,8 +9,8 @@
 #include <limits>
 #include <span>
 
-#include "core/map/surface_column.hpp"
-#include "core/map/voxel_grid.hpp"
+#include "core/map/surfaces/surface_column.hpp"
+#include "core/map/surfaces/voxel_grid.hpp"
 #include "core/numbers.hpp"
 #include "core/parallel.hpp"
 
@@ -23,7 +23,6 @@ constexpr std::size_t kBlock = 256;  // cubes
 
 // A map while its surfaces are found.
 struct Work {
-  const MapCloud& cloud;
   const VoxelGrid& grid;
   ColumnOptions options;
   std::vector<LocalSurface> surfaces;  // in the order of the grid
@@ -73,7 +72,7 @@ std::vector<SurfacePatch> patches_of(const Work& work, const VoxelLevel& level, 
   std::vector<SurfacePatch> patches(level.cells());
   for_each_block(level.cells(), kBlock, [&](const auto& block) {
     if (job.cancelled()) return;
-    SurfaceColumn column(work.cloud, work.grid, level, work.options);
+    SurfaceColumn column(work.grid, level, work.options);
     for (std::uint32_t cell = block.begin(); cell < block.end(); ++cell)
       if (const std::uint32_t seed = seed_of(work, level, cell); seed != kNoSeed)
         patches[cell] = column.patch_at(seed);
@@ -91,10 +90,11 @@ struct Around {
 Around patches_around(const std::vector<SurfacePatch>& patches, const VoxelLevel& level, std::uint32_t cell) {
   Around around;
   const VoxelLevel::Place place = level.place(cell);
-  for (int dz = -1; dz <= 1; ++dz)
-    for (int dy = -1; dy <= 1; ++dy)
-      for (int dx = -1; dx <= 1; ++dx) {
-        const std::uint32_t other = level.find({place[0] + dx, place[1] + dy, place[2] + dz});
+  const auto x = level.beside(0, place), y = level.beside(1, place), z = level.beside(2, place);
+  for (const std::uint64_t of_z : z)
+    for (const std::uint64_t of_y : y)
+      for (const std::uint64_t of_x : x) {
+        const std::uint32_t other = level.find(of_x | of_y | of_z);
         if (other != VoxelLevel::kNone && patches[other].kind == SurfaceKind::kFlat)
           around.patches[around.count++] = &patches[other];
       }
@@ -155,7 +155,7 @@ double range_noise_m(const Work& work, const VoxelLevel& level) {
   const std::uint32_t stride = 1 + level.cells() / kSamples;
   std::vector<double> noise_m((level.cells() + stride - 1) / stride);
   for_each_block(noise_m.size(), 64, [&](const auto& block) {
-    SurfaceColumn column(work.cloud, work.grid, level, work.options);
+    SurfaceColumn column(work.grid, level, work.options);
     for (std::size_t k = block.begin(); k < block.end(); ++k)
       noise_m[k] = column.range_noise_at_m(seed_of(work, level, static_cast<std::uint32_t>(k) * stride));
   });
@@ -213,7 +213,7 @@ SurfaceThickness surface_thickness(const MapCloud& cloud, const ThicknessOptions
   SurfaceThickness found;
   if (cloud.empty()) return found;
   const VoxelGrid grid(cloud, options.min_radius_m);
-  Work work{cloud, grid, column_options(cloud, options), std::vector<LocalSurface>(cloud.size()),
+  Work work{grid, column_options(cloud, options), std::vector<LocalSurface>(cloud.size()),
             std::vector<char>(cloud.size(), 1)};
   for (int doublings = kLevels - 1; doublings >= 0 && !job.cancelled(); --doublings) {
     const VoxelLevel level = grid.level(doublings);

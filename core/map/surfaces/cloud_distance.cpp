@@ -1,10 +1,10 @@
-#include "core/map/cloud_distance.hpp"
+#include "core/map/surfaces/cloud_distance.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "core/map/voxel_grid.hpp"
+#include "core/map/surfaces/voxel_grid.hpp"
 #include "core/parallel.hpp"
 
 namespace sweepscope {

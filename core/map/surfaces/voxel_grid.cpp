@@ -1,11 +1,9 @@
-#include "core/map/voxel_grid.hpp"
+#include "core/map/surfaces/voxel_grid.hpp"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <utility>
 
-#include "core/geometry/morton.hpp"
 #include "core/parallel.hpp"
 
 namespace sweepscope {
@@ -26,19 +24,29 @@ std::size_t hash_of(std::uint64_t key) {
 
 VoxelLevel::VoxelLevel(const std::vector<std::uint64_t>& keys, int shift, double cell_m)
     : cell_m_(cell_m), inverse_cell_(1 / cell_m), half_(kHalf >> (shift / 3)) {
+  std::size_t bricks = 0;
   for (std::size_t i = 0; i < keys.size(); ++i) {
     const std::uint64_t key = keys[i] >> shift;
     if (!keys_.empty() && keys_.back() == key) continue;
+    if (keys_.empty() || keys_.back() >> kBrickBits != key >> kBrickBits) ++bricks;
     keys_.push_back(key);
     begin_.push_back(static_cast<std::uint32_t>(i));
   }
   begin_.push_back(static_cast<std::uint32_t>(keys.size()));
-  slots_.assign(std::bit_ceil(2 * keys_.size() + 2), kNone);
+  bricks_.assign(std::bit_ceil(2 * bricks + 2), Brick());
   for (std::uint32_t cell = 0; cell < cells(); ++cell) {
-    std::size_t slot = hash_of(keys_[cell]) & (slots_.size() - 1);
-    while (slots_[slot] != kNone) slot = (slot + 1) & (slots_.size() - 1);
-    slots_[slot] = cell;
+    const std::uint64_t key = keys_[cell] >> kBrickBits;
+    Brick& brick = bricks_[slot_of(key)];
+    if (brick.first == kNone) brick = {key, 0, cell};
+    brick.cells |= std::uint64_t{1} << (keys_[cell] & ((1U << kBrickBits) - 1));
   }
+}
+
+std::size_t VoxelLevel::slot_of(std::uint64_t brick_key) const {
+  std::size_t slot = hash_of(brick_key) & (bricks_.size() - 1);
+  while (bricks_[slot].first != kNone && bricks_[slot].key != brick_key)
+    slot = (slot + 1) & (bricks_.size() - 1);
+  return slot;
 }
 
 VoxelLevel::Place VoxelLevel::place(std::uint32_t cell) const {
@@ -55,25 +63,23 @@ VoxelLevel::Place VoxelLevel::place_of(float x_m, float y_m, float z_m) const {
   return {along(x_m), along(y_m), along(z_m)};
 }
 
-std::uint32_t VoxelLevel::find(const Place& place) const {
-  for (const std::int32_t p : place)
-    if (p < -half_ || p >= half_) return kNone;
-  const std::uint64_t key =
-      morton_code(static_cast<std::uint32_t>(place[0] + half_), static_cast<std::uint32_t>(place[1] + half_),
-                  static_cast<std::uint32_t>(place[2] + half_));
-  std::size_t slot = hash_of(key) & (slots_.size() - 1);
-  while (slots_[slot] != kNone && keys_[slots_[slot]] != key) slot = (slot + 1) & (slots_.size() - 1);
-  return slots_[slot];
+std::uint32_t VoxelLevel::find(std::uint64_t key) const {
+  const Brick& brick = bricks_[slot_of(key >> kBrickBits)];
+  const std::uint64_t bit = std::uint64_t{1} << (key & ((1U << kBrickBits) - 1));
+  if ((brick.cells & bit) == 0) return kNone;
+  return brick.first + static_cast<std::uint32_t>(std::popcount(brick.cells & (bit - 1)));
 }
 
 VoxelGrid::VoxelGrid(const MapCloud& cloud, double finest_m)
     : x_m(cloud.size()),
       y_m(cloud.size()),
       z_m(cloud.size()),
+      sweep(cloud.size()),
+      time_s(cloud.size()),
       index(cloud.size()),
       finest_m_(finest_m),
       keys_(cloud.size()) {
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> order(cloud.size());
+  std::vector<MortonKey> order(cloud.size());
   const double inverse_cell = 1 / finest_m;
   for_each_block(cloud.size(), 16384, [&](const auto& block) {
     for (std::size_t i = block.begin(); i < block.end(); ++i) {
@@ -83,12 +89,14 @@ VoxelGrid::VoxelGrid(const MapCloud& cloud, double finest_m)
                   static_cast<std::uint32_t>(i)};
     }
   });
-  sort_in_parallel(order);
+  sort_along_curve(order);
   for_each_block(cloud.size(), 16384, [&](const auto& block) {
     for (std::size_t i = block.begin(); i < block.end(); ++i) {
-      const MapPoint& p = cloud.points[order[i].second];
-      keys_[i] = order[i].first;
-      index[i] = order[i].second;
+      const MapPoint& p = cloud.points[order[i].index];
+      keys_[i] = order[i].code;
+      index[i] = order[i].index;
+      sweep[i] = p.sweep;
+      time_s[i] = p.time_s;
       x_m[i] = p.x;
       y_m[i] = p.y;
       z_m[i] = p.z;

@@ -1,4 +1,4 @@
-#include "core/map/surface_column.hpp"
+#include "core/map/surfaces/surface_column.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -106,13 +106,8 @@ std::array<int, 2> ColumnLayers::middle() const {
   return found;
 }
 
-SurfaceColumn::SurfaceColumn(const MapCloud& cloud, const VoxelGrid& grid, const VoxelLevel& level,
-                             const ColumnOptions& options)
-    : cloud_(cloud),
-      grid_(grid),
-      level_(level),
-      options_(options),
-      radius_m_(static_cast<float>(level.cell_m())) {}
+SurfaceColumn::SurfaceColumn(const VoxelGrid& grid, const VoxelLevel& level, const ColumnOptions& options)
+    : grid_(grid), level_(level), options_(options), radius_m_(static_cast<float>(level.cell_m())) {}
 
 SurfacePatch SurfaceColumn::patch_at(std::uint32_t seed) {
   SurfacePatch patch;
@@ -165,10 +160,9 @@ void SurfaceColumn::forget_points() {
 
 // Points of sweeps beyond kMaxSweeps are left out.
 void SurfaceColumn::keep_point(const Eigen::Vector3f& p_m, std::uint32_t i) {
-  const MapPoint& point = cloud_.points[grid_.index[i]];
-  const std::uint8_t group = group_of(point.sweep);
+  const std::uint8_t group = group_of(grid_.sweep[i]);
   if (group == kNoGroup) return;
-  time_s_.push_back(point.time_s);
+  time_s_.push_back(grid_.time_s[i]);
   x_m_.push_back(p_m.x()), y_m_.push_back(p_m.y()), z_m_.push_back(p_m.z());
   group_.push_back(group);
 }
@@ -184,8 +178,8 @@ std::uint8_t SurfaceColumn::group_of(std::uint32_t sweep) {
 }
 
 template <typename Keep>
-void SurfaceColumn::take(const VoxelLevel::Place& place, std::uint32_t max_points, const Keep& keep) {
-  const std::uint32_t cell = level_.find(place);
+void SurfaceColumn::take(std::uint64_t key, std::uint32_t max_points, const Keep& keep) {
+  const std::uint32_t cell = level_.find(key);
   if (cell == VoxelLevel::kNone) return;
   const std::uint32_t begin = level_.begin(cell), count = level_.begin(cell + 1) - begin;
   const std::uint32_t taken = std::min(count, max_points);
@@ -202,10 +196,10 @@ bool SurfaceColumn::gather_ball() {
   const auto keep = [&](const Eigen::Vector3f& p_m, std::uint32_t i) {
     if (p_m.squaredNorm() <= radius_m_ * radius_m_) keep_point(p_m, i);
   };
-  for (int dz = -1; dz <= 1; ++dz)
-    for (int dy = -1; dy <= 1; ++dy)
-      for (int dx = -1; dx <= 1; ++dx)
-        take({place[0] + dx, place[1] + dy, place[2] + dz}, kMaxPerCubeOfBall, keep);
+  const auto x = level_.beside(0, place), y = level_.beside(1, place), z = level_.beside(2, place);
+  for (const std::uint64_t of_z : z)
+    for (const std::uint64_t of_y : y)
+      for (const std::uint64_t of_x : x) take(of_x | of_y | of_z, kMaxPerCubeOfBall, keep);
   return x_m_.size() >= kMinColumnPoints;
 }
 
@@ -252,13 +246,10 @@ void SurfaceColumn::gather_column() {
   for (int k = -steps; k <= steps; ++k) {
     const Eigen::Vector3f at_m = middle_m_ + normal_ * (static_cast<float>(k) * radius_m_ / normal_[axis]);
     const VoxelLevel::Place place = level_.place_of(at_m.x(), at_m.y(), at_m.z());
-    for (int dv = -1; dv <= 1; ++dv)
-      for (int du = -1; du <= 1; ++du) {
-        VoxelLevel::Place beside = place;
-        beside[(axis + 1) % 3] += du;
-        beside[(axis + 2) % 3] += dv;
-        take(beside, kMaxPerCube, keep);
-      }
+    const std::uint64_t slice = level_.along(axis, place[axis]);
+    const auto u = level_.beside((axis + 1) % 3, place), v = level_.beside((axis + 2) % 3, place);
+    for (const std::uint64_t of_v : v)
+      for (const std::uint64_t of_u : u) take(slice | of_u | of_v, kMaxPerCube, keep);
   }
 }
 

@@ -1,4 +1,4 @@
-#include "core/map/cross_section.hpp"
+#include "core/map/sections/cross_section.hpp"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>

@@ -1,11 +1,11 @@
-#include "core/map/cross_section.hpp"
+#include "core/map/sections/cross_section.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "core/map/section_points.hpp"
+#include "core/map/sections/section_points.hpp"
 #include "core/numbers.hpp"
 #include "core/parallel.hpp"
 
@@ -142,26 +142,37 @@ Eigen::Vector3d CrossSection::along() const {
   return {-std::sin(normal_rad), std::cos(normal_rad), 0};
 }
 
+namespace {
+
+// A cylinder around a section.
+struct NearSection {
+  explicit NearSection(const CrossSection& of)
+      : x_m(of.at_m.x()), y_m(of.at_m.y()), from_m(of.from_m), to_m(of.to_m) {
+    // A face that leans lies to the side of the section's middle at its ends.
+    const double lean_m = std::abs(std::tan(of.lean_rad)) * (of.to_m - of.from_m) / 2;
+    const double half_m = of.length_m / 2, deep_m = of.reach_m + lean_m;
+    radius_m2 = half_m * half_m + 1.1 * deep_m * deep_m;
+  }
+  bool holds(const MapPoint& p) const {
+    const double dx_m = p.x - x_m, dy_m = p.y - y_m;
+    return dx_m * dx_m + dy_m * dy_m <= radius_m2 && p.z >= from_m && p.z <= to_m;
+  }
+  double x_m, y_m, from_m, to_m, radius_m2;
+};
+
+}  // namespace
+
 std::vector<std::vector<std::uint32_t>> points_near(const MapCloud& cloud,
                                                     std::span<const CrossSection> sections) {
   constexpr std::size_t kBlock = 1 << 16;
   using PerSection = std::vector<std::vector<std::uint32_t>>;
+  const std::vector<NearSection> near(sections.begin(), sections.end());
   std::vector<PerSection> blocks((cloud.size() + kBlock - 1) / kBlock, PerSection(sections.size()));
   for_each_index(blocks.size(), [&](std::size_t block) {
     const std::size_t end = std::min(cloud.size(), (block + 1) * kBlock);
-    for (std::size_t i = block * kBlock; i < end; ++i) {
-      const MapPoint& p = cloud.points[i];
-      for (std::size_t s = 0; s < sections.size(); ++s) {
-        const CrossSection& section = sections[s];
-        const double dx_m = p.x - section.at_m.x(), dy_m = p.y - section.at_m.y();
-        // A face that leans lies to the side of the section's middle at its ends.
-        const double lean_m = std::abs(std::tan(section.lean_rad)) * (section.to_m - section.from_m) / 2;
-        const double half_m = section.length_m / 2, deep_m = section.reach_m + lean_m;
-        if (dx_m * dx_m + dy_m * dy_m <= half_m * half_m + 1.1 * deep_m * deep_m && p.z >= section.from_m &&
-            p.z <= section.to_m)
-          blocks[block][s].push_back(static_cast<std::uint32_t>(i));
-      }
-    }
+    for (std::size_t i = block * kBlock; i < end; ++i)
+      for (std::size_t s = 0; s < near.size(); ++s)
+        if (near[s].holds(cloud.points[i])) blocks[block][s].push_back(static_cast<std::uint32_t>(i));
   });
   PerSection found(sections.size());
   for (const PerSection& block : blocks)
