@@ -61,7 +61,7 @@ Result<DetectedRig> with_estimate(DetectedRig detected, const RigArguments& opti
         if (!found && options.system) return std::move(detected);
         if (!found)
           return failure(ExitCode::kWrongUsage,
-                         name + " holds nothing of the rig: make it with estimate --solve offset,mount");
+                         name + " has no parameters of the rig: make it with estimate --solve offset,mount");
         return with_found(std::move(detected), *found,
                           "estimate --solve in " + options.estimate->filename().string());
       });

@@ -56,7 +56,7 @@ class FoxgloveSource : public LiveSource {
     RawRecording heard = messages_.with_warnings();
     if (lost_ > 0)
       heard.warnings.push_back(
-          fmt::format("The connection to {} ended {} time{}; what was sent meanwhile may be missing.",
+          fmt::format("The connection to {} was lost {} time{}; messages sent meanwhile may be missing.",
                       heard.file, lost_, lost_ == 1 ? "" : "s"));
     return heard;
   }
@@ -129,7 +129,7 @@ Result<std::unique_ptr<LiveSource>> open_foxglove_source(const std::string& url,
   if (!address)
     return failure(
         ExitCode::kWrongUsage,
-        fmt::format("\"{}\" is no address of a Foxglove server, such as ws://localhost:8765", url));
+        fmt::format("\"{}\" is not the address of a Foxglove server, such as ws://localhost:8765", url));
   auto socket = WebSocket::connect(*address, kFoxgloveSubprotocols);
   if (!socket) return tl::unexpected(socket.error());
   return std::make_unique<FoxgloveSource>(*address, std::move(*socket), url, rig);

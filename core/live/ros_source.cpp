@@ -86,7 +86,7 @@ Result<std::unique_ptr<LiveSource>> open_ros_source(const Rig& rig) {
   const std::string master = given != nullptr ? given : "http://localhost:11311";
   if (!is_address(master))
     return unreadable(fmt::format(
-        "ROS: ROS_MASTER_URI=\"{}\" is no address of a master, such as http://localhost:11311", master));
+        "ROS: ROS_MASTER_URI=\"{}\" is not the address of a master, such as http://localhost:11311", master));
   auto link = RosLink::open(master);
   if (!link) return unreadable(fmt::format("ROS: no master answers at {} (ROS_MASTER_URI)", master));
   return std::make_unique<RosSource>(std::move(link), rig);

@@ -83,7 +83,7 @@ class BeastWebSocket : public WebSocket {
     const std::string selected(response[http::field::sec_websocket_protocol]);
     if (!selected.empty() && (", " + subprotocols + ", ").find(", " + selected + ", ") != std::string::npos)
       return {};
-    return unreadable(fmt::format("{}: the server speaks none of {}", name_, subprotocols));
+    return unreadable(fmt::format("{}: the server supports none of {}", name_, subprotocols));
   }
 
   /// Begins something and waits for its end; its error is in error_ then.

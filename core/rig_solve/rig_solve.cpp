@@ -268,9 +268,10 @@ SolvedRig solved_with(const OffsetProblem& problem, const RigSolution& solution,
   }
   if (!solved.play.identifiable) solved.found.play_rad = 0;
   if (!what.encoder && priors[kEncoderSine] > 0)
-    solved.encoder.reason =
-        fmt::format("Surfaces are flatter with an eccentric encoder, by {:.2f} deg: add encoder to --solve.",
-                    fit.rig.encoder_rad.norm() * kDegPerRad);
+    solved.encoder.reason = fmt::format(
+        "Surfaces are flatter with an eccentric encoder, by {:.2f} deg: solve for the encoder as well "
+        "(--solve offset,mount,encoder).",
+        fit.rig.encoder_rad.norm() * kDegPerRad);
   if (!solved.encoder.identifiable) solved.found.encoder_rad.setZero();
   solved.priors = priors_of(what);
   solved.covariance = fit.covariance;
@@ -326,8 +327,8 @@ SolvedRig solve_rig(const OffsetProblem& problem, double first_offset_s, const R
   solved.offset_sigma_s = added_sigma_s(fit.covariance, solution.priors);
   if (one_speed)
     leave_play_open(solved, what.play_deg, problem.motor.median_speed_rad_s,
-                    "The motor turns at one speed only, at which gear play acts as an offset: a second sweep "
-                    "speed in the same recording separates the two.");
+                    "The motor turns at one speed only, at which gear play has the same effect as an offset. "
+                    "Record two sweep speeds in one recording to separate them.");
   return solved;
 }
 
@@ -346,16 +347,17 @@ SolvedRig rig_of_walk(const OffsetProblem& problem, const WalkTurn& turn, const 
   }
   solved.mount = {
       what.mount, what.mount,
-      what.mount ? "A walk shows how the laser is turned, but not where it sits: its shift is the rig file's."
-                 : ""};
+      what.mount
+          ? "A walk determines how the laser is turned, but not its position: its shift is the rig file's."
+          : ""};
   solved.encoder =
       finding(what.encoder, false,
-              "A walk does not determine the encoder's first harmonic: record 8 s without motion.");
+              "A walk does not determine the encoder's first harmonic: record 8 s of the stationary rig.");
   if (what.play) {
     solved.play.solved = true;
     leave_play_open(
         solved, what.play_deg, problem.motor.median_speed_rad_s,
-        "A walk does not determine the gear play: record 8 s without motion at two motor speeds.");
+        "A walk does not determine the gear play: record 8 s of the stationary rig at two motor speeds.");
   }
   return solved;
 }

@@ -201,17 +201,16 @@ std::string grouped(std::size_t number) {
 }
 
 std::string what_is_drawn(const TurnableMap& map) {
-  const std::string points =
-      map.beams.size() == map.usable_beams
-          ? fmt::format("all {} measured points", grouped(map.usable_beams))
-          : fmt::format(
-                "{} of {} measured points, chosen evenly in space where the map is blurred, so that "
-                "blurred places keep theirs",
-                grouped(map.beams.size()), grouped(map.usable_beams));
+  const std::string points = map.beams.size() == map.usable_beams
+                                 ? fmt::format("all {} measured points", grouped(map.usable_beams))
+                                 : fmt::format(
+                                       "{} of {} measured points, chosen evenly in space in the blurred map, "
+                                       "so that blurred places keep their points",
+                                       grouped(map.beams.size()), grouped(map.usable_beams));
   const char* path = map.moving
                          ? "They follow the trajectory that was solved together with the answer; it does "
                            "not change with the offset."
-                         : "The rig stood still: the map is exact at every offset.";
+                         : "The rig was stationary: the map is exact at every offset.";
   return fmt::format(
       "Drawn in your browser: {}, each turned by the motor's angle at its own time plus the "
       "offset. {}",

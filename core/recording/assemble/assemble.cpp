@@ -172,8 +172,8 @@ bool ScanAssembler::check_cloud_times(const std::vector<LaserScan>& lines) {
   if (times_s.size() < 3 || !(period_s > 0)) return true;
   if (span_s > kMinPart * period_s && span_s < kMaxPart * period_s) return true;
   cloud_problem_ = fmt::format(
-      "the times of a cloud's points span {:.3g} s, but a cloud comes every {:.3g} s: the unit of the times "
-      "is not known",
+      "the times of a cloud's points span {:.3g} s, but clouds are {:.3g} s apart: the unit of the times is "
+      "not known",
       span_s, period_s);
   return false;
 }
@@ -357,10 +357,10 @@ void compare_streams(Recording& recording) {
   }
   const double start_s = recording.scans.front().first_beam_s, end_s = recording.scans.back().last_beam_s();
   if (motor.time_s.front() > end_s || motor.time_s.back() < start_s) {
-    report.warnings.push_back(
-        fmt::format("the two streams' clocks do not overlap: the scans last {:.3f} s, and the motor's "
-                    "samples lie from {:.3f} to {:.3f} s after the first scan; consider --stamps receive",
-                    end_s - start_s, motor.time_s.front() - start_s, motor.time_s.back() - start_s));
+    report.warnings.push_back(fmt::format(
+        "the two streams' clocks do not overlap: the scans last {:.3f} s, and the motor's samples lie from "
+        "{:.3f} to {:.3f} s after the first scan; try the receive times (--stamps receive)",
+        end_s - start_s, motor.time_s.front() - start_s, motor.time_s.back() - start_s));
   } else if (20 * report.scans_without_motor > recording.scans.size()) {
     report.warnings.push_back(fmt::format("{} of {} scans have no motor samples around them",
                                           report.scans_without_motor, recording.scans.size()));
@@ -383,8 +383,8 @@ void correct_late(std::span<MessageStamps> stamps, const StreamStamps& stream, c
   const LateMessages late = correct_late(stamps);
   if (late.count == 0) return;
   warnings.push_back(
-      fmt::format("{} of {} messages on {} were received up to {:.0f} ms late: their header stamps tell when "
-                  "they would have come",
+      fmt::format("{} of {} messages on {} were received up to {:.0f} ms late: their receive times are "
+                  "corrected by the header stamps",
                   late.count, stamps.size(), topic, late.latest_s * 1e3));
 }
 

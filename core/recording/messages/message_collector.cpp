@@ -242,7 +242,7 @@ void MessageCollector::finish() {
     const std::string& cloud_problem = entries_[number].cloud_problem;
     raw_.warnings.push_back(
         fmt::format("{} of {} messages on {} are {} and were skipped, the first at {}{}", topic.malformed,
-                    topic.messages, topic.name, cloud_problem.empty() ? "malformed" : "of no use",
+                    topic.messages, topic.name, cloud_problem.empty() ? "malformed" : "unusable",
                     entries_[number].first_malformed, cloud_problem.empty() ? "" : ": " + cloud_problem));
   }
 }

@@ -86,8 +86,8 @@ std::string no_line(const Points& points) {
     if (angle_between_rad(points[i - 1].p_m, points[i].p_m) > max_rad) ++apart;
   }
   if (4 * apart < points.size()) return "";
-  return "its points have no field that says which beam each is of (ring, line or channel), and neighbours "
-         "in time lie far apart";
+  return "its points have no field for the beam (ring, line or channel), and consecutive points are far "
+         "apart";
 }
 
 }  // namespace
@@ -100,8 +100,7 @@ bool CloudReader::read_points(const DecodedCloud& cloud) {
   if (xyz[0] == nullptr || xyz[1] == nullptr || xyz[2] == nullptr)
     return problem_ = "its points have no x, y, z", false;
   if (time == nullptr)
-    return problem_ = "its points have no time of their own (a field t, time, timestamp or offset_time)",
-           false;
+    return problem_ = "its points have no times (a field t, time, timestamp or offset_time)", false;
   const CloudField* tag = ring != nullptr && ring->name == "line" ? field_of(cloud, {"tag"}) : nullptr;
   if (tag != nullptr && !tag->whole_number()) tag = nullptr;
   has_ring_ = ring != nullptr;

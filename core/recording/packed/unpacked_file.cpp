@@ -91,8 +91,10 @@ Result<UnpackedFile> UnpackedFile::unpack(const fs::path& packed, UnpackingLimit
     return unreadable(fmt::format("{}: unpacks to more than {} bytes, the limit; cut it into parts",
                                   packed.string(), max_bytes));
   if (end == Unpacking::kNoRoom || std::fclose(output.release()) != 0) return no_room(packed, file.path());
-  if (end == Unpacking::kDamaged) file.problem_ = "its zstd data is damaged; what comes before was read";
-  if (end == Unpacking::kTooShort) file.problem_ = "its zstd data ends too early; what is there was read";
+  if (end == Unpacking::kDamaged)
+    file.problem_ = "its zstd data is damaged; the part before the damage was read";
+  if (end == Unpacking::kTooShort)
+    file.problem_ = "its zstd data ends too early; the part that exists was read";
   return file;
 }
 
