@@ -8,8 +8,8 @@
 
 namespace sweepscope::app {
 
-/// Of a large file of a rig that stood still only those parts are read that decide. None where the rig moved,
-/// and where the file is to be read wholly anyway.
+/// Reads only a sample of a large file of a stationary rig. None if the rig moved, or if the whole file is to
+/// be read anyway.
 Result<std::optional<DatedEstimate>> estimate_from_parts(const RecordingOptions& input,
                                                          const EstimateOptions& search, const Job& job);
 

@@ -50,7 +50,7 @@ std::string stream_text(const StreamSummary& stream, const std::string& where = 
   return row("stamps", stamps) +
          row("rate", fmt::format("{:.2f} Hz over {:.3f} s, {}", stream.rate_hz(), stream.duration_s, gaps)) +
          row("order", fmt::format("{} out of order, {} duplicate, {} dropped", stream.out_of_order,
-                                  stream.doubled, stream.dropped));
+                                  stream.duplicates, stream.dropped));
 }
 
 std::string laser_text(const LaserSummary& laser) {

@@ -38,11 +38,11 @@ class FoxgloveSource : public LiveSource {
                  const Rig& rig)
       : address_(std::move(address)), socket_(std::move(socket)), messages_(url, rig) {}
 
-  Result<bool> listen(std::chrono::milliseconds most) override {
-    if (!socket_ && !reconnect(most)) return true;
-    const auto until = Clock::now() + most;
+  Result<bool> listen(std::chrono::milliseconds max_wait) override {
+    if (!socket_ && !reconnect(max_wait)) return true;
+    const auto until = Clock::now() + max_wait;
     // All that is there is taken at once; a connection that ended is not the end of the input.
-    for (auto wait = most; socket_; wait = std::chrono::milliseconds(0)) {
+    for (auto wait = max_wait; socket_; wait = std::chrono::milliseconds(0)) {
       const auto message = socket_->receive(wait);
       if (!message) lose_connection();
       if (!message || !*message) break;
@@ -63,10 +63,10 @@ class FoxgloveSource : public LiveSource {
 
  private:
   /// Waits for at most so long; whether there is a connection then.
-  bool reconnect(std::chrono::milliseconds most) {
+  bool reconnect(std::chrono::milliseconds max_wait) {
     const auto now = Clock::now();
     if (now < backoff_.next()) {
-      std::this_thread::sleep_for(std::min<Clock::duration>(most, backoff_.next() - now));
+      std::this_thread::sleep_for(std::min<Clock::duration>(max_wait, backoff_.next() - now));
       if (Clock::now() < backoff_.next()) return false;
     }
     auto socket = WebSocket::connect(address_, kFoxgloveSubprotocols);

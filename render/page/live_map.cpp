@@ -247,8 +247,8 @@ BeamColours beam_colours(const FeatureSet& features, const TurnableMap& all, con
 OffsetSpan live_span(const PreparedRecording& prepared, double a_s, double b_s) {
   constexpr double kMargin_s = 0.010;
   const double middle_s = (a_s + b_s) / 2, apart_s = std::abs(b_s - a_s) / 2;
-  const double most_s = std::max(search_scale(prepared.motor).max_half_width_s, apart_s);
-  const double half_s = std::min(apart_s + kMargin_s, most_s);
+  const double max_s = std::max(search_scale(prepared.motor).max_half_width_s, apart_s);
+  const double half_s = std::min(apart_s + kMargin_s, max_s);
   return {middle_s - half_s, middle_s + half_s};
 }
 

@@ -22,7 +22,7 @@ double since_s(std::int64_t ns, std::int64_t epoch_ns) {
   return static_cast<double>(ns - epoch_ns) * 1e-9;
 }
 
-/// Refuses a scan of more beams than can be told apart.
+/// Refuses a scan of more beams than can be distinguished.
 std::optional<Error> too_many_beams(const RawRecording& raw, const RawLaser& laser) {
   for (std::size_t i = 0; i < laser.scans.size(); ++i) {
     if (laser.scans[i].beams <= kMaxBeamsAScan) continue;
@@ -147,7 +147,7 @@ bool ScanAssembler::assemble() {
   } else {
     const TimeOrder order = order_by_time(times_s);
     report_.scans_out_of_order = order.out_of_order;
-    report_.scans_doubled = order.doubled;
+    report_.scans_duplicate = order.duplicates;
     for (const std::size_t i : order.kept) recording_.scans.push_back(placed[i]);
   }
   if (!without_ranges()) take_ranges();
@@ -190,7 +190,7 @@ void ScanAssembler::order_lines(std::vector<LaserScan>& lines) {
   std::ranges::stable_sort(lines, {}, key);
   for (const LaserScan& line : lines) {
     if (!recording_.scans.empty() && key(recording_.scans.back()) == key(line))
-      ++report_.scans_doubled;
+      ++report_.scans_duplicate;
     else
       recording_.scans.push_back(line);
   }
@@ -319,7 +319,7 @@ bool assemble_motor(const RawJoint& raw, Recording& recording) {
   }
   const TimeOrder order = order_by_time(times_s);
   report.motor_out_of_order = order.out_of_order;
-  report.motor_doubled = order.doubled;
+  report.motor_duplicate = order.duplicates;
   MotorTrack& motor = recording.motor;
   for (const std::size_t i : order.kept) {
     motor.time_s.push_back(times_s[i]);

@@ -73,11 +73,11 @@ void note_motor(const RawJoint& joint, const MotorSummary& motor, DetectedRig& d
   if (motor.median_sweep_s > 0)
     detected.motor_note += fmt::format(", {:.3f} s a sweep", motor.median_sweep_s);
   if (joint.source != JointSource::kNumber) return;
-  const auto [least, most] = std::ranges::minmax(joint.positions);
+  const auto [min, max] = std::ranges::minmax(joint.positions);
   detected.scale_note = fmt::format(
       "plain numbers, {:.6g} to {:.6g}: 0.017453292519943295 where they are degrees; measured angles, or "
       "commands?",
-      least, most);
+      min, max);
 }
 
 /// The motor's angle, continued in a straight line for `beyond_s` at both ends: a transform may be stamped a
