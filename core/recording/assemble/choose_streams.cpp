@@ -16,14 +16,14 @@ constexpr double kMinMotion_deg = 1.0;
 constexpr std::size_t kMaxListed = 40;
 
 double turn_deg(const RawJoint& joint, const Rig& rig) {
-  double min = HUGE_VAL, max = -HUGE_VAL;
+  double least = HUGE_VAL, most = -HUGE_VAL;
   for (const double position : joint.positions) {
     if (!std::isfinite(position)) continue;
-    min = std::min(min, position);
-    max = std::max(max, position);
+    least = std::min(least, position);
+    most = std::max(most, position);
   }
-  if (max < min) return 0;
-  return (max - min) * std::abs(rig.motor.scale) * kDegPerRad;
+  if (most < least) return 0;
+  return (most - least) * std::abs(rig.motor.scale) * kDegPerRad;
 }
 
 /// An indented line per choice, the first ones where there are many.

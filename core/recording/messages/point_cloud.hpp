@@ -37,7 +37,7 @@ class CloudReader {
   /// The last problem, for a person; empty if there was none.
   const std::string& problem() const { return problem_; }
 
-  /// Whether a cloud's points have times since 1970, so that its header's stamp is not used.
+  /// Whether a cloud's points tell the time since 1970, so that its header's stamp does not matter.
   static bool counts_since_1970(const DecodedCloud& cloud);
 
  private:

@@ -51,7 +51,7 @@ Decompressed unpack_bz2(std::span<const std::byte> block, std::size_t max_bytes,
   stream.avail_in = static_cast<unsigned>(block.size());
   Output output(buffer, max_bytes);
   while (true) {
-    // When full, one byte more distinguishes the end of a block from a block that is too long.
+    // Once full, one byte more tells an end that is due from a block that is longer than it may be.
     char overflow = 0;
     const bool full = output.full();
     const std::span<std::byte> space =

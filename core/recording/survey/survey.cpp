@@ -29,13 +29,13 @@ LaserChoice choice_of(const RawLaser& laser) {
 }
 
 JointChoice choice_of(const RawJoint& joint, double scale) {
-  double min = HUGE_VAL, max = -HUGE_VAL;
+  double least = HUGE_VAL, most = -HUGE_VAL;
   for (const double position : joint.positions) {
     if (!std::isfinite(position)) continue;
-    min = std::min(min, position);
-    max = std::max(max, position);
+    least = std::min(least, position);
+    most = std::max(most, position);
   }
-  const double turned_deg = max > min ? (max - min) * std::abs(scale) * kDegPerRad : 0;
+  const double turned_deg = most > least ? (most - least) * std::abs(scale) * kDegPerRad : 0;
   return {joint.topic, joint.joint, joint.source, joint.positions.size(), turned_deg};
 }
 
