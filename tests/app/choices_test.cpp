@@ -171,7 +171,7 @@ TEST_F(Choices, APartWithoutScansAndPosesThatDoNotFitStayOnThePage) {
   std::ofstream(folder_ / "far.tum") << "1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0 1\n";
   view(
       "choose rec\nwait loaded\nchoose-part 100 200\nopen-chosen\nwait loaded\nexpect page is choices\n"
-      "expect chosen-problem contains no scan lies within\nchoose-part 0 0\nchoose-poses "
+      "expect chosen-problem contains no scan lies between\nchoose-part 0 0\nchoose-poses "
       "far.tum\nopen-chosen\n"
       "wait loaded\nexpect page is choices\nexpect chosen-problem contains poses\nchoose-poses\nopen-chosen\n"
       "wait loaded\nexpect page is maps\n");
