@@ -24,8 +24,8 @@ struct CoarseSum {
   std::size_t count = 0, asked = 0;
 };
 
-// Differences between a line's ranges and another sweep's at the same motor angle and beam. On a plane
-// 1 / r goes as A cos(angle) + B sin(angle), which two lines tell.
+// Differences between a line's ranges and another sweep's at the same motor angle and beam. On a plane 1 / r
+// is A cos(angle) + B sin(angle), which two lines determine.
 void add_differences(const StillGrid& grid, const StillPoints& points, std::size_t line, const LinePool& pool,
                      const StillPatchOptions& patches, CoarseSum& total) {
   StillNeighbours neighbours(points, pool, line, patches);

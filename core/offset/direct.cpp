@@ -43,7 +43,7 @@ Answer concluded(Answer answer, double offset_s, std::optional<double> sigma_s, 
   const auto& window = search.coarse.curve;
   if (offset_s < window.front().offset_s || offset_s > window.back().offset_s)
     answer.reasons.push_back(fmt::format(
-        "The offset would lie beyond the edge of the searched range, at {:.1f} ms.", offset_s * 1e3));
+        "The best offset lies beyond the edge of the searched range, at {:.1f} ms.", offset_s * 1e3));
   add(answer.reasons, sigma_reason(sigma_s, search.scale));
   if (!answer.reasons.empty()) return answer;
   answer.offset_s = offset_s;
@@ -70,8 +70,8 @@ double motion_sigma_s(const MotionTest& motion, double lever_m, double speed_rad
 Remark motion_reason(double sigma_s, const SearchScale& scale) {
   if (sigma_s < scale.unit_s) return std::nullopt;
   return fmt::format(
-      "The rig moved too far from sweep to sweep to be treated as stationary: this leaves the offset "
-      "uncertain by +- {:.1f} ms.",
+      "The rig moved too far from sweep to sweep to be treated as stationary: the offset is uncertain by +- "
+      "{:.1f} ms.",
       sigma_s * 1e3);
 }
 
@@ -96,7 +96,7 @@ Remark sectors_warning(const StationaryDirect& found) {
   const auto [min, max] = std::ranges::minmax_element(sectors, {}, &SectorOffset::offset_s);
   if (min == max) return std::nullopt;
   return fmt::format(
-      "The offset that fits depends on the motor's angle: {:.1f} ms at {:.0f} deg, {:.1f} ms at {:.0f} deg. A "
+      "The best offset depends on the motor's angle: {:.1f} ms at {:.0f} deg, {:.1f} ms at {:.0f} deg. A "
       "loose gear or mount can cause this.",
       min->offset_s * 1e3, min->angle_rad * kDegPerRad, max->offset_s * 1e3, max->angle_rad * kDegPerRad);
 }
@@ -108,8 +108,9 @@ Answer of_stationary(const OffsetSearch& search, Answer answer, const Job& job) 
   answer.fit = FitEvidence{found.converged,  found.iterations, found.features, found.matches,
                            found.residual_m, found.lever_m,    found.reach_m};
   if (found.matches < StationaryDirectOptions().min_matches) {
-    answer.reasons.push_back(fmt::format("Only {} of {} points lie on surfaces that the other direction saw.",
-                                         found.matches, found.features));
+    answer.reasons.push_back(
+        fmt::format("Only {} of {} points lie on surfaces that were measured in the other direction.",
+                    found.matches, found.features));
     return answer;
   }
   add(answer.reasons, lever_reason(found.lever_m, found.reach_m));
@@ -146,11 +147,11 @@ Answer of_stationary(const OffsetSearch& search, Answer answer, const Job& job) 
 // The map must be clearest at the offset that fits the walk best.
 Remark clearest_reason(const std::vector<CurvePoint>& sides) {
   const auto &below = sides.front().e_m, &here = sides[1].e_m, &above = sides.back().e_m;
-  if (!here) return "The map holds no matches at the offset that fits the walk best.";
+  if (!here) return "The map has no matches at the best offset of the walk.";
   if ((!below || *below >= *here) && (!above || *above >= *here)) return std::nullopt;
   return fmt::format(
-      "The map is not sharpest at the offset that fits the walk best: e is {:.1f} mm there, and {:.1f} and "
-      "{:.1f} mm to either side.",
+      "The map is not sharpest at the best offset of the walk: e is {:.1f} mm there, and {:.1f} and {:.1f} "
+      "mm to either side.",
       *here * 1e3, below.value_or(0) * 1e3, above.value_or(0) * 1e3);
 }
 
@@ -168,7 +169,7 @@ Remark sway_warning(double sway_rad) {
 // Why nothing can be said of a walk.
 std::string missing_reason(const OffsetProblem& problem, const SolvedWalk& walk,
                            const std::optional<MotionSource>& source) {
-  if (!walk.lost) return "Too few surfaces are seen by sweeps of both directions.";
+  if (!walk.lost) return "Too few surfaces were measured in both directions.";
   if (source && source->motion.is_truth())
     return fmt::format("{} covers too few sweeps of the recording.", source->name);
   return lost_reason(walk, *problem.recording);
@@ -232,8 +233,8 @@ Answer of_walk(const OffsetSearch& search, const MappingOptions& mapping,
   if (source && walk.time_shift)
     answer.motion = source->used(walk.time_shift);
   else if (source && mapping.given)
-    answer.warnings.push_back(
-        fmt::format("{} is not used: the rig deviates from it less smoothly than it moves.", source->name));
+    answer.warnings.push_back(fmt::format(
+        "{} is not used: the rig's deviation from it is less smooth than its motion.", source->name));
   answer.curve = united(std::move(answer.curve), solved->curve);
   const double e_m = solved->curve[1].e_m.value_or(0);
   answer.fit =
@@ -257,7 +258,7 @@ Answer of_walk(const OffsetSearch& search, const MappingOptions& mapping,
       {"sway", walk.sway_sigma_s},
       {"encoder", encoder_s}};
   answer.rig_effects = rig_effects(problem.motor);
-  // Parts that tell nothing scatter as if the clocks drifted apart, and their mean is not where the map is
+  // Parts without information scatter as if the clocks drifted apart, and their mean is not where the map is
   // sharpest.
   if (tells) add(answer.reasons, clearest_reason(solved->curve));
   const auto drift = tells ? drift_of(walk) : std::nullopt;
@@ -296,12 +297,11 @@ Result<Answer> answer_directly(const OffsetSearch& search, const Job& job) {
   answer.curve = coarse.curve;
   if (!coarse.best) {
     add(answer.reasons, unrepeated_lines_reason(recording));
-    answer.reasons.push_back(
-        "Too few surfaces are seen by sweeps of both directions at any candidate offset.");
+    answer.reasons.push_back("Too few surfaces were measured in both directions at any candidate offset.");
     return answer;
   }
   add(answer.reasons, beam_times_reason(recording, search.scale));
-  // A walk blurs the valley of the coarse search: only the least squares tells whether there is one.
+  // A walk blurs the valley of the coarse search: only the fit decides whether there is one.
   if (!search.as_moving()) {
     add(answer.reasons, edge_reason(coarse.curve, *coarse.best));
     const Remark flat = flat_reason(coarse.curve, *coarse.best);

@@ -33,8 +33,8 @@ Result<Estimate> estimate(const Recording& recording, const EstimateOptions& opt
 Result<Estimate> estimate(const Recording& recording, const EstimateOptions& options,
                           const KeptCandidates& kept, const Job& job);
 
-/// The parts of a long recording that `estimate` goes by if the rig stood still, from an outline without
-/// ranges; absent where it takes all of the recording.
+/// The parts of a long recording that `estimate` uses if the rig was stationary, from an outline without
+/// ranges; absent if it uses all of the recording.
 std::optional<std::vector<RecordingPart>> parts_of_estimate(const Recording& outline,
                                                             const EstimateOptions& options);
 /// `estimate` of a recording that holds these parts alone, with the same bytes; absent where the rig moved,

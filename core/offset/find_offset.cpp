@@ -62,7 +62,7 @@ Result<void> check_options(const EstimateOptions& options, const KeptCandidates&
   const auto refuse = [](const char* why) { return failure(ExitCode::kWrongUsage, why); };
   const bool direct = method_of(options, kUnknownKind, kept.store != nullptr) == Method::kDirect;
   if (direct && kept.store != nullptr)
-    return refuse("The direct method takes seconds and has no candidates to keep.");
+    return refuse("The direct method takes seconds and has no candidates.");
   if (kept.shard && options.ranges.empty() && !options.around)
     return refuse("A shard needs --range or --around: the default search chooses its candidates as it goes.");
   if (options.poses && !direct) return refuse("Poses are used by the direct method only.");
@@ -79,7 +79,7 @@ Result<void> check_poses(const OffsetSearch& search, const std::string& kind_rea
                    fmt::format("{}: a trajectory needs at least two poses", poses->file));
   if (search.kind == RigKind::kMoving) return {};
   return failure(ExitCode::kWrongUsage,
-                 fmt::format("{}: poses have no use for a stationary rig: leave out {}. {}",
+                 fmt::format("{}: poses are not used for a stationary rig: leave out {}. {}",
                              search.problem.recording->name, poses->file, kind_reason));
 }
 
@@ -108,7 +108,8 @@ Estimate judged(Estimate result, const OffsetSearch& search, const KindDecision&
   append(result.reasons, one_way_reasons(search.problem.motor, search.kind, search.method));
   if (search.method == Method::kStationary && search.kind == RigKind::kMoving)
     result.reasons.push_back(moved_text(search.motion) +
-                             " Use --method moving, or --assume stationary if it was stationary.");
+                             " Use the method for moving rigs (--method moving), or, if the rig was "
+                             "stationary, say so (--assume stationary).");
   const bool seen_moving = search.motion.moving() && !search.options.assume;
   const std::size_t min_sweeps = std::size_t(search.options.mapping.settling_sweeps) + 12;
   if (search.as_moving() && result.sweeps < min_sweeps)

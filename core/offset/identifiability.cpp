@@ -66,8 +66,8 @@ Remark flat_reason(const std::vector<CurvePoint>& coarse, std::size_t best) {
   constexpr double kFitsNowhere_m = 0.1;
   if (min_m > kFitsNowhere_m)
     return fmt::format(
-        "Sweeps of opposite directions fit each other at no offset ({:.0f} mm apart at best): the rig or the scene "
-        "moved, or its surfaces are too rough.",
+        "Sweeps of opposite directions do not fit each other at any offset ({:.0f} mm apart at best): the "
+        "rig or the scene moved, or its surfaces are too rough.",
         min_m * 1e3);
   return fmt::format(
       "The scene does not constrain the offset: sweeps of opposite directions fit each other about equally "
@@ -92,8 +92,8 @@ Remark unrepeated_lines_reason(const Recording& recording) {
     }
   }
   if (median(std::move(apart_rad)) < kMaxApart_rad) return std::nullopt;
-  return "The scanner's lines do not repeat themselves, and the direct method compares equal beams of a "
-         "stationary rig. Use --method stationary.";
+  return "The scanner's lines do not repeat, and the direct method compares equal beams of a stationary rig. "
+         "Use the stationary method (--method stationary).";
 }
 
 Remark stamps_reason(const Recording& recording, const SearchScale& scale) {
@@ -104,8 +104,8 @@ Remark stamps_reason(const Recording& recording, const SearchScale& scale) {
                period_s = recording.report.laser_stamps.median_period_s;
   if (spread_s < std::max(period_s / 4, scale.unit_s / 2)) return std::nullopt;
   return fmt::format(
-      "The scans' receive times are uneven, by up to {:.0f} ms nine times in ten, and a scan takes {:.0f} "
-      "ms: when each scan was taken is not known, and no single offset describes that.",
+      "The scans' receive times are uneven (90 % within {:.0f} ms), and a scan takes {:.0f} ms: when each "
+      "scan was taken is not known, and no constant offset can correct that.",
       spread_s * 1e3, period_s * 1e3);
 }
 
@@ -129,8 +129,8 @@ Remark drift_reason(const Trend& trend, double duration_s, double sigma_s) {
   const double chance_s = 3 * trend.sigma * duration_s;
   if (apart_s < std::max({1e-3, 3 * sigma_s, chance_s})) return std::nullopt;
   return fmt::format(
-      "The clocks drift apart by {:.0f} ppm: by {:.1f} ms over these {:.1f} s. estimate --over-time gives the "
-      "offset and its rate.",
+      "The clocks drift apart by {:.0f} ppm: by {:.1f} ms over these {:.1f} s. Search over time for the "
+      "offset and its rate (estimate --over-time).",
       trend.slope * 1e6, trend.slope * duration_s * 1e3, duration_s);
 }
 
@@ -150,8 +150,8 @@ double samples_per_sweep(const MotorTrack& track, const MotorMotion& motor) {
 }
 
 double encoder_step_sigma_s(const MotorTrack& track, const MotorMotion& motor) {
-  // Steps and samples beat: neighbouring samples err alike, and the next sweeps repeat them, those of both
-  // directions. Found by simulation.
+  // Steps and samples beat: neighbouring samples have the same error, and the next sweeps of both directions
+  // repeat it. Found by simulation.
   constexpr double kMaxIndependent = 32;
   constexpr double kSame_rad = 1e-7;  // rounding: no encoder has 26 bits
   std::vector<double> angles_rad = track.angle_rad;
@@ -197,8 +197,8 @@ double beam_times_sigma_s(const Recording& recording) {
 Remark beam_times_reason(const Recording& recording, const SearchScale& scale) {
   if (beam_times_sigma_s(recording) < scale.unit_s) return std::nullopt;
   return fmt::format(
-      "When the beams were fired is not known: the last one of a scan may be off by {:.1f} ms. Give "
-      "laser.time_increment_s in a rig file.",
+      "When the beams were fired is not known: the time of the last beam of a scan may be off by {:.1f} ms. "
+      "Set laser.time_increment_s in a rig file.",
       recording.report.beam_time_doubt_s * 1e3);
 }
 
@@ -213,8 +213,8 @@ double unseen_sigma_s(const Recording& recording, const MotorMotion& motor, doub
 Remark lines_reason(double distinct_lines) {
   if (distinct_lines >= kMinDistinctLines) return std::nullopt;
   return fmt::format(
-      "All sweeps of a direction see the same {:.2g} scan lines, too few for surfaces that both directions "
-      "see: a slower motor, or sweeps that last a little longer or shorter, would show more.",
+      "All sweeps of a direction have the same {:.2g} scan lines, too few to match the surfaces of both "
+      "directions. Turn the motor more slowly, or make the sweeps a little longer or shorter.",
       distinct_lines);
 }
 
@@ -255,8 +255,8 @@ bool sees_same_angles(const Recording& recording, const MotorMotion& motor, std:
 Remark aliased_warning(const Recording& recording, const MotorMotion& motor) {
   if (!sees_same_angles(recording, motor, motor.sweeps.size())) return std::nullopt;
   return fmt::format(
-      "A sweep takes {:.0f} scans almost exactly: every sweep sees the same angles, so few surfaces are seen "
-      "twice.",
+      "A sweep lasts almost exactly {:.0f} scans: every sweep measures at the same angles, and few surfaces "
+      "are measured twice. A slightly slower or faster motor gives a better answer.",
       std::round(scans_a_sweep(recording, motor)));
 }
 
@@ -298,8 +298,8 @@ Remark long_sweeps_warning(const Recording& recording, const MotorMotion& motor,
   const double short_s = unseen_s * unseen_rad(1, same_angles) / unseen_rad(longer, same_angles) /
                          longer;  // the motor would turn faster, too
   return fmt::format(
-      "A sweep takes {:.2f} s, long enough for the rig to sway within it: that alone leaves +- {:.2f} ms. "
-      "Sweeps of {:.1f} s would leave +- {:.2f} ms.",
+      "A sweep takes {:.2f} s, long enough for the rig to sway within it: this alone makes the offset "
+      "uncertain by +- {:.2f} ms. With sweeps of {:.1f} s it would be +- {:.2f} ms.",
       motor.median_sweep_s, unseen_s * 1e3, kShortSweep_s, short_s * 1e3);
 }
 
@@ -307,8 +307,8 @@ Remark smooth_motor_warning(double sway_s, double sigma_s) {
   if (sway_s < sigma_s / 2) return std::nullopt;
   return fmt::format(
       "The motor slows down before it turns back, so a sway of the rig in step with it looks like an offset: "
-      "that alone leaves +- {:.2f} ms. A motor that turns at constant speed and reverses at once does not "
-      "have this limit.",
+      "this alone makes the offset uncertain by +- {:.2f} ms. A motor that turns at constant speed and "
+      "reverses at once does not have this limit.",
       sway_s * 1e3);
 }
 

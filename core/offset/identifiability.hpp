@@ -25,8 +25,8 @@ Remark edge_reason(const std::vector<CurvePoint>& coarse, std::size_t best);
 Remark rival_reason(const std::vector<CurvePoint>& coarse, std::size_t best, const SearchScale& scale);
 Remark flat_reason(const std::vector<CurvePoint>& coarse, std::size_t best);
 
-/// The lines of a 3D scanner do not come back to where they were, as those of Livox's patterns do not: beams
-/// of one number point elsewhere in each. The direct method compares them where a rig stood still.
+/// The lines of a 3D scanner do not repeat, as with Livox's patterns: beams of one number point elsewhere in
+/// each. For a stationary rig the direct method compares them.
 Remark unrepeated_lines_reason(const Recording& recording);
 
 /// The scans' receive times are so uneven that when each scan was taken is not known: their deviation from
@@ -54,7 +54,7 @@ double samples_per_sweep(const MotorTrack& track, const MotorMotion& motor);
 /// corners of the reversals.
 double encoder_step_sigma_s(const MotorTrack& track, const MotorMotion& motor);
 double encoder_sampling_sigma_s(const MotorTrack& track, const MotorMotion& motor);
-/// The uncertainty from surfaces seen by few lines: sweeps that see the same lines have the same error.
+/// The uncertainty from surfaces measured by few lines: sweeps with the same lines have the same error.
 double lines_sigma_s(const MotorMotion& motor, double distinct_lines);
 /// The minimum uncertainty from scattered stamps, also if there are too few sweeps to show it: the spacings
 /// of the scans show the error of each.
@@ -71,9 +71,10 @@ double unseen_sigma_s(const Recording& recording, const MotorMotion& motor, doub
 Remark sigma_reason(std::optional<double> sigma_s, const SearchScale& scale);
 
 /// The error of a part of a walk beside its own sigma, from how the parts of the walks of tuning/ in
-/// tests/benchmark/walks scatter. Where all its sweeps see the same few angles, a path that is bent alike
-/// in each of them fits nearly as well as the true one. The longer a sweep, the more a path may bend within
-/// it: walks of tests/benchmark/random_walks err like the power 3.5 of a sweep's duration beyond 0.5 s.
+/// tests/benchmark/walks scatter. If all its sweeps measure at the same few angles, a path that is bent in
+/// the same way in each of them fits nearly as well as the true one. A path may bend more within a longer
+/// sweep: the errors of walks of tests/benchmark/random_walks grow with the power 3.5 of a sweep's duration
+/// beyond 0.5 s.
 double unseen_of_part_s(const Recording& recording, const MotorMotion& motor, std::size_t sweeps);
 /// Of a part of a walk, which is about 10 s long (JointWalkOptions::part_s).
 std::size_t sweeps_of_part(const MotorMotion& motor);
@@ -86,9 +87,10 @@ Remark smooth_motor_warning(double sway_s, double sigma_s);
 /// Whether the scanner has several rings, as 3D scanners do: each of their turns sees surfaces again,
 /// independent of the motor.
 bool has_rings(const Recording& recording);
-/// Whether a sweep takes so nearly a whole number of scans that so many sweeps all see the same angles.
+/// Whether a sweep lasts a whole number of scans so exactly that all of this many sweeps measure at the same
+/// angles.
 bool sees_same_angles(const Recording& recording, const MotorMotion& motor, std::size_t sweeps);
-/// All sweeps see the same angles: few surfaces are seen twice.
+/// All sweeps measure at the same angles: few surfaces are measured twice.
 Remark aliased_warning(const Recording& recording, const MotorMotion& motor);
 /// The encoder's samples are uneven in time.
 Remark encoder_warning(const MotorTrack& track);

@@ -57,7 +57,7 @@ CoarseAnswer coarse_offset(const OffsetProblem& problem, const SearchScale& scal
     const CoarseSearch coarse = search_coarsely(problem, near_s - half_s, near_s + half_s, scale, job);
     if (job.cancelled()) return answer;
     if (!coarse.best) {
-      answer.reason = "Too few surfaces are seen by sweeps of both directions.";
+      answer.reason = "Too few surfaces were measured in both directions.";
       continue;
     }
     answer.reason = edge_reason(coarse.curve, *coarse.best);
@@ -78,8 +78,9 @@ OffsetWindow solved(const RecordingPart& window, const PreparedRecording& prepar
   options.resampling = Resampling::kParts;
   const StationaryDirect found = solve_stationary(still_grid(problem), coarse_s, options, job);
   if (found.matches < options.min_matches)
-    return gap(window, fmt::format("Only {} of {} points lie on surfaces that the other sweep direction saw.",
-                                   found.matches, found.features));
+    return gap(window,
+               fmt::format("Only {} of {} points lie on surfaces that were measured in the other direction.",
+                           found.matches, found.features));
   if (auto lever = lever_reason(found.lever_m, found.reach_m)) return gap(window, *lever);
   const auto sigma_s = sigma_of(found, *prepared.recording);
   if (auto unsure = sigma_reason(sigma_s, scale)) return gap(window, *unsure);
@@ -311,7 +312,7 @@ Remark change_reason(const OffsetOverTime& groups, double duration_s) {
   constexpr double kSigmas = 5;       // of one window among ten
   const auto& course = groups.course;
   if (!course) return std::nullopt;
-  const char* advice = "Use estimate --over-time to follow it.";
+  const char* advice = "Search over time to follow it (estimate --over-time).";
   for (const OffsetJump& jump : course->jumps)
     if (std::abs(jump.size_s) > kChange_s)
       return fmt::format("The offset jumps by {:.1f} ms between {:.1f} and {:.1f} s. {}", jump.size_s * 1e3,

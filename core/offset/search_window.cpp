@@ -73,12 +73,12 @@ std::vector<std::string> one_way_reasons(const MotorMotion& motor, RigKind kind,
   if (!motor.one_way()) return {};
   if (method != Method::kDirect)
     return {
-        "The paper's criteria compare sweeps of opposite directions, and this motor turns one way. Use "
-        "--method direct."};
+        "The paper's criteria compare sweeps of opposite directions, and this motor turns one way. Use the "
+        "direct method (--method direct)."};
   if (kind == RigKind::kMoving)
     return {
-        "The rig moved, and its motor turns one way: an offset turns the rig about the motor's axis, which "
-        "a moving rig may do itself. Record 5 s at one speed and 5 s at half of it while it is stationary."};
+        "The rig moved, and its motor turns one way: an offset then looks like a rotation of the rig about "
+        "the motor's axis. Record 5 s at one speed and 5 s at half of it while the rig is stationary."};
   return {};
 }
 
