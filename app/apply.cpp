@@ -124,6 +124,45 @@ ExitCode run(const ApplyArguments& options) {
   return done ? ExitCode::kDone : fail(done.error());
 }
 
+void declare_clouds(CLI::App& command, ApplyArguments& options) {
+  constexpr const char* kGroup = "Clouds and transforms";
+  command
+      .add_option("--clouds", options.clouds_topic,
+                  "Add each sweep as a sensor_msgs/PointCloud2 on this topic, in the base frame of its first "
+                  "beam, with the motion of the motor and of the rig removed")
+      ->type_name("TOPIC")
+      ->group(kGroup);
+  command
+      .add_flag("--tf", options.transforms,
+                "Add the laser's pose in the base frame to /tf, at each of the motor's samples")
+      ->group(kGroup);
+  command
+      .add_option("--clouds-only", options.clouds_only,
+                  "Write each sweep as a file in this new folder, and their poses (poses.tum); works for "
+                  "CSV tables too, and without -o")
+      ->type_name("DIR")
+      ->group(kGroup);
+  command.add_option("--clouds-format", options.clouds_format, "Files of --clouds-only: pcd or ply")
+      ->capture_default_str()
+      ->group(kGroup)
+      ->check(CLI::IsMember({"pcd", "ply"}));
+  command
+      .add_option("--poses", options.poses,
+                  "Trajectory of the rig (TUM), used instead of solving for it to remove its motion")
+      ->type_name("F")
+      ->group(kGroup);
+  command
+      .add_option("--assume", options.assume,
+                  "stationary or moving, instead of the motion test; stationary leaves the rig's motion in "
+                  "the clouds")
+      ->group(kGroup)
+      ->check(CLI::IsMember({"stationary", "moving"}));
+  command.add_option("--base-frame", options.base_frame, "The frame of the clouds and the parent in /tf")
+      ->capture_default_str()
+      ->group(kGroup)
+      ->type_name("NAME");
+}
+
 }  // namespace
 
 void add_apply(CLI::App& app, ExitCode& exit_code) {
@@ -138,7 +177,7 @@ void add_apply(CLI::App& app, ExitCode& exit_code) {
       ->type_name("OUT");
   command->add_option("--estimate", options->estimate, "Estimate (JSON) whose offset is applied")
       ->type_name("E.json");
-  command->add_option("--offset-ms", options->offset_ms, "The offset, where there is no estimate")
+  command->add_option("--offset-ms", options->offset_ms, "The offset, if there is no estimate")
       ->check(finite_number());
   command
       ->add_option("--shift", options->shift,
@@ -146,37 +185,10 @@ void add_apply(CLI::App& app, ExitCode& exit_code) {
       ->capture_default_str()
       ->check(CLI::IsMember({"motor", "laser"}));
   options->rig.declare_rig(
-      *command, "Rig file that names the laser, the motor and their stamps, where that is ambiguous");
+      *command, "Rig file that names the laser, the motor and their stamps, if they are ambiguous");
   declare_stamps(*command, options->stamps);
-  command
-      ->add_option(
-          "--clouds", options->clouds_topic,
-          "Add each sweep as a sensor_msgs/PointCloud2 on this topic, in the base frame of its first "
-          "beam, with the motion of the motor and of the rig removed")
-      ->type_name("TOPIC");
-  command->add_flag("--tf", options->transforms,
-                    "Add the laser's pose in the base frame to /tf, at each of the motor's samples");
-  command
-      ->add_option("--clouds-only", options->clouds_only,
-                   "Write each sweep as a file in this new folder, and their poses (poses.tum); works for "
-                   "CSV tables too, and without -o")
-      ->type_name("DIR");
-  command->add_option("--clouds-format", options->clouds_format, "Files of --clouds-only: pcd or ply")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"pcd", "ply"}));
-  command
-      ->add_option("--poses", options->poses,
-                   "Trajectory of the rig (TUM), used instead of solving for it to remove its motion")
-      ->type_name("F");
-  command
-      ->add_option("--assume", options->assume,
-                   "stationary or moving, instead of the motion test; stationary leaves the rig's motion in "
-                   "the clouds")
-      ->check(CLI::IsMember({"stationary", "moving"}));
-  command->add_option("--base-frame", options->base_frame, "The frame of the clouds and the parent in /tf")
-      ->capture_default_str()
-      ->type_name("NAME");
-  command->add_flag("--again", options->again, "Also where an offset was applied before");
+  command->add_flag("--again", options->again, "Apply it even if an offset was applied before");
+  declare_clouds(*command, *options);
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

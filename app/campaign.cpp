@@ -143,9 +143,13 @@ std::size_t threads_in_use() {
 
 }  // namespace
 
-void CampaignOptions::declare(CLI::App& command) {
+void CampaignOptions::declare_recordings(CLI::App& command) {
   command.add_option("REC", recordings, std::string("The recording, or several: each ") + kRecordings)
       ->required();
+}
+
+void CampaignOptions::declare(CLI::App& command) {
+  constexpr const char* kGroup = "Many recordings, and expected offsets";
   command
       .add_option_function<std::string>(
           "--expect",
@@ -154,19 +158,22 @@ void CampaignOptions::declare(CLI::App& command) {
             if (!read) throw CLI::ValidationError("--expect " + read.error().message);
             expected = *read;
           },
-          "Where the offset is expected, in milliseconds: 24+-0.5. Exit code 1 if an offset lies outside")
-      ->type_name("OFFSET+-TOLERANCE");
+          "The expected offset in milliseconds, such as 24+-0.5. Exit code 1 if an offset lies outside")
+      ->type_name("OFFSET+-TOLERANCE")
+      ->group(kGroup);
   command
       .add_option("--table", table,
                   "Write a row per recording as .csv, .md, .json or .xml (JUnit). Finished rows are kept in "
-                  "OUT.rows: the same command, started again, estimates only what is not there")
-      ->type_name("OUT");
+                  "OUT.rows; the same command, started again, estimates only the missing ones")
+      ->type_name("OUT")
+      ->group(kGroup);
   command
       .add_option(
           "--trend", trend,
           "Draw the offsets over the recordings and their dates, with the expected band, as .png, .svg "
           "or .pdf")
-      ->type_name("OUT");
+      ->type_name("OUT")
+      ->group(kGroup);
 }
 
 std::string rows_file(const std::string& table) {

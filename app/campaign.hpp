@@ -16,7 +16,9 @@ struct CampaignOptions {
   std::optional<ExpectedOffset> expected;
   std::string table, trend;  // empty: none
 
-  /// REC..., --expect, --table and --trend. The options write to this object.
+  /// REC... The options write to this object.
+  void declare_recordings(CLI::App& command);
+  /// --expect, --table and --trend.
   void declare(CLI::App& command);
   /// Several recordings, or an output for several.
   bool is_campaign() const { return recordings.size() > 1 || !table.empty() || !trend.empty(); }

@@ -98,7 +98,7 @@ void add_convert(CLI::App& app, ExitCode& exit_code) {
       ->capture_default_str()
       ->type_name("C")
       ->check(CLI::IsMember({"none", "bz2", "lz4", "zstd"}));
-  options->rig.declare_rig(*command, "Rig file that names the laser and the motor, where that is ambiguous");
+  options->rig.declare_rig(*command, "Rig file that names the laser and the motor, if they are ambiguous");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

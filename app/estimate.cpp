@@ -106,9 +106,9 @@ Result<void> check_options(const EstimateArguments& options) {
   if (!options.rig_out.empty() && !search.solve.any())
     return refuse("--rig-out writes what --solve found: add --solve mount, play or encoder");
   if (options.shard && (!options.output.json.empty() || !options.output.csv.empty()))
-    return refuse("--shard computes candidates; merge takes --json and --csv");
+    return refuse("--shard computes candidates only: give --json and --csv to merge");
   if (options.shard && options.campaign.expected)
-    return refuse("--shard computes candidates; --expect needs an offset");
+    return refuse("--shard computes candidates only: --expect cannot be combined with it");
   if (options.shard && search.ranges.empty() && !search.around)
     return refuse("--shard needs --range or --around: the default search chooses its candidates as it goes");
   if (search.over_time_s && method_of(search, RigKind::kMoving, keeps(options)) != Method::kDirect)
@@ -185,22 +185,28 @@ ExitCode run(EstimateArguments& options, std::vector<std::string> deciding) {
   return run_single(options, std::move(deciding));
 }
 
+constexpr const char* kPaperGroup = "The paper's methods";
+
 void declare_poses(CLI::App& command, EstimateArguments& options) {
   command
       .add_option(
           "--poses", options.poses,
           "Trajectory of a moving rig from another source (TUM, poses of the base frame), used as a prior. "
           "The time shift of its clock is estimated and reported: t_laser = t_poses + time shift")
-      ->type_name("T.tum");
-  command.add_flag("--trust-poses", options.trust_poses,
-                   "Treat --poses as the truth: the offset and the time shift are the only unknowns");
+      ->type_name("T.tum")
+      ->group(kInputGroup);
+  command
+      .add_flag("--trust-poses", options.trust_poses,
+                "Treat --poses as the truth: the offset and the time shift are the only unknowns")
+      ->group(kInputGroup);
 }
 
 void declare_candidates(CLI::App& command, EstimateArguments& options) {
   command
       .add_option("--resume", options.resume,
                   "Keep finished candidates in F; those already in F are not computed again")
-      ->type_name("F");
+      ->type_name("F")
+      ->group(kPaperGroup);
   command
       .add_option_function<std::string>(
           "--shard", [&options](const std::string& text) { options.shard = parse_shard(text); },
@@ -209,7 +215,30 @@ void declare_candidates(CLI::App& command, EstimateArguments& options) {
       ->type_name("K/N")
       ->check([](const std::string& text) {
         return parse_shard(text) ? std::string() : "--shard needs K/N with K from 1 to N, not " + text;
-      });
+      })
+      ->group(kPaperGroup);
+}
+
+// The order of declaration is that of --help, after the options that every subcommand has.
+void declare(CLI::App& command, EstimateArguments& options) {
+  EstimateInput& input = options.input;
+  options.campaign.declare_recordings(command);
+  options.output.declare_json(command);
+  input.recording.declare_reading(command);
+  input.recording.declare_computing(command);
+  declare_poses(command, options);
+  declare_estimate_options(command, input.estimate, {"method", "over-time"}, "Search");
+  declare_estimate_options(command, input.estimate,
+                           {"range", "around", "fit", "scoring", "weight-c", "edge-gate-m", "plane-gate-m"},
+                           kPaperGroup);
+  declare_candidates(command, options);
+  constexpr const char* kRigGroup = "The rig beside the offset";
+  declare_estimate_options(command, input.estimate, {"solve", "prior"}, kRigGroup);
+  command.add_option("--rig-out", options.rig_out, "Write the rig file with what --solve found, for --rig")
+      ->type_name("F")
+      ->group(kRigGroup);
+  options.output.declare_others(command, "Output");
+  options.campaign.declare(command);
 }
 
 }  // namespace
@@ -218,15 +247,7 @@ void add_estimate(CLI::App& app, ExitCode& exit_code) {
   CLI::App* command = app.add_subcommand("estimate", "Find the offset: t_motor = t_laser + offset");
   auto options = std::make_shared<EstimateArguments>();
   options->input.recording.keep_intensities = false;
-  options->campaign.declare(*command);
-  options->input.declare_search(*command);
-  options->output.declare(*command);
-  declare_poses(*command, *options);
-  command
-      ->add_option("--rig-out", options->rig_out,
-                   "Write the rig file with what --solve found, to be given with --rig")
-      ->type_name("F");
-  declare_candidates(*command, *options);
+  declare(*command, *options);
   command->callback(
       [options, command, &exit_code] { exit_code = run(*options, deciding_options(*command)); });
 }

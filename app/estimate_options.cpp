@@ -122,7 +122,7 @@ void print_answer(const Estimate& estimate) {
 }  // namespace
 
 void declare_estimate_options(CLI::App& command, EstimateOptions& estimate,
-                              std::initializer_list<std::string_view> names) {
+                              std::initializer_list<std::string_view> names, const std::string& heading) {
   for (const EstimateOption& option : estimate_options()) {
     if (names.size() > 0 && std::ranges::find(names, option.name) == names.end()) continue;
     const auto set = [&estimate, &option](const std::vector<std::string>& texts) {
@@ -136,7 +136,8 @@ void declare_estimate_options(CLI::App& command, EstimateOptions& estimate,
             ->type_size(1)
             ->expected(option.value_optional ? 0 : 1,
                        option.repeats ? CLI::detail::expected_max_vector_size : 1)
-            ->allow_extra_args(false);
+            ->allow_extra_args(false)
+            ->group(heading);
     if (!option.choices.empty()) declared->check(CLI::IsMember(option.choices));
   }
 }
@@ -147,19 +148,23 @@ void EstimateInput::declare(CLI::App& app) {
   declare_estimate_options(app, estimate);
 }
 
-void EstimateInput::declare_search(CLI::App& app) {
-  recording.declare_reading(app);
-  recording.declare_computing(app);
-  declare_estimate_options(app, estimate);
+void EstimateOutput::declare(CLI::App& app) {
+  declare_json(app);
+  declare_others(app, "Options");
 }
 
-void EstimateOutput::declare(CLI::App& app) {
+void EstimateOutput::declare_json(CLI::App& app) {
   app.add_option("--json", json, "Write the result as JSON; - for stdout")->type_name("F");
+}
+
+void EstimateOutput::declare_others(CLI::App& app, const std::string& heading) {
   app.add_option("--csv", csv,
                  "Write the criteria over the offset as CSV, or the windows of --over-time; - for stdout")
-      ->type_name("F");
+      ->type_name("F")
+      ->group(heading);
   app.add_flag("--no-timing", no_timing,
-               "Write cpu_s and wall_s as null, so that equal runs give equal bytes");
+               "Write cpu_s and wall_s as null, so that equal runs give equal bytes")
+      ->group(heading);
 }
 
 Result<void> EstimateOutput::check(std::vector<std::filesystem::path> inputs,

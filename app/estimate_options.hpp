@@ -19,16 +19,15 @@ struct EstimateInput {
   RecordingOptions recording;
   EstimateOptions estimate;
 
-  /// The options write to this object, which must outlive `app`'s parsing.
+  /// Declares REC and every option. They write to this object, which must outlive `app`'s parsing.
   void declare(CLI::App& app);
-  /// The same without REC, for a subcommand that takes several.
-  void declare_search(CLI::App& app);
 };
 
-/// Declares the options of an estimate that have these names, or all of them if there are none. They write to
-/// `estimate`, which must outlive the parsing.
+/// Declares the options of an estimate that have these names, or all of them if there are none, below this
+/// heading of --help. They write to `estimate`, which must outlive the parsing.
 void declare_estimate_options(CLI::App& command, EstimateOptions& estimate,
-                              std::initializer_list<std::string_view> names = {});
+                              std::initializer_list<std::string_view> names = {},
+                              const std::string& heading = "Options");
 
 /// The outputs of the result.
 struct EstimateOutput {
@@ -36,6 +35,9 @@ struct EstimateOutput {
   bool no_timing = false;
 
   void declare(CLI::App& app);
+  /// --json alone, and the others below this heading.
+  void declare_json(CLI::App& app);
+  void declare_others(CLI::App& app, const std::string& heading);
   bool on_stdout() const { return json == "-" || csv == "-"; }
   /// See check_outputs; `others` are outputs besides these.
   Result<void> check(std::vector<std::filesystem::path> inputs, std::vector<std::string> others = {}) const;

@@ -49,8 +49,8 @@ std::string stream_text(const StreamSummary& stream, const std::string& where = 
   if (stream.gaps > 0) gaps = fmt::format("{} gaps, the longest {:.3f} s", stream.gaps, stream.longest_gap_s);
   return row("stamps", stamps) +
          row("rate", fmt::format("{:.2f} Hz over {:.3f} s, {}", stream.rate_hz(), stream.duration_s, gaps)) +
-         row("order", fmt::format("{} out of order, {} duplicated, {} dropped", stream.out_of_order,
-                                  stream.doubled, stream.dropped));
+         row("order", fmt::format("{} out of order, {} duplicate, {} dropped", stream.out_of_order,
+                                  stream.duplicates, stream.dropped));
 }
 
 std::string laser_text(const LaserSummary& laser) {
@@ -129,7 +129,7 @@ void add_info(CLI::App& app, ExitCode& exit_code) {
   const auto options = std::make_shared<Options>();
   options->keep_intensities = false;
   options->declare(*info);
-  info->add_option("--json", options->json, "Write it as JSON, - for stdout")->type_name("F|-");
+  info->add_option("--json", options->json, "Write it as JSON; - for stdout")->type_name("F");
   info->callback([options, &exit_code] { exit_code = run(*options, options->json); });
 }
 

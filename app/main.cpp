@@ -60,6 +60,31 @@ std::string unknown_subcommand(const CLI::App& app, int argc, char** argv) {
                      "All subcommands: sweepscope --help");
 }
 
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  Find the offset          sweepscope estimate REC.bag\n"
+    "  See what it does         sweepscope compare REC.bag --offsets-ms 19,24 -o maps.png\n"
+    "  Explore it               sweepscope view REC.bag\n"
+    "  Make figures             sweepscope figures assets/figures/quick.yaml -o figures\n"
+    "  Correct the recording    sweepscope apply REC.bag --offset-ms 24 -o OUT.bag\n"
+    "  Try it without a rig     sweepscope simulate room-1 --offset-ms 24 -o REC.bag\n"
+    "\n"
+    "sweepscope SUBCOMMAND --help lists the options of a subcommand.\n";
+
+void declare_subcommands(CLI::App& app, ExitCode& exit_code) {
+  const auto declare = [&](const char* task, auto... add) {
+    (add(app, exit_code), ...);
+    for (CLI::App* command : app.get_subcommands({}))
+      if (command->get_group() == "Subcommands") command->group(task);
+  };
+  declare("Find the offset", app::add_estimate, app::add_calibrate, app::add_merge);
+  declare("See what it does to the map", app::add_view, app::add_compare, app::add_map, app::add_report,
+          app::add_figures);
+  declare("Recordings and rigs", app::add_info, app::add_rig, app::add_apply, app::add_convert,
+          app::add_simulate);
+  app.footer(kExamples);
+}
+
 int run(int argc, char** argv) {
   CLI::App app{
       "sweepscope finds the constant time offset between an actuated 2D laser scanner and its motor,\n"
@@ -68,21 +93,14 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", "sweepscope " SWEEPSCOPE_VERSION);
   app.require_subcommand(1);
   app.get_formatter()->column_width(36);
+  app.get_formatter()->label("Positionals", "Arguments");
   ExitCode exit_code = ExitCode::kDone;
-  app::add_info(app, exit_code);
-  app::add_convert(app, exit_code);
-  app::add_apply(app, exit_code);
-  app::add_rig(app, exit_code);
-  app::add_simulate(app, exit_code);
-  app::add_estimate(app, exit_code);
-  app::add_calibrate(app, exit_code);
-  app::add_merge(app, exit_code);
-  app::add_map(app, exit_code);
-  app::add_compare(app, exit_code);
-  app::add_figures(app, exit_code);
-  app::add_report(app, exit_code);
-  app::add_view(app, exit_code);
+  declare_subcommands(app, exit_code);
   app::declare_manual(app);
+  if (argc < 2) {
+    app::print("{}", app.help());
+    return static_cast<int>(ExitCode::kDone);
+  }
   if (const std::string unknown = unknown_subcommand(app, argc, argv); !unknown.empty()) {
     app::say("{}\n", unknown);
     return static_cast<int>(ExitCode::kWrongUsage);

@@ -16,6 +16,7 @@ struct Described {
   std::string value;               // the value's name; empty: a flag
   std::vector<std::string> choices;
   std::string description, standard;  // `standard`: the default
+  std::string group;                  // its heading in --help
   bool positional = false, required = false;
 };
 
@@ -35,6 +36,7 @@ Described described(const CLI::Option& option) {
   out.description = option.get_description();
   out.standard = option.get_default_str();
   out.required = option.get_required();
+  out.group = option.get_group();
   if (option.get_expected_max() == 0) return out;
   // CLI11 writes "NAME:CHECK"; names such as FROM:TO:STEP hold colons themselves.
   std::string type = option.get_type_name();
@@ -96,10 +98,17 @@ std::string man_option(const Described& option) {
 }
 
 std::string man_command(const CLI::App& app, const CLI::App& command) {
+  const std::vector<Described> options = options_of(command);
   std::string usage, list;
-  for (const Described& option : options_of(command)) {
-    list += man_option(option);
-    if (option.positional) usage += " \\fI" + roff(option.names.front()) + "\\fR";
+  for (const Described& option : options)
+    if (option.positional) {
+      usage += " \\fI" + roff(option.names.front()) + "\\fR";
+      list += man_option(option);
+    }
+  for (const std::string& group : command.get_groups()) {
+    if (group != "Options") list += fmt::format(".PP\n\\fB{}\\fR\n", roff(group));
+    for (const Described& option : options)
+      if (!option.positional && option.group == group) list += man_option(option);
   }
   std::string text =
       fmt::format(".SS {0} {1}\n{4}.PP\n\\fB{0} {1}\\fR [\\fIOPTIONS\\fR]{2}\n{3}", app.get_name(),
@@ -110,7 +119,7 @@ std::string man_command(const CLI::App& app, const CLI::App& command) {
 }
 
 constexpr std::string_view kExitCodes =
-    ".SH EXIT STATUS\n.TP\n0\nDone.\n.TP\n2\nWrong usage, or an output cannot be written.\n.TP\n3\nAn input "
+    ".SH EXIT STATUS\n.TP\n0\nDone.\n.TP\n1\nAn offset lies outside of what --expect allows.\n.TP\n2\nWrong usage, or an output cannot be written.\n.TP\n3\nAn input "
     "cannot be read.\n.TP\n4\nThe offset cannot be determined from this recording; the result says "
     "why.\n.TP\n5\nA picture or value differs from what a script of view expects.\n.TP\n130\nInterrupted.\n";
 
@@ -156,7 +165,9 @@ std::string man_page(const CLI::App& app) {
   for (const Described& option : options_of(app)) text += man_option(option);
   text += ".SH SUBCOMMANDS\n";
   for (const CLI::App* command : commands_of(app)) text += man_command(app, *command);
-  return text + std::string(kExitCodes);
+  const std::string footer = app.get_footer();  // its first line is its heading
+  return text + std::string(kExitCodes) + ".SH EXAMPLES\n.nf\n" +
+         roff_lines(footer.substr(footer.find('\n') + 1)) + ".fi\n";
 }
 
 std::string bash_completion(const CLI::App& app) {

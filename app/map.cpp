@@ -57,7 +57,7 @@ ExitCode run(const MapArguments& options) {
   if (options.remove_outliers) map->cloud = without_outliers(map->cloud);
   if (options.voxel_m > 0) map->cloud = thinned(map->cloud, options.voxel_m);
   if (!map->warning.empty()) say("warning: {}\n", map->warning);
-  if (map->lost) say("warning: tracking was lost at this offset: do not trust the map\n");
+  if (map->lost) say("warning: the motion could not be followed at this offset: do not trust the map\n");
   if (const auto written = write_cloud(options.output, *map->cloud); !written) return fail(written.error());
   if (!options.trajectory.empty()) {
     const auto written = write_tum(options.trajectory, map->trajectory, built->epoch_ns);

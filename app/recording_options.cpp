@@ -41,12 +41,13 @@ void RigOptions::declare_rig(CLI::App& app, const std::string& help_of_rig) {
   const auto name = [&app](const char* option, std::optional<std::string>& member, const char* help) {
     app.add_option_function<std::string>(
            option, [&member](const std::string& text) { member = text; }, help)
-        ->type_name(std::string(option) == "--joint" ? "NAME" : "TOPIC");
+        ->type_name(std::string(option) == "--joint" ? "NAME" : "TOPIC")
+        ->group(kInputGroup);
   };
-  name("--laser", streams.laser, "Topic of the scans, where there are several (default: the rig file's)");
+  name("--laser", streams.laser, "Topic of the scans, if there are several (default: the rig file's)");
   name("--motor", streams.motor,
-       "Topic of the motor's angle, where there are several (default: the rig file's)");
-  name("--joint", streams.joint, "Joint that turns the laser, where several move (default: the rig file's)");
+       "Topic of the motor's angle, if there are several (default: the rig file's)");
+  name("--joint", streams.joint, "Joint that turns the laser, if several move (default: the rig file's)");
 }
 
 Result<std::optional<Rig>> RigOptions::rig_given() const {
@@ -66,8 +67,9 @@ void declare_stamps(CLI::App& app, std::optional<StampSource>& stamps) {
          [&stamps](const std::string& text) {
            stamps = text == "header" ? StampSource::kHeader : StampSource::kReceive;
          },
-         "Stamps to use for both streams: header or receive (default: the rig file's, else header)")
+         "Stamps to use for both streams (default: the rig file's, else header)")
       ->type_name("S")
+      ->group(kInputGroup)
       ->check(CLI::IsMember({"header", "receive"}));
 }
 
@@ -81,7 +83,7 @@ void RecordingOptions::declare_reading(CLI::App& app) {
   declare_stamps(app, stamps);
   app.add_option_function<std::string>(
          "--window", [this](const std::string& text) { window = parse_window(text); },
-         "Use only the part from A to B, in seconds since the first scan")
+         "Use only the part from A to B seconds after the first scan")
       ->type_name("A:B")
       ->check([](const std::string& text) {
         return parse_window(text) ? std::string()
@@ -93,6 +95,7 @@ void RecordingOptions::declare_computing(CLI::App& app) {
   app.add_option("--assume", assume,
                  "Treat the rig as stationary or moving (default: decided by the motion test)")
       ->type_name("A")
+      ->group(kInputGroup)
       ->check(CLI::IsMember({"stationary", "moving"}));
   app.add_option("--threads", threads, "Number of threads (default: all processors)")
       ->type_name("N")

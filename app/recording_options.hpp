@@ -21,6 +21,8 @@ namespace sweepscope::app {
 /// The kinds of REC, for help texts.
 inline constexpr const char* kRecordings =
     "a ROS 1 or ROS 2 bag (.bag, .db3, .mcap), or a folder of either or of CSV tables";
+/// Where --help lists the options that say how the input is read.
+inline constexpr const char* kInputGroup = "Input";
 
 /// The options that name the laser and the motor of a recording, declared once.
 struct RigOptions {

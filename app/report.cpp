@@ -98,7 +98,7 @@ void add_report(CLI::App& app, ExitCode& exit_code) {
       ->required();
   command
       ->add_option("--points", options->points,
-                   "Measured points that the page draws at any offset; 0: only pictures that stand still")
+                   "Number of measured points that the page draws at any offset; 0: still pictures only")
       ->type_name("N")
       ->capture_default_str()
       ->check(CLI::Range(std::size_t{0}, kMaxLivePoints));

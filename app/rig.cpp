@@ -61,7 +61,7 @@ Result<DetectedRig> with_estimate(DetectedRig detected, const RigArguments& opti
         if (!found && options.system) return std::move(detected);
         if (!found)
           return failure(ExitCode::kWrongUsage,
-                         name + " holds nothing of the rig: make it with estimate --solve offset,mount");
+                         name + " has no parameters of the rig: make it with estimate --solve offset,mount");
         return with_found(std::move(detected), *found,
                           "estimate --solve in " + options.estimate->filename().string());
       });
@@ -136,11 +136,10 @@ void declare_snippet(CLI::App& command, RigArguments& options) {
       ->type_name("SYSTEM")
       ->check(CLI::IsMember(rig_system_names()));
   command
-      .add_option(
-          "--estimate", options.estimate,
-          "Estimate (JSON): what its --solve found goes into the rig file, and its offset into that of --as")
+      .add_option("--estimate", options.estimate,
+                  "Estimate (JSON): the rig that its --solve found is written, and with --as its offset")
       ->type_name("E.json");
-  command.add_option("--offset-ms", options.offset_ms, "The offset, where there is no estimate")
+  command.add_option("--offset-ms", options.offset_ms, "The offset, if there is no estimate")
       ->check(finite_number());
   command.add_option("--base-frame", options.base_frame, "The base frame in what --as writes")
       ->capture_default_str()
@@ -158,18 +157,19 @@ void declare_snippet(CLI::App& command, RigArguments& options) {
 void add_rig(CLI::App& app, ExitCode& exit_code) {
   CLI::App* command = app.add_subcommand(
       "rig",
-      "Write a rig file with what was detected in a recording, to edit and to give with --rig; or the mount "
-      "and the offset as other systems read them");
+      "Write a rig file with what was detected in a recording, to edit and to pass with --rig; or the mount "
+      "and the offset for other systems");
   auto options = std::make_shared<RigArguments>();
   command
       ->add_option("REC", options->recording,
                    std::string("The recording: ") + kRecordings + "; with --as also a rig file")
       ->required();
-  command->add_option("-o,--output", options->output, "The rig file, or that of --as (default: stdout)")
+  command->add_option("-o,--output", options->output, "The file to write (default: stdout)")
       ->type_name("OUT");
-  options->rig.declare_rig(*command,
-                           "Rig file with what is already known, or that names the laser and the motor where "
-                           "that is ambiguous");
+  options->rig.declare_rig(
+      *command,
+      "Rig file with what is already known, or that names the laser and the motor if they "
+      "are ambiguous");
   declare_stamps(*command, options->stamps);
   declare_snippet(*command, *options);
   command->callback([options, &exit_code] { exit_code = run(*options); });

@@ -17,12 +17,12 @@ void* wait_until_over(void* over) {
 
 /// How many threads can run beside this one, at most so many: they are started, and end at once. Not by
 /// std::thread: each would take address space for memory of its own, which may be what is short.
-std::size_t startable(std::size_t most) {
+std::size_t startable(std::size_t max_threads) {
   std::atomic<bool> over{false};
   std::vector<pthread_t> threads;
-  threads.reserve(most);
+  threads.reserve(max_threads);
   for (pthread_t thread{};
-       threads.size() < most && pthread_create(&thread, nullptr, wait_until_over, &over) == 0;)
+       threads.size() < max_threads && pthread_create(&thread, nullptr, wait_until_over, &over) == 0;)
     threads.push_back(thread);
   over = true;
   over.notify_all();

@@ -202,34 +202,41 @@ Result<void> view(const ViewOptions& options) {
 }
 
 void declare_serving(CLI::App& command, ViewOptions& options, CLI::Option* headless) {
+  constexpr const char* kServing = "In a browser";
   CLI::Option* serve = command.add_option("--serve", options.address,
                                           "Show this interface in a browser, without a display here; prints "
                                           "the address to open (default: 127.0.0.1:8717)");
-  serve->expected(0, 1)->type_name("[ADDRESS:PORT]")->excludes(headless);
+  serve->expected(0, 1)->type_name("[ADDRESS:PORT]")->excludes(headless)->group(kServing);
   command
-      .add_option("--root", options.roots,
-                  "With --serve: files are opened and written below this folder alone; repeatable; without a "
-                  "folder a name lies in the first (default: the working folder)")
+      .add_option(
+          "--root", options.roots,
+          "Open and write files below this folder only; repeatable. Names without a folder lie in the "
+          "first (default: the working folder)")
       ->type_name("DIR")
+      ->group(kServing)
       ->needs(serve)
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  command.add_flag("--once", options.once, "With --serve: end when the last viewer left")->needs(serve);
+  command.add_flag("--once", options.once, "End when the last viewer has left")
+      ->group(kServing)
+      ->needs(serve);
   command
       .add_flag("--listen-anywhere", options.listen_anywhere,
-                "With --serve: allow an ADDRESS that other machines reach; nothing is encrypted")
+                "Allow an ADDRESS that other machines can reach; nothing is encrypted")
+      ->group(kServing)
       ->needs(serve);
   command
       .add_option("--host", options.hosts,
-                  "With --serve: a name under which browsers reach it, such as that of a reverse proxy; "
-                  "repeatable")
+                  "A name under which browsers reach it, such as that of a reverse proxy; repeatable")
       ->type_name("NAME")
+      ->group(kServing)
       ->needs(serve)
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
 void declare(CLI::App& command, ViewOptions& options) {
+  constexpr const char* kScripts = "Scripts";
   options.reading.declare_reading(command);
   options.reading.declare_computing(command);
   CLI::Option* recording = command.add_option("REC", options.recording,
@@ -241,22 +248,23 @@ void declare(CLI::App& command, ViewOptions& options) {
       ->needs(recording);
   CLI::Option* headless = command.add_flag("--headless", options.headless,
                                            "Run a script on the same interface without a display");
+  headless->group(kScripts);
   command
       .add_option("--size", options.size,
-                  "Window size in pixels; a window without it has the size that the last one had")
+                  "Size of the window in pixels (a window: by default that of the last one)")
       ->capture_default_str();
   command.add_option("--scale", options.scale, "1 is 100 %, 2 is 200 % (default: the display's)")
       ->check(finite_number())
       ->check(CLI::Range(0.5, 4.0));
-  command.add_option("--script", options.script, "Script to run: see below")->type_name("F");
+  command.add_option("--script", options.script, "Script to run: see below")->type_name("F")->group(kScripts);
   command.add_option("--run", options.run, "Script lines, separated by ;, run after those of --script")
-      ->type_name("LINES");
+      ->type_name("LINES")
+      ->group(kScripts);
   command
-      .add_option(
-          "--record", options.record,
-          "Write what is done in the window, or by a script, as a script: line by line as it happens, "
-          "with places in pixels")
-      ->type_name("F");
+      .add_option("--record", options.record,
+                  "Record as a script what is done in the window, or by a script, with places in pixels")
+      ->type_name("F")
+      ->group(kScripts);
   declare_serving(command, options, headless);
   command.footer([] { return "\n" + ui::script_help(); });
 }

@@ -34,11 +34,11 @@ std::string nearest_word(std::string_view word, std::span<const std::string> can
   const auto first = std::find_if(candidates.begin(), candidates.end(), begins);
   if (first != candidates.end() && std::none_of(first + 1, candidates.end(), begins)) return *first;
   std::string nearest;
-  std::size_t least = std::max<std::size_t>(1, word.size() / 3) + 1;
+  std::size_t fewest = std::max<std::size_t>(1, word.size() / 3) + 1;
   for (const std::string& candidate : candidates) {
     const std::size_t changes = changes_between(word, candidate);
-    if (changes >= least) continue;
-    least = changes;
+    if (changes >= fewest) continue;
+    fewest = changes;
     nearest = candidate;
   }
   return nearest;

@@ -134,7 +134,7 @@ Result<void> Ui::Parts::act(const Call& call) {
   if (name == "export-picture" && !call.text(2).empty()) {
     if (call.text(1) != "maps")
       return failure(ExitCode::kWrongUsage,
-                     "A size is for the maps alone: export-picture FILE maps 3840x2400");
+                     "Only the maps can have a size: export-picture FILE maps 3840x2400");
     if (auto size = size_of(call); !size) return tl::unexpected(size.error());
   }
   if (name == "export-picture") {

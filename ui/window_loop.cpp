@@ -121,7 +121,7 @@ double seconds_between(Clock::time_point from, Clock::time_point to) {
 }
 
 void loop(gl::Window& window, Ui& ui, ScriptRecorder* recorder) {
-  constexpr int kFramesAfterEvent = 4;  // ImGui settles within them
+  constexpr int kFramesAfterEvent = 4;  // ImGui needs at most these
   constexpr double kTooltip_s = 0.7;    // a tooltip comes while the mouse rests
   constexpr double kFrame_s = 1.0 / 60;
   constexpr double kWorking_s = 1.0 / 8;  // where only progress is to be shown

@@ -68,7 +68,7 @@ void raise_failure(const Failed& failed) {
 }  // namespace
 
 void register_errors() {
-  // pybind11 wants a function that takes it by value.
+  // pybind11 requires a function that takes it by value.
   // NOLINTNEXTLINE(performance-unnecessary-value-param)
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {

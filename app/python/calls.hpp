@@ -40,8 +40,8 @@ T value_of(Result<T>&& result) {
   if constexpr (!std::is_void_v<T>) return std::move(*result);
 }
 
-/// How a function is called: by so many threads (0: as many as there are processors), and who is told of the
-/// progress: progress(phase, fraction) is called now and then; None: nobody.
+/// How a function is called: the number of threads (0: all processors), and a callable that receives the
+/// progress, progress(phase, fraction); None: no progress.
 struct Call {
   std::size_t threads = 0;
   py::object progress = py::none();

@@ -37,7 +37,7 @@ struct Built {
   std::vector<Path> files;
 };
 
-/// Objects that arrays look into are shared with these.
+/// Objects whose memory arrays view are shared with these.
 using OpenedPtr = std::shared_ptr<Opened>;
 using FoundPtr = std::shared_ptr<Found>;
 using BuiltPtr = std::shared_ptr<Built>;

@@ -21,8 +21,7 @@ void add_files(py::module_& module) {
 }  // namespace
 }  // namespace sweepscope::python
 
-/// The engine as sweepscope/__init__.py uses it; nobody else does. What it takes and gives is described
-/// there.
+/// The engine for sweepscope/__init__.py, which describes arguments and results. Private to it.
 PYBIND11_MODULE(_engine, module) {
   using namespace sweepscope::python;
   module.attr("__version__") = SWEEPSCOPE_VERSION;

@@ -159,7 +159,7 @@ async function lost(event) {
   status.connected = false;
   socket = null;
   changed();
-  if (event.code === 1008) return note(`The program ended the connection: ${event.reason}. Load the page again to go on.`);
+  if (event.code === 1008) return note(`The program ended the connection: ${event.reason}. Load the page again to continue.`);
   const why = await refusal();
   if (why) return note(why);
   note(event.code === 1013 ? 'Too many viewers. Trying again.' : 'The connection is lost. Trying again.');

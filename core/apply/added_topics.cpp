@@ -99,7 +99,7 @@ Result<AddedTopics> add_topics(Recording recording, const AddOptions& options, E
   if (!sweeps) return tl::unexpected(sweeps.error());
   const SweepClouds& clouds = *(*sweeps)->clouds;
   if (!clouds.warning().empty()) added.warnings.push_back(clouds.warning());
-  if (clouds.lost()) added.warnings.push_back("tracking was lost: do not trust the clouds");
+  if (clouds.lost()) added.warnings.push_back("the motion could not be followed: do not trust the clouds");
   added.topics.push_back(added_clouds(*sweeps, options, encoding, stamped));
   return added;
 }

@@ -73,8 +73,7 @@ Result<void> check_not_applied(const StreamRecording& recording, bool has_record
   if (!applied) return {};
   return failure(
       ExitCode::kWrongUsage,
-      fmt::format("{}: an offset was applied to it before, which its record {} says; apply another "
-                  "one with --again",
+      fmt::format("{}: an offset was applied before, see its record {}; apply another one with --again",
                   recording.path.string(), kAppliedMetadata));
 }
 

@@ -54,7 +54,7 @@ Result<OutputKind> output_kind(const StreamRecording& recording, const fs::path&
   if (extension == ".mcap") return OutputKind{StreamFormat::kMcap, false};
   if (extension == ".db3") return OutputKind{StreamFormat::kSqlite, false};
   if (!extension.empty())
-    return refused("its name stands for no format; name OUT.bag, OUT.mcap, OUT.db3 or a folder");
+    return refused("its name has no known extension; name it OUT.bag, OUT.mcap, OUT.db3, or name a folder");
   if (format == StreamFormat::kRos1)
     return refused("a folder holds a ROS 2 bag, and the recording is a ROS 1 bag; name OUT.bag or OUT.mcap");
   return OutputKind{format, true};

@@ -61,11 +61,9 @@ std::optional<Error> Copier::refuse_absolute_times(const Entry& entry,
   if (!is_cloud(entry.type->kind)) return std::nullopt;
   const auto cloud = decode_points(entry.type->kind, entry.encoding, plain);
   if (!cloud || !CloudReader::counts_since_1970(*cloud)) return std::nullopt;
-  return Error{
-      ExitCode::kWrongUsage,
-      fmt::format("{}: the points on {} have times of their own, since 1970, which --shift laser does "
-                  "not move; use --shift motor",
-                  name_, move_.stream.topic)};
+  return Error{ExitCode::kWrongUsage, fmt::format("{}: the points on {} have absolute times, since 1970, "
+                                                  "which --shift laser does not move; use --shift motor",
+                                                  name_, move_.stream.topic)};
 }
 
 std::optional<Error> Copier::write_moved(const Entry& entry, StreamMessage message) {

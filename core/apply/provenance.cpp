@@ -28,7 +28,7 @@ std::optional<double> number_of(const Json& object, const char* key) {
 }
 
 double needed(const Json& object, const char* key, const char* of) {
-  if (!object.is_object()) throw BadEstimate{fmt::format("{} holds something else than objects", of)};
+  if (!object.is_object()) throw BadEstimate{fmt::format("{} has something else than objects", of)};
   const auto number = number_of(object, key);
   if (!number) throw BadEstimate{fmt::format("{} lacks {}", of, key)};
   return *number;
@@ -67,7 +67,7 @@ std::string reasons_of(const Json& document) {
 Result<AppliedOffset> parse_applied_offset(std::string_view json, std::string_view name) {
   const Json document = Json::parse(json, nullptr, false);
   const auto refused = [&](const std::string& why) {
-    return unreadable(fmt::format("{}: is no estimate that can be applied: {}", name, why));
+    return unreadable(fmt::format("{}: is not an estimate that can be applied: {}", name, why));
   };
   if (!document.is_object()) return refused("it is not a JSON object");
   const auto schema = document.find("schema");
@@ -76,7 +76,7 @@ Result<AppliedOffset> parse_applied_offset(std::string_view json, std::string_vi
   const auto offset = document.find("offset_ms");
   if (offset != document.end() && offset->is_null())
     return failure(ExitCode::kNotIdentifiable,
-                   fmt::format("{}: the estimate gives no offset: {}", name, reasons_of(document)));
+                   fmt::format("{}: the estimate has no offset: {}", name, reasons_of(document)));
   try {
     return offset_of(document);
   } catch (const BadEstimate& bad) {

@@ -83,7 +83,7 @@ std::vector<std::string> missing_parts(const Rig& rig) {
         "The joint's positions must be in rad: multiply those of the recording by {}.", number(unit)));
   if (!rig.gear.angles().perfect())
     lines.emplace_back(
-        "Gear play and the encoder's eccentricity have no place here: sweepscope apply --tf --rig writes "
+        "Gear play and the encoder's eccentricity cannot be set here: sweepscope apply --tf --rig writes "
         "transforms with them.");
   return lines;
 }
@@ -92,7 +92,7 @@ std::vector<std::string> missing_parts(const Rig& rig) {
 std::vector<std::string> offset_by_transforms(const RigSnippet& snippet) {
   const double offset_s = snippet.offset.offset_s;
   return {
-      "The offset has no place here. Transforms of the motor carry its stamps, which must be moved onto the",
+      "The offset cannot be set here. Transforms of the motor have its stamps, which must be moved onto the",
       fmt::format("laser's clock: {} {} s {} each stamp of the joint, or, for a recording:",
                   offset_s < 0 ? "add" : "subtract", number(std::abs(offset_s)),
                   offset_s < 0 ? "to" : "from"),
@@ -101,10 +101,10 @@ std::vector<std::string> offset_by_transforms(const RigSnippet& snippet) {
 
 /// Where the turning frame comes from.
 std::vector<std::string> turning_frame(const RigSnippet& snippet) {
-  return {
-      fmt::format("{} in {} turns with the motor: robot_state_publisher (sweepscope rig --as urdf).",
-                  printable_line(snippet.motor_frame), printable_line(snippet.base_frame)),
-      "A recording of sweepscope apply --tf holds the laser's pose in the base frame; leave the mount out then."};
+  return {fmt::format("{} in {} turns with the motor: robot_state_publisher (sweepscope rig --as urdf).",
+                      printable_line(snippet.motor_frame), printable_line(snippet.base_frame)),
+          "A recording of sweepscope apply --tf holds the laser's pose in the base frame; leave the mount "
+          "out then."};
 }
 
 std::vector<std::string> joined(std::vector<std::string> lines, const std::vector<std::string>& more) {
@@ -113,7 +113,8 @@ std::vector<std::string> joined(std::vector<std::string> lines, const std::vecto
 }
 
 constexpr const char* kUrdfSource =
-    "Notation: http://wiki.ros.org/urdf/XML/joint (origin: xyz in m, rpy in rad about fixed axes; axis in the "
+    "Notation: http://wiki.ros.org/urdf/XML/joint (origin: xyz in m, rpy in rad about fixed axes; axis in "
+    "the "
     "joint frame)";
 
 /// The two joints; with a prefix of names for a macro of xacro.
@@ -123,7 +124,8 @@ std::string joints(const RigSnippet& snippet, const std::string& prefix, const s
                     laser_link = prefix + attribute(snippet.laser_frame);
   return fmt::format("  <link name=\"{0}\"/>\n  <link name=\"{1}\"/>\n", motor_link, laser_link) +
          fmt::format(
-             "  <joint name=\"{}\" type=\"continuous\">\n    <parent link=\"{}\"/>\n    <child link=\"{}\"/>\n",
+             "  <joint name=\"{}\" type=\"continuous\">\n    <parent link=\"{}\"/>\n    <child "
+             "link=\"{}\"/>\n",
              prefix + attribute(joint_name(snippet.rig)), parent, motor_link) +
          fmt::format("    <origin xyz=\"0 0 0\" rpy=\"{}\"/>\n    <axis xyz=\"{}\"/>\n  </joint>\n",
                      numbers(motor.origin_rpy_rad), numbers(motor.axis)) +
@@ -175,8 +177,10 @@ std::string laser_assembler(const RigSnippet& snippet) {
   const Eigen::Vector3d rpy = mount_rpy_rad(snippet.rig);
   auto lines = joined(
       head(snippet),
-      {"A launch file of ROS 1. Parameters: http://wiki.ros.org/laser_assembler; static_transform_publisher takes",
-       "x y z yaw pitch roll: http://wiki.ros.org/tf2_ros. With ignore_laser_skew false laser_geometry places each",
+      {"A launch file of ROS 1. Parameters: http://wiki.ros.org/laser_assembler; static_transform_publisher "
+       "takes",
+       "x y z yaw pitch roll: http://wiki.ros.org/tf2_ros. With ignore_laser_skew false laser_geometry "
+       "places each",
        "beam by the transforms at its own time; true, the default, takes one transform for a whole scan."});
   lines = joined(lines, turning_frame(snippet));
   lines = joined(joined(lines, offset_by_transforms(snippet)), missing_parts(snippet.rig));
@@ -201,7 +205,8 @@ std::string cartographer(const RigSnippet& snippet) {
       {"Lines for the options of your Lua file. Keys:",
        "https://google-cartographer-ros.readthedocs.io/en/latest/configuration.html",
        "Cartographer has no key for a mount: it takes the laser's pose in tracking_frame from transforms",
-       "(sweepscope rig --as urdf), at the middle of each part of a scan (sensor_bridge.cc). So a turning laser",
+       "(sweepscope rig --as urdf), at the middle of each part of a scan (sensor_bridge.cc). So a turning "
+       "laser",
        "requires many parts. SLAM in 3D requires an IMU as well, and tracking_frame at its position."});
   lines = joined(joined(lines, offset_by_transforms(snippet)), missing_parts(snippet.rig));
   // Parts of at most 1 ms of a scanner with 40 scans a second.
@@ -223,13 +228,16 @@ std::string fast_lio(const RigSnippet& snippet) {
   const Eigen::Vector3d& t = imu_from_base.translation_m;
   auto lines = joined(
       head(snippet),
-      {"Keys: https://github.com/hku-mars/FAST_LIO, config/velodyne.yaml. FAST_LIO takes a fixed extrinsic, which a",
-       "turning laser does not have. Give it clouds in the base frame, with the motor's motion taken out:",
+      {"Keys: https://github.com/hku-mars/FAST_LIO, config/velodyne.yaml. FAST_LIO takes a fixed extrinsic, "
+       "which a",
+       "turning laser does not have. Give it clouds in the base frame, with the motor's motion removed:",
        fmt::format("  sweepscope apply REC -o OUT --offset-ms {:.6f} --clouds /sweeps --assume stationary",
                    snippet.offset.offset_s * 1e3),
-       "time_offset_lidar_to_imu: FAST_LIO subtracts it from the IMU's stamps (imu_cbk in laserMapping.cpp), so",
-       "t_imu = t_laser + time_offset_lidar_to_imu. That is the offset where the motor's clock stamps the IMU as",
-       "well; write 0.0 where the IMU is stamped on the laser's clock.",
+       "time_offset_lidar_to_imu: FAST_LIO subtracts it from the IMU's stamps (imu_cbk in laserMapping.cpp), "
+       "so",
+       "t_imu = t_laser + time_offset_lidar_to_imu. That is the offset if the motor's clock stamps the IMU "
+       "as",
+       "well; write 0.0 if the IMU is stamped on the laser's clock.",
        "extrinsic_T, extrinsic_R: the pose of the clouds' frame in the IMU's: p_imu = R p_cloud + T."});
   if (!imu.topic)
     lines.emplace_back(
@@ -238,7 +246,8 @@ std::string fast_lio(const RigSnippet& snippet) {
          fmt::format("    imu_topic: {}\n", json_string(imu.topic.value_or("/imu/data"))) +
          "    time_sync_en: false\n" +
          fmt::format("    time_offset_lidar_to_imu: {}\n", number(snippet.offset.offset_s)) +
-         "preprocess:\n    lidar_type: 2\n    timestamp_unit: 0  # the field time of the clouds is in seconds\n"
+         "preprocess:\n    lidar_type: 2\n    timestamp_unit: 0  # the field time of the clouds is in "
+         "seconds\n"
          "mapping:\n    extrinsic_est_en: false\n" +
          fmt::format("    extrinsic_T: [{}, {}, {}]\n", number(t.x()), number(t.y()), number(t.z())) +
          fmt::format(

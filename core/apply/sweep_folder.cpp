@@ -41,7 +41,7 @@ Result<WrittenSweeps> write_sweeps(Recording recording, const AppliedOffset& off
   if (!output) return tl::unexpected(output.error());
   WrittenSweeps written{clouds->size(), clouds->moving(), {}};
   if (!clouds->warning().empty()) written.warnings.push_back(clouds->warning());
-  if (clouds->lost()) written.warnings.push_back("tracking was lost: do not trust the clouds");
+  if (clouds->lost()) written.warnings.push_back("the motion could not be followed: do not trust the clouds");
   std::vector<StampedPose> poses;
   const double epoch_s = double(corrected.epoch_ns) * 1e-9;
   for (std::size_t i = 0; i < clouds->size(); ++i) {

@@ -151,7 +151,7 @@ Result<Campaign> parse_campaign_json(std::string_view text, std::string_view nam
   } catch (const std::exception&) {
     const std::string where = number == 0 ? "" : fmt::format("row {}: ", number);
     return unreadable(
-        fmt::format("{}: {}is not a table that estimate --table wrote as JSON ({})", name, where, kSchema));
+        fmt::format("{}: {}is not a table written by estimate --table as JSON ({})", name, where, kSchema));
   }
   return campaign;
 }

@@ -42,8 +42,8 @@ Result<void> RowFile::take_up() {
   const std::string header = header_line();
   if (SealedFile::is_begun(*text, header)) return file_.begin(header);
   if (!text->starts_with(header))
-    return unreadable(fmt::format("{}: is not a file of rows that estimate --table kept; move it away",
-                                  file_.path().string()));
+    return unreadable(
+        fmt::format("{}: is not a file of rows of estimate --table; move it away", file_.path().string()));
   std::size_t whole_bytes = header.size();
   for (std::size_t end = 0; (end = text->find('\n', whole_bytes)) != text->npos; whole_bytes = end + 1) {
     const std::string_view line(text->data() + whole_bytes, end - whole_bytes);

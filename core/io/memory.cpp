@@ -62,11 +62,11 @@ std::optional<std::uint64_t> meminfo_bytes(std::string_view text, std::string_vi
 }
 
 std::optional<std::uint64_t> available_memory_bytes(const MemorySources& sources) {
-  std::optional<std::uint64_t> least;
+  std::optional<std::uint64_t> min;
   for (const auto& bytes : {meminfo_bytes(text_of(sources.meminfo), "MemAvailable"),
                             left_in_group(sources.cgroup), left_of_address_space(sources.statm)})
-    if (bytes) least = std::min(least.value_or(*bytes), *bytes);
-  return least;
+    if (bytes) min = std::min(min.value_or(*bytes), *bytes);
+  return min;
 }
 
 std::optional<std::string> memory_warning(const std::string& what, std::uint64_t needed_bytes,

@@ -40,7 +40,7 @@ bool lock_own(int file) {
   return fstat(file, &status) == 0 && status.st_nlink > 0;
 }
 
-/// As TemporaryFile makes them: a plain file of this user with one name, that nobody else may read.
+/// As TemporaryFile makes them: a regular file of this user with one name, readable by this user only.
 bool is_ours(int file) {
   struct stat status {};
   return fstat(file, &status) == 0 && S_ISREG(status.st_mode) && status.st_uid == geteuid() &&

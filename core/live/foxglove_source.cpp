@@ -38,11 +38,11 @@ class FoxgloveSource : public LiveSource {
                  const Rig& rig)
       : address_(std::move(address)), socket_(std::move(socket)), messages_(url, rig) {}
 
-  Result<bool> listen(std::chrono::milliseconds most) override {
-    if (!socket_ && !reconnect(most)) return true;
-    const auto until = Clock::now() + most;
+  Result<bool> listen(std::chrono::milliseconds max_wait) override {
+    if (!socket_ && !reconnect(max_wait)) return true;
+    const auto until = Clock::now() + max_wait;
     // All that is there is taken at once; a connection that ended is not the end of the input.
-    for (auto wait = most; socket_; wait = std::chrono::milliseconds(0)) {
+    for (auto wait = max_wait; socket_; wait = std::chrono::milliseconds(0)) {
       const auto message = socket_->receive(wait);
       if (!message) lose_connection();
       if (!message || !*message) break;
@@ -56,17 +56,17 @@ class FoxgloveSource : public LiveSource {
     RawRecording heard = messages_.with_warnings();
     if (lost_ > 0)
       heard.warnings.push_back(
-          fmt::format("The connection to {} ended {} time{}; what was sent meanwhile may be missing.",
+          fmt::format("The connection to {} was lost {} time{}; messages sent meanwhile may be missing.",
                       heard.file, lost_, lost_ == 1 ? "" : "s"));
     return heard;
   }
 
  private:
   /// Waits for at most so long; whether there is a connection then.
-  bool reconnect(std::chrono::milliseconds most) {
+  bool reconnect(std::chrono::milliseconds max_wait) {
     const auto now = Clock::now();
     if (now < backoff_.next()) {
-      std::this_thread::sleep_for(std::min<Clock::duration>(most, backoff_.next() - now));
+      std::this_thread::sleep_for(std::min<Clock::duration>(max_wait, backoff_.next() - now));
       if (Clock::now() < backoff_.next()) return false;
     }
     auto socket = WebSocket::connect(address_, kFoxgloveSubprotocols);
@@ -129,7 +129,7 @@ Result<std::unique_ptr<LiveSource>> open_foxglove_source(const std::string& url,
   if (!address)
     return failure(
         ExitCode::kWrongUsage,
-        fmt::format("\"{}\" is no address of a Foxglove server, such as ws://localhost:8765", url));
+        fmt::format("\"{}\" is not the address of a Foxglove server, such as ws://localhost:8765", url));
   auto socket = WebSocket::connect(*address, kFoxgloveSubprotocols);
   if (!socket) return tl::unexpected(socket.error());
   return std::make_unique<FoxgloveSource>(*address, std::move(*socket), url, rig);

@@ -12,7 +12,7 @@ class LiveSource {
  public:
   virtual ~LiveSource() = default;
   /// Takes the data that arrived, waiting at most this long; false at the end of the input.
-  virtual Result<bool> listen(std::chrono::milliseconds most) = 0;
+  virtual Result<bool> listen(std::chrono::milliseconds max_wait) = 0;
   /// Everything received so far, unmodified.
   virtual const RawRecording& so_far() const = 0;
   /// The same with warnings about what was skipped.

@@ -80,9 +80,10 @@ class RoscppLink : public RosLink {
                                                           ros::TransportHints().tcpNoDelay()));
   }
 
-  void receive(std::chrono::milliseconds most, const std::function<void(const RosMessage&)>& take) override {
+  void receive(std::chrono::milliseconds max_wait,
+               const std::function<void(const RosMessage&)>& take) override {
     take_ = &take;
-    queue_.callAvailable(ros::WallDuration(static_cast<double>(most.count()) * 1e-3));
+    queue_.callAvailable(ros::WallDuration(static_cast<double>(max_wait.count()) * 1e-3));
     take_ = nullptr;
   }
 

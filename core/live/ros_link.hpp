@@ -35,7 +35,7 @@ class RosLink {
   /// The newest `max_queued` messages wait until they are taken.
   virtual void subscribe(const std::string& topic, std::uint32_t max_queued) = 0;
   /// Passes on the messages that have arrived, waiting at most this long for the first.
-  virtual void receive(std::chrono::milliseconds most,
+  virtual void receive(std::chrono::milliseconds max_wait,
                        const std::function<void(const RosMessage&)>& take) = 0;
 };
 

@@ -23,7 +23,7 @@ class RosSource : public LiveSource {
  public:
   RosSource(std::unique_ptr<RosLink> link, const Rig& rig) : link_(std::move(link)), messages_("ROS", rig) {}
 
-  Result<bool> listen(std::chrono::milliseconds most) override {
+  Result<bool> listen(std::chrono::milliseconds max_wait) override {
     constexpr std::chrono::milliseconds kBetweenLooks(500);
     const auto now = std::chrono::steady_clock::now();
     if (subscribed_.empty() || now - looked_ > kBetweenLooks) {
@@ -31,7 +31,7 @@ class RosSource : public LiveSource {
       looked_ = now;
     }
     Result<void> taken;
-    link_->receive(most, [&](const RosMessage& message) {
+    link_->receive(max_wait, [&](const RosMessage& message) {
       const std::size_t topic = messages_.number_of({message.topic, message.type, Encoding::kRos1, true,
                                                      message.md5sum.empty() ? "*" : message.md5sum});
       const auto bytes = std::as_bytes(std::span(message.bytes, message.size));
@@ -86,7 +86,7 @@ Result<std::unique_ptr<LiveSource>> open_ros_source(const Rig& rig) {
   const std::string master = given != nullptr ? given : "http://localhost:11311";
   if (!is_address(master))
     return unreadable(fmt::format(
-        "ROS: ROS_MASTER_URI=\"{}\" is no address of a master, such as http://localhost:11311", master));
+        "ROS: ROS_MASTER_URI=\"{}\" is not the address of a master, such as http://localhost:11311", master));
   auto link = RosLink::open(master);
   if (!link) return unreadable(fmt::format("ROS: no master answers at {} (ROS_MASTER_URI)", master));
   return std::make_unique<RosSource>(std::move(link), rig);

@@ -19,9 +19,9 @@ constexpr std::size_t kLongestLine_bytes = std::size_t{1} << 26;
 StreamSource::StreamSource(int descriptor, std::string name, const Rig& rig)
     : descriptor_(descriptor), name_(std::move(name)), stream_(name_, rig) {}
 
-Result<bool> StreamSource::listen(std::chrono::milliseconds most) {
+Result<bool> StreamSource::listen(std::chrono::milliseconds max_wait) {
   pollfd ready{descriptor_, POLLIN, 0};
-  const int count = poll(&ready, 1, static_cast<int>(most.count()));
+  const int count = poll(&ready, 1, static_cast<int>(max_wait.count()));
   if (count == 0 || (count < 0 && errno == EINTR)) return true;
   std::array<char, 1 << 16> bytes;
   const ssize_t got = count < 0 ? -1 : read(descriptor_, bytes.data(), bytes.size());

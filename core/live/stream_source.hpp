@@ -14,7 +14,7 @@ class StreamSource : public LiveSource {
   /// The rig must outlive it; the descriptor stays the caller's.
   StreamSource(int descriptor, std::string name, const Rig& rig);
 
-  Result<bool> listen(std::chrono::milliseconds most) override;
+  Result<bool> listen(std::chrono::milliseconds max_wait) override;
   const RawRecording& so_far() const override { return stream_.so_far(); }
   RawRecording heard() override { return stream_.heard(); }
 

@@ -38,10 +38,10 @@ class BeastWebSocket : public WebSocket {
     return shake_hands(address, subprotocols);
   }
 
-  Result<std::optional<WebSocketMessage>> receive(std::chrono::milliseconds most) override {
+  Result<std::optional<WebSocketMessage>> receive(std::chrono::milliseconds max_wait) override {
     if (!reading_ && !arrived_) begin_reading();
     context_.restart();
-    const auto until = std::chrono::steady_clock::now() + most;
+    const auto until = std::chrono::steady_clock::now() + max_wait;
     while (!arrived_ && (context_.poll_one() > 0 || context_.run_one_until(until) > 0)) {
     }
     if (!arrived_) return std::nullopt;
@@ -83,7 +83,7 @@ class BeastWebSocket : public WebSocket {
     const std::string selected(response[http::field::sec_websocket_protocol]);
     if (!selected.empty() && (", " + subprotocols + ", ").find(", " + selected + ", ") != std::string::npos)
       return {};
-    return unreadable(fmt::format("{}: the server speaks none of {}", name_, subprotocols));
+    return unreadable(fmt::format("{}: the server supports none of {}", name_, subprotocols));
   }
 
   /// Begins something and waits for its end; its error is in error_ then.

@@ -27,7 +27,7 @@ class WebSocket {
                                                     const std::string& subprotocols);
   virtual ~WebSocket() = default;
   /// The next message, waiting at most this long; nothing if none came. An error once the connection ended.
-  virtual Result<std::optional<WebSocketMessage>> receive(std::chrono::milliseconds most) = 0;
+  virtual Result<std::optional<WebSocketMessage>> receive(std::chrono::milliseconds max_wait) = 0;
   virtual Result<void> send(const std::string& text) = 0;
 };
 

@@ -233,7 +233,7 @@ void Tracker::judge(const MatchCount& count) {
   after_gap_ = after_gap_ && lost;
 }
 
-// From the velocities of half sweeps: the map tells those, whatever was expected of them.
+// From the velocities of half sweeps, which the map determines whatever was expected.
 void Tracker::learn_acceleration(const SweepPose& pose) {
   const double half_s = (pose.end_s - pose.begin_s) / 2;
   for (const Vector6d& twist_per_s : deviation_twists_per_s(pose, 2, options_.given.get(), time_sign_)) {

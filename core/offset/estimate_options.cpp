@@ -141,35 +141,36 @@ EstimateOption number(std::string name, std::string help, Number value, bool zer
 // Which method, and what the paper's methods take.
 std::vector<EstimateOption> method_options() {
   const std::string gates = fmt::format(" (default: {})", MappingOptions().edge_gate_m);
-  return {choice("method", "M",
-                 "direct: the offset as an unknown of a least squares, for stationary and moving rigs; "
-                 "stationary: the offset at which odometry registers the least motion (d); moving: the "
-                 "offset at which the map is sharpest (n, e). Default: direct; with --range, --around or "
-                 "another option of the paper's methods, stationary or moving, as the motion test decides",
-                 {"stationary", "moving", "direct"},
-                 [](EstimateOptions& options, std::size_t i) {
-                   options.method = std::array{Method::kStationary, Method::kMoving, Method::kDirect}[i];
-                 }),
-          choice("fit", "F",
-                 "none: the best candidate; parabola: the extremum of a parabola through n within 3 ms of "
-                 "the best candidate, or through the squares of d or e within 1 ms; farther where candidates "
-                 "are sparse (default: parabola for moving rigs and for slow motors, else none)",
-                 {"none", "parabola"},
-                 [](EstimateOptions& options, std::size_t i) {
-                   options.fit = i == 0 ? Fit::kNone : Fit::kParabola;
-                 }),
-          choice("scoring", "S",
-                 "two-stage: count matches along the one trajectory that fits the recording best (default); "
-                 "loam: at LOAM's own poses, tracked at each candidate, as the paper did",
-                 {"two-stage", "loam"},
-                 [](EstimateOptions& options, std::size_t i) {
-                   options.scoring = i == 0 ? Scoring::kTwoStage : Scoring::kLoam;
-                 }),
-          number("weight-c", "c of d = sqrt(t^2 + c theta^2) (default: 1)", &EstimateOptions::weight_c, true),
-          number("edge-gate-m", "delta_E: an edge match is nearer than this" + gates,
-                 &EstimateOptions::edge_gate_m, false),
-          number("plane-gate-m", "delta_H: a plane match is nearer than this" + gates,
-                 &EstimateOptions::plane_gate_m, false)};
+  return {
+      choice("method", "M",
+             "direct: the offset as an unknown of a least-squares fit, for stationary and moving rigs; "
+             "stationary: the offset at which odometry registers the least motion (d); moving: the offset at "
+             "which the map is sharpest (n, e). Default: direct; with an option of the paper's methods, "
+             "stationary or moving, as the motion test decides",
+             {"stationary", "moving", "direct"},
+             [](EstimateOptions& options, std::size_t i) {
+               options.method = std::array{Method::kStationary, Method::kMoving, Method::kDirect}[i];
+             }),
+      choice("fit", "F",
+             "none: the best candidate; parabola: the extremum of a parabola through n within 3 units of the "
+             "best candidate, or through the squares of d or e within 1 unit. A unit is 1 ms, and more for "
+             "slow motors (default: parabola for moving rigs and for slow motors, otherwise none)",
+             {"none", "parabola"},
+             [](EstimateOptions& options, std::size_t i) {
+               options.fit = i == 0 ? Fit::kNone : Fit::kParabola;
+             }),
+      choice("scoring", "S",
+             "two-stage: count matches along the one trajectory that fits the recording best (default); "
+             "loam: at LOAM's own poses, tracked at each candidate, as the paper did",
+             {"two-stage", "loam"},
+             [](EstimateOptions& options, std::size_t i) {
+               options.scoring = i == 0 ? Scoring::kTwoStage : Scoring::kLoam;
+             }),
+      number("weight-c", "c of d = sqrt(t^2 + c theta^2) (default: 1)", &EstimateOptions::weight_c, true),
+      number("edge-gate-m", "delta_E: an edge match is nearer than this" + gates,
+             &EstimateOptions::edge_gate_m, false),
+      number("plane-gate-m", "delta_H: a plane match is nearer than this" + gates,
+             &EstimateOptions::plane_gate_m, false)};
 }
 
 // Where the offset is searched for.
@@ -195,7 +196,7 @@ std::vector<EstimateOption> rig_options() {
   return {{"solve",
            "offset[,mount][,play][,encoder]",
            "Solve for parts of the rig beside the offset: how the laser is mounted on the motor, the play of "
-           "the gear, the encoder's eccentricity. A walk shows only how the laser is turned",
+           "the gear, the encoder's eccentricity. From a walk only the rotation of the laser is found",
            {},
            false,
            false,
@@ -212,7 +213,8 @@ std::vector<EstimateOption> rig_options() {
           {"over-time",
            "SECONDS",
            "The offset in windows of at least this length (default: 10 s, and at least 12 sweeps), and its "
-           "course: constant, drifting or with jumps. offset_ms then holds at the middle",
+           "course: constant, drifting or with jumps. offset_ms is then the offset at the middle of the "
+           "recording",
            {},
            false,
            true,

@@ -63,7 +63,7 @@ Result<void> check_options(const EstimateOptions& options, const KeptCandidates&
   const auto refuse = [](const char* why) { return failure(ExitCode::kWrongUsage, why); };
   const bool direct = method_of(options, kUnknownKind, kept.store != nullptr) == Method::kDirect;
   if (direct && kept.store != nullptr)
-    return refuse("The direct method takes seconds and has no candidates to keep.");
+    return refuse("The direct method takes seconds and has no candidates.");
   if (kept.shard && options.ranges.empty() && !options.around)
     return refuse("A shard needs --range or --around: the default search chooses its candidates as it goes.");
   if (options.poses && !direct) return refuse("Poses are used by the direct method only.");
@@ -80,7 +80,7 @@ Result<void> check_poses(const OffsetSearch& search, const std::string& kind_rea
                    fmt::format("{}: a trajectory needs at least two poses", poses->file));
   if (search.kind == RigKind::kMoving) return {};
   return failure(ExitCode::kWrongUsage,
-                 fmt::format("{}: poses have no use for a stationary rig: leave out {}. {}",
+                 fmt::format("{}: poses are not used for a stationary rig: leave out {}. {}",
                              search.problem.recording->name, poses->file, kind_reason));
 }
 

@@ -48,7 +48,7 @@ std::optional<double> offset_seen_s(const Estimate& found) {
   return best == nullptr ? std::nullopt : std::optional(best->offset_s);
 }
 
-// The rig of one that stood still, from flat surfaces; null where no offset is seen.
+// The rig of a stationary recording, from flat surfaces; null if there is no offset.
 std::shared_ptr<const SolvedRig> rig_of_surfaces(const PreparedRecording& prepared, const RigSolve& what,
                                                  const Estimate& found, const Job& job) {
   const auto offset_s = offset_seen_s(found);
@@ -65,7 +65,7 @@ Result<Estimate> with_rig_found(const PreparedRecording& prepared, std::shared_p
   });
 }
 
-// The longest part of a walk in which the rig stood, if it is long enough to solve for a rig.
+// The longest part of a walk in which the rig was stationary, if it is long enough to solve for a rig.
 std::optional<MotionPart> standing_part(const PreparedRecording& prepared) {
   constexpr double kMin_s = 6, kMinSweeps = 10;  // 8 s are advised
   constexpr double kPairs = 64;                  // that are compared at most: the last may already be moving
@@ -81,8 +81,8 @@ std::optional<MotionPart> standing_part(const PreparedRecording& prepared) {
   return longest;
 }
 
-// The rig from the part of a walk in which it stood; null if that does not determine the mount that is asked
-// for.
+// The rig from the part of a walk in which it was stationary; null if that does not determine the requested
+// mount.
 std::shared_ptr<const SolvedRig> rig_of_standing_part(const PreparedRecording& prepared,
                                                       const MotionPart& part, const EstimateOptions& options,
                                                       const Job& job) {
@@ -115,7 +115,7 @@ double offset_along(const Estimate& found) {
   return found.walk && found.walk->joint ? found.walk->joint->offset_s : 0;
 }
 
-// A walk: the turn that its path shows, and the walk anew with it, until nothing more shows. Nothing else of
+// A walk: the turn that its path shows, and the walk again with it, until the turn converges. Nothing else of
 // the rig is determined.
 Result<Estimate> with_turn_of_walk(const PreparedRecording& prepared, const EstimateOptions& options,
                                    Estimate found, const OffsetAlone& offset) {
@@ -131,14 +131,15 @@ Result<Estimate> with_turn_of_walk(const PreparedRecording& prepared, const Esti
     const auto seen = turn_seen(pass == 0 ? *prepared.recording : turned, found);
     if (!seen && pass == 0) {
       found.warnings.push_back(
-          "The rig was not solved for: it takes 10 s in which it moves, of a walk that `direct` solved.");
+          "The rig was not solved for: this requires 10 s of motion in a walk that the direct method "
+          "solved.");
       return found;
     }
     if (!seen) break;
     const Eigen::Vector2d before_rad = solved.found.turn_rad;
     solved = rig_of_walk(problem, {before_rad + seen->turn_rad, seen->covariance}, options.solve);
     steps_rad.push_back((solved.found.turn_rad - before_rad).norm());
-    solved.covariance.diagonal().segment<2>(kTurnU).array() += std::pow(unsettled_rad(steps_rad), 2);
+    solved.covariance.diagonal().segment<2>(kTurnU).array() += std::pow(unconverged_rad(steps_rad), 2);
     solved.iterations = pass + 1;
     solved.converged = steps_rad.back() < kSettled * std::sqrt(seen->covariance.diagonal().minCoeff());
     turned = with_rig(*prepared.recording, solved);
@@ -147,10 +148,10 @@ Result<Estimate> with_turn_of_walk(const PreparedRecording& prepared, const Esti
     found = std::move(*again);
   }
   constexpr double kScatters_rad = 0.3 * kRadPerDeg;  // 26 of 28 benchmark walks leave less
-  if (const double open_rad = unsettled_rad(steps_rad); open_rad > kScatters_rad)
+  if (const double open_rad = unconverged_rad(steps_rad); open_rad > kScatters_rad)
     found.warnings.push_back(fmt::format(
-        "Each time that the walk is solved its mount is turned otherwise, by {:.1f} deg: the rig was not "
-        "followed well. Walk and turn more slowly, or stand still for 8 s.",
+        "Successive solutions of the walk turn the mount by {:.1f} deg against each other: the motion was "
+        "not followed well. Walk and turn more slowly, or keep the rig stationary for 8 s.",
         open_rad * kDegPerRad));
   solved.residual_before_m = residual_before_m;
   solved.residual_after_m = found.fit ? found.fit->residual_m : 0;
@@ -165,7 +166,7 @@ Result<Estimate> with_turn_of_walk(const PreparedRecording& prepared, const Esti
 Result<Estimate> estimate_with_rig(const RecordingSource& source, const EstimateOptions& options,
                                    const KeptCandidates& kept, const Job& job) {
   if (method_of(options, RigKind::kStationary, kept.store != nullptr) != Method::kDirect)
-    return failure(ExitCode::kWrongUsage, "--solve is used by the direct method only.");
+    return failure(ExitCode::kWrongUsage, "Parts of the rig are solved for by the direct method only.");
   OffsetAlone offset{options, kept, job};
   offset.options.solve = {};
   const auto whole = source.read({}, job);
@@ -184,8 +185,9 @@ Result<Estimate> estimate_with_rig(const RecordingSource& source, const Estimate
   if (job.cancelled()) return found;
   if (solved)
     return with_rig_found(prepared, std::move(solved), offset).map([&](Estimate&& answer) {
-      answer.kind_reason += fmt::format(" The rig was solved for from {:.1f} to {:.1f} s, where it stood.",
-                                        part->begin_s, part->end_s);
+      answer.kind_reason +=
+          fmt::format(" The rig was solved for from {:.1f} to {:.1f} s, while it was stationary.",
+                      part->begin_s, part->end_s);
       return std::move(answer);
     });
   return with_turn_of_walk(prepared, options, std::move(*found), offset);

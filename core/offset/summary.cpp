@@ -18,13 +18,13 @@ namespace {
 // What stands in the way of any estimate; empty where nothing does.
 std::vector<std::string> obstacles(const LaserSummary& laser, const MotorSummary& motor,
                                    const MotorTrack& track, const MotorMotion& motion) {
-  if (!motor.turns) return {"The motor does not turn: there is no offset to see."};
+  if (!motor.turns) return {"The motor does not turn, so there is no offset to determine."};
   if (motor.one_way)
     if (const auto refused = motor_refusal(track, motion)) return {refused->text};
   if (motor.reversals == 0 && !motor.one_way)
-    return {"The motor never turns back: there are no two sweeps to compare."};
+    return {"The motor never turns back, so there are no two sweeps to compare."};
   if (laser.used == laser.scans_without_motor)
-    return {"No scan has motor samples around it at offset 0: choose other stamps."};
+    return {"No scan has motor samples around it at offset 0: use other stamps."};
   return {};
 }
 
@@ -49,8 +49,8 @@ std::string accuracy(const Recording& recording, const MotorMotion& motor) {
   const double stationary_s = unseen_sigma_s(recording, motor, 0);
   if (motor.one_way())
     return fmt::format(
-        "The motor turns one way, at speeds that are {:.3g} deg/s apart: expect an offset good to about {:.2g} "
-        "ms of a stationary rig. A moving one is refused.",
+        "The motor turns one way, at speeds that differ by {:.3g} deg/s: expect an accuracy of about {:.2g} "
+        "ms for a stationary rig. A moving one is refused.",
         motor.speeds_apart_rad_s() / kRadPerDeg, 1e3 * std::max(stationary_s, 0.01e-3));
   const double of_part_s = unseen_of_part_s(recording, motor, sweeps_of_part(motor));
   return fmt::format(
@@ -73,8 +73,8 @@ Remark few_sweeps(std::size_t sweeps) {
   constexpr std::size_t kStationary = 8, kMoving = 40;
   if (sweeps < kStationary)
     return fmt::format(
-        "{} whole sweeps are few: a good recording has {} for a stationary rig or {} for a moving one.",
-        sweeps, kStationary, kMoving);
+        "Only {} whole sweeps: a good recording has {} for a stationary rig or {} for a moving one.", sweeps,
+        kStationary, kMoving);
   if (sweeps < kMoving)
     return fmt::format("{} whole sweeps are enough for a stationary rig; a moving one should have {}.",
                        sweeps, kMoving);

@@ -39,7 +39,7 @@ LaserSummary inspect_laser(const Recording& recording) {
   laser.gaps = report.scan_gaps;
   laser.longest_gap_s = report.longest_scan_gap_s;
   laser.out_of_order = report.scans_out_of_order;
-  laser.doubled = report.scans_doubled;
+  laser.duplicates = report.scans_duplicate;
   laser.dropped = report.scans_dropped;
   laser.scans_without_motor = report.scans_without_motor;
   laser.beam_time_doubt_s = report.beam_time_doubt_s;
@@ -86,7 +86,7 @@ MotorSummary inspect_motor(const Recording& recording, const MotorMotion& motion
   motor.gaps = report.motor_gaps;
   motor.longest_gap_s = report.longest_motor_gap_s;
   motor.out_of_order = report.motor_out_of_order;
-  motor.doubled = report.motor_doubled;
+  motor.duplicates = report.motor_duplicate;
   motor.dropped = report.motor_dropped;
   motor.unwrapped = report.motor_unwrapped;
   if (track.time_s.empty()) return motor;

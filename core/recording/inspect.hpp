@@ -15,7 +15,7 @@ struct StreamSummary {
   StampSource stamp = StampSource::kHeader;
   double median_period_s = 0;
   double duration_s = 0;  // from the first to the last
-  std::size_t gaps = 0, out_of_order = 0, doubled = 0, dropped = 0;
+  std::size_t gaps = 0, out_of_order = 0, duplicates = 0, dropped = 0;
   double longest_gap_s = 0;
   std::optional<double> receive_minus_header_s, receive_jitter_s;
 

@@ -64,8 +64,8 @@ struct ReadReport {
   std::vector<RecordedTopic> topics;
   StreamStamps laser_stamps, motor_stamps;
   std::size_t nan_ranges = 0, infinite_ranges = 0, zero_ranges = 0, out_of_range_ranges = 0;
-  std::size_t scans_out_of_order = 0, scans_doubled = 0, scan_gaps = 0, scans_dropped = 0;
-  std::size_t motor_out_of_order = 0, motor_doubled = 0, motor_gaps = 0;
+  std::size_t scans_out_of_order = 0, scans_duplicate = 0, scan_gaps = 0, scans_dropped = 0;
+  std::size_t motor_out_of_order = 0, motor_duplicate = 0, motor_gaps = 0;
   std::size_t motor_dropped = 0;        // samples without a stamp or a finite angle
   std::size_t motor_unwrapped = 0;      // jumps of a whole turn that were taken out
   std::size_t scans_without_motor = 0;  // scans that the motor track does not cover at offset 0

@@ -140,7 +140,7 @@ TimeOrder order_by_time(std::span<const double> times_s) {
   }
   for (const std::size_t i : all) {
     if (!order.kept.empty() && times_s[order.kept.back()] == times_s[i]) {
-      ++order.doubled;
+      ++order.duplicates;
     } else {
       order.kept.push_back(i);
     }

@@ -33,7 +33,7 @@ std::int64_t stamp_ns(const MessageStamps& stamps, StampSource source);
 struct TimeOrder {
   std::vector<std::size_t> kept;
   std::size_t out_of_order = 0;  // times earlier than one before them
-  std::size_t doubled = 0;
+  std::size_t duplicates = 0;
 };
 TimeOrder order_by_time(std::span<const double> times_s);
 

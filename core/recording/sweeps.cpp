@@ -144,8 +144,8 @@ double MotorMotion::lever_speed_rad_s() const {
 MotorMotion find_sweeps(const MotorTrack& track) {
   MotorMotion motion;
   if (track.angle_rad.size() < 3) return motion;
-  const auto [least, greatest] = std::minmax_element(track.angle_rad.begin(), track.angle_rad.end());
-  motion.range_rad = *greatest - *least;
+  const auto [min, max] = std::minmax_element(track.angle_rad.begin(), track.angle_rad.end());
+  motion.range_rad = *max - *min;
   const double turn_rad = std::max(0.5 * kRadPerDeg, 0.05 * motion.range_rad);
   if (motion.range_rad < 2 * turn_rad) return motion;
 
@@ -210,7 +210,7 @@ double distinct_lines(const Recording& recording, const MotorMotion& motor, doub
     const double middle_s = (scan.first_beam_s + scan.last_beam_s()) / 2 + offset_s;
     places[sweep.side > 0].push_back((middle_s - sweep.begin_s) / (sweep.end_s - sweep.begin_s));
   }
-  double least = kUncounted;
+  double min = kUncounted;
   for (std::vector<double>& of_direction : places) {
     if (of_direction.empty()) continue;
     std::sort(of_direction.begin(), of_direction.end());
@@ -219,9 +219,9 @@ double distinct_lines(const Recording& recording, const MotorMotion& motor, doub
     std::sort(gaps.begin(), gaps.end());
     std::size_t i = 0;
     for (double within = gaps[0]; i + 1 < gaps.size() && within < 0.5; within += gaps[i]) ++i;
-    least = std::min(least, 1 / gaps[i]);
+    min = std::min(min, 1 / gaps[i]);
   }
-  return least;
+  return min;
 }
 
 }  // namespace sweepscope

@@ -10,7 +10,7 @@ Result<Recording> cut_to_window(const Recording& whole, const TimeWindow& part, 
   const double last_s =
       whole.scans.empty() ? 0 : whole.scans.back().first_beam_s - whole.scans.front().first_beam_s;
   return failure(ExitCode::kWrongUsage,
-                 fmt::format("{}: no scan lies within --window {}:{}; the last one is at {:.3f} s", name,
+                 fmt::format("{}: no scan lies between {} and {} s; the last one is at {:.3f} s", name,
                              part.from_s, part.to_s, last_s));
 }
 

@@ -165,11 +165,11 @@ std::string difference(const CandidateSearch& held, const CandidateSearch& wante
   if (held.recording_hash != wanted.recording_hash)
     return fmt::format("it belongs to another recording: {}", held.recording);
   if (held.rig_hash != wanted.rig_hash)
-    return held.rig.empty() ? "it was begun without a rig file"
-                            : fmt::format("it was begun with another rig file: {}", held.rig);
+    return held.rig.empty() ? "it was started without a rig file"
+                            : fmt::format("it was started with another rig file: {}", held.rig);
   if (held.options != wanted.options)
-    return fmt::format("it holds {}, and this is {}", listed(held.options), listed(wanted.options));
-  if (held.program != wanted.program) return "another build of sweepscope began it";
+    return fmt::format("it contains {}, and this is {}", listed(held.options), listed(wanted.options));
+  if (held.program != wanted.program) return "it was started by another build of sweepscope";
   return {};
 }
 
@@ -197,7 +197,7 @@ Result<Candidates> CandidateFile::parse_own(std::string_view text) const {
   if (!there) return there;
   std::string differs = difference(there->search, search_);
   if (differs.empty() && shard_text(there->search.shard) != shard_text(search_.shard))
-    differs = fmt::format("it holds {}, and this is {}", shard_text(there->search.shard),
+    differs = fmt::format("it contains {}, and this is {}", shard_text(there->search.shard),
                           shard_text(search_.shard));
   if (!differs.empty())
     return failure(ExitCode::kWrongUsage, fmt::format("{}: {}", file_.path().string(), differs));
@@ -306,7 +306,7 @@ std::optional<Error> MergedCandidates::missing() const {
       return file.search.shard && file.search.shard->number == number;
     };
     if (std::none_of(files_.begin(), files_.end(), is_it))
-      parts += fmt::format("{} {}/{}", parts.empty() ? "; no file holds shard" : ",", number, count);
+      parts += fmt::format("{} {}/{}", parts.empty() ? "; no file has shard" : ",", number, count);
   }
   return Error{ExitCode::kUnreadableInput, fmt::format("{} candidates are missing, the first at {:g} ms{}: "
                                                        "run their estimates again",

@@ -41,12 +41,12 @@ inline Eigen::Vector3d vector_of(const nlohmann::ordered_json& object, const cha
 /// A JSON value as a whole number from `least` to `greatest`; absent for anything else. The library would
 /// convert other numbers of any size to the requested type.
 template <typename Value>
-std::optional<std::int64_t> whole_number(const Value& value, std::int64_t least, std::int64_t greatest) {
+std::optional<std::int64_t> whole_number(const Value& value, std::int64_t min, std::int64_t max) {
   if (!value.is_number_integer()) return std::nullopt;
   if (value.is_number_unsigned() && value.template get<std::uint64_t>() > std::uint64_t{INT64_MAX})
     return std::nullopt;
   const auto number = value.template get<std::int64_t>();
-  if (number < least || number > greatest) return std::nullopt;
+  if (number < min || number > max) return std::nullopt;
   return number;
 }
 

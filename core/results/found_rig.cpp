@@ -12,7 +12,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 std::string not_determined(const RigFinding& part, const std::string& source) {
-  return fmt::format("not determined by {}, as it was: {}", source, part.reason);
+  return fmt::format("not determined by {}, unchanged: {}", source, part.reason);
 }
 
 std::string mount_note(const SolvedRig& found, const std::string& source) {
@@ -22,7 +22,7 @@ std::string mount_note(const SolvedRig& found, const std::string& source) {
   if (found.along_walk)
     return fmt::format(
         "turned as found by {}: +- {:.4f}, {:.4f}, {:.4f} deg; 0 about the motor's axis, where a turn has no "
-        "effect. The shift is as it was: {}",
+        "effect. The shift is unchanged: {}",
         source, rpy_deg.x(), rpy_deg.y(), rpy_deg.z(), found.mount.reason);
   return fmt::format(
       "found by {}: +- {:.4f}, {:.4f}, {:.4f} deg and {:.2f}, {:.2f}, {:.2f} mm; 0 where a turn about the "
@@ -68,7 +68,7 @@ std::string found_rig_file(const SolvedRig& solved, const std::string& recording
   DetectedRig detected;
   detected.rig = solved.given;
   detected.recording = recording;
-  detected.mount_note = detected.stamp_at_note = "as it was";
+  detected.mount_note = detected.stamp_at_note = "unchanged";
   // Through the JSON, whose digits are those of the file.
   return rig_file_text(with_found(std::move(detected), solved_rig_of(rig_parameters_json(solved)).value(),
                                   "estimate --solve"));

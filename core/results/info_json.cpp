@@ -26,7 +26,7 @@ Json stream_json(const StreamSummary& stream) {
           {"gaps", stream.gaps},
           {"longest_gap_s", stream.longest_gap_s},
           {"out_of_order", stream.out_of_order},
-          {"doubled", stream.doubled},
+          {"doubled", stream.duplicates},
           {"dropped", stream.dropped},
           {"receive_minus_header_s", or_null(stream.receive_minus_header_s)},
           {"receive_jitter_s", or_null(stream.receive_jitter_s)}};

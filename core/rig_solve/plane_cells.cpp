@@ -96,14 +96,14 @@ std::vector<PlaneCell> plane_cells(std::span<const Eigen::Vector3d> points_m,
   if (points_m.empty()) return {};
   std::vector<std::array<float, 3>> places_m;
   places_m.reserve(points_m.size());
-  Eigen::Vector3d least_m = points_m.front();
+  Eigen::Vector3d min_m = points_m.front();
   for (const Eigen::Vector3d& p : points_m) {
     places_m.push_back({float(p.x()), float(p.y()), float(p.z())});
-    least_m = least_m.cwiseMin(p);
+    min_m = min_m.cwiseMin(p);
   }
   std::vector<std::uint32_t> all(points_m.size());
   std::iota(all.begin(), all.end(), 0u);
-  const std::array<float, 3> origin_m{float(least_m.x()), float(least_m.y()), float(least_m.z())};
+  const std::array<float, 3> origin_m{float(min_m.x()), float(min_m.y()), float(min_m.z())};
   const std::vector<MortonKey> keys = along_morton_curve(places_m, all, origin_m, options.min_edge_m);
   std::vector<Keys> cubes;
   for (Keys rest = keys; !rest.empty(); rest = rest.subspan(cubes.back().size()))

@@ -1,6 +1,6 @@
 #pragma once
 
-// The mathematics: docs/algorithms.md, section 16.
+// The mathematics: docs/rig.md.
 
 #include <Eigen/Core>
 #include <cstdint>

@@ -39,12 +39,12 @@ RigCheck check_rig(const OffsetProblem& problem, double offset_s, const Job& job
   if (check.mount_evidence > kMaxMount)
     check.warning = fmt::format(
         "Surfaces are flatter with another mount: the laser turned by {:.2f} deg and moved by {:.0f} mm. "
-        "Solve for it with --solve offset,mount.",
+        "Solve for the mount (--solve offset,mount).",
         fit.rig.turn_rad.norm() * kDegPerRad, fit.rig.shift_m.norm() * 1e3);
   else if (check.encoder_evidence > kMaxEncoder)
     check.warning = fmt::format(
-        "Surfaces are flatter with an eccentric encoder, by {:.2f} deg. Solve for it with --solve "
-        "offset,encoder.",
+        "Surfaces are flatter with an eccentric encoder, by {:.2f} deg. Solve for the encoder (--solve "
+        "offset,encoder).",
         fit.rig.encoder_rad.norm() * kDegPerRad);
   return check;
 }

@@ -94,8 +94,8 @@ double beam_rad(const Mount& mount, const Feature& feature) {
 }
 
 AngleRange range_of(const std::vector<double>& angles_rad) {
-  const auto [least, greatest] = std::ranges::minmax(angles_rad);
-  return {least, greatest};
+  const auto [min, max] = std::ranges::minmax(angles_rad);
+  return {min, max};
 }
 
 std::size_t bin_of(double angle_rad, const AngleRange& range, std::size_t count) {

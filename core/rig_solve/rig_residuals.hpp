@@ -1,6 +1,6 @@
 #pragma once
 
-// The mathematics: docs/algorithms.md, section 16.
+// The mathematics: docs/rig.md.
 
 #include <cstddef>
 #include <vector>
@@ -42,8 +42,8 @@ struct ResidualGridOptions {
 };
 
 /// The residuals of a stationary rig with `before` and with `after`, which deviate from the rig file as in
-/// RigUnknowns. The surfaces are those that `after` shows; each one's plane is fitted anew to the same points
-/// with either rig. Empty grids where `after` shows no surface.
+/// RigUnknowns. The surfaces are those found with `after`; each one's plane is fitted to the same points with
+/// either rig. Empty grids if no surface is found with `after`.
 RigResiduals rig_residuals(const OffsetProblem& problem, const RigUnknowns& before, const RigUnknowns& after,
                            const ResidualGridOptions& options);
 

@@ -82,7 +82,8 @@ void set_gear(Rig::Gear& gear, const Gear& found) {
   gear.encoder_phase_deg = total_deg.norm() > 0 ? std::atan2(total_deg[1], total_deg[0]) * kDegPerRad : 0.0;
 }
 
-// Priors with those of a usual encoder, where a mount is solved for without it: both bend walls alike.
+// Priors with those of a usual encoder, for a mount that is solved for without it: both bend walls in the
+// same way.
 RigPriors with_usual_encoder(RigPriors priors) {
   constexpr double kUsual_deg = 0.3;  // a disc of 40 mm that sits 0.1 mm off its centre
   if (priors[kTurnU] > 0 && priors[kEncoderSine] == 0)
@@ -108,8 +109,8 @@ RigFit solved_from_around(const OffsetProblem& problem, RigFit fit, const RigPri
   return fit;
 }
 
-// The scatter of what groups of sweeps find by themselves. Errors of whole scans, such as those of their
-// stamps, are alike on all surfaces, and do not show when parts of the scene are left out.
+// The scatter of the solutions of groups of sweeps. Errors of whole scans, such as those of their stamps, are
+// the same on all surfaces, and do not show when parts of the scene are left out.
 RigMatrix scatter_over_time(const OffsetProblem& problem, const RigFit& fit, const RigPriors& priors,
                             const RigLeastSquaresOptions& options, const Job& job) {
   constexpr std::size_t kGroups = 4;  // of pairs of sweeps, one of each direction: 2 pairs each in 8 s
@@ -147,8 +148,8 @@ RigPriors without_encoder(RigPriors priors) {
   return priors;
 }
 
-// Bent walls look like a wrong rig, the more the larger the cells: how much smaller cells change. An encoder
-// that these cannot tell is left as it is.
+// Bent walls look like a wrong rig, and more so in larger cells: the change of the solution with smaller
+// cells. An encoder that these do not determine is not changed.
 RigMatrix changes_by_smaller_cells(const OffsetProblem& problem, const RigFit& fit, const RigPriors& priors,
                                    const Job& job) {
   RigLeastSquaresOptions smaller = near_the_solution();
@@ -173,8 +174,8 @@ bool shows_encoder(const RigFit& fit, const RigPriors& priors) {
          fit.squared_distance(kEncoderSine, 2) > kMaxSquaredDistance;
 }
 
-// The covariance of a fit without the encoder, with an encoder that may be off by its prior: as far as the
-// surfaces tell, the rest follows it.
+// The covariance of a fit without the encoder, for an encoder that may be off by its prior: the rest follows
+// it as the surfaces require.
 RigMatrix covariance_with_encoder(const RigFit& fit, const RigPriors& priors) {
   std::vector<int> rest;
   for (int i = 0; i < kEncoderSine; ++i)
@@ -223,8 +224,8 @@ RigFit with_undetermined_encoder(const OffsetProblem& problem, const RigUnknowns
   return fit;
 }
 
-// A mount without its encoder is solved for with the encoder that the rig file gives, unless the surfaces
-// show another. What that could change, as far as they tell, enters the covariance.
+// A mount without its encoder is solved for with the rig file's encoder, unless the surfaces clearly show
+// another. The difference between the two enters the covariance.
 RigSolution solution_of(const OffsetProblem& problem, const RigUnknowns& first, const RigPriors& priors,
                         const Job& job) {
   const RigPriors usual = with_usual_encoder(priors);
@@ -268,9 +269,10 @@ SolvedRig solved_with(const OffsetProblem& problem, const RigSolution& solution,
   }
   if (!solved.play.identifiable) solved.found.play_rad = 0;
   if (!what.encoder && priors[kEncoderSine] > 0)
-    solved.encoder.reason =
-        fmt::format("Surfaces are flatter with an eccentric encoder, by {:.2f} deg: add encoder to --solve.",
-                    fit.rig.encoder_rad.norm() * kDegPerRad);
+    solved.encoder.reason = fmt::format(
+        "Surfaces are flatter with an eccentric encoder, by {:.2f} deg: solve for the encoder as well "
+        "(--solve offset,mount,encoder).",
+        fit.rig.encoder_rad.norm() * kDegPerRad);
   if (!solved.encoder.identifiable) solved.found.encoder_rad.setZero();
   solved.priors = priors_of(what);
   solved.covariance = fit.covariance;
@@ -326,8 +328,8 @@ SolvedRig solve_rig(const OffsetProblem& problem, double first_offset_s, const R
   solved.offset_sigma_s = added_sigma_s(fit.covariance, solution.priors);
   if (one_speed)
     leave_play_open(solved, what.play_deg, problem.motor.median_speed_rad_s,
-                    "The motor turns at one speed only, at which gear play acts as an offset: a second sweep "
-                    "speed in the same recording separates the two.");
+                    "The motor turns at one speed only, at which gear play has the same effect as an offset. "
+                    "Record two sweep speeds in one recording to separate them.");
   return solved;
 }
 
@@ -346,16 +348,17 @@ SolvedRig rig_of_walk(const OffsetProblem& problem, const WalkTurn& turn, const 
   }
   solved.mount = {
       what.mount, what.mount,
-      what.mount ? "A walk shows how the laser is turned, but not where it sits: its shift is the rig file's."
-                 : ""};
+      what.mount
+          ? "A walk determines how the laser is turned, but not its position: its shift is the rig file's."
+          : ""};
   solved.encoder =
       finding(what.encoder, false,
-              "A walk does not determine the encoder's first harmonic: record 8 s without motion.");
+              "A walk does not determine the encoder's first harmonic: record 8 s of the stationary rig.");
   if (what.play) {
     solved.play.solved = true;
     leave_play_open(
         solved, what.play_deg, problem.motor.median_speed_rad_s,
-        "A walk does not determine the gear play: record 8 s without motion at two motor speeds.");
+        "A walk does not determine the gear play: record 8 s of the stationary rig at two motor speeds.");
   }
   return solved;
 }

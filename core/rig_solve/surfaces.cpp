@@ -35,10 +35,10 @@ void fit(Surface& surface, std::span<const PlaneCell> cells) {
 }
 
 double farthest_m(const Surface& surface, const PlaneCell& cell) {
-  double most_m = 0;
+  double max_m = 0;
   for (const Eigen::Vector3d& p : places_of(cell))
-    most_m = std::max(most_m, std::abs(surface.normal.dot(p - surface.centre_m)));
-  return most_m;
+    max_m = std::max(max_m, std::abs(surface.normal.dot(p - surface.centre_m)));
+  return max_m;
 }
 
 }  // namespace

@@ -60,7 +60,7 @@ bool moves(const std::vector<Step>& steps, std::size_t at, std::size_t turn) {
 // The changes along sweeps that follow each other.
 void add_changes(const Recording& recording, std::span<const SweepPose> run, double offset_s,
                  std::vector<Change>& changes) {
-  constexpr double kPart_s = 2;  // two or more turns of the motor: a body sways alike over less
+  constexpr double kPart_s = 2;  // two or more turns of the motor: over less the sway of a body is correlated
   const std::vector<Step> steps = steps_along(recording, run, offset_s);
   const double turn_s = 2 * (run.back().end_s - run.front().begin_s) / double(run.size());
   const auto turn = std::size_t(std::lround(turn_s / kStep_s));
@@ -114,9 +114,9 @@ class TurnFit {
 
   const Eigen::Vector2d& turn_rad() const { return turn_rad_; }
 
-  // From how the parts of the walk pull (White 1980, with clusters). Where the track errs for longer than
-  // such a part, longer ones scatter more than those tell. A few longer parts tell that badly: the short ones
-  // count as kPrior more.
+  // From the pulls of the parts of the walk (White 1980, with clusters). If the error of the track lasts
+  // longer than such a part, longer parts scatter more than the short ones predict. A few longer parts are a
+  // poor sample of this: the short ones count as kPrior more.
   Eigen::Matrix2d covariance() const {
     constexpr int kLong = 5;
     constexpr double kPrior = 4;
@@ -176,7 +176,7 @@ std::optional<WalkTurn> turn_of_walk(const Recording& recording, const std::vect
   return WalkTurn{fit.turn_rad(), fit.covariance() + sway_rad * sway_rad * Eigen::Matrix2d::Identity()};
 }
 
-double unsettled_rad(std::span<const double> steps_rad) {
+double unconverged_rad(std::span<const double> steps_rad) {
   double beyond_rad = 0;
   for (std::size_t i = 1; i < steps_rad.size(); ++i)
     beyond_rad = std::max(beyond_rad, steps_rad[i] - steps_rad[i - 1] / 2);

@@ -1,6 +1,6 @@
 #pragma once
 
-// The mathematics: docs/algorithms.md, section 16.
+// The mathematics: docs/rig.md.
 
 #include <Eigen/Core>
 #include <optional>
@@ -25,10 +25,10 @@ struct WalkTurn {
 std::optional<WalkTurn> turn_of_walk(const Recording& recording, const std::vector<SweepPose>& sweeps,
                                      double offset_s);
 
-/// What the solutions of a walk leave open of its turn (standard deviation, rad), from how far each moved it.
-/// Where the track is good, steps shrink about by half or more, down to some hundredths of a degree. Where it
-/// is bad, each solution shows another turn: to the last step is added by how much one exceeded half of the
-/// one before it, at most.
-double unsettled_rad(std::span<const double> steps_rad);
+/// The uncertainty of the turn from the steps between successive solutions of a walk (standard deviation,
+/// rad). If the track is good, steps shrink by about half or more, down to some hundredths of a degree. If it
+/// is bad, each solution has another turn: the last step, and the largest amount by which a step exceeded
+/// half of the one before it, add in quadrature.
+double unconverged_rad(std::span<const double> steps_rad);
 
 }  // namespace sweepscope

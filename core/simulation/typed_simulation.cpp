@@ -46,7 +46,7 @@ std::vector<SimulationOption> recording_options(TypedSimulation& typed) {
           {"sweep-s", &options.sweep_s, "Duration of one half turn of the motor"},
           {"motor", &typed.motor, "triangle, trapezoid, sine, one-way or stuck"},
           {"motor-middle-deg", &options.motor_middle_deg,
-           "Angle about which the motor swings by 90 deg to either side; 0: the scanner is level there"},
+           "Angle about which the motor swings by 90 deg to either side; the scanner is level at 0"},
           {"speeds-dps", &options.speeds_dps,
            "Speeds of a motor that turns one way (deg/s), each for an equal part of the recording", "A,B,...",
            "", false},
@@ -89,7 +89,7 @@ std::vector<SimulationOption> faults(TypedSimulation& typed) {
       {"backlash-deg", &options.backlash_deg, "Play between the encoder and the laser"},
       {"clock-drift-ppm", &options.clock_drift_ppm, "How much faster the motor's clock runs"},
       {"jump-ms", &typed.jump_ms, "By how much the motor's clock jumps forward at --jump-at-s"},
-      {"jump-at-s", &options.jump_at_s, "When it does, in seconds since the first scan"},
+      {"jump-at-s", &options.jump_at_s, "When it jumps, in seconds since the first scan"},
       {"nudge-mm", &typed.nudge_mm, "Push the rig sideways, one second after the start"},
       {"noise-per-m-mm", &typed.noise_per_m_mm, "Added to the noise for every metre of range"},
       {"grazing-dropout", &options.grazing_dropout,
@@ -110,7 +110,7 @@ std::vector<SimulationOption> faults(TypedSimulation& typed) {
 Result<SimulationOptions> simulation_of(const TypedSimulation& typed) {
   SimulationOptions options = typed.options;
   if (typed.scene.empty() && options.own.mesh.empty())
-    return failure(ExitCode::kWrongUsage, "name a SCENE, or give one of your own with --mesh");
+    return failure(ExitCode::kWrongUsage, "name a SCENE, or a mesh of yours with --mesh");
   if (!typed.scene.empty()) options.scene = typed.scene;
   const auto motor = simulation::motor_kind(typed.motor);
   if (!motor)

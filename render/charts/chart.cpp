@@ -256,7 +256,7 @@ PixelRect place_for(const Canvas& c, const ChartSpan& span, const std::vector<Pi
   const PixelPoint from = c.px(span.from, span.y), to = c.px(span.to, span.y);
   const double middle = (from.x + to.x - width) / 2, y = from.y - height / 2;
   PixelRect best{to.x + gap, y, width, height};
-  int least = std::numeric_limits<int>::max();
+  int fewest = std::numeric_limits<int>::max();
   for (const double off : {0.0, 2.0, 4.0, 7.0, 11.0}) {
     for (const PixelPoint at :
          {PixelPoint{to.x + gap + off * gap, y}, PixelPoint{from.x - gap - off * gap - width, y},
@@ -264,7 +264,7 @@ PixelRect place_for(const Canvas& c, const ChartSpan& span, const std::vector<Pi
           PixelPoint{middle, from.y + gap / 2 + off * gap}}) {
       const PixelRect place{at.x, at.y, width, height};
       const int count = clutter(c, place, taken);
-      if (count < least) least = count, best = place;
+      if (count < fewest) fewest = count, best = place;
     }
   }
   return best;

@@ -17,8 +17,8 @@ class Extent {
   /// With room at both ends; but an end at 0 stays there where `keeps_zero`.
   AxisRange padded(double fraction, bool keeps_zero) const {
     if (from_ > to_) return {};
-    const double least = std::max(std::abs(from_), 1e-9) * 1e-3;  // a flat curve still gets an axis
-    const double padding = std::max((to_ - from_) * fraction, least);
+    const double min_padding = std::max(std::abs(from_), 1e-9) * 1e-3;  // a flat curve still gets an axis
+    const double padding = std::max((to_ - from_) * fraction, min_padding);
     return {keeps_zero && from_ == 0 ? 0 : from_ - padding, keeps_zero && to_ == 0 ? 0 : to_ + padding};
   }
 
@@ -87,8 +87,8 @@ double widest(const Ticks& ticks, double size_px) {
 Ticks ticks_along(const Chart& chart, const AxisRange& range, double length_px, double size_px) {
   Ticks ticks;
   // A step of 1 follows from this many, and none below it.
-  const double most = chart.x_counts ? std::ceil(range.to - range.from) : length_px;
-  for (int count = std::max(2, static_cast<int>(std::min(length_px / (3.5 * size_px), most))); count > 0;
+  const double max_count = chart.x_counts ? std::ceil(range.to - range.from) : length_px;
+  for (int count = std::max(2, static_cast<int>(std::min(length_px / (3.5 * size_px), max_count))); count > 0;
        --count) {
     ticks = chart.x_dates_from_s ? date_ticks(range.from, range.to, count, *chart.x_dates_from_s)
                                  : round_ticks(range.from, range.to, count);
@@ -168,15 +168,15 @@ std::size_t rows_for(const std::vector<VerticalLabel>& labels, double room_px, d
 
 /// Centres each label of one row above its line, or beside its neighbour where they would overlap.
 void place_row(const std::vector<VerticalLabel*>& row, const ChartLayout& layout, double gap) {
-  double least = layout.plot.left;
+  double min_left = layout.plot.left;
   for (VerticalLabel* label : row) {
-    label->place.left = std::max(layout.x_px(label->vertical->x) - label->place.width / 2, least);
-    least = label->place.right() + gap;
+    label->place.left = std::max(layout.x_px(label->vertical->x) - label->place.width / 2, min_left);
+    min_left = label->place.right() + gap;
   }
-  double most = layout.plot.right();
+  double max_right = layout.plot.right();
   for (VerticalLabel* label : row | std::views::reverse) {
-    label->place.left = std::min(label->place.left, most - label->place.width);
-    most = label->place.left - gap;
+    label->place.left = std::min(label->place.left, max_right - label->place.width);
+    max_right = label->place.left - gap;
   }
 }
 

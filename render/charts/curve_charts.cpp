@@ -40,13 +40,13 @@ bool has_any(const Estimate& estimate, const Quantity& quantity) {
 /// Counts in thousands or millions, so that the axis stays readable.
 Quantity in_readable_unit(Quantity quantity, std::span<const NamedEstimate> estimates) {
   if (quantity.value != &CurvePoint::n) return quantity;
-  double greatest = 0;
+  double max_n = 0;
   for (const NamedEstimate& one : estimates) {
-    for (const CurvePoint& point : one.estimate.curve) greatest = std::max(greatest, point.n.value_or(0));
+    for (const CurvePoint& point : one.estimate.curve) max_n = std::max(max_n, point.n.value_or(0));
   }
-  if (greatest >= 2e6) {
+  if (max_n >= 2e6) {
     quantity.factor = 1e-6, quantity.unit = "10⁶";
-  } else if (greatest >= 2e4) {
+  } else if (max_n >= 2e4) {
     quantity.factor = 1e-3, quantity.unit = "10³";
   }
   return quantity;

@@ -38,7 +38,7 @@ struct DateStep {
   std::int64_t seconds = 0;
   int months = 0;  // not 0: instead of the seconds
 
-  double least_s() const { return months == 0 ? static_cast<double>(seconds) : months * 28 * 86'400.0; }
+  double min_s() const { return months == 0 ? static_cast<double>(seconds) : months * 28 * 86'400.0; }
 };
 
 constexpr std::int64_t kMinute_s = 60, kHour_s = 3600, kDay_s = 86'400;
@@ -69,8 +69,8 @@ constexpr std::array<DateStep, 24> kDateSteps{{{1},
 
 DateStep date_step(double length_s, int at_most) {
   for (const DateStep& step : kDateSteps)
-    if (step.least_s() * at_most >= length_s) return step;
-  const double years = length_s / (at_most * kDateSteps.back().least_s());
+    if (step.min_s() * at_most >= length_s) return step;
+  const double years = length_s / (at_most * kDateSteps.back().min_s());
   return {0, 12 * static_cast<int>(std::ceil(years))};
 }
 
@@ -117,7 +117,7 @@ Ticks date_ticks(double from, double to, int at_most, std::int64_t origin_s) {
   Ticks ticks;
   if (!(to > from) || at_most < 1) return ticks;
   const DateStep step = date_step(to - from, at_most);
-  ticks.step = step.least_s();
+  ticks.step = step.min_s();
   auto tick = first_tick(origin_s + static_cast<std::int64_t>(std::ceil(from)), step);
   for (;; tick = next_tick(tick, step)) {
     const double value = static_cast<double>(tick.time_since_epoch().count() - origin_s);

@@ -12,12 +12,12 @@ namespace sweepscope {
 namespace {
 
 std::array<float, 3> min_corner(std::span<const std::array<float, 3>> xyz_m) {
-  std::array<float, 3> least;
-  least.fill(std::numeric_limits<float>::max());
+  std::array<float, 3> corner;
+  corner.fill(std::numeric_limits<float>::max());
   for (const auto& point : xyz_m) {
-    for (std::size_t axis = 0; axis < 3; ++axis) least[axis] = std::min(least[axis], point[axis]);
+    for (std::size_t axis = 0; axis < 3; ++axis) corner[axis] = std::min(corner[axis], point[axis]);
   }
-  return least;
+  return corner;
 }
 
 /// The points' cells along a Morton curve, those of one cell in the input's order.
@@ -77,12 +77,12 @@ std::vector<float> spacing_of(std::span<const std::array<float, 3>> xyz_m) {
   return spacing_along(keys_along_curve(xyz_m, kEdge_m), kEdge_m, xyz_m.size());
 }
 
-ColouredPoints decimated(const ColouredPoints& points, std::size_t most) {
+ColouredPoints decimated(const ColouredPoints& points, std::size_t max_points) {
   constexpr double kFinest_m = 1e-3;
   constexpr int kBitsPerStep = 3, kMaxBits = 60;
   const std::vector<MortonKey> keyed = keys_along_curve(points.xyz_m, kFinest_m);
   int bits = 0;
-  while (bits < kMaxBits && count_cells(keyed, bits) > most) bits += kBitsPerStep;
+  while (bits < kMaxBits && count_cells(keyed, bits) > max_points) bits += kBitsPerStep;
   return first_of_cells(points, keyed, bits);
 }
 

@@ -35,6 +35,6 @@ std::vector<float> spacing_along(std::span<const MortonKey> keyed, double edge_m
 /// At most this many points, for moving pictures: one for each cube of the smallest edge (in steps of 2) that
 /// is large enough. Evenly distributed in space rather than at random, so that the look is kept; in the same
 /// order as thin.
-ColouredPoints decimated(const ColouredPoints& points, std::size_t most);
+ColouredPoints decimated(const ColouredPoints& points, std::size_t max_points);
 
 }  // namespace sweepscope

@@ -20,7 +20,7 @@ struct Filled {
   void add(const Filled& other) {
     count += other.count, x += other.x, y += other.y, xx += other.xx, yy += other.yy, xy += other.xy;
   }
-  /// 1 where the cells spread alike in all directions, 0 where they lie on a line.
+  /// 1 if the cells spread equally in all directions, 0 if they lie on a line.
   double roundness() const {
     if (count < 3) return 0;
     const double a = xx / count - x * x / (count * count), b = yy / count - y * y / (count * count);
@@ -95,23 +95,23 @@ struct CloseUpCandidate {
   DifferingPlace place;
 };
 
-/// Of what a window shows. A score of 0: nothing that tells.
+/// The difference inside a window. A score of 0: no usable difference.
 CloseUpCandidate candidate_at(const Tiled& tiled, std::size_t column, std::size_t row) {
   constexpr double kMinCells = 30;
   const std::size_t side = tiled.side, rim = side / 2;
   CloseUpCandidate found;
   for (const TileGrid& grid : tiled.grids)
     found.place.cells.push_back(static_cast<std::size_t>(grid.window(column, row, side, side).count));
-  const auto least = static_cast<double>(found.place.cells[found.place.sharpest()]),
-             most = static_cast<double>(found.place.cells[found.place.most_blurred()]);
-  if (least < kMinCells) return found;
+  const auto sharp = static_cast<double>(found.place.cells[found.place.sharpest()]),
+             blurred = static_cast<double>(found.place.cells[found.place.most_blurred()]);
+  if (sharp < kMinCells) return found;
   const TileGrid& grid = tiled.grids[found.place.sharpest()];
   const Filled object = grid.window(column, row, side, side);
   const Filled around =
       grid.window(column - std::min(column, rim), row - std::min(row, rim), side + 2 * rim, side + 2 * rim);
-  // Preferably with nothing around it: a pillar tells more than a piece of a wall.
+  // Preferably with nothing around it: a pillar shows blur in more directions than a piece of a wall.
   const double alone = object.count / around.count;
-  found.score = (1 - least / most) * std::sqrt(least) * object.roundness() * alone * alone;
+  found.score = (1 - sharp / blurred) * std::sqrt(sharp) * object.roundness() * alone * alone;
   found.place.region.centre_m = {grid.x.from + object.x / object.count,
                                  grid.y.from + object.y / object.count};
   return found;

@@ -70,9 +70,9 @@ std::string fit_text(const std::string& text, double size_px, double width_px, b
 std::optional<std::pair<PixelPoint, PixelPoint>> clip(PixelPoint from, PixelPoint to, const PixelRect& rect) {
   const double step_x = to.x - from.x, step_y = to.y - from.y;
   double enters = 0, leaves = 1;  // parts of the stretch
-  const auto narrow = [&](double start, double step, double least, double most) {
-    if (step == 0) return start >= least && start <= most;
-    const double t1 = (least - start) / step, t2 = (most - start) / step;
+  const auto narrow = [&](double start, double step, double min, double max) {
+    if (step == 0) return start >= min && start <= max;
+    const double t1 = (min - start) / step, t2 = (max - start) / step;
     enters = std::max(enters, std::min(t1, t2));
     leaves = std::min(leaves, std::max(t1, t2));
     return enters <= leaves;

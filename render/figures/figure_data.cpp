@@ -199,7 +199,7 @@ Result<std::shared_ptr<const SolvedRig>> FigureData::solved_rig(const std::strin
   if (found->rig->along_walk)
     return failure(
         ExitCode::kNotIdentifiable,
-        fmt::format("estimate {}: residuals over motor angle and beam need a rig that stood still", name));
+        fmt::format("estimate {}: residuals over motor angle and beam require a stationary rig", name));
   return found->rig;
 }
 

@@ -123,7 +123,7 @@ std::optional<CrossSection> fitted_on_sharpest(const CrossSection& rough, std::s
   for (const ComparedMap& map : maps) {
     const auto section = face_fitted(*map.cloud, rough);
     if (!section) continue;
-    // Not at half height: of a doubled face a fit can lean on one layer and leave the other below half.
+    // Not at half height: with two layers of a face, a fit can follow one and leave the other below half.
     const double width_mm = profile_across(*map.cloud, *section).integral_width_mm.value_or(1e299);
     if (width_mm < min_mm) min_mm = width_mm, sharpest = section;
   }

@@ -63,7 +63,7 @@ Recipe read_document(const Node& document, const std::filesystem::path& path) {
     recipe.tables.push_back(recipe_parts::read_table(name, node, recipe));
   });
   if (recipe.figures.empty() && recipe.tables.empty()) {
-    refuse(document, "the recipe makes nothing: figures or tables are needed");
+    refuse(document, "the recipe has neither figures nor tables");
   }
   return recipe;
 }

@@ -36,10 +36,10 @@ Members estimate_members(EstimateOptions& options, const std::string& name) {
 
 }  // namespace
 
-double read_within(const Node& node, const std::string& name, double least, double greatest) {
+double read_within(const Node& node, const std::string& name, double min, double max) {
   const double number = yaml::read_number(node, name);
-  if (number < least || number > greatest) {
-    refuse(node, fmt::format("{} must be within {:g} to {:g}", name, least, greatest));
+  if (number < min || number > max) {
+    refuse(node, fmt::format("{} must be within {:g} to {:g}", name, min, max));
   }
   return number;
 }
@@ -60,9 +60,9 @@ RecordingSpec read_recording(const std::string& key, const Node& node, const Rec
   RecordedFile file;
   SimulationOptions simulation;
   bool simulated = false, simulation_keys = false, file_keys = false;
-  const auto number = [&](double& into, double least, double greatest, double unit) {
-    return [&, least, greatest, unit](const Node& value) {
-      into = unit * read_within(value, name, least, greatest);
+  const auto number = [&](double& into, double min, double max, double unit) {
+    return [&, min, max, unit](const Node& value) {
+      into = unit * read_within(value, name, min, max);
       simulation_keys = true;
     };
   };

@@ -12,7 +12,7 @@
 // yaml::Refusal.
 namespace sweepscope::recipe_parts {
 
-double read_within(const YAML::Node& node, const std::string& name, double least, double greatest);
+double read_within(const YAML::Node& node, const std::string& name, double min, double max);
 std::vector<double> read_numbers(const YAML::Node& node, const std::string& name, std::size_t count);
 
 template <typename T>

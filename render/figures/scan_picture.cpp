@@ -13,7 +13,8 @@ namespace {
 
 constexpr Colour kEdge{214, 122, 0}, kPlane{0, 114, 178};
 
-/// The scanner's plane in a part of the picture: x (forward) to the right, y (left) up, lengths alike.
+/// The scanner's plane in a part of the picture: x (forward) to the right, y (left) up, the same scale on
+/// both axes.
 struct PlaneAxes {
   PixelRect plot;
   double from_x = 0, from_y = 0, px_per_m = 1;
@@ -76,7 +77,7 @@ void add_point(Drawing& marks, PixelPoint at, FeatureKind kind, Colour faint, do
   if (kind == FeatureKind::kNone) square(0.9 * scale, faint);
   if (kind == FeatureKind::kPlane) square(2.4 * scale, kPlane);
   if (kind != FeatureKind::kEdge) return;
-  const double r = 4.4 * scale;  // another shape, for eyes that do not tell the colours apart
+  const double r = 4.4 * scale;  // another shape, for readers who cannot distinguish the colours
   marks.add(PolygonMark{{{at.x - r, at.y}, {at.x, at.y - r}, {at.x + r, at.y}, {at.x, at.y + r}}, kEdge});
 }
 

@@ -108,11 +108,11 @@ void shade(const Kernel& kernel, const float* depth, std::uint8_t* rgba) {
   const Floats light = smaller(larger(all(1) - all(kernel.strength) * shade_of(kernel, depth), all(kDarkest)),
                                all(kBrightest));
   const Ints factor = __builtin_convertvector(all(kUnchanged) * light + all(0.5f), Ints);
-  const Ints pixels = load<Ints>(rgba), most = Ints{} + 255;
+  const Ints pixels = load<Ints>(rgba), max = Ints{} + 255;
   Ints lit = pixels & ~0xffffff;
   for (const int channel : {0, 8, 16}) {
     const Ints value = (((pixels >> channel) & 255) * factor) >> 8;
-    lit |= (value < most ? value : most) << channel;
+    lit |= (value < max ? value : max) << channel;
   }
   std::memcpy(rgba, &lit, sizeof lit);
 }

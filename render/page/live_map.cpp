@@ -213,13 +213,13 @@ std::string what_is_drawn(const LiveMap& live) {
       drawn == live.usable_beams
           ? fmt::format("all {} measured points", grouped(drawn))
           : fmt::format(
-                "{} of {} measured points, chosen evenly in space where the map is blurred, so that "
-                "blurred places keep theirs",
+                "{} of {} measured points, chosen evenly in space in the blurred map, so that "
+                "blurred places keep their points",
                 grouped(drawn), grouped(live.usable_beams));
   const char* path = live.map.moving
                          ? "They follow the trajectory that was solved together with the answer; it does "
                            "not change with the offset."
-                         : "The rig stood still: the map is exact at every offset.";
+                         : "The rig was stationary: the map is exact at every offset.";
   return fmt::format(
       "Drawn in your browser: {}, each turned by the motor's angle at its own time plus the "
       "offset. {}",
@@ -279,8 +279,8 @@ DrawnBeams choose_beams(const Recording& recording, MapPath path, double offset_
 OffsetSpan live_span(const PreparedRecording& prepared, double a_s, double b_s) {
   constexpr double kMargin_s = 0.010;
   const double middle_s = (a_s + b_s) / 2, apart_s = std::abs(b_s - a_s) / 2;
-  const double most_s = std::max(search_scale(prepared.motor).max_half_width_s, apart_s);
-  const double half_s = std::min(apart_s + kMargin_s, most_s);
+  const double max_s = std::max(search_scale(prepared.motor).max_half_width_s, apart_s);
+  const double half_s = std::min(apart_s + kMargin_s, max_s);
   return {middle_s - half_s, middle_s + half_s};
 }
 

@@ -54,10 +54,10 @@ Grid grid_for(const std::vector<TurnableBeam>& beams) {
   Grid grid;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto at = [axis](const TurnableBeam& beam) { return beam.p_in_motor_m[axis]; };
-    const auto [least, greatest] = std::ranges::minmax_element(beams, {}, at);
-    if (least == beams.end()) break;
-    grid.corner_m[axis] = at(*least);
-    grid.step_m = std::max(grid.step_m, (double(at(*greatest)) - double(at(*least))) / kMaxStep);
+    const auto [min, max] = std::ranges::minmax_element(beams, {}, at);
+    if (min == beams.end()) break;
+    grid.corner_m[axis] = at(*min);
+    grid.step_m = std::max(grid.step_m, (double(at(*max)) - double(at(*min))) / kMaxStep);
   }
   return grid;
 }

@@ -33,12 +33,12 @@ std::span<const DepthCueOption> depth_cue_options() {
        "above), on or off",
        &DepthCues::lighting},
       {"splats", "Splats",
-       "Points grow where they are sparse, to close surfaces: auto (with lighting), on or off",
+       "Sparse points are drawn larger, to close surfaces: auto (with lighting), on or off",
        &DepthCues::splats},
       {"grid", "Ground grid", "A grid below the map, with metres: auto (with lighting), on or off",
        &DepthCues::grid},
       {"scanner", "Scanner",
-       "The scanner's place and scanning plane at the end of what is shown: auto (with lighting), on or off",
+       "The scanner and its scanning plane at the last visible time: auto (with lighting), on or off",
        &DepthCues::scanner}};
   return options;
 }

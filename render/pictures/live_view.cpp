@@ -45,7 +45,8 @@ struct Slices {
     points = std::move(next);
     actors.assign(points ? (points->size() + kActorPoints - 1) / kActorPoints : 0, nullptr);
   }
-  /// Stays in the renderer, unseen between drawings: VTK uploads an actor's points anew once it was away.
+  /// Stays in the renderer, invisible between drawings: VTK uploads the points of an actor again if it was
+  /// removed.
   vtkActor* at(std::size_t slice, const SplatSizes& sizes, vtkRenderer& renderer) {
     if (!actors[slice]) {
       const std::size_t from = slice * kActorPoints, count = std::min(kActorPoints, points->size() - from);
@@ -206,7 +207,7 @@ struct LiveView::Parts {
   }
   std::size_t wanted() const { return 1 + (moving ? 0 : full.actors.size()); }
   /// All coarse points at once, as each drawing takes a millisecond or two besides its points; then a slice.
-  /// The empty picture comes first by itself: VTK draws what comes with it with the depth test on, and the
+  /// The empty picture comes first, alone: VTK draws what comes with it with the depth test on, and the
   /// rest without.
   void draw_next() {
     const std::size_t step = drawn++;

@@ -171,8 +171,8 @@ struct DrawnRect {
 };
 
 DrawnRect drawn_rect(const PixelRect& place, int width_px, int height_px) {
-  const auto drawn = [](double px, int most) {
-    return std::clamp(static_cast<int>(std::lround(kSupersampling * px)), 0, most);
+  const auto drawn = [](double px, int max_px) {
+    return std::clamp(static_cast<int>(std::lround(kSupersampling * px)), 0, max_px);
   };
   const int left = drawn(place.left, width_px), right = drawn(place.right(), width_px),
             top = drawn(place.top, height_px), bottom = drawn(place.bottom(), height_px);
@@ -294,8 +294,8 @@ Image draw_flat(vtkRenderWindow& window, const Picture& picture) {
 }  // namespace
 
 Result<void> check_size(const Picture& picture) {
-  const auto [least, greatest] = std::minmax(picture.width_px, picture.height_px);
-  if (least >= kMinPictureSidePx && greatest <= kMaxPictureSidePx) return {};
+  const auto [min, max] = std::minmax(picture.width_px, picture.height_px);
+  if (min >= kMinPictureSidePx && max <= kMaxPictureSidePx) return {};
   return failure(ExitCode::kWrongUsage,
                  fmt::format("A picture of {} x {} pixels cannot be drawn: each side is {} to {} pixels",
                              picture.width_px, picture.height_px, kMinPictureSidePx, kMaxPictureSidePx));

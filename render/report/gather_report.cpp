@@ -20,9 +20,9 @@ namespace sweepscope {
 namespace {
 
 constexpr double kOff_s = 0.005;
-constexpr double kMinRatio = 1.3;  // of a wall's widths: a face that shows no difference tells nothing
+constexpr double kMinRatio = 1.3;  // of a wall's widths: below this a face shows no difference
 
-/// The maps 5 ms off and at the answer, and the face between them that tells most.
+/// The maps 5 ms off and at the answer, and the face that shows the difference best.
 Result<void> add_maps(ReportContent& content, const PreparedRecording& prepared, std::size_t live_points,
                       const Job& job) {
   const Recording& recording = *prepared.recording;

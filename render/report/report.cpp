@@ -31,10 +31,10 @@ std::string method_text(const Estimate& estimate) {
     case Method::kStationary:
       return "the offset at which the odometry of a stationary rig registers the least motion (d)";
     case Method::kMoving:
-      return "the offset at which the points match the map best: the least mean distance per match (e), "
+      return "the offset at which the points match the map best: the smallest mean distance per match (e), "
              "confirmed by the number of matches (n)";
     case Method::kDirect:
-      return "an unknown of the least squares between the sweeps of both directions";
+      return "an unknown of a least-squares fit between the sweeps of both directions";
   }
   return "";
 }
@@ -63,7 +63,7 @@ std::string meaning_of(std::string_view criterion) {
   if (criterion == "d") return "motion between sweeps";
   if (criterion == "n") return "matches with the map";
   if (criterion == "e") return "mean distance per match";
-  if (criterion == "direct") return "distance per match that is left";
+  if (criterion == "direct") return "remaining distance per match";
   if (criterion == "capped_cost") return "distance between sweeps, capped";
   return "";
 }
@@ -172,7 +172,8 @@ Result<std::string> curves(const ReportContent& content) {
   }
   if (pictures.empty()) return pictures;
   return fmt::format(
-      "<section class=\"{}\">{}<div class=\"charts\">{}</div>\n<p class=\"caption\">Each point is one candidate "
+      "<section class=\"{}\">{}<div class=\"charts\">{}</div>\n<p class=\"caption\">Each point is one "
+      "candidate "
       "offset; a larger mark is the criterion's best; the blue line is the answer.</p></section>\n",
       stationary_class(content), html::element("h2", "The criteria over the offset"), pictures);
 }
@@ -196,7 +197,8 @@ std::string rig_table(const SolvedRig& solved) {
   if (!reasons.empty()) reasons = "<ul>" + reasons + "</ul>\n";
   return in_table(rows) + reasons +
          fmt::format(
-             "<p class=\"caption\">One standard deviation each. Kept: turning the laser about the motor's axis "
+             "<p class=\"caption\">One standard deviation each. Kept: turning the laser about the motor's "
+             "axis "
              "and shifting it along the axis have no effect on a map. {}</p>\n",
              residual_text(solved));
 }
@@ -216,11 +218,10 @@ Result<std::string> rig_part(const ReportContent& content) {
   };
   return both_widths(svg_of(1100, 520), svg_of(460, 800)).map([&](const std::string& pictures) {
     return table +
-           figure(
-               "residuals", pictures,
-               "How far the points lie from flat surfaces, over the motor's angle and the direction of the "
-               "beam. A wrong mount or encoder shows as a pattern; what is left is the range noise. Orange: "
-               "beyond the surface; violet: before it; grey: too few points.");
+           figure("residuals", pictures,
+                  "How far the points lie from flat surfaces, over the motor's angle and the direction of "
+                  "the beam. A wrong mount or encoder shows as a pattern; without a pattern only range noise "
+                  "remains. Orange: behind the surface; violet: in front of it; grey: too few points.");
   });
 }
 
@@ -237,8 +238,8 @@ Result<std::string> over_time_strip(const ReportContent& content) {
   };
   return both_widths(svg_of(1100), svg_of(460)).map([](const std::string& pictures) {
     return html::element("h2", "The offset over time") + pictures +
-           "\n<p class=\"caption\">Each point is one window by itself, with a bar of one sigma to either "
-           "side; the line is the course that they have evidence for.</p>\n";
+           "\n<p class=\"caption\">Each point is one window, with a bar of one sigma to either side; the "
+           "line is the course fitted to them.</p>\n";
   });
 }
 
@@ -267,10 +268,10 @@ Result<std::string> maps(const ReportContent& content) {
     return fmt::format("<h2 class=\"{}\">The map 5 ms off, and at the answer</h2>\n",
                        stationary_class(content)) +
            thickness_table(content) +
-           figure(stationary_class(content),
-                  html::png_image(encode_png(image), "Two maps from above, side by side"),
-                  "All else is equal. Where the right picture is the sharper one, the answer is the better "
-                  "offset.");
+           figure(
+               stationary_class(content),
+               html::png_image(encode_png(image), "Two maps from above, side by side"),
+               "Only the offset differs. If the right picture is sharper, the answer is the better offset.");
   });
 }
 

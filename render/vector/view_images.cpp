@@ -71,8 +71,8 @@ Result<std::vector<ViewImage>> view_images(const Picture& picture) {
   if (!drawn) return tl::unexpected(drawn.error());
   const Surface whole = to_surface(*drawn);
   for (const View& view : picture.views) {
-    const auto in_image = [&](double px, int most) {
-      return std::clamp(static_cast<int>(std::lround(factor * px)), 0, most);
+    const auto in_image = [&](double px, int max_px) {
+      return std::clamp(static_cast<int>(std::lround(factor * px)), 0, max_px);
     };
     const int left = in_image(view.place.left, drawn->width_px),
               right = in_image(view.place.right(), drawn->width_px),

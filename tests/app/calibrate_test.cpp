@@ -128,7 +128,7 @@ TEST_F(CalibrateCommand, AnAddressThatIsNoneIsRefused) {
     const Outcome outcome = run("calibrate ros", std::string("'ROS_MASTER_URI=") + address + "'");
     EXPECT_EQ(outcome.exit_code, 3) << address << outcome.err;
     EXPECT_EQ(outcome.err, std::string("sweepscope: ROS: ROS_MASTER_URI=\"") + address +
-                               "\" is no address of a master, such as http://localhost:11311\n");
+                               "\" is not the address of a master, such as http://localhost:11311\n");
   }
   const Outcome unset = run("calibrate ros", "-u ROS_MASTER_URI");
   EXPECT_EQ(unset.exit_code, 3) << unset.err;

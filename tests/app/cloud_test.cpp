@@ -78,9 +78,9 @@ TEST_F(CloudRecordings, ThatAreDamagedEndInOneSentence) {
   refused("it is malformed", [](RawCloud& cloud) { cloud.fields[0].offset = 1'000'000; });
   refused("it is malformed", [](RawCloud& cloud) { cloud.row_bytes = 7, cloud.height = 2; });
   refused("it is malformed", [](RawCloud& cloud) { cloud.width = cloud.height = 0xFFFFFFFF; });
-  refused("no time of their own", [](RawCloud& cloud) { cloud.fields.pop_back(); });
+  refused("its points have no times", [](RawCloud& cloud) { cloud.fields.pop_back(); });
   refused("no x, y, z", [](RawCloud& cloud) { cloud.fields[2].name = "w"; });
-  refused("holds a line of points", [](RawCloud& cloud) {
+  refused("has a line of points", [](RawCloud& cloud) {
     for (std::size_t at = 0; at + 4 <= cloud.data.size(); at += cloud.point_bytes)
       std::fill_n(cloud.data.begin() + std::ptrdiff_t(at), 4, std::byte{0xFF});  // x: not a number
   });

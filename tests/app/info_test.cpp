@@ -73,7 +73,7 @@ TEST(Info, WhatCannotBeReadIsExitCode3AndLeavesNoFile) {
   const Outcome run = run_info(folder, quoted(folder / "a.txt") + " --json " + quoted(folder / "a.json"));
   EXPECT_EQ(run.exit_code, 3);
   EXPECT_EQ(run.out, "");
-  EXPECT_TRUE(holds(run.err, "a.txt: its first bytes are of no known recording format")) << run.err;
+  EXPECT_TRUE(holds(run.err, "a.txt: its first bytes are not those of a known recording format")) << run.err;
   EXPECT_FALSE(std::filesystem::exists(folder / "a.json"));
   EXPECT_EQ(run_info(folder, quoted(folder / "missing.bag")).exit_code, 3);
 }
@@ -111,7 +111,7 @@ TEST(Info, WrongUsageIsExitCode2) {
   }
   const Outcome beyond = run_info(folder, quoted(folder / "a.bag") + " --window 100:200");
   EXPECT_EQ(beyond.exit_code, 2);
-  EXPECT_TRUE(holds(beyond.err, "no scan lies within --window 100:200; the last one is at 3.975 s"))
+  EXPECT_TRUE(holds(beyond.err, "no scan lies between 100 and 200 s; the last one is at 3.975 s"))
       << beyond.err;
 }
 

@@ -139,7 +139,7 @@ TEST_F(Shards, AMergeWithoutAllPartsSaysWhichAreMissing) {
   expect_done("estimate " + search + "--shard 3/3");
   const Outcome outcome = run("merge room.1-of-3.candidates room.3-of-3.candidates --json merged.json");
   EXPECT_EQ(outcome.exit_code, 3);
-  EXPECT_NE(outcome.err.find("6 candidates are missing, the first at 20 ms; no file holds shard 2/3"),
+  EXPECT_NE(outcome.err.find("6 candidates are missing, the first at 20 ms; no file has shard 2/3"),
             std::string::npos)
       << outcome.err;
   EXPECT_FALSE(exists("merged.json"));

@@ -1,5 +1,5 @@
-// What the answers owe to options that nothing but experience fixes: each is halved and doubled by itself,
-// and the answers on simulated recordings are compared with those of the defaults. The greatest change, in
+// How the answers depend on options that were set by experience: each one is halved and doubled, and the
+// answers on simulated recordings are compared with those of the defaults. The largest change, in
 // milliseconds.
 //   build/bin/sweepscope_option_changes [GROUP]     odometry, features, stationary or walk; else all of them
 #include <fmt/format.h>

@@ -172,7 +172,7 @@ TEST(Failures, ASessionOpensRecordingsAndDoesNothingElse) {
     explorer.dismiss_message();
     perform(explorer, "open " + path);
     ASSERT_TRUE(explorer.message()) << source;
-    EXPECT_NE(explorer.message()->text.find("opens no recording"), std::string::npos)
+    EXPECT_NE(explorer.message()->text.find("does not open a recording"), std::string::npos)
         << explorer.message()->text;
     EXPECT_FALSE(explorer.is_loading());
     EXPECT_EQ(explorer.settings(), Settings());

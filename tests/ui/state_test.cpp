@@ -74,8 +74,8 @@ TEST(Commands, ALineThatDoesNotFitSaysWhatWould) {
            {"sideways", "no command \"sideways\""},
            {"offset-a", "offset-a OFFSET"},
            {"offset-a 19 20", "offset-a OFFSET"},
-           {"offset-a nineteen", "and not \"nineteen\""},
-           {"offset-a nan", "and not \"nan\""},
+           {"offset-a nineteen", "not \"nineteen\""},
+           {"offset-a nan", "not \"nan\""},
            {"layout upside-down", "side-by-side, swipe, a, b, difference or stacked"},
            {"point-size 99", "1 to 8 px"},
            {"open \"unclosed", "quote"}}) {

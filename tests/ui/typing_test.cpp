@@ -85,7 +85,7 @@ TEST_F(Typing, ANumberThatIsNoneOrOutsideTheSearchWindowIsRefusedWithTheReason) 
   for (const char* text : {"2,4,5", "abc", "1.2.3", "\"\""}) {
     expect_runs(std::string("click offset-a\nkey Ctrl+A\ntype ") + text +
                 "\nkey Enter\nexpect offset-a is 5");
-    if (std::string(text) != "\"\"") expect_runs("expect message contains cannot be used\ndismiss");
+    if (std::string(text) != "\"\"") expect_runs("expect message contains is not a number\ndismiss");
   }
   expect_runs("dismiss\nclick offset-a\ntype 400\nkey Enter\nexpect offset-a is 5");
   expect_runs("expect message contains outside the search window\nexpect message contains -249 to 249 ms");

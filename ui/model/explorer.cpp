@@ -62,12 +62,11 @@ Result<void> Explorer::check_offsets(const Settings& next) const {
   for (const auto& [now_ms, before_ms] : {std::pair{next.offset_a_ms, settings_.offset_a_ms},
                                           std::pair{next.offset_b_ms, settings_.offset_b_ms}}) {
     if (now_ms == before_ms || (now_ms >= window_ms.first && now_ms <= window_ms.second)) continue;
-    return failure(
-        ExitCode::kWrongUsage,
-        fmt::format("An offset of {} ms is outside the search window of this recording, {:.0f} to {:.0f} ms: "
-                    "beyond a quarter of the motor's period a mirror image of the map fits as well. To look "
-                    "elsewhere, set the candidates of the search.",
-                    now_ms, std::ceil(window_ms.first), std::floor(window_ms.second)));
+    return failure(ExitCode::kWrongUsage,
+                   fmt::format("An offset of {} ms is outside the search window of this recording, {:.0f} to "
+                               "{:.0f} ms: beyond a quarter of the motor's period a mirror image of the map "
+                               "fits as well. To search elsewhere, set the candidates of the search.",
+                               now_ms, std::ceil(window_ms.first), std::floor(window_ms.second)));
   }
   return {};
 }

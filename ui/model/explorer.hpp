@@ -81,7 +81,7 @@ struct Message {
   std::string text;
   double shown_s = 0;  // for how long already
 
-  /// After this time it goes by itself.
+  /// After this time it disappears.
   double lasts_s() const { return kind == Kind::kNote ? 8 : 30; }
 };
 

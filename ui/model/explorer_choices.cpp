@@ -86,7 +86,7 @@ Result<void> Explorer::choose(const Call& call) {
   if (!choosing_) return not_now("Choose a recording first, with \"choose FILE\".");
   const ReadingChoices next = changed(choosing_->choices, call);
   if (call.command->name == "choose-part" && call.number(1) <= call.number(0) && call.number(1) != 0)
-    return not_now("The part in time must end after it begins.");
+    return not_now("The time range must end after it begins.");
   if (auto inside = check_recording_roots(next); !inside) return inside;
   const bool again = reads_otherwise(next, choosing_->choices);
   if (next != choosing_->choices) choosing_->problem.clear();

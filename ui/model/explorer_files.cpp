@@ -149,7 +149,7 @@ Result<void> Explorer::open_session(const std::string& text, const std::string& 
   const auto call = parse_call(session->source);
   const bool opens = call && call->command->name == "open" && !call->text(0).ends_with(".json");
   if (!opens && !(call && call->command->name == "sample"))
-    return unreadable(fmt::format("{}: source: \"{}\" opens no recording", path, session->source));
+    return unreadable(fmt::format("{}: source: \"{}\" does not open a recording", path, session->source));
   if (opens)
     load(reading_of(*session, *call, path, options_.reading, options_.roots));
   else if (auto done = perform(*call); !done)
@@ -376,7 +376,7 @@ Result<void> Explorer::export_curve(const std::string& path) {
 
 Result<void> Explorer::export_rig(const std::string& path) {
   if (!estimate_ || !estimate_->rig)
-    return not_now("No rig has been solved for: choose what to solve for, and estimate the offset.");
+    return not_now("No rig has been solved for: choose what to solve for, then estimate the offset.");
   auto written = write_file(path, found_rig_file(*estimate_->rig, estimate_->recording));
   if (!written) return written;
   say(Message::Kind::kNote, fmt::format("The rig file is saved in {}.", whole_path(path)));
@@ -386,7 +386,7 @@ Result<void> Explorer::export_rig(const std::string& path) {
 
 Result<void> Explorer::use_rig(const std::string& path) {
   if (loaded_ && loaded_->choices.file.empty())
-    return not_now("This is a sample, which no rig file is read for: simulate it into a file first.");
+    return not_now("A sample has no rig file: simulate it into a file first.");
   if (auto written = export_rig(path); !written) return written;
   ReadingChoices choices = loaded_->choices;
   choices.rig_file = path;

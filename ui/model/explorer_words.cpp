@@ -33,7 +33,7 @@ std::string shown(const Pane& pane) {
     case PaneState::kPreview:
       return at + ", preview along the path solved at " + ms(placement.map->offset_s);
     case PaneState::kSolved:
-      return at + (pane.lost                          ? ", LOAM lost track"
+      return at + (pane.lost                          ? ", the motion could not be followed"
                    : !placement.loaded->poses.empty() ? ", along the given poses"
                                                       : "");
   }

@@ -29,7 +29,7 @@ bool is_own_json(std::string_view begin) {
                                     begin.find("\"sweepscope.estimate/") != begin.npos);
 }
 
-/// As the readers tell formats apart: by content.
+/// By content, as the readers distinguish formats.
 bool opens(const fs::path& file) {
   using namespace std::string_view_literals;
   constexpr std::array kBeginnings{"#ROSBAG V2"sv, "\x89MCAP0"sv, "SQLite format 3"sv};
@@ -50,7 +50,7 @@ FileEntry entry_of(const fs::directory_entry& found) {
   entry.folder = found.is_directory(failed);
   if (entry.folder) {
     entry.opens = opens_as_recording(found.path());
-  } else if (found.is_regular_file(failed)) {  // a pipe would wait for ever
+  } else if (found.is_regular_file(failed)) {  // a pipe would wait without end
     entry.opens = opens(found.path());
     const std::uintmax_t bytes = found.file_size(failed);
     entry.bytes = failed ? 0 : bytes;

@@ -80,7 +80,7 @@ Error FileRoots::outside(const fs::path& path) const {
   std::string names;
   for (const fs::path& folder : folders_) names += (names.empty() ? "" : ", ") + folder.string();
   return {ExitCode::kWrongUsage,
-          fmt::format("{}: lies outside of the folders that this program was started with (--root): {}",
+          fmt::format("{}: lies outside of the folders that this program may open (--root): {}",
                       path.string(), names)};
 }
 

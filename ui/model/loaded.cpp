@@ -23,7 +23,7 @@ void find_intensities(Loaded& loaded) {
 }
 
 Result<LoadedPtr> finish(std::shared_ptr<Loaded> loaded, const Job& job) {
-  job.report("looking at it", 0);
+  job.report("reading its streams", 0);
   loaded->summary = inspect(loaded->recording);
   loaded->beams = collect_beams(loaded->recording);
   find_intensities(*loaded);

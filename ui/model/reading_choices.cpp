@@ -22,10 +22,10 @@ std::string stamps_in_words(const Recording& recording) {
                                                      "Detected: {} stamps for the laser, {} stamps "
                                                      "for the motor.",
                                                      name_of(laser.used), name_of(motor.used));
-  if (laser.receive_minus_header_s)
-    words += fmt::format(" Scans were received {:.1f} ms after their header stamps.",
-                         *laser.receive_minus_header_s * 1e3);
-  return words;
+  if (!laser.receive_minus_header_s) return words;
+  const double late_s = *laser.receive_minus_header_s;
+  if (late_s < 0) return words + fmt::format(" Header stamps are {:.2f} s ahead of receive times.", -late_s);
+  return words + fmt::format(" Scans were received {:.1f} ms after their header stamps.", late_s * 1e3);
 }
 
 std::string mount_in_words(const ReadingChoices& choices, const Rig& rig, const std::string& transforms) {
@@ -34,7 +34,7 @@ std::string mount_in_words(const ReadingChoices& choices, const Rig& rig, const 
       fmt::format("[{:.3g}, {:.3g}, {:.3g}]", axis.x() + 0.0, axis.y() + 0.0, axis.z() + 0.0);
   if (!choices.rig_file.empty()) return fmt::format("The motor turns the laser about {}.", of_axis);
   return "Without a rig file the motor rolls the laser about x." +
-         (transforms.empty() ? "" : " " + transforms + " `sweepscope rig` writes a rig file of them.");
+         (transforms.empty() ? "" : " " + transforms);
 }
 
 void note_recording(const Recording& recording, ReadingSurvey& found, const Job& job) {

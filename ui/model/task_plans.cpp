@@ -17,8 +17,11 @@ std::vector<TaskStep> followed_by(std::vector<TaskStep> steps, std::vector<TaskS
 }  // namespace
 
 std::vector<TaskStep> steps_of_loading() {
-  return {
-      {"unpacking", 0.2}, {"reading", 1}, {"looking at it", 0.2}, {"features", 1}, {"the first map", 0.5}};
+  return {{"unpacking", 0.2},
+          {"reading", 1},
+          {"reading its streams", 0.2},
+          {"features", 1},
+          {"the first map", 0.5}};
 }
 
 std::vector<TaskStep> steps_of_surveying() {
@@ -26,7 +29,7 @@ std::vector<TaskStep> steps_of_surveying() {
 }
 
 std::vector<TaskStep> steps_of_simulating() {
-  return {{"casting", 4}, {"looking at it", 0.2}, {"features", 1}, {"the first map", 0.5}};
+  return {{"casting", 4}, {"reading its streams", 0.2}, {"features", 1}, {"the first map", 0.5}};
 }
 
 std::vector<TaskStep> steps_of_solving() {

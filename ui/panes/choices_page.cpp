@@ -124,7 +124,8 @@ void file_choice(const PaneContext& context, const char* command, const std::str
   button(context, "None", command, static_cast<double>(button_width));
 }
 
-/// The recording from end to end: where the rig stood and moved, and a handle at either end of what is used.
+/// The recording from end to end: when the rig was stationary and when it moved, and a handle at either end
+/// of the used part.
 class PartStrip {
  public:
   PartStrip(const PaneContext& context, const ReadingSurvey& survey, const ReadingChoices& choices)
@@ -223,7 +224,7 @@ void part_choice(const PaneContext& context, const Explorer::Choosing& choosing)
   const auto& window = choosing.choices.window;
   ImGui::AlignTextToFramePadding();
   ImGui::TextDisabled("%s", window ? fmt::format("{:.1f} to {:.1f} s", window->from_s, window->to_s).c_str()
-                                   : "All of it. The strip comes once laser and motor are known.");
+                                   : "All of it. The strip appears when laser and motor are known.");
 }
 
 void beginning(const PaneContext& context, const Explorer::Choosing& choosing) {
@@ -236,15 +237,14 @@ void beginning(const PaneContext& context, const Explorer::Choosing& choosing) {
   ImGui::PopStyleColor();
   tooltip(context, whole_path(choosing.choices.file));
   if (context.explorer.is_surveying() || !choosing.survey) {
-    ImGui::TextDisabled("Looking at it …");
+    ImGui::TextDisabled("Reading its streams …");
   } else if (const auto problems = problems_of(choosing); problems.empty()) {
-    ImGui::TextDisabled("It can be opened like this.");
+    ImGui::TextDisabled("Ready to open.");
   } else {
     const RecordingSurvey& streams = choosing.survey->streams;
     const bool nothing_to_choose = streams.lasers.empty() || streams.joints.empty();
-    const std::string incomplete = nothing_to_choose
-                                       ? "Something is missing in this recording. It is marked below."
-                                       : "Something has to be chosen first. It is marked below.";
+    const std::string incomplete = nothing_to_choose ? "The marked items are missing in this recording."
+                                                     : "Choose the marked items to continue.";
     ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(colour_of_a(context.style)));
     ImGui::TextWrapped(
         "%s", !streams.complete() ? incomplete.c_str() : printable_message(problems.front()).c_str());

@@ -27,7 +27,7 @@ std::string position_in_words(const PlaceToLook& place) {
 }
 
 std::string difference_in_words(const PlaceToLook& place) {
-  return fmt::format("{} fills {:.1f} times as many cells as {}", name_of(place.found.most_blurred()),
+  return fmt::format("{} is {:.1f} times as blurred as {} here", name_of(place.found.most_blurred()),
                      place.found.ratio(), name_of(place.found.sharpest()));
 }
 

@@ -41,7 +41,8 @@ void hint(const PaneContext& context, const PixelRect& place, const char* text) 
                                       nullptr, wrap_px);
 }
 
-/// The scanner's plane in a rectangle: x forward to the right, y to the left upwards, lengths alike.
+/// The scanner's plane in a rectangle: x forward to the right, y to the left upwards, the same scale on both
+/// axes.
 struct PlaneView {
   PixelRect plot;
   Eigen::AlignedBox2d box;
@@ -91,7 +92,7 @@ void add_point(Drawing& drawing, PixelPoint at, FeatureKind kind, double scale) 
   };
   if (kind == FeatureKind::kNone) return square(0.8 * scale);
   if (kind == FeatureKind::kPlane) return square(2.2 * scale);
-  const double r = 4.2 * scale;  // another shape, for eyes that do not tell the colours apart
+  const double r = 4.2 * scale;  // another shape, for readers who cannot distinguish the colours
   drawing.add(PolygonMark{{{at.x - r, at.y}, {at.x, at.y - r}, {at.x + r, at.y}, {at.x, at.y + r}},
                           colour_of_feature(kind)});
 }

@@ -80,7 +80,7 @@ std::string meaning(const std::string& title) {
            "offset. Zero at the offset.";
   if (title.starts_with("Distance between"))
     return "The coarse search of the direct method: the mean distance between sweeps of opposite directions "
-           "at equal motor angles, each distance capped. Its minimum is near the offset; the least squares "
+           "at equal motor angles, each distance capped. Its minimum is near the offset; a least-squares fit "
            "then finds the offset to a fraction of a millisecond.";
   return "Estimate the offset to see the criteria over the candidates here.";
 }
@@ -111,7 +111,7 @@ void draw_grips(const PaneContext& context, const ChartLayout& layout) {
 /// Over the empty chart, on a plate so that grid and handles pass behind it.
 void draw_hint(const PaneContext& context, const PixelRect& plot) {
   const std::array<const char*, 2> lines{"Estimate the offset to see the criteria here.",
-                                         "The handles already work."};
+                                         "Or drag A and B now."};
   const double size_px = context.px(13), line_px = context.px(19), margin = context.px(8);
   double width = 0;
   for (const char* line : lines) width = std::max(width, text_width_px(line, size_px) + 2 * margin);

@@ -204,7 +204,7 @@ void draw_display_panel(const PaneContext& context, const PixelRect& place) {
   field(context, "point-size");
   field(context, "backdrop");
   field(context, "trajectory");
-  heading(context, "What is shown");
+  heading(context, "Visible points");
   field(context, "heights");
   if (settings.heights == Heights::kSlab) field(context, "slab");
   time_window(context);

@@ -176,7 +176,7 @@ void list(const PaneContext& context, const std::vector<FileEntry>& entries) {
   if (!entries.empty()) return;
   const FileRoots& roots = context.explorer.roots();
   const bool readable = roots.can_read(folder.empty() ? "." : without_tilde(folder, home_folder()));
-  ImGui::TextDisabled("%s", !readable      ? "This folder is not below those of --root."
+  ImGui::TextDisabled("%s", !readable ? "This folder is outside of the folders that this program may open."
                             : browsing.all ? "Nothing here begins like that."
                                            : "Nothing here can be opened.");
 }

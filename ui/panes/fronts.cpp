@@ -254,7 +254,7 @@ bool ask_for_file(const PaneContext& context, const Transient::Asked& asked) {
                                                                              : colour_of_a(context.style)));
     const std::string says = transient.replaces.empty()
                                  ? whole_path(without_tilde(transient.asked_text, home_folder()))
-                                 : transient.replaces + " exists. Replace it? Enter or Replace does.";
+                                 : transient.replaces + " already exists. Press Enter to replace it.";
     ImGui::TextWrapped("%s", printable_line(says).c_str());
     ImGui::PopStyleColor();
   }
@@ -305,8 +305,7 @@ float message_wrap(const PaneContext& context, double width_px) {
 }
 
 std::string message_text(const Message& message) {
-  return (message.kind == Message::Kind::kError ? "That did not work. " : "") +
-         printable_message(message.text);
+  return without_options(printable_message(message.text));
 }
 
 }  // namespace

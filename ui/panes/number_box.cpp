@@ -87,11 +87,11 @@ Result<double> parse_typed_number(const Parameter& parameter, std::string_view t
   // A decimal comma, unless it may separate thousands.
   if (std::count(word.begin(), word.end(), ',') == 1 && word.find('.') == std::string::npos)
     word[word.find(',')] = '.';
-  auto value = parse_value(parameter, word);
-  if (!value)
-    return failure(ExitCode::kWrongUsage,
-                   fmt::format("\"{}\" cannot be used: {}.", text, value.error().message));
-  return std::get<double>(*value);
+  if (const auto value = parse_value(parameter, word)) return std::get<double>(*value);
+  const bool is_number = parse_value(Parameter(), word).has_value();
+  return failure(ExitCode::kWrongUsage,
+                 fmt::format("\"{}\" is {}. Type {}.", text, is_number ? "out of range" : "not a number",
+                             describe(parameter)));
 }
 
 void number_box(const PaneContext& context, const NumberBox& box) {

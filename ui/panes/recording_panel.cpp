@@ -54,7 +54,7 @@ void notes(const PaneContext& context, const Loaded& loaded) {
   heading(context, "Notes");
   ImGui::PushFont(context.fonts.small);
   ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(context.style.faint_text));
-  for (const std::string& note : all) ImGui::TextWrapped("%s", printable_line(note).c_str());
+  for (const std::string& note : all) ImGui::TextWrapped("%s", without_options(printable_line(note)).c_str());
   ImGui::PopStyleColor();
   ImGui::PopFont();
 }
@@ -97,30 +97,24 @@ struct OptimumWords {
 OptimumWords in_words(const CriterionOptimum& optimum) {
   const double mm = optimum.value * 1e3;
   if (optimum.name == "e")
-    return {
-        "distance", fmt::format("{:.1f} mm", mm),
-        "Criterion e, equation 7: the mean distance of the matches from their line or plane on the map, at "
-        "the offset where it is least."};
+    return {"distance", fmt::format("{:.1f} mm", mm),
+            "Criterion e, equation 7: the mean distance of the matches from their line or plane on the map, "
+            "at its minimum."};
   if (optimum.name == "n")
     return {
         "matches", fmt::format("{:.0f}", optimum.value),
-        "Criterion n, equation 6: how many edge and plane points match the map, at the offset where they are "
-        "most."};
+        "Criterion n, equation 6: the number of edge and plane points that match the map, at its maximum."};
   if (optimum.name == "d")
-    return {
-        "motion", fmt::format("{:.4f} m", optimum.value),
-        "Criterion d, equation 3: the motion that odometry finds between sweeps of a rig that stands still, "
-        "at the offset where it is least. A rotation counts as a translation: 1 rad as 1 m, times weight c."};
+    return {"motion", fmt::format("{:.4f} m", optimum.value),
+            "Criterion d, equation 3: the motion that odometry finds between sweeps of a stationary rig, at "
+            "its minimum. A rotation counts as a translation: 1 rad as 1 m, times weight c."};
   if (optimum.name == "capped_cost")
-    return {
-        "distance", fmt::format("{:.1f} mm", mm),
-        "The mean distance between sweeps of opposite directions, each distance capped, at the offset where "
-        "it is least."};
+    return {"distance", fmt::format("{:.1f} mm", mm),
+            "The mean distance between sweeps of opposite directions, each distance capped, at its minimum."};
   if (optimum.name == "direct")
-    return {
-        "residual", fmt::format("{:.1f} mm", mm),
-        "What the least squares leaves at the offset: how far the points are from the surfaces of the sweeps "
-        "that they are compared with. With a good offset, about the noise of the ranges."};
+    return {"residual", fmt::format("{:.1f} mm", mm),
+            "The remaining distance of the points from the surfaces of the sweeps that they are compared "
+            "with, at the offset. With a good offset it is about the noise of the ranges."};
   return {optimum.name.c_str(), fmt::format("{:.4g}", optimum.value), "The criterion's extremum."};
 }
 
@@ -155,7 +149,7 @@ void course_rows(const PaneContext& context, const OffsetOverTime& over_time) {
   row(context, "windows", fmt::format("{} of {} have an offset", found, over_time.windows.size()));
   if (!over_time.course) return;
   const OffsetCourse& course = *over_time.course;
-  row(context, "course", course.constant() ? "constant" : "changes; the offset is that at the middle");
+  row(context, "course", course.constant() ? "constant" : "changes; the offset is given for the middle");
   if (course.rate_sigma > 0)
     row(context, "drift", fmt::format("{:.2f} ± {:.2f} ppm", course.rate * 1e6, course.rate_sigma * 1e6));
   for (const OffsetJump& jump : course.jumps)
@@ -172,10 +166,10 @@ std::string name_within(const RigParameter& parameter) {
 
 std::string meaning_of(const RigParameter& parameter) {
   const std::string unit = parameter.unit == "deg" ? "°" : " " + parameter.unit;
-  const std::string by_file = fmt::format("By the rig file {:.4g}{}.", parameter.given + 0.0, unit);
+  const std::string by_file = fmt::format("Rig file: {:.4g}{}.", parameter.given + 0.0, unit);
   switch (parameter.state) {
     case RigParameter::State::kGauge:
-      return by_file + " Kept: it has no effect but to turn or shift the whole map.";
+      return by_file + " Kept: it only turns or shifts the whole map.";
     case RigParameter::State::kNotDetermined:
       return by_file + " The recording does not determine it.";
     case RigParameter::State::kFound:
@@ -236,18 +230,18 @@ void answer(const PaneContext& context, const Estimate& estimate) {
     if (estimate.rig) rig_rows(context, *estimate.rig);
     row(context, "from", fmt::format("{} sweeps, {} scans", estimate.sweeps, estimate.scans));
     ImGui::Dummy({0, context.pxf(2)});
-    button(context, "Use it for map B", "take-found");
+    button(context, "Show in map B", "take-found");
   } else {
     ImGui::PushFont(context.fonts.heading);
     ImGui::TextUnformatted("Not determined");
     ImGui::PopFont();
     for (const std::string& reason : estimate.reasons())
-      ImGui::TextWrapped("%s", printable_line(reason).c_str());
+      ImGui::TextWrapped("%s", without_options(printable_line(reason)).c_str());
   }
   ImGui::PushFont(context.fonts.small);
   ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(context.style.faint_text));
   for (const std::string& warning : estimate.warnings)
-    ImGui::TextWrapped("%s", printable_line(warning).c_str());
+    ImGui::TextWrapped("%s", without_options(printable_line(warning)).c_str());
   ImGui::PopStyleColor();
   ImGui::PopFont();
 }

@@ -19,8 +19,9 @@ int decimals_for(double step) {
   return decimals;
 }
 
-/// "heights" for a person: choices are words of the command, shown with a capital, and lists with spaces.
+/// A choice as it is shown: the words of the command with a capital, and lists with spaces.
 std::string capital(std::string word) {
+  if (word == "sharp") return "Where blur shows";
   std::replace(word.begin(), word.end(), '-', ' ');
   for (std::size_t at = 0; (at = word.find(',', at)) != word.npos; at += 2) word.replace(at, 1, ", ");
   if (!word.empty() && word[0] >= 'a' && word[0] <= 'z') word[0] = static_cast<char>(word[0] - 'a' + 'A');
@@ -198,6 +199,13 @@ bool button(const PaneContext& context, const char* title, const std::string& li
     tooltip(context, command->help + (chord.empty() ? "" : "  [" + chord + "]"));
   }
   return pressed;
+}
+
+std::string without_options(std::string text) {
+  for (const std::string_view begin : {" (--", " (estimate --"})
+    for (std::size_t at = 0; (at = text.find(begin, at)) != text.npos;)
+      text.erase(at, text.find(')', at) - at + 1);
+  return text;
 }
 
 void tooltip(const PaneContext& context, const std::string& text, TooltipPlace place) {

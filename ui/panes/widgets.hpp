@@ -36,6 +36,10 @@ void begin_field(const PaneContext& context, const Command& command);
 bool button(const PaneContext& context, const char* title, const std::string& line, double width_px = 0,
             bool primary = false);
 
+/// A message of the engine as a window shows it: without options of the command line, which stand in
+/// parentheses.
+std::string without_options(std::string text);
+
 /// A tooltip, shown while the mouse rests on the last widget: beside the mouse, or below the widget where
 /// that has to stay legible.
 enum class TooltipPlace { kBesideMouse, kBelow };

@@ -152,7 +152,7 @@ class Runner {
     frame(events, kFrame_s);
     while (ui_.has_input()) frame({}, kFrame_s);
   }
-  /// ImGui wants a frame or two to place what is new.
+  /// ImGui takes a frame or two to place new items.
   void settle() {
     for (int i = 0; i < 3; ++i) frame({}, kFrame_s);
   }
@@ -173,7 +173,7 @@ class Runner {
     if (!rect) {
       std::string names;
       for (const std::string& name : ui_.anchor_names()) names += (names.empty() ? "" : ", ") + name;
-      return wrong(fmt::format("nothing here is called \"{}\"; there are: {}", first, names));
+      return wrong(fmt::format("there is no place \"{}\"; the places are: {}", first, names));
     }
     double across = 0.5, down = 0.5;
     if (words.peek() == "at") {
@@ -304,7 +304,7 @@ class Runner {
     if (!actions || !seed || *actions < 0 || *seed < 0) return wrong("wander ACTIONS [SEED]");
     std::mt19937 random(static_cast<std::uint32_t>(*seed));
     for (int i = 0; i < static_cast<int>(*actions); ++i) wander_once(random);
-    // A file that could not be written was told in the window, as a person is told: no fault of the script's.
+    // The window has reported a file that could not be written, as to a person: not a fault of the script.
     auto done = wait_until([&] { return !ui_.is_exporting(); }, "the file", max_s_);
     (void)ui_.explorer().take_export_failure();
     return done;

@@ -35,8 +35,8 @@ Answer check(const Request& request, std::string_view token) {
   if (!equal_in_constant_time(given, token)) return refusal(403, kWrongToken);
   if (!request.page_origin.empty() && !is_own_origin(request.page_origin, request.host))
     return refusal(409,
-                   "A proxy between this page and the program changes the Host header. It has to pass it on "
-                   "as it came, with the port: see docs/remote.md.\n");
+                   "A proxy between this page and the program changes the Host header. It must pass it on "
+                   "unchanged, with the port: see docs/remote.md.\n");
   return {.status = 200, .body = "ok\n"};
 }
 

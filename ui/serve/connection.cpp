@@ -71,7 +71,7 @@ class Exchange : public std::enable_shared_from_this<Exchange> {
     auto response = std::make_shared<http::response<http::file_body>>(http::status::ok, 11);
     beast::error_code failed;
     if (path) response->body().open(path->c_str(), beast::file_mode::scan, failed);
-    if (!path || failed) return send(make_text_response(404, "There is no such file any longer.\n"));
+    if (!path || failed) return send(make_text_response(404, "This file no longer exists.\n"));
     response->set(http::field::content_type, "application/octet-stream");
     response->set(http::field::content_disposition, "attachment");  // the address ends with the name
     send(response);

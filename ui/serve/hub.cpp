@@ -266,7 +266,7 @@ void Hub::pump(Time now) {
   }
   for (auto& [id, viewer] : viewers_) {
     if (viewer.in_flight() > 0 && now - viewer.waits_since >= kMaxUnanswered)
-      close(viewer, "the page does not show what it gets");
+      close(viewer, "the page does not show the pictures");
     send_frame(viewer, now);
   }
 }

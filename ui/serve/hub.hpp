@@ -27,7 +27,7 @@ class ViewerLink {
   virtual void send_frame(std::string bytes) = 0;
   /// Whether something is not handed to the network yet.
   virtual bool is_sending() const = 0;
-  /// The page is told why. Hub::leave may come later.
+  /// The page gets the reason. Hub::leave may come later.
   virtual void close(std::string_view why) = 0;
 };
 
@@ -86,7 +86,7 @@ class Hub {
 
   /// Sends what can be sent now, and closes what does not answer.
   void pump(Time now);
-  /// When pump has something to do by itself; nothing while everything rests.
+  /// When pump next has something to do; nothing while everything rests.
   std::optional<Time> next_wake(Time now);
 
   /// When the driver's next picture can be sent, in the past if at once; nothing as long as that depends on

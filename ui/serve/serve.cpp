@@ -30,10 +30,9 @@ std::string how_to_reach(const ListenAddress& address, const std::string& token,
     const bool any = address.host == "0.0.0.0" || address.host == "::";
     const std::string place = any ? fmt::format("ADDRESS-OF-THIS-MACHINE:{}", address.port) : address.text();
     return fmt::format(
-        "The explorer is at\n    http://{}/#token={}\n"
-        "Warning: everyone who can read the network between you and this machine sees the picture and the "
-        "token, since nothing is encrypted. Rather listen on 127.0.0.1 and use ssh -L, or a reverse proxy "
-        "with TLS (docs/remote.md).\n",
+        "The explorer is at\n    http://{}/#token={}\nWarning: nothing is encrypted. Everyone who can read "
+        "the network between you and this machine sees the picture and the token. It is safer to listen on "
+        "127.0.0.1 and to use ssh -L, or a reverse proxy with TLS (docs/remote.md).\n",
         place, token);
   }
   return fmt::format(

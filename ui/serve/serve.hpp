@@ -12,7 +12,7 @@ namespace sweepscope::ui {
 struct ServeOptions {
   WindowOptions window;  // before the first page gives its size
   Server::Options server;
-  /// Called with the text that tells how to reach it, once it listens.
+  /// Called with the text of the addresses once it listens.
   std::function<void(const std::string&)> say;
 };
 

@@ -48,7 +48,7 @@ class ServedWindow final : public gl::Window {
   PageState state_;
   std::uint32_t input_number_ = 0, wait_us_ = 0;
   Clock::time_point taken_ = Clock::now();  // when the events of the next picture were taken
-  Clock::duration drawing_{};               // what a picture takes, as far as the last ones tell
+  Clock::duration drawing_{};               // the time of a picture, from the last ones
 };
 
 }  // namespace sweepscope::ui

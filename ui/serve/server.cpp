@@ -25,7 +25,7 @@ constexpr int kMaxConnections = 64;
 tl::unexpected<Error> cannot_listen(const ListenAddress& address, const std::string& why) {
   return failure(
       ExitCode::kWrongUsage,
-      fmt::format("--serve: {} cannot be listened to: {}. Another port, or 0 for a free one: --serve {}",
+      fmt::format("--serve: cannot listen on {}: {}. Use another port, or 0 for a free one: --serve {}",
                   address.text(), why, ListenAddress{address.host, 0, address.loopback}.text()));
 }
 
@@ -65,7 +65,7 @@ struct Server::Parts {
     });
   }
 
-  /// Sets the timer to what the hub has to do next, and tells the explorer's thread what it may want to know.
+  /// Sets the timer to the hub's next task, and wakes the explorer's thread if there is news for it.
   void after() {
     const auto now = Clock::now();
     has_viewers = hub.viewers() > 0;

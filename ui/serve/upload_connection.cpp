@@ -39,7 +39,7 @@ class Receiver : public std::enable_shared_from_this<Receiver> {
   void run(std::string_view id) {
     const auto size = parser_.content_length();
     if (size) upload_ = context_->hub.begin_upload(id, *size, Clock::now());
-    if (!upload_) return answer(404, "No such file is waited for.\n");
+    if (!upload_) return answer(404, "This file was not announced.\n");
     auto file = AtomicFile::create(upload_->path);
     if (!file) return fail(file.error().message);
     file_.emplace(std::move(*file));
@@ -73,7 +73,7 @@ class Receiver : public std::enable_shared_from_this<Receiver> {
         [this]() -> Result<void> {
           std::error_code ignored;
           if (std::filesystem::exists(upload_->path, ignored))
-            return failure(ExitCode::kWrongUsage, upload_->path.string() + ": is there already");
+            return failure(ExitCode::kWrongUsage, upload_->path.string() + ": already exists");
           return file_->commit();
         },
         [this] {
@@ -96,7 +96,7 @@ class Receiver : public std::enable_shared_from_this<Receiver> {
 
   void fail(std::string why) {
     why_ = std::move(why) + "\n";
-    file_.reset();  // before the page is told
+    file_.reset();  // before the page gets the answer
     answer(507, why_);
   }
 

@@ -34,8 +34,8 @@ Result<std::filesystem::path> Uploads::place_of(const UploadMessage& message) co
   const std::filesystem::path folder = roots_.folders().front(), path = folder / message.name;
   std::error_code failed;
   if (std::filesystem::exists(std::filesystem::symlink_status(path, failed)))
-    return refused(fmt::format("{} is there already. Open it with Ctrl-O.", message.name));
-  if (!roots_.can_write(path)) return refused(fmt::format("{} may not be written.", message.name));
+    return refused(fmt::format("{} already exists. Open it with Ctrl-O.", message.name));
+  if (!roots_.can_write(path)) return refused(fmt::format("{} cannot be written.", message.name));
   if (auto possible = check_writable(path); !possible) return refused(possible.error().message);
   const auto space = std::filesystem::space(folder, failed);
   if (failed) return refused(fmt::format("{}: {}", folder.string(), failed.message()));
@@ -51,8 +51,9 @@ Result<std::string> Uploads::announce(int viewer, const UploadMessage& message, 
   auto path = place_of(message);
   if (!path) return tl::unexpected(path.error());
   for (const Announced& one : announced_)
-    if (one.upload.path == *path) return refused(fmt::format("{} is on its way already.", message.name));
-  if (announced_.size() >= kMaxUploads) return refused("Two files are on their way already. Wait for them.");
+    if (one.upload.path == *path) return refused(fmt::format("{} is already being sent.", message.name));
+  if (announced_.size() >= kMaxUploads)
+    return refused("Two files are already being sent. Wait until they have arrived.");
   announced_.push_back({{random_token(), viewer, std::move(*path), message.size_bytes}, now + kUntilBegin});
   return announced_.back().upload.id;
 }

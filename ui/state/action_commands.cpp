@@ -35,7 +35,7 @@ void add_actions_of_opening(std::vector<Command>& all) {
                         "On the page: a file (TUM) with the rig's known trajectory, used instead of solving "
                         "for it. None: no file."},
                        {optional_text("FILE")}));
-  all.push_back(action({"choose-part", "Part in time",
+  all.push_back(action({"choose-part", "Time range",
                         "On the page: the part of the recording that is used, in seconds since the first "
                         "scan. Both 0: all of it."},
                        {number_of("FROM", "s", 0, 1e7, 0.1), number_of("TO", "s", 0, 1e7, 0.1)}));
@@ -61,14 +61,14 @@ void add_actions(std::vector<Command>& all) {
   all.push_back(action({"close", "Close the recording", "Back to the start page."}));
   all.push_back(action({"fit-view", "Fit the view", "Shows the whole map."}));
   all.push_back(action({"next-place", "Next place",
-                        "The close-up goes to the next place of the list; \"back\": to the one before."},
+                        "Moves the close-up to the next place of the list; \"back\": to the previous one."},
                        {{.name = "WAY", .kind = Kind::kChoice, .choices = {"back"}, .optional = true}}));
   all.push_back(
       action({"look-at-place", "Look at the place", "Moves both cameras to the close-up's place."}));
-  all.push_back(action({"play", "Play or pause",
-                        "Plays the recording: the scan of the moment is drawn in the maps. At the end it "
-                        "begins again."},
-                       {{.name = "STATE", .kind = Kind::kSwitch, .optional = true}}));
+  all.push_back(
+      action({"play", "Play or pause",
+              "Plays the recording: the current scan is drawn in the maps. At the end it starts again."},
+             {{.name = "STATE", .kind = Kind::kSwitch, .optional = true}}));
   all.push_back(action({"estimate", "Estimate the offset", "Searches for the offset in the background."}));
   all.push_back(action({"cancel", "Cancel", "Stops everything that runs in the background."}));
   all.push_back(action({"solve", "Solve the maps", "Resumes what was cancelled."}));
@@ -96,21 +96,19 @@ void add_actions(std::vector<Command>& all) {
   all.push_back(action({"export-curve", "Export the criteria", "As CSV or JSON, by the file's ending."},
                        {text_of("FILE")}));
   all.push_back(action({"export-rig", "Export the rig found",
-                        "The rig file with what was solved for beside the offset, as `estimate --rig-out` "
-                        "writes it."},
+                        "The rig file with the parts that were solved for beside the offset."},
                        {text_of("FILE")}));
-  all.push_back(action({"use-rig", "Use the rig found",
-                        "Writes the rig file as `export-rig` does, and opens the recording with it: the maps "
-                        "are drawn with that rig."},
-                       {text_of("FILE")}));
+  all.push_back(
+      action({"use-rig", "Use the rig found",
+              "Writes the rig file and opens the recording with it: the maps are drawn with that rig."},
+             {text_of("FILE")}));
   all.push_back(action({"export-report", "Export a report",
-                        "One HTML page into a folder: the offset, its evidence and the maps, as `sweepscope "
-                        "report` writes it."},
+                        "Writes one HTML page into a folder: the offset, its evidence and the maps."},
                        {text_of("FOLDER")}));
   all.push_back(action({"palette", "All commands", "A searchable list of all commands."}));
   all.push_back(action({"help", "Keys", "The list of keys."}));
   all.push_back(
-      action({"dismiss", "Close what is in front", "The palette, a dialog, a message, or the tool."}));
+      action({"dismiss", "Close the front window", "The palette, a dialog, a message, or the tool."}));
   all.push_back(action(
       {"ask", "Ask for a file", "Shows the dialog that asks for a command's file."},
       {choice_of("COMMAND", {"open", "choose", "choose-rig", "choose-poses", "save-session", "export-picture",
@@ -122,7 +120,7 @@ void add_actions(std::vector<Command>& all) {
   all.push_back(action({"menu", "Open a menu", "Shows it, for the arrow keys, Enter and Escape."},
                        {choice_of("MENU", {"file", "edit", "offset", "view", "tools", "help"})}));
   all.push_back(
-      action({"next-field", "Next field", "Types into the next number; \"back\": into the one before."},
+      action({"next-field", "Next field", "Types into the next number; \"back\": into the previous one."},
              {{.name = "WAY", .kind = Kind::kChoice, .choices = {"back"}, .optional = true}}));
   all.push_back(action({"quit", "Quit", "Ends the program."}));
 }

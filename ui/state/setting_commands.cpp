@@ -184,8 +184,7 @@ Command clipping_box() {
   const auto place = [](const char* name) { return number_of(name, "m", -1e5, 1e5, 0.1); };
   return {"box",
           "Clipping box",
-          "Only points inside this box of the map frame are shown, as by `compare --box`. All the same: all "
-          "points.",
+          "Only points inside this box of the map frame are shown. Equal corners: all points.",
           {place("X0"), place("Y0"), place("Z0"), place("X1"), place("Y1"), place("Z1")},
           [](const Settings& s) {
             const Eigen::Vector3d &a = s.box_from_m, &b = s.box_to_m;
@@ -274,12 +273,11 @@ void add_fields_of_display(std::vector<Command>& all) {
               "the motor turned in; edge and plane points; or the blur: how thick the surface is."},
              &Settings::colouring, {"elevation", "intensity", "time", "direction", "features", "blur"}));
   all.push_back(table_choice());
-  all.push_back(
-      choice({"heights", "Heights",
-              "Sharp: where an offset shows, at least 0.8 m above or below the sensor's path, without the "
-              "ceiling. All: everything. Slab: between two heights above the path."},
-             &Settings::heights, {"sharp", "all", "slab"}));
-  all.push_back(numbers({"slab", "Slab", "The range of heights above the sensor's path that is shown."},
+  all.push_back(choice({"heights", "Heights",
+                        "Where blur shows: at least 0.8 m above or below the sensor's path, without the "
+                        "ceiling. All: everything. Slab: between two heights above the path."},
+                       &Settings::heights, {"sharp", "all", "slab"}));
+  all.push_back(numbers({"slab", "Slab", "The visible range of heights above the sensor's path."},
                         &Settings::slab_from_m, &Settings::slab_to_m, number_of("FROM", "m", -50, 50, 0.1),
                         number_of("TO", "m", -50, 50, 0.1)));
   all.push_back(number({"point-size", "Point size", "In pixels, before the display's scale."},
@@ -294,18 +292,15 @@ void add_fields_of_display(std::vector<Command>& all) {
                "Only beams of this part of the recording, in seconds since the first scan. Both 0: all."},
               &Settings::time_from_s, &Settings::time_to_s, number_of("FROM", "s", 0, 1e6, 0.5),
               number_of("TO", "s", 0, 1e6, 0.5)));
-  all.push_back(
-      numbers({"colour-range", "Colour range",
-               "The values at the ends of the colour table, as `compare --colour-range` takes them. "
-               "Both the same: found from the maps."},
-              &Settings::colour_from, &Settings::colour_to, number_of("FROM", "", -1e6, 1e6, 0.1),
-              number_of("TO", "", -1e6, 1e6, 0.1)));
+  all.push_back(numbers({"colour-range", "Colour range",
+                         "The values at the ends of the colour table. Equal values: found from the maps."},
+                        &Settings::colour_from, &Settings::colour_to, number_of("FROM", "", -1e6, 1e6, 0.1),
+                        number_of("TO", "", -1e6, 1e6, 0.1)));
   all.push_back(clipping_box());
-  all.push_back(
-      number({"time", "Time",
-              "The moment that is played, in seconds since the first scan: its scan is drawn in the "
-              "maps. Below 0: none."},
-             &Settings::time_s, number_of("TIME", "s", -1, 1e7, 0.1)));
+  all.push_back(number({"time", "Time",
+                        "The time of playback, in seconds since the first scan: its scan is drawn in the "
+                        "maps. Below 0: none."},
+                       &Settings::time_s, number_of("TIME", "s", -1, 1e7, 0.1)));
   all.push_back(number({"play-speed", "Speed", "Seconds of the recording that are played in one second."},
                        &Settings::play_speed, number_of("SPEED", "×", 0.05, 50, 0.05)));
   all.push_back(choice({"theme", "Theme", "Dark for the screen, light for paper and bright rooms."},
@@ -394,12 +389,12 @@ void add_fields_of_estimates(std::vector<Command>& all) {
       {"method", "Method",
        "Stationary: the offset at which odometry registers the least motion d (equation 3). Moving: the "
        "offset at which the map is sharpest, by matches n and their distance e (equations 6 and 7). Direct: "
-       "the offset as an unknown of a least squares. Automatic: direct."},
+       "the offset as an unknown of a least-squares fit. Automatic: direct."},
       &Settings::method));
   all.push_back(estimate_choice(
       {"fit", "Fit",
-       "None: the best candidate. Parabola: the extremum of a parabola through n within 3 ms of it, or "
-       "through the squares of d or e within 1 ms; farther where candidates are sparse."},
+       "None: the best candidate. Parabola: the extremum of a parabola through n within 3 units of it, or "
+       "through the squares of d or e within 1 unit. A unit is 1 ms, and more for slow motors."},
       &Settings::fit));
 }
 
@@ -419,15 +414,14 @@ void add_edits(std::vector<Command>& all) {
   all.push_back(edit({"look", "Look from", "Turns the cameras."},
                      {choice_of("FROM", {"front", "right", "top", "isometric"})},
                      [](Settings& s, const Values& v) { look(s, std::get<std::string>(v[0])); }));
-  all.push_back(edit(
-      {"box-here", "Clip to the view", "Sets the clipping box to the middle of what the cameras look at."},
-      {}, [](Settings& s, const Values&) {
-        const double reach_m = std::max(0.1, std::round(4 * s.camera_a.height_m) / 10);
-        const auto tenths = [](double metres) { return std::round(metres * 10) / 10; };
-        const Eigen::Vector3d middle_m = s.camera_a.centre_m.unaryExpr(tenths);
-        s.box_from_m = middle_m.array() - reach_m;
-        s.box_to_m = middle_m.array() + reach_m;
-      }));
+  all.push_back(edit({"box-here", "Clip to the view", "Sets the clipping box to the middle of the view."}, {},
+                     [](Settings& s, const Values&) {
+                       const double reach_m = std::max(0.1, std::round(4 * s.camera_a.height_m) / 10);
+                       const auto tenths = [](double metres) { return std::round(metres * 10) / 10; };
+                       const Eigen::Vector3d middle_m = s.camera_a.centre_m.unaryExpr(tenths);
+                       s.box_from_m = middle_m.array() - reach_m;
+                       s.box_to_m = middle_m.array() + reach_m;
+                     }));
   all.push_back(edit({"zoom", "Zoom", "By a factor; above 1 zooms in."},
                      {number_of("FACTOR", "", 0.01, 100, 1.25)}, [](Settings& s, const Values& v) {
                        for_both_cameras(s, [&](ViewPoint& view) {

@@ -19,7 +19,7 @@ std::string listed(const std::vector<std::string>& choices) {
 
 Result<Value> refuse(const Parameter& parameter, std::string_view word) {
   return failure(ExitCode::kWrongUsage,
-                 fmt::format("{} is {}, and not \"{}\"", parameter.name, describe(parameter), word));
+                 fmt::format("{} must be {}, not \"{}\"", parameter.name, describe(parameter), word));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-"""What goes wrong, as exceptions. Wrong usage is a ValueError or, for a keyword that does not exist, a TypeError."""
+"""Errors as exceptions. Wrong usage is a ValueError or, for a keyword that does not exist, a TypeError."""
 
 
 class Error(Exception):

@@ -1,4 +1,4 @@
-"""What is said where a library that the engine loads is not installed."""
+"""The message if a library that the engine loads is not installed."""
 
 PACKAGES = ""  # of Debian, with the libraries that the engine loads; a wheel names those of the machine that made it
 

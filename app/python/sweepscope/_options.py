@@ -48,7 +48,7 @@ def _texts_of(option, value):
 
 
 def texts(function, options, given):
-    """The words of options and their texts, as on the command line. None is as if it were not given."""
+    """The words of options and their texts, as on the command line. None: not given."""
     return [
         (option["name"], text)
         for option, value in known(function, options, given)

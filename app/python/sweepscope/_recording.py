@@ -38,7 +38,7 @@ def _opened(recording, progress=None):
 
 
 def info(recording, *, progress=None):
-    """What the recording holds and the accuracy to expect, with the keys of `sweepscope info --json`."""
+    """The recording's streams and the expected accuracy, with the keys of `sweepscope info --json`."""
     return json.loads(_engine.info(_opened(recording, progress), _call(0, progress)))
 
 
@@ -63,7 +63,7 @@ def estimate(recording, *, assume=None, poses=None, trust_poses=False, threads=0
 
 
 def curve(recording, **options):
-    """The criteria over the offset as NumPy arrays: a Curve. Of an Estimate, or of one made with these options."""
+    """The criteria over the offset as NumPy arrays: a Curve, from an Estimate or from one made with these options."""
     if not isinstance(recording, Estimate):
         recording = estimate(recording, **options)
     elif options:
@@ -99,7 +99,7 @@ def map(
 
 
 def _curve_below(estimate):
-    """The engine's estimate of an Estimate or a file; None for True and False, which say whether one is made."""
+    """The engine's estimate of an Estimate or a file; None for True and False, which say whether to make one."""
     if estimate is None or isinstance(estimate, bool):
         return None
     return estimate._engine if isinstance(estimate, Estimate) else _engine.read_estimate(estimate)
@@ -152,7 +152,7 @@ def _pictures(files):
 
 
 def figures(recipe, output=None, *, threads=0, progress=None):
-    """Makes the figures of a recipe: the name of each to a Picture.
+    """Makes the figures of a recipe: a dict from the name of each to a Picture.
 
     recipe: a YAML file such as assets/figures/quick.yaml, or the same as a dict; a dict's files are relative to the
         current folder.
@@ -172,7 +172,7 @@ def simulate(scene, output, *, threads=0, progress=None, **options):
     """Simulates a recording whose offset is known, as a ROS 1 bag, with OUT.truth.json and OUT.truth.tum beside it.
 
     scene: one of sweepscope.scenes(), or None with mesh. output: the .bag file.
-    Gives the truth: offset_ms, and what else OUT.truth.json holds. Units are in the names of the options:"""
+    Gives the truth: offset_ms, and the other keys of OUT.truth.json. Units are in the names of the options:"""
     given = {
         option["name"]: _simulation_value(option, value)
         for option, value in _options.known("simulate", _SIMULATION, options)
@@ -181,7 +181,7 @@ def simulate(scene, output, *, threads=0, progress=None, **options):
 
 
 def _simulation_value(option, value):
-    """Three numbers are text for the engine; all else is as it is."""
+    """Three numbers become text for the engine; other values are unchanged."""
     is_triple = isinstance(option["default"], str) and not isinstance(value, (str, os.PathLike))
     return ",".join(repr(float(number)) for number in value) if is_triple else value
 
@@ -192,7 +192,7 @@ def scenes():
 
 
 def _estimate_to_apply(estimate):
-    """The name of an estimate's file ("" where there is none) and its JSON."""
+    """The name of an estimate's file ("" if there is none) and its JSON."""
     if estimate is None:
         return None
     if isinstance(estimate, Estimate):
@@ -201,7 +201,7 @@ def _estimate_to_apply(estimate):
 
 
 def _check_apply(output, estimate, offset_ms, shift, clouds, tf, clouds_only, clouds_format, poses):
-    """What contradicts itself, whatever the files hold."""
+    """Contradictions among the arguments, whatever the files hold."""
     if (estimate is None) == (offset_ms is None):
         raise ValueError("apply needs the offset: one of estimate and offset_ms")
     if output is None and clouds_only is None:
@@ -289,8 +289,7 @@ class Recording:
     path, name: of the file. scans: their number. warnings: of reading, whole sentences.
     motor_time_s, motor_angle_rad: the motor's track, on the motor's clock.
     scan_time_s: when each scan's first beam was fired, on the laser's clock. ranges_m: of all beams, one scan after the
-    other, in metres; NaN without a return. They are NumPy arrays that look into the recording: no copies, and not to be
-    written to.
+    other, in metres; NaN without a return. They are NumPy arrays: read-only views of the recording, without copies.
     """
 
     def __init__(self, engine):

@@ -1,4 +1,4 @@
-"""What the functions of sweepscope give back."""
+"""The results of the functions of sweepscope."""
 
 import json
 import os
@@ -51,14 +51,14 @@ class Estimate(Mapping):
 
 
 class Curve(dict):
-    """The criteria over the offset: the name of each to a NumPy array, NaN where a value is absent.
+    """The criteria over the offset: a NumPy array for each name, NaN where a value is absent.
 
     offset_ms: the candidates, ascending, in milliseconds.
     d, translation_m, rotation_rad, signed_rotation_rad: of a stationary rig, means over the pairs of sweeps.
     n, e_m: of a moving rig, the number of matches and their mean distance in metres.
     capped_cost_m: of the coarse search and the direct method, in metres.
 
-    The arrays look into the engine's memory and cannot be written to; copy() gives one that can.
+    The arrays are views of the engine's memory and read-only; use copy() to write.
     """
 
     def __getattr__(self, name):
@@ -69,9 +69,9 @@ class Curve(dict):
 
 
 class Map:
-    """The map at an offset, as NumPy arrays that look into the engine's memory: no copies, and not to be written to.
+    """The map at an offset, as NumPy arrays that are read-only views of the engine's memory.
 
-    The map frame is the base frame at the first sweep's begin. Times are seconds on the laser's clock since epoch_ns.
+    The map frame is the base frame at the beginning of the first sweep. Times are seconds on the laser's clock since epoch_ns.
 
     offset_ms: t_motor = t_laser + offset, in milliseconds.
     xyz_m: (points, 3) float32, in metres, in the map frame.

@@ -47,7 +47,7 @@ class RigReader {
 MapCloud every_nth(const MapCloud& cloud) {
   const std::size_t stride = 1 + (cloud.size() - 1) / kSearchPoints;
   MapCloud part;
-  // Whole runs of beams in turn would leave out scan lines; single beams thin all alike.
+  // Leaving out whole runs of beams would leave out scan lines; single beams thin all lines equally.
   for (std::size_t i = 0; i < cloud.size(); i += stride) part.points.push_back(cloud.points[i]);
   part.width = static_cast<std::uint32_t>(part.points.size());
   part.height = 1;
@@ -223,7 +223,7 @@ struct Measured {
   double score = 0;
 };
 
-// The section laid on its face, with the widths of all maps; none where any cannot be told.
+// The section fitted to its face, with the widths of all maps; none if one is not determined.
 std::optional<Measured> measured(const SectionCandidate& candidate, std::size_t sharpest,
                                  const std::vector<SectionPoints>& per_map, const RigReader& rig,
                                  const SectionSearch& search) {

@@ -349,9 +349,9 @@ bool SurfaceColumn::is_flat(double within_m) const {
          within_m <= std::hypot(kMaxNoise * options_.range_noise_m, kMaxTilt_rad * radius_m);
 }
 
-// The width at half height. What sweeps by themselves deviate more than the noise is a slight bend, or the
-// tilt of their layers, and is taken out. Around the outermost layers, of a surface thicker than its noise,
-// half the height is farther out than the quantile.
+// The width at half height. The deviation within sweeps beyond the noise is a slight bend, or the tilt of
+// their layers, and is subtracted. Around the outermost layers, of a surface thicker than its noise, half the
+// height is farther out than the quantile.
 double SurfaceColumn::thickness_m(double within_m) {
   constexpr double kWidthPerDeviation = 2.355, kBeyondQuantiles = 0.943;  // of two layers, in deviations
   const double width = width_m(), noise_m = options_.range_noise_m;

@@ -32,7 +32,7 @@ struct Work {
   bool is_open(std::uint32_t i) const { return open[i] != 0; }
 };
 
-// What the points tell of their sweeps.
+// What the points contain about their sweeps.
 ColumnOptions column_options(const MapCloud& cloud, const ThicknessOptions& options) {
   ColumnOptions columns;
   bool odd = false, even = false;

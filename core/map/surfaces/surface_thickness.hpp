@@ -62,10 +62,10 @@ struct SurfaceThickness {
 /// one holds an edge. Its normal comes from the spread of points within single sweeps: a sweep's points lie
 /// on their surface whatever the offset. Across the disc all layers within reach_m count that sweeps of
 /// opposite directions, one soon after the other, put the same surface on; surfaces that sweeps of both
-/// directions saw at one place, such as the two sides of a thin wall, are told apart. What is not flat within
-/// single sweeps, compared with the range noise of the whole map, is an edge. A map whose points do not say
-/// which sweep they are of has one thickness for all points across a disc, and no edges. See section 17 of
-/// docs/algorithms.md.
+/// directions measured at one place, such as the two sides of a thin wall, are distinguished. What is not
+/// flat within single sweeps, compared with the range noise of the whole map, is an edge. A map whose points
+/// do not say which sweep they are of has one thickness for all points across a disc, and no edges. See
+/// section 17 of docs/algorithms.md.
 ///
 /// In parallel, the same result for any number of threads. If `job` is cancelled the result is unfinished.
 SurfaceThickness surface_thickness(const MapCloud& cloud, const ThicknessOptions& options = {},

@@ -31,8 +31,8 @@ void compare_criteria(Answer& answer, double n_offset_s, double e_offset_s, cons
     answer.warnings.push_back(refused.text);
 }
 
-// A wrong offset must turn the sweeps against each other by twice the motor's speed times the error. Where
-// it does not, nothing in the scene tells the motor's angle.
+// A wrong offset must turn the sweeps against each other by twice the motor's speed times the error. If
+// it does not, the scene does not constrain the motor's angle.
 MaybeRefusal rotation_refusal(const std::vector<CurvePoint>& curve, double speed_rad_s) {
   double sx = 0, sy = 0, sxx = 0, sxy = 0, n = 0;
   for (const CurvePoint& point : curve) {
@@ -67,8 +67,8 @@ double step_about(const std::vector<CurvePoint>& curve, double offset_s, double 
   return min_s;
 }
 
-// What each pair of sweeps says by itself scatters. Neighbouring pairs share a sweep, so the mean's
-// variance is twice that of as many independent ones; the least of a grid of candidates adds its step's.
+// The scatter of the single pairs of sweeps. Neighbouring pairs share a sweep, so the mean's variance is
+// twice that of as many independent ones; the best of a grid of candidates adds the variance of its step.
 std::optional<double> sigma_of_pairs(const OffsetSearch& search, const SharedByCandidates& shared,
                                      double offset_s, double step_s) {
   std::vector<double> errors_s;
@@ -84,9 +84,9 @@ std::optional<double> sigma_of_pairs(const OffsetSearch& search, const SharedByC
                     step_s / std::sqrt(12.0));
 }
 
-// How far the answer lies from that of the direct least squares, and how far that one may be off. The
-// scatter of the pairs alone knows nothing of what pulls them all alike, such as lines of both directions
-// that see the same angles.
+// The distance of the answer from that of the direct method, and the uncertainty of that one. The scatter of
+// the pairs does not contain errors that all pairs share, such as those of lines of both directions at the
+// same angles.
 Certainty of_stationary(const OffsetSearch& search, const SharedByCandidates& shared, double offset_s,
                         double step_s, const Job& job) {
   const std::optional<double> of_pairs_s = sigma_of_pairs(search, shared, offset_s, step_s);

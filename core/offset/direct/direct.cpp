@@ -100,7 +100,7 @@ Remark sectors_warning(const StationaryDirect& found) {
   const auto [min, max] = std::ranges::minmax_element(sectors, {}, &SectorOffset::offset_s);
   if (min == max) return std::nullopt;
   return fmt::format(
-      "The offset that fits depends on the motor's angle: {:.1f} ms at {:.0f} deg, {:.1f} ms at {:.0f} deg. A "
+      "The best offset depends on the motor's angle: {:.1f} ms at {:.0f} deg, {:.1f} ms at {:.0f} deg. A "
       "loose gear or mount can cause this.",
       min->offset_s * 1e3, min->angle_rad * kDegPerRad, max->offset_s * 1e3, max->angle_rad * kDegPerRad);
 }
@@ -231,8 +231,8 @@ Answer of_walk(const OffsetSearch& search, const MappingOptions& mapping,
   if (source && walk.time_shift)
     answer.motion = source->used(walk.time_shift);
   else if (source && mapping.given)
-    answer.warnings.push_back(
-        fmt::format("{} is not used: the rig deviates from it less smoothly than it moves.", source->name));
+    answer.warnings.push_back(fmt::format(
+        "{} is not used: the rig's deviation from it is less smooth than its motion.", source->name));
   answer.curve = united(std::move(answer.curve), solved->curve);
   const double e_m = solved->curve[1].e_m.value_or(0);
   answer.fit =
@@ -261,7 +261,7 @@ Answer of_walk(const OffsetSearch& search, const MappingOptions& mapping,
       {"sway", walk.sway_sigma_s},
       {"encoder", encoder_s}};
   answer.rig_effects = rig_effects(problem.motor);
-  // Parts that determine nothing scatter as if the clocks drifted apart, and their mean is not where the map
+  // Parts without information scatter as if the clocks drifted apart, and their mean is not where the map
   // is sharpest.
   if (is_known) add(answer.refusals, sharpest_refusal(solved->curve));
   const auto drift = is_known ? drift_of(walk) : std::nullopt;
@@ -304,7 +304,7 @@ Result<Answer> answer_directly(const OffsetSearch& search, const Job& job) {
     return answer;
   }
   add(answer.refusals, beam_times_refusal(recording, search.scale));
-  // A walk blurs the valley of the coarse search: only the least squares tells whether there is one.
+  // A walk blurs the valley of the coarse search: only the fit decides whether there is one.
   if (!search.as_moving()) {
     add(answer.refusals, edge_refusal(coarse.curve, *coarse.best));
     const MaybeRefusal flat = flat_refusal(coarse.curve, *coarse.best);

@@ -42,8 +42,8 @@ MaybeRefusal lines_refusal(double distinct_lines);
 MaybeRefusal edge_refusal(const std::vector<CurvePoint>& coarse, std::size_t best);
 MaybeRefusal rival_refusal(const std::vector<CurvePoint>& coarse, std::size_t best, const SearchScale& scale);
 MaybeRefusal flat_refusal(const std::vector<CurvePoint>& coarse, std::size_t best);
-/// The lines of a 3D scanner do not come back to where they were, as those of Livox's patterns do not: beams
-/// of one number point elsewhere in each. The direct method compares them where a rig stood still.
+/// The lines of a 3D scanner do not repeat, as with Livox's patterns: beams of one number point elsewhere in
+/// each. For a stationary rig the direct method compares them.
 MaybeRefusal unrepeated_lines_refusal(const Recording& recording);
 
 /// The scene's surfaces hardly move when the motor's angle is turned: n . (a x p) is small against |a x p|.

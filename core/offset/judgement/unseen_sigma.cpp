@@ -42,8 +42,8 @@ double samples_per_sweep(const MotorTrack& track, const MotorMotion& motor) {
 }
 
 double encoder_step_sigma_s(const MotorTrack& track, const MotorMotion& motor) {
-  // Steps and samples beat: neighbouring samples err alike, and the next sweeps repeat them, those of both
-  // directions. Found by simulation.
+  // Steps and samples beat: neighbouring samples have the same error, and the next sweeps of both directions
+  // repeat it. Found by simulation.
   constexpr double kMaxIndependent = 32;
   constexpr double kSame_rad = 1e-7;  // rounding: no encoder has 26 bits
   std::vector<double> angles_rad = track.angle_rad;

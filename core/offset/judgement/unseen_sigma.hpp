@@ -22,7 +22,7 @@ double scans_a_sweep(const Recording& recording, const MotorMotion& motor);
 /// corners of the reversals.
 double encoder_step_sigma_s(const MotorTrack& track, const MotorMotion& motor);
 double encoder_sampling_sigma_s(const MotorTrack& track, const MotorMotion& motor);
-/// The uncertainty from surfaces seen by few lines: sweeps that see the same lines have the same error.
+/// The uncertainty from surfaces measured by few lines: sweeps with the same lines have the same error.
 double lines_sigma_s(const MotorMotion& motor, double distinct_lines);
 /// The minimum uncertainty from scattered stamps, also if there are too few sweeps to show it: the spacings
 /// of the scans show the error of each.
@@ -37,9 +37,10 @@ double unseen_sigma_s(const Recording& recording, const MotorMotion& motor, doub
 /// Sweeps of walks that are shorter than this leave no less in doubt.
 inline constexpr double kShortSweep_s = 0.5;
 /// The error of a part of a walk beside its own sigma, from how the parts of the walks of tuning/ in
-/// tests/benchmark/walks scatter. Where all its sweeps see the same few angles, a path that is bent alike
-/// in each of them fits nearly as well as the true one. The longer a sweep, the more a path may bend within
-/// it: walks of tests/benchmark/random_walks err like the power 3.5 of a sweep's duration beyond 0.5 s.
+/// tests/benchmark/walks scatter. If all its sweeps measure at the same few angles, a path that is bent in
+/// the same way in each of them fits nearly as well as the true one. A path may bend more within a longer
+/// sweep: the errors of walks of tests/benchmark/random_walks grow with the power 3.5 of a sweep's duration
+/// beyond 0.5 s.
 double unseen_of_part_s(const Recording& recording, const MotorMotion& motor, std::size_t sweeps);
 /// What sweeps of kShortSweep_s would leave, where these leave `unseen_s`.
 double unseen_of_short_sweeps_s(const Recording& recording, const MotorMotion& motor, double unseen_s);
@@ -48,7 +49,8 @@ std::size_t sweeps_of_part(const MotorMotion& motor);
 /// Whether the scanner has several rings, as 3D scanners do: each of their turns sees surfaces again,
 /// independent of the motor.
 bool has_rings(const Recording& recording);
-/// Whether a sweep takes so nearly a whole number of scans that so many sweeps all see the same angles.
+/// Whether a sweep lasts a whole number of scans so exactly that all of this many sweeps measure at the same
+/// angles.
 bool sees_same_angles(const Recording& recording, const MotorMotion& motor, std::size_t sweeps);
 
 }  // namespace sweepscope

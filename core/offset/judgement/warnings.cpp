@@ -13,8 +13,8 @@ namespace sweepscope {
 Remark aliased_warning(const Recording& recording, const MotorMotion& motor) {
   if (!sees_same_angles(recording, motor, motor.sweeps.size())) return std::nullopt;
   return fmt::format(
-      "A sweep takes {:.0f} scans almost exactly: every sweep sees the same angles, so few surfaces are seen "
-      "twice.",
+      "A sweep lasts almost exactly {:.0f} scans: every sweep measures at the same angles, and few surfaces "
+      "are measured twice. A slightly slower or faster motor gives a better answer.",
       std::round(scans_a_sweep(recording, motor)));
 }
 

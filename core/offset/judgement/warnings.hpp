@@ -15,7 +15,7 @@ namespace sweepscope {
 /// report.
 using Remark = std::optional<std::string>;
 
-/// All sweeps see the same angles: few surfaces are seen twice.
+/// All sweeps measure at the same angles: few surfaces are measured twice.
 Remark aliased_warning(const Recording& recording, const MotorMotion& motor);
 /// The encoder's samples are uneven in time.
 Remark encoder_warning(const MotorTrack& track);

@@ -9,8 +9,8 @@
 
 namespace sweepscope {
 
-/// Whether the rig was stationary. A wrong offset turns all sweeps of one direction alike, so for a
-/// stationary rig sweeps of the same direction coincide at any offset.
+/// Whether the rig was stationary. A wrong offset turns all sweeps of one direction by the same angle, so for
+/// a stationary rig sweeps of the same direction coincide at any offset.
 struct MotionTest {
   std::size_t pairs = 0;  // compared, k and k + 2; 0: the recording has no two whole sweeps of one direction
   std::size_t moved = 0;  // of these

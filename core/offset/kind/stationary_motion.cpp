@@ -129,7 +129,7 @@ std::vector<SweepPair> far_pairs(const std::vector<std::size_t>& whole) {
   return chosen;
 }
 
-// The same of a motor that turns one way, of each side by itself.
+// The same for a motor that turns one way, for each side separately.
 std::vector<SweepPair> far_pairs_of_sides(const MotorMotion& motor, const std::vector<std::size_t>& whole) {
   if (!motor.one_way()) return far_pairs(whole);
   std::vector<SweepPair> chosen;

@@ -53,8 +53,8 @@ std::vector<PointOnPlane> matched_both_ways(const StationaryPoints& points, cons
   return matches;
 }
 
-// Gauss-Newton under a Cauchy loss that narrows down to `width_m`: the wider it is at first, the farther off
-// a pose is found, and the more whatever moves by itself pulls at it.
+// Gauss-Newton under a Cauchy loss that narrows down to `width_m`: a wider loss at the beginning finds poses
+// that are farther off, and is biased more by things that move.
 struct Registering {
   double first_width_m = 0, width_m = 0;
   double min_eigenvalue = 0;  // of the normal matrix, per match: below, the scene does not determine it
@@ -126,7 +126,7 @@ std::optional<SweepShift> shift_between(const StationaryPoints& points, const Li
   const Pose rest = at_rest(matches, grid.problem->recording->rig.mount.axis.normalized(), width_m);
   const double held_at_rest = matches_held(matches, rest, width_m);
   // From afar a person who walked between the sweeps may be followed; from near by, a walk may be missed. The
-  // search from near by may also go where few matches tell: the evidence says whether they do.
+  // search from near by may also end where there are few matches: the evidence decides.
   const Pose far = registered(matches, rest, {0.5, width_m, 0.015});
   const Pose near = registered(matches, rest, {0.05, width_m, 0.003});
   shift.far_translation_m = far.translation_m;

@@ -188,7 +188,7 @@ Fitted with_best_jump(const Series& series, const Model& model) {
 
 // Moves each jump to its best place given the others, until none moves.
 Fitted settled(const Series& series, Fitted fit) {
-  constexpr int kMaxRounds = 5;  // against jumps that swap places for ever
+  constexpr int kMaxRounds = 5;  // against jumps that swap places without end
   bool moved = true;
   for (int round = 0; moved && round < kMaxRounds; ++round) {
     moved = false;

@@ -140,7 +140,7 @@ std::optional<ExtremumFit> fit_of_extremum(const std::vector<CurvePoint>& curve,
     const CurvePoint& point = curve[first + std::size_t(i)];
     const double x = (point.offset_s - centre_s) / reach_s;
     const double scaled = *(point.*value) / scale;
-    // All distances err alike, so their squares err as they are large.
+    // All distances have the same error, so the error of a square is proportional to the distance.
     const double weight = of_squares ? 1 / std::max(1.0, scaled) : 1;
     powers.row(i) << weight, weight * x, weight * x * x;
     values[i] = weight * (of_squares ? scaled * scaled : scaled);

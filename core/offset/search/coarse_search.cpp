@@ -25,7 +25,7 @@ struct CoarseSum {
 };
 
 // Differences between a line's ranges and another sweep's at the same motor angle and beam. On a plane
-// 1 / r goes as A cos(angle) + B sin(angle), which two lines tell.
+// 1 / r is A cos(angle) + B sin(angle), which two lines determine.
 void add_differences(const StationaryGrid& grid, const StationaryPoints& points, std::size_t line,
                      const LinePool& pool, const StationaryPatchOptions& patches, CoarseSum& total) {
   StationaryNeighbours neighbours(points, pool, line, patches);

@@ -243,8 +243,8 @@ std::vector<WithoutPart> offsets_without(const Linearisation& at, const std::vec
   return without;
 }
 
-// The step that some lines ask for by themselves, and their information: iterated, since lines that ask for
-// another offset than the rest lie in the tails of the loss.
+// The step of some lines alone, and their information: iterated, since lines whose own offset differs from
+// that of the rest lie in the tails of the loss.
 std::pair<double, double> own_step(const std::vector<const LineResiduals*>& lines, double loss_width_m) {
   constexpr int kMaxIterations = 20;
   constexpr double kTolerance_s = 1e-5;
@@ -285,7 +285,7 @@ bool sectors_differ(const StationaryDirect& found, const StationaryGrid& grid) {
          samples_per_sweep(grid.problem->recording->motor, motor) >= kMinSamples;
 }
 
-// What each sector of the motor's angle asks for by itself. A point lies beside its patch in angle, so the
+// The offset of each sector of the motor's angle alone. A point lies beside its patch in angle, so the
 // sectors share no matches.
 void fill_sectors(const StationaryGrid& grid, const StationaryPoints& points,
                   const std::vector<LineResiduals>& lines, double loss_width_m, StationaryDirect& result) {
@@ -310,10 +310,10 @@ void fill_sectors(const StationaryGrid& grid, const StationaryPoints& points,
   result.depends_on_angle = sectors_differ(result, grid);
 }
 
-// What each block of at least two sweeps asks for by itself.
+// The offset of each block of at least two sweeps alone.
 void fill_blocks(const Linearisation& at, const StationaryGrid& grid, double loss_width_m,
                  StationaryDirect& result) {
-  constexpr std::size_t kMaxBlocks = 10;  // a trend over time needs no more, and each wants several sweeps
+  constexpr std::size_t kMaxBlocks = 10;  // a trend over time needs no more, and each requires several sweeps
   const Blocks sweeps = blocks_of_sweeps(at.points(), std::size_t(-1));
   const Blocks blocks =
       blocks_of_sweeps(at.points(), std::clamp<std::size_t>(sweeps.count / 2, 1, kMaxBlocks));

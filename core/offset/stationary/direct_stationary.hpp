@@ -42,7 +42,7 @@ struct PatchDistance {
 PatchDistance distance_to_patch(const StationaryPatch& patch, const Eigen::Vector3d& p_m, double speed_rad_s,
                                 const Eigen::Vector3d& motor_axis);
 
-/// The offset that the scan lines of a sector of the motor's angle ask for by themselves.
+/// The offset of the scan lines of a sector of the motor's angle alone.
 struct SectorOffset {
   double angle_rad = 0;  // of the sector's middle line
   double offset_s = 0;
@@ -70,7 +70,7 @@ struct StationaryDirect {
   std::vector<SectorOffset> sectors;      // of the motor's angle, ascending
   bool depends_on_angle = false;          // the sectors' offsets differ clearly
   std::vector<double> block_s,
-      block_offset_s;  // blocks of sweeps: middle and the offset each asks for by itself
+      block_offset_s;  // blocks of sweeps: middle and own offset
 };
 
 StationaryDirect solve_stationary(const StationaryGrid& grid, double first_offset_s,

@@ -203,8 +203,8 @@ StationaryPatch StationaryNeighbours::patch(double angle_rad, std::size_t bin, d
   StationaryPatch patch;
   const auto [below, above] = collect_around(angle_rad, bin);
   if (below.lines == 0 || above.lines == 0 || below.lines + above.lines < 3 || count_ < 6) return patch;
-  // The sides weigh so that the patch's centre comes to lie at the point's own motor angle: off it, the noise
-  // of the normal would enter residual and lever alike and pull the offset.
+  // The sides weigh so that the patch's centre comes to lie at the point's own motor angle: otherwise the
+  // noise of the normal would enter both residual and lever and bias the offset.
   const double down_rad = below.away_rad / below.points, up_rad = above.away_rad / above.points;
   const double both_rad = std::max(1e-9, down_rad + up_rad);
   const double weight_below = up_rad / both_rad / below.points,

@@ -80,7 +80,7 @@ struct StationaryPatch {
 /// Goes through a line's cells in order and finds each one's neighbours among the lines of a pool.
 class StationaryNeighbours {
  public:
-  static constexpr int kMaxLinesPerSide = 4;  // options that ask for more get these
+  static constexpr int kMaxLinesPerSide = 4;  // options for more get these
 
   /// Of a scanner with rings only the lines of the given line's own ring: their bins lie beside each other.
   StationaryNeighbours(const StationaryPoints& points, const LinePool& pool, std::size_t line,

@@ -59,8 +59,8 @@ void summarise(JointWalk& walk) {
   walk.reach_m = std::sqrt(reach_m2 / double(walk.matches));
   walk.sigma_s = std::sqrt(1 / weights);
   // What the parts' own sigma leaves out (surfaces that are not flat, matches that are wrong) shows in how
-  // they scatter. A few parts tell that badly: what was seen on the walks of tests/benchmark/walks counts as
-  // kPriorParts more.
+  // they scatter. A few parts are a poor sample of it: the scatter on the walks of tests/benchmark/walks
+  // counts as kPriorParts more.
   constexpr double kPriorParts = 4, kPriorScatter2 = 1.1;
   double scatter2 = kPriorParts * kPriorScatter2;
   for (const JointWalkPart& part : walk.parts)

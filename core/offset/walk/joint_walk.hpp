@@ -13,13 +13,14 @@
 
 namespace sweepscope {
 
-/// The offset of a walk and the walk itself as the unknowns of one least squares. Every point is held against
-/// surfaces that sweeps of the other direction saw, and both sides move: the walk, a cubic B-spline whose
-/// acceleration changes little, and the motor's angle under both. A wrong offset turns the two directions
-/// against each other along the whole sweep, independent of the walk; a body that sways in step with the
-/// motor does so only between the reversals, where the walk cannot jump. The walk is cut into parts that are
-/// solved each by itself, with a map of its own: cost and memory grow with the length only, and the scatter
-/// of the parts gives the uncertainty of their mean. Tuned on the walks of tuning/ in tests/benchmark/walks.
+/// The offset of a walk and the walk itself as the unknowns of one least-squares problem. Every point is
+/// matched to surfaces that sweeps of the other direction measured, and both sides move: the walk, a cubic
+/// B-spline whose acceleration changes little, and the motor's angle under both. A wrong offset turns the two
+/// directions against each other along the whole sweep, independent of the walk; a body that sways in step
+/// with the motor does so only between the reversals, where the walk cannot jump. The walk is cut into parts
+/// that are solved separately, each with its own map: cost and memory are proportional to the length, and the
+/// scatter of the parts gives the uncertainty of their mean. Tuned on the walks of tuning/ in
+/// tests/benchmark/walks.
 struct JointWalkOptions {
   MappingOptions mapping;  // how the maps are searched
   double part_s = 10;      // about how long a part is
@@ -37,7 +38,7 @@ struct JointWalkOptions {
   // Every iteration matches again, and other matches give another answer: the mean of several is more
   // accurate.
   int first_iterations = 3, averaged_iterations = 6;
-  // Where the first iterations lead further away, the others are not run: the walk is to be tracked anew.
+  // If the first iterations lead further away, the others are not run: the walk must be tracked again.
   double far_s = std::numeric_limits<double>::infinity();
   std::size_t min_matches = 200;  // of a part; in a furnished place it has some thousands
 };

@@ -101,16 +101,16 @@ Result<AlignedMotion> align_motion(const OffsetProblem& problem, double offset_s
   AlignedMotion aligned;
   if (!*shift && !overlaps) return tl::unexpected(no_overlap(*problem.recording, source));
   if (!*shift && !source.motion.is_truth()) {
-    aligned.warnings.push_back(
-        fmt::format("{} is not used: its time shift is not clear from how the rig turned.", source.name));
+    aligned.warnings.push_back(fmt::format(
+        "{} is not used: its time shift cannot be determined from the rig's rotation.", source.name));
     return aligned;
   }
   if (*shift)
     aligned.shift = **shift;
   else
-    aligned.warnings.push_back(
-        fmt::format("The time shift of {} is not clear from how the rig turned; it is assumed to be near 0.",
-                    source.name));
+    aligned.warnings.push_back(fmt::format(
+        "The time shift of {} cannot be determined from the rig's rotation; it is assumed to be near 0.",
+        source.name));
   aligned.motion = std::make_shared<const GivenMotion>(
       source.motion.with_time_shift(aligned.shift ? aligned.shift->time_s : 0));
   return aligned;

@@ -46,8 +46,8 @@ struct ByScan {
 };
 
 /// The matches, and their normal equations for the steps of all scans' poses and of the offset. Points of one
-/// scan depend on the walk's knots alike: summed up by scans first, a match costs a tenth of what it would
-/// knot by knot.
+/// scan depend on the walk's knots in the same way: with sums by scan first, a match costs a tenth of what it
+/// would knot by knot.
 class ScanEquations {
  public:
   explicit ScanEquations(std::size_t scans) : scans_(scans) {}

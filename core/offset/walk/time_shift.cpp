@@ -179,8 +179,8 @@ TimeShift mean_of(const std::vector<TimeShift>& shifts) {
   const double mean_s = sum_s / weights, freedom = double(shifts.size()) - 1;
   for (const TimeShift& shift : shifts)
     scatter2 += (shift.time_s - mean_s) * (shift.time_s - mean_s) / (shift.sigma_s * shift.sigma_s);
-  // A few parts tell their scatter badly: what was seen on other walks counts as kPriorParts more. What errs
-  // alike in all parts (beams' times, surfaces that are not flat) is left.
+  // A few parts are a poor sample of their scatter: the scatter on other walks counts as kPriorParts more.
+  // Errors that all parts share (beams' times, surfaces that are not flat) remain.
   constexpr double kPriorParts = 4, kPriorScatter2 = 1.5, kUnseen_s = 0.1e-3;
   const double widened2 = (scatter2 + kPriorParts * kPriorScatter2) / (freedom + kPriorParts);
   return {mean_s, std::hypot(std::sqrt(std::max(1.0, widened2) / weights), kUnseen_s)};

@@ -125,7 +125,8 @@ std::optional<std::string> lost_warning(const std::vector<Interval>& lost) {
   for (std::size_t i = 0; i < std::min(kMax, lost.size()); ++i)
     when += fmt::format("{}{:.1f} to {:.1f} s", i == 0 ? "" : ", ", lost[i].begin_s, lost[i].end_s);
   if (lost.size() > kMax) when += fmt::format(" and {} more times", lost.size() - kMax);
-  return fmt::format("Track was lost for {:.1f} s, which are left out: {}.", length_s(lost), when);
+  return fmt::format("The motion could not be followed for {:.1f} s, which are left out: {}.", length_s(lost),
+                     when);
 }
 
 std::optional<std::string> pieces_warning(const std::vector<SweepPose>& sweeps, const Recording& recording) {
@@ -141,17 +142,17 @@ std::optional<std::string> pieces_warning(const std::vector<SweepPose>& sweeps, 
   }
   if (pieces.size() < 2) return std::nullopt;
   return fmt::format(
-      "The map is in {} pieces that do not fit each other: track was lost, and what was seen from {} on lies where "
-      "the rig may have been.",
+      "The map is in {} pieces that do not fit each other: the motion could not be followed, and the "
+      "positions of the pieces from {} on are guesses.",
       pieces.size(), from);
 }
 
 Refusal lost_refusal(const SolvedWalk& walk, const Recording& recording) {
   const std::vector<Interval> lost = lost_times(walk.sweeps, recording);
-  std::string text = fmt::format("LOAM lost track for {:.1f} s", length_s(lost));
+  std::string text = fmt::format("The motion could not be followed for {:.1f} s", length_s(lost));
   if (!lost.empty()) text += fmt::format(", first at {:.1f} s", lost.front().begin_s);
   const double followed_deg_s = followed_rad_s(walk.sweeps) / kRadPerDeg;
-  if (followed_deg_s > 1) text += fmt::format("; it followed turns of up to {:.0f} deg/s", followed_deg_s);
+  if (followed_deg_s > 1) text += fmt::format("; turns of up to {:.0f} deg/s were followed", followed_deg_s);
   const auto tracked = std::ranges::count(walk.sweeps, false, &SweepPose::lost);
   return refusal(RefusalKind::kTrackLost, double(tracked),
                  text + ". Turn more slowly, at most by 40 deg/s, above all in the first 5 s.");

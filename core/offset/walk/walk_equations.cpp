@@ -164,7 +164,7 @@ Eigen::VectorXd WalkEquations::product(const Eigen::VectorXd& steps) const {
 bool WalkEquations::solve_near(const Factor& earlier, const Eigen::VectorXd& right,
                                Eigen::VectorXd& x) const {
   constexpr int kMaxSteps = 20;
-  constexpr double kTolerance = 1e-3;  // the next iteration, which matches anew, moves by far more
+  constexpr double kTolerance = 1e-3;  // the next iteration, which matches again, moves by far more
   x.setZero(right.size());
   Eigen::VectorXd left = right, direction = Eigen::VectorXd::Zero(right.size());
   double square = 1;

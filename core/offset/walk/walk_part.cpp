@@ -110,7 +110,7 @@ void WalkPart::forget_matches() {
   matched_m_ = {};
 }
 
-// Matches anew and steps; false, and without a result, where that cannot be done.
+// Matches again and steps; false, and without a result, if that is not possible.
 bool WalkPart::iterate(const OffsetProblem& part, bool is_last) {
   result_.sigma_s = 0;
   solution_.reset();
@@ -177,7 +177,7 @@ double WalkPart::clustered_sigma_s(const Eigen::VectorXd& influences, double sig
   return std::sqrt(total_s2 - of_matches_s2 + of_matches_s2 * clustered_s2 / formal_s2);
 }
 
-// All features with the surfaces that the other direction saw, anew.
+// All features with the surfaces that the other direction measured, matched again.
 void WalkPart::match(const OffsetProblem& part) {
   matches_.emplace(scans_.size());
   matched_m_.clear();
@@ -221,8 +221,8 @@ void WalkPart::insert(const PlacedSweep& sweep, const PlacedFeature& feature, Fe
                       (pose.rotation * problem_.recording->rig.mount.axis.normalized())};
 }
 
-// How fast the motor turned: over a tenth of the sweep, so that the encoder's steps count little and what
-// tells a sine from a walk that sways, the speed's change within a sweep, stays.
+// How fast the motor turned: over a tenth of the sweep, so that the encoder's steps count little, and the
+// change of the speed within a sweep, which distinguishes a sine from a walk that sways, remains.
 double WalkPart::turning_rad_s(const Sweep& sweep, double motor_s) const {
   const double span_s = (sweep.end_s - sweep.begin_s) / 20;
   const double from_s = std::max(motor_s - span_s, sweep.steady_begin_s);

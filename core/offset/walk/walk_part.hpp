@@ -28,7 +28,7 @@ class WalkPart {
   /// The first iterations, after which the result holds the offset of the last one with the sigma of its
   /// least squares. `iterated` is called after each.
   void settle(const Job& job, const std::function<void()>& iterated);
-  /// The others, after which it holds their mean. Does nothing where a part could not settle.
+  /// The others, after which it holds their mean. Does nothing if a part did not converge.
   void average(const Job& job, const std::function<void()>& iterated);
   /// Gives back the memory of a factor, 8 MB of a part of 10 s, which `average` would start with.
   void forget_factor() { factor_.reset(); }

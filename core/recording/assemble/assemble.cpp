@@ -22,7 +22,7 @@ double since_s(std::int64_t ns, std::int64_t epoch_ns) {
   return static_cast<double>(ns - epoch_ns) * 1e-9;
 }
 
-/// Refuses a scan of more beams than can be told apart.
+/// Refuses a scan of more beams than can be distinguished.
 std::optional<Error> too_many_beams(const RawRecording& raw, const RawLaser& laser) {
   for (std::size_t i = 0; i < laser.scans.size(); ++i) {
     if (laser.scans[i].beams <= kMaxBeamsAScan) continue;
@@ -147,7 +147,7 @@ bool ScanAssembler::assemble() {
   } else {
     const TimeOrder order = order_by_time(times_s);
     report_.scans_out_of_order = order.out_of_order;
-    report_.scans_doubled = order.doubled;
+    report_.scans_duplicate = order.duplicates;
     for (const std::size_t i : order.kept) recording_.scans.push_back(placed[i]);
   }
   if (!without_ranges()) take_ranges();
@@ -172,8 +172,8 @@ bool ScanAssembler::check_cloud_times(const std::vector<LaserScan>& lines) {
   if (times_s.size() < 3 || !(period_s > 0)) return true;
   if (span_s > kMinPart * period_s && span_s < kMaxPart * period_s) return true;
   cloud_problem_ = fmt::format(
-      "the times of a cloud's points span {:.3g} s, but a cloud comes every {:.3g} s: the unit of the times "
-      "is not known",
+      "the times of a cloud's points span {:.3g} s, but clouds are {:.3g} s apart: the unit of the times is "
+      "not known",
       span_s, period_s);
   return false;
 }
@@ -190,7 +190,7 @@ void ScanAssembler::order_lines(std::vector<LaserScan>& lines) {
   std::ranges::stable_sort(lines, {}, key);
   for (const LaserScan& line : lines) {
     if (!recording_.scans.empty() && key(recording_.scans.back()) == key(line))
-      ++report_.scans_doubled;
+      ++report_.scans_duplicate;
     else
       recording_.scans.push_back(line);
   }
@@ -319,7 +319,7 @@ bool assemble_motor(const RawJoint& raw, Recording& recording) {
   }
   const TimeOrder order = order_by_time(times_s);
   report.motor_out_of_order = order.out_of_order;
-  report.motor_doubled = order.doubled;
+  report.motor_duplicate = order.duplicates;
   MotorTrack& motor = recording.motor;
   for (const std::size_t i : order.kept) {
     motor.time_s.push_back(times_s[i]);
@@ -357,10 +357,10 @@ void compare_streams(Recording& recording) {
   }
   const double start_s = recording.scans.front().first_beam_s, end_s = recording.scans.back().last_beam_s();
   if (motor.time_s.front() > end_s || motor.time_s.back() < start_s) {
-    report.warnings.push_back(
-        fmt::format("the two streams' clocks do not overlap: the scans last {:.3f} s, and the motor's "
-                    "samples lie from {:.3f} to {:.3f} s after the first scan; consider --stamps receive",
-                    end_s - start_s, motor.time_s.front() - start_s, motor.time_s.back() - start_s));
+    report.warnings.push_back(fmt::format(
+        "the two streams' clocks do not overlap: the scans last {:.3f} s, and the motor's samples lie from "
+        "{:.3f} to {:.3f} s after the first scan; try the receive times (--stamps receive)",
+        end_s - start_s, motor.time_s.front() - start_s, motor.time_s.back() - start_s));
   } else if (20 * report.scans_without_motor > recording.scans.size()) {
     report.warnings.push_back(fmt::format("{} of {} scans have no motor samples around them",
                                           report.scans_without_motor, recording.scans.size()));
@@ -383,8 +383,8 @@ void correct_late(std::span<MessageStamps> stamps, const StreamStamps& stream, c
   const LateMessages late = correct_late(stamps);
   if (late.count == 0) return;
   warnings.push_back(
-      fmt::format("{} of {} messages on {} were received up to {:.0f} ms late: their header stamps tell when "
-                  "they would have come",
+      fmt::format("{} of {} messages on {} were received up to {:.0f} ms late: their receive times are "
+                  "corrected by the header stamps",
                   late.count, stamps.size(), topic, late.latest_s * 1e3));
 }
 

@@ -152,8 +152,8 @@ std::string BeamTimesReport::warning(const Seen& seen, const std::string& topic,
           what, seen.times.other_s, kHelp);
     default:
       return fmt::format(
-          "{} scans on {} have no time_increment; scan_time / beams is used, {:.4g} s, which is too long "
-          "where the scanner also turns through a blind part ({})",
+          "{} scans on {} have no time_increment; scan_time / beams is used, {:.4g} s, which is too long for "
+          "a scanner with a blind sector ({})",
           seen.scans, topic, used_s, kHelp);
   }
 }

@@ -69,7 +69,7 @@ std::string nothing_usable(const RawRecording& raw, std::string_view what, std::
   }
   if (malformed_messages(raw, type_end) > 0)
     return fmt::format("{}: all of its {} are malformed", raw.file, what);
-  return fmt::format("{}: holds no {}. It holds:{}", raw.file, what, list_of_topics(raw, ""));
+  return fmt::format("{}: no {}. Topics found:{}", raw.file, what, list_of_topics(raw, ""));
 }
 
 bool wanted(const RawJoint& joint, const Rig& rig) {
@@ -100,20 +100,20 @@ Result<std::size_t> choose_laser(const RawRecording& raw, const Rig& rig) {
   if (usable.size() == 1) return usable.front();
   if (usable.size() > 1) {
     return unreadable(fmt::format(
-        "{}: has {} topics of scans, and it is ambiguous which to use; name one in a rig file (laser: "
-        "{{topic: {}}}, given with --rig):{}",
+        "{}: {} topics of scans, and it is ambiguous which to use; name one in a rig file (laser: {{topic: "
+        "{}}}, given with --rig):{}",
         raw.file, usable.size(), raw.lasers[usable.front()].topic, list_of_topics(raw, "/LaserScan")));
   }
   const std::string any = list_of_topics(raw, "/LaserScan");
   if (rig.laser.topic && any != " nothing") {
     return unreadable(
-        fmt::format("{}: has no usable scans on {}, the rig's laser.topic; its topics of scans are:{}",
-                    raw.file, *rig.laser.topic, any) +
+        fmt::format("{}: no usable scans on {}, the rig's laser.topic. Topics of scans found:{}", raw.file,
+                    *rig.laser.topic, any) +
         first_warning(raw));
   }
   for (const RawLaser& laser : raw.lasers) {
     if (!laser.of_clouds || !raw.warnings.empty()) continue;
-    return unreadable(fmt::format("{}: no cloud on {} holds a line of points with a place and a time",
+    return unreadable(fmt::format("{}: no cloud on {} has a line of points with positions and times",
                                   raw.file, laser.topic));
   }
   return unreadable(nothing_usable(raw, "sensor_msgs/LaserScan", "/LaserScan"));
@@ -140,13 +140,13 @@ Result<std::size_t> choose_joint(const RawRecording& raw, const Rig& rig) {
   }
   if (!all.empty()) {
     return unreadable(
-        fmt::format("{}: has no positions of joint {} on topic {}, which the rig asks for; its joints are:{}",
+        fmt::format("{}: no positions of joint {} on topic {}, which the rig names. Joints found:{}",
                     raw.file, rig.motor.joint.value_or("(any)"), rig.motor.topic.value_or("(any)"),
                     list_of_joints(raw, all, rig)) +
         first_warning(raw));
   }
   if (rig.motor.topic) {
-    return unreadable(fmt::format("{}: has no usable joint states on {}, the rig's motor.topic. It holds:{}",
+    return unreadable(fmt::format("{}: no usable joint states on {}, the rig's motor.topic. Topics found:{}",
                                   raw.file, *rig.motor.topic, list_of_topics(raw, "")) +
                       first_warning(raw));
   }

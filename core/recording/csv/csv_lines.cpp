@@ -57,7 +57,7 @@ class Cells {
   T number(std::size_t column) {
     const std::string_view text = table_.cell(column);
     T value = 0;
-    if (!text.empty() && !parse(text, value)) refuse(column, text, "is no number");
+    if (!text.empty() && !parse(text, value)) refuse(column, text, "is not a number");
     return value;
   }
   /// Appends numbers with spaces between them, and gives how many.
@@ -69,7 +69,7 @@ class Cells {
       rest.remove_prefix(std::min(rest.size(), word.size() + 1));
       if (word.empty()) continue;
       if (!parse(word, numbers.emplace_back())) {
-        refuse(column, word, "is no number");
+        refuse(column, word, "is not a number");
         break;
       }
     }
@@ -207,7 +207,7 @@ std::string MotorLines::take() {
   Cells cells(table_);
   const MessageStamps stamps{cells.stamp_ns(stamps_.header), cells.stamp_ns(stamps_.receive)};
   double position = cells.number<double>(position_);
-  if (table_.cell(position_).empty()) cells.refuse(position_, "", "is no number");
+  if (table_.cell(position_).empty()) cells.refuse(position_, "", "is not a number");
   if (degrees_) position *= kRadPerDeg;
   if (!cells.problem().empty()) return cells.problem();
   const std::string topic = cells.text(topic_, kDefaultMotor), name = cells.text(joint_, kDefaultJoint);

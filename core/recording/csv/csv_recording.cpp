@@ -151,7 +151,7 @@ Result<void> write_csv_recording(const RawLaser& laser, const RawJoint& joint,
   std::filesystem::create_directories(folder, error);
   if (error) {
     return failure(ExitCode::kWrongUsage,
-                   fmt::format("{}: cannot be made a folder: {}", folder.string(), error.message()));
+                   fmt::format("{}: the folder cannot be created: {}", folder.string(), error.message()));
   }
   auto scans = AtomicFile::create(folder / kScansCsv);
   if (!scans) return tl::unexpected(scans.error());

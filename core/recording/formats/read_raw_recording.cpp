@@ -37,7 +37,7 @@ std::string not_readable(std::string_view start) {
   if (start.starts_with("#ROSBAG")) return "is a ROS 1 bag of an unknown format";
   if (start.starts_with("\x89MCAP")) return "is an MCAP file of an unknown version";
   if (start.starts_with("SQLite format")) return "is an SQLite database of an unknown version";
-  return "its first bytes are of no known recording format";
+  return "its first bytes are not those of a known recording format";
 }
 
 RawRecording named_recording(const fs::path& path) {
@@ -118,7 +118,7 @@ Result<RawRecording> read_folder(const fs::path& folder, const Rig& rig, const J
                                   scans ? kScansCsv : kMotorCsv, scans ? kMotorCsv : kScansCsv));
   }
   if (is_ros2_folder(folder)) return read_ros2_folder(folder, rig, job, detail);
-  return unreadable(fmt::format("{}: is a folder that holds no recording; {}", folder.string(), kReadable));
+  return unreadable(fmt::format("{}: is a folder without a recording; {}", folder.string(), kReadable));
 }
 
 }  // namespace

@@ -71,9 +71,9 @@ std::size_t MessageCollector::number_of(const Topic& topic) {
 
 /// Empty, which no message is, where it is damaged.
 Result<std::span<const std::byte>> MessageCollector::unpacked(std::span<const std::byte> message) {
-  const std::uint64_t most =
-      limit_ != nullptr ? limit_->most(kMaxPackedMessage_bytes) : kMaxPackedMessage_bytes;
-  const Decompressed plain = decompress(Compression::kZstd, message, most, unpacked_);
+  const std::uint64_t max_bytes =
+      limit_ != nullptr ? limit_->max_bytes(kMaxPackedMessage_bytes) : kMaxPackedMessage_bytes;
+  const Decompressed plain = decompress(Compression::kZstd, message, max_bytes, unpacked_);
   if (limit_ != nullptr)
     if (auto error = limit_->take(plain.bytes.size() + (plain.too_long ? 1 : 0)))
       return tl::unexpected(std::move(*error));
@@ -257,7 +257,7 @@ void MessageCollector::finish() {
     const std::string& cloud_problem = entries_[number].cloud_problem;
     raw_.warnings.push_back(
         fmt::format("{} of {} messages on {} are {} and were skipped, the first at {}{}", topic.malformed,
-                    topic.messages, topic.name, cloud_problem.empty() ? "malformed" : "of no use",
+                    topic.messages, topic.name, cloud_problem.empty() ? "malformed" : "unusable",
                     entries_[number].first_malformed, cloud_problem.empty() ? "" : ": " + cloud_problem));
   }
 }

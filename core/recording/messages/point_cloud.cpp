@@ -85,8 +85,8 @@ std::string no_line(const Points& points) {
     if (angle_between_rad(points[i - 1].p_m, points[i].p_m) > max_rad) ++apart;
   }
   if (4 * apart < points.size()) return "";
-  return "its points have no field that says which beam each is of (ring, line or channel), and neighbours "
-         "in time lie far apart";
+  return "its points have no field for the beam (ring, line or channel), and consecutive points are far "
+         "apart";
 }
 
 }  // namespace
@@ -99,8 +99,7 @@ bool CloudReader::read_points(const CloudMessage& cloud) {
   if (xyz[0] == nullptr || xyz[1] == nullptr || xyz[2] == nullptr)
     return problem_ = "its points have no x, y, z", false;
   if (time == nullptr)
-    return problem_ = "its points have no time of their own (a field t, time, timestamp or offset_time)",
-           false;
+    return problem_ = "its points have no times (a field t, time, timestamp or offset_time)", false;
   const CloudField* tag = ring != nullptr && ring->name == "line" ? field_of(cloud, {"tag"}) : nullptr;
   if (tag != nullptr && !tag->whole_number()) tag = nullptr;
   has_ring_ = ring != nullptr;
@@ -126,10 +125,10 @@ bool CloudReader::read_points(const CloudMessage& cloud) {
 
 /// False where the points have one time all together. `known_s`: the unit where the format says it, else 0.
 bool CloudReader::choose_unit(bool whole_numbers, double known_s) {
-  const auto [least, most] = std::ranges::minmax(points_, {}, &Point::time);
-  if (!(most.time > least.time)) return problem_ = "its points all have the same time", false;
+  const auto [first, last] = std::ranges::minmax(points_, {}, &Point::time);
+  if (!(last.time > first.time)) return problem_ = "its points all have the same time", false;
   if (known_s > 0) return unit_s_ = known_s, true;
-  const double since_1970 = std::abs(least.time), span = most.time - least.time;
+  const double since_1970 = std::abs(first.time), span = last.time - first.time;
   absolute_ = since_1970 > 1e8 && since_1970 > 10 * span;
   if (absolute_ && !(whole_numbers && since_1970 < 1e17)) {
     unit_s_ = since_1970 > 1e17 ? 1e-9 : since_1970 > 1e14 ? 1e-6 : since_1970 > 1e11 ? 1e-3 : 1.0;
@@ -211,10 +210,10 @@ void CloudReader::add_line(std::span<const Point> points, const RawScan& common,
 void CloudReader::number_slices(double first_time) {
   constexpr std::uint32_t kMaxSlices_a_ring = 64;  // rings are counted in 16 bits
   const double slice = kSlice_s / unit_s_;
-  const std::uint32_t most = has_ring_ ? kMaxSlices_a_ring : kMaxRings;
+  const std::uint32_t max_slices = has_ring_ ? kMaxSlices_a_ring : kMaxRings;
   for (Point& point : points_) {
-    const double number = std::min(std::floor((point.time - first_time) / slice), double(most - 1));
-    point.ring = (has_ring_ ? point.ring * most : 0) + static_cast<std::uint32_t>(number);
+    const double number = std::min(std::floor((point.time - first_time) / slice), double(max_slices - 1));
+    point.ring = (has_ring_ ? point.ring * max_slices : 0) + static_cast<std::uint32_t>(number);
   }
 }
 

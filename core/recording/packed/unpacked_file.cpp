@@ -44,8 +44,8 @@ UnpackingEnd unpack_into(std::FILE* output, InputFile& input, std::uint64_t max_
   std::size_t hint = 0;
   while (const std::size_t got = input.read(packed)) {
     ZSTD_inBuffer in{packed.data(), got, 0};
-    // A full buffer may leave more of a frame behind in the context; asked once more after a frame's end, it
-    // would want the next one.
+    // After a full buffer the context may still hold a part of the frame; called again after a frame's end,
+    // it would expect the next frame.
     for (bool more = true; more;) {
       ZSTD_outBuffer out{plain.data(), plain.size(), 0};
       hint = ZSTD_decompressStream(context.get(), &out, &in);
@@ -83,7 +83,7 @@ Result<UnpackedFile> UnpackedFile::unpack(const fs::path& packed, UnpackingLimit
   UnpackedFile file(std::move(*temporary));
   OutputFile output(std::fopen(file.path().c_str(), "wb"), std::fclose);
   if (!output) return no_room(packed, file.path());
-  const auto [end, unpacked_bytes] = unpack_into(output.get(), *input, limit.most(max_bytes), job);
+  const auto [end, unpacked_bytes] = unpack_into(output.get(), *input, limit.max_bytes(max_bytes), job);
   if (auto error = limit.take(unpacked_bytes)) return tl::unexpected(std::move(*error));
   if (end == Unpacking::kInterrupted)
     return failure(ExitCode::kInterrupted, fmt::format("{}: reading was interrupted", packed.string()));
@@ -91,8 +91,10 @@ Result<UnpackedFile> UnpackedFile::unpack(const fs::path& packed, UnpackingLimit
     return unreadable(fmt::format("{}: unpacks to more than {} bytes, the limit; cut it into parts",
                                   packed.string(), max_bytes));
   if (end == Unpacking::kNoRoom || std::fclose(output.release()) != 0) return no_room(packed, file.path());
-  if (end == Unpacking::kDamaged) file.problem_ = "its zstd data is damaged; what comes before was read";
-  if (end == Unpacking::kTooShort) file.problem_ = "its zstd data ends too early; what is there was read";
+  if (end == Unpacking::kDamaged)
+    file.problem_ = "its zstd data is damaged; the part before the damage was read";
+  if (end == Unpacking::kTooShort)
+    file.problem_ = "its zstd data ends too early; the part that exists was read";
   return file;
 }
 

@@ -25,7 +25,7 @@ std::uint64_t UnpackingLimit::limit_bytes() const {
   return std::min(kMaxUnpacked_bytes, std::max(kAlwaysUnpacked_bytes, per_packed));
 }
 
-std::uint64_t UnpackingLimit::most(std::uint64_t part_bytes) const {
+std::uint64_t UnpackingLimit::max_bytes(std::uint64_t part_bytes) const {
   const std::uint64_t left = limit_bytes() - std::min(limit_bytes(), unpacked_bytes_);
   return std::min(part_bytes, left + 1);
 }

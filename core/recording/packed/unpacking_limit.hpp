@@ -26,7 +26,7 @@ class UnpackingLimit {
       : name_(std::move(name)), packed_bytes_(packed_bytes) {}
 
   /// How much a part of at most `part_bytes` may unpack to before take() refuses it.
-  std::uint64_t most(std::uint64_t part_bytes) const;
+  std::uint64_t max_bytes(std::uint64_t part_bytes) const;
   /// The error (ExitCode::kUnreadableInput) if the file unpacked to too much.
   std::optional<Error> take(std::uint64_t unpacked_bytes);
 

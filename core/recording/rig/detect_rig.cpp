@@ -53,15 +53,15 @@ void note_increment(const RawScan& first, const Recording& recording, DetectedRi
   if (recorded_s != 0) {
     detected.increment_note = recording.report.beam_time_doubt_s > 0
                                   ? fmt::format("recorded: {:.6g}, implausible or ambiguous", recorded_s)
-                                  : fmt::format("recorded: {:.6g}; used where a scan says 0", recorded_s);
+                                  : fmt::format("recorded: {:.6g}; used if that of a scan is 0", recorded_s);
     return;
   }
   if (recording.report.beam_time_doubt_s > 0) {
     detected.increment_note =
-        "not recorded, and not known: scan_time / beams would be too long where the scanner has a blind part";
+        "not recorded, and not known: scan_time / beams would be too long for a scanner with a blind sector";
   } else if (!detected.rig.laser.time_increment_s) {
     detected.rig.laser.time_increment_s = recording.scans.front().time_increment_s;
-    detected.increment_note = "not recorded: scan_time / beams, too long where the scanner has a blind part";
+    detected.increment_note = "not recorded: scan_time / beams, too long for a scanner with a blind sector";
   } else {
     detected.increment_note = "not recorded: from the given rig file";
   }
@@ -73,11 +73,11 @@ void note_motor(const RawJoint& joint, const MotorSummary& motor, DetectedRig& d
   if (motor.median_sweep_s > 0)
     detected.motor_note += fmt::format(", {:.3f} s a sweep", motor.median_sweep_s);
   if (joint.source != JointSource::kNumber) return;
-  const auto [least, most] = std::ranges::minmax(joint.positions);
+  const auto [min, max] = std::ranges::minmax(joint.positions);
   detected.scale_note = fmt::format(
       "plain numbers, {:.6g} to {:.6g}: 0.017453292519943295 where they are degrees; measured angles, or "
       "commands?",
-      least, most);
+      min, max);
 }
 
 /// The motor's angle, continued in a straight line for `beyond_s` at both ends: a transform may be stamped a

@@ -106,7 +106,7 @@ std::string motion_text(const DetectedRig& detected) {
     if (is_imu ? rig.imu.topic.has_value() : rig.odometry.topic.has_value()) continue;
     const std::string setting = fmt::format("# {}: {{topic: {}{}}}", is_imu ? "imu" : "odometry",
                                             yaml_name(topic.name), is_imu ? ", " + imu_pose : "");
-    text += line(setting, fmt::format("{} messages; if named here, a prior of a moving rig's {}",
+    text += line(setting, fmt::format("{} messages; if named here, used as a prior of a moving rig's {}",
                                       topic.messages, is_imu ? "rotation" : "trajectory"));
   }
   return text;
@@ -116,9 +116,8 @@ std::string motion_text(const DetectedRig& detected) {
 
 std::string rig_file_text(const DetectedRig& detected) {
   return "# The rig of " + printable_line(detected.recording) +
-         ", as detected. Give it with --rig; what is deleted here is detected again.\n" +
-         laser_text(detected) + motor_text(detected) + mount_text(detected) + gear_text(detected) +
-         motion_text(detected);
+         ", as detected. Pass it with --rig; deleted keys are detected again.\n" + laser_text(detected) +
+         motor_text(detected) + mount_text(detected) + gear_text(detected) + motion_text(detected);
 }
 
 }  // namespace sweepscope

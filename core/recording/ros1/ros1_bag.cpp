@@ -228,7 +228,8 @@ std::optional<Error> BagReader::read_chunk(const Header& header, const BagFields
   compression_ = *compression;
   const std::span<const std::byte> packed = read_data(header);
   const bool whole = packed.size() == header.data_bytes;
-  const Decompressed unpacked = decompress(*compression, packed, limit_.most(kMaxChunk_bytes), unpacked_);
+  const Decompressed unpacked =
+      decompress(*compression, packed, limit_.max_bytes(kMaxChunk_bytes), unpacked_);
   if (*compression != Compression::kNone)
     if (auto error = limit_.take(unpacked.bytes.size() + (unpacked.too_long ? 1 : 0))) return error;
   const auto claimed_bytes = fields.number<std::uint32_t>("size");
@@ -281,7 +282,7 @@ void BagReader::add_connection(const BagFields& fields, std::span<const std::byt
            place);
 }
 
-/// The chunk that introduces a connection and the index describe it alike.
+/// The chunk that introduces a connection and the index both describe it, in the same way.
 void BagReader::describe(BagConnection connection, const BagPlace& place) {
   const auto [known, is_new] = connections_.try_emplace(connection.id, connection);
   BagConnection& before = known->second;

@@ -194,7 +194,7 @@ std::optional<Error> McapReader::read_chunk(std::span<const std::byte> content, 
   }
   compression_ = *compression;
   const Decompressed unpacked =
-      decompress(*compression, chunk.records, limit_.most(kMaxMcapChunk_bytes), unpacked_);
+      decompress(*compression, chunk.records, limit_.max_bytes(kMaxMcapChunk_bytes), unpacked_);
   if (*compression != Compression::kNone)
     if (auto error = limit_.take(unpacked.bytes.size() + (unpacked.too_long ? 1 : 0))) return error;
   const bool sound = whole && unpacked.problem.empty();

@@ -26,7 +26,7 @@ using Statement = std::unique_ptr<sqlite3_stmt, int (*)(sqlite3_stmt*)>;
 enum class Opening {
   kAsItLies,     // journals left alone: there are none, or they cannot be read
   kShared,       // with the files of another program that has it open
-  kWithJournal,  // with a write-ahead journal that nobody has open: SQLite keeps its index in memory
+  kWithJournal,  // with a write-ahead journal that is not open elsewhere: SQLite keeps its index in memory
 };
 
 const char* parameters(Opening opening) {
@@ -36,8 +36,8 @@ const char* parameters(Opening opening) {
     case Opening::kShared:
       return "?mode=ro";
     case Opening::kWithJournal:
-      // An index in memory wants the database for itself, and a lock cannot be had for reading alone.
-      // Whoever writes to the database has its index in a file, so there is nobody to be locked out.
+      // An index in memory requires an exclusive lock, which cannot be taken for reading only. A program that
+      // writes to the database keeps its index in a file, so no other program needs the lock.
       return "?mode=ro&vfs=unix-none";
   }
   return "";

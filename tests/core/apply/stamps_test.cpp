@@ -118,7 +118,7 @@ TEST(AppliedOffset, AnEstimateThatHasNoneIsRefusedWithItsReason) {
       "E.json");
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, ExitCode::kNotIdentifiable);
-  EXPECT_EQ(refused.error().message, "E.json: the estimate gives no offset: The clocks drift apart.");
+  EXPECT_EQ(refused.error().message, "E.json: the estimate has no offset: The clocks drift apart.");
   for (const char* bad : {"", "[]", "{}", R"({"schema":"sweepscope.estimate/1"})",
                           R"({"schema":"sweepscope.estimate/1","offset_ms":"24"})",
                           R"({"schema":"sweepscope.estimate/1","offset_ms":24,"rate_ppm":1e9})",

@@ -121,7 +121,7 @@ TEST(CloudOffset, APatternThatDoesNotRepeatItself) {
   EXPECT_NEAR(*found.offset_s * 1e3, bench.offset_s * 1e3, 1.0);
   const Estimate refused = test::estimated(recording, direct());
   ASSERT_FALSE(refused.offset_s);
-  EXPECT_NE(reasons(refused).find("lines do not repeat themselves"), std::string::npos) << reasons(refused);
+  EXPECT_NE(reasons(refused).find("lines do not repeat"), std::string::npos) << reasons(refused);
 }
 
 TEST(CloudOffset, AWalkInAHall) {

@@ -51,7 +51,7 @@ TEST(Expectations, SaysWhatFewSamplesOfTheMotorCost) {
 
 TEST(Expectations, SaysWhatMakesAnEstimateImpossible) {
   EXPECT_EQ(expectations(recording_of(track(5, 0.01, [](double) { return 1.0; }))),
-            "The motor does not turn: there is no offset to see.\n");
+            "The motor does not turn, so there is no offset to determine.\n");
   EXPECT_NE(expectations(recording_of(track(5, 0.01, [](double t_s) { return 3 * t_s; })))
                 .find("turns one way only"),
             std::string::npos);

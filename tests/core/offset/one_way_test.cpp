@@ -82,7 +82,8 @@ TEST(OneWay, AMovingRigIsRefused) {
 TEST(OneWay, ThePapersCriteriaAreRefused) {
   EstimateOptions options;
   options.method = Method::kStationary;
-  EXPECT_TRUE(says(found_in(one_way("room-1", 1, {360, 180}), options), "Use --method direct."));
+  EXPECT_TRUE(
+      says(found_in(one_way("room-1", 1, {360, 180}), options), "Use the direct method (--method direct)."));
 }
 
 TEST(OneWay, ARigThatIsPushedAsideIsRefusedOrTakenToMove) {

@@ -41,12 +41,12 @@ TEST(FoundRig, GoesIntoARigWithNotesOfItsSourceAndOfWhatWasNotDetermined) {
   detected = with_found(std::move(detected), **parse_found_rig(document(), "E.json"), "estimate --solve");
   EXPECT_EQ(detected.rig.mount.laser_in_motor_rpy_deg, Eigen::Vector3d(0, 3.0021, -1.5));
   EXPECT_EQ(detected.rig.gear.encoder_phase_deg, 40);
-  EXPECT_EQ(detected.rig.gear.play_deg, 0.2) << "as it was";
+  EXPECT_EQ(detected.rig.gear.play_deg, 0.2) << "unchanged";
   EXPECT_TRUE(
       detected.mount_note.starts_with("found by estimate --solve: +- 0.0000, 0.0040, 0.0040 deg and "))
       << detected.mount_note;
   EXPECT_EQ(detected.play_note,
-            "not determined by estimate --solve, as it was: The motor turns at one speed only.");
+            "not determined by estimate --solve, unchanged: The motor turns at one speed only.");
   EXPECT_EQ(detected.encoder_note, "found by estimate --solve: +- 0.0100 deg");
 }
 

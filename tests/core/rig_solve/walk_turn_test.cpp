@@ -121,9 +121,9 @@ TEST(TurnOfWalk, SlowErrorsOfTheTrackWidenItsSigma) {
 
 // Of walks in a house, which is followed well, and in a cemetery, where it is not.
 TEST(TurnOfWalk, SolutionsThatScatterLeaveItOpen) {
-  EXPECT_EQ(unsettled_rad({}), 0);
-  EXPECT_DOUBLE_EQ(unsettled_rad(std::array{1.62, 0.29, 0.04}), 0.04);
-  EXPECT_DOUBLE_EQ(unsettled_rad(std::array{0.29, 1.06, 0.05}), std::hypot(0.05, 1.06 - 0.29 / 2));
+  EXPECT_EQ(unconverged_rad({}), 0);
+  EXPECT_DOUBLE_EQ(unconverged_rad(std::array{1.62, 0.29, 0.04}), 0.04);
+  EXPECT_DOUBLE_EQ(unconverged_rad(std::array{0.29, 1.06, 0.05}), std::hypot(0.05, 1.06 - 0.29 / 2));
 }
 
 TEST(TurnOfWalk, IsAbsentOfLessThanTenSeconds) {

@@ -138,7 +138,7 @@ TEST_F(RecipeTest, WhatDoesNotGoTogetherIsRefused) {
           .find("needs heights_m"),
       std::string::npos);
   EXPECT_NE(refusal(kData + "figures: {a: {kind: maps}}\n").find("needs maps"), std::string::npos);
-  EXPECT_NE(refusal(kData).find("makes nothing"), std::string::npos);
+  EXPECT_NE(refusal(kData).find("neither figures nor tables"), std::string::npos);
   EXPECT_NE(refusal(kData + "tables: {t: {estimates: [room], columns: [{values: [a, b]}]}}\n")
                 .find("2 values for 1 estimates"),
             std::string::npos);

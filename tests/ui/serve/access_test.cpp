@@ -138,7 +138,7 @@ TEST(Addresses, ThePrintedTextHasTheTunnelOrAWarning) {
   EXPECT_NE(local.find("ssh -N -L 8717:127.0.0.1:8717 anna@robot\n"), local.npos) << local;
   EXPECT_EQ(local.find("Warning"), local.npos);
   const std::string open = how_to_reach({"0.0.0.0", 8717, false}, "TOKEN", "anna", "robot");
-  EXPECT_NE(open.find("Warning: everyone"), open.npos) << open;
+  EXPECT_NE(open.find("Warning: nothing is encrypted"), open.npos) << open;
 }
 
 }  // namespace

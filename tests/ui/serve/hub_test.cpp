@@ -207,7 +207,7 @@ TEST_F(HubsWithAFolder, AnAnnouncedFileIsTakenOnceAndOpened) {
   const auto upload = rooted_.begin_upload(id, 9, now_);
   ASSERT_TRUE(upload);
   EXPECT_EQ(upload->path, std::filesystem::canonical(folder_) / "run 7.bag");
-  EXPECT_FALSE(rooted_.begin_upload(id, 9, now_)) << "it is on its way";
+  EXPECT_FALSE(rooted_.begin_upload(id, 9, now_)) << "it is already being sent";
   (void)mailbox_.wait(0);
   EXPECT_TRUE(rooted_.end_upload(*upload, true));
   const auto events = mailbox_.wait(0).events;
@@ -250,12 +250,12 @@ TEST_F(HubsWithAFolder, WhatMayNotBeSentIsRefusedWithTheReason) {
   EXPECT_NE(refusal("huge.bag", "900000000000000").find("free"), std::string::npos);
   std::ofstream(folder_ / "there.bag") << "x";
   std::filesystem::create_symlink("nowhere", folder_ / "link.bag");
-  EXPECT_NE(refusal("there.bag", "9").find("there already"), std::string::npos);
-  EXPECT_NE(refusal("link.bag", "9").find("there already"), std::string::npos);
+  EXPECT_NE(refusal("there.bag", "9").find("already exists"), std::string::npos);
+  EXPECT_NE(refusal("link.bag", "9").find("already exists"), std::string::npos);
   EXPECT_NE(announced(rooted_, second_, other, "a.bag", "9", now_).find("Only the viewer who drives"),
             std::string::npos);
   (void)id_of(announced(rooted_, first_, driver, "a.bag", "9", now_));
-  EXPECT_NE(refusal("a.bag", "9").find("on its way"), std::string::npos);
+  EXPECT_NE(refusal("a.bag", "9").find("already being sent"), std::string::npos);
   (void)id_of(announced(rooted_, first_, driver, "b.bag", "9", now_));
   EXPECT_NE(refusal("c.bag", "9").find("Two files"), std::string::npos);
   const int unlimited = hub_.join(second_, now_).value();

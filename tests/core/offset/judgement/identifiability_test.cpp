@@ -8,11 +8,14 @@
 #include "core/offset/judgement/unseen_sigma.hpp"
 #include "core/offset/judgement/warnings.hpp"
 #include "core/simulation/math/portable_math.hpp"
+#include "core/simulation/motion/motor.hpp"
 #include "tests/core/engine_fixtures.hpp"
 
 namespace sweepscope {
 namespace {
 
+using simulation::Motor;
+using simulation::MotorKind;
 using test::kMs;
 
 const SearchScale kScale{1 * kMs, 60 * kMs, 250 * kMs};
@@ -150,6 +153,30 @@ TEST(SamplingReason, IsGivenForAFewSamplesASweepAndAWarningForSomeMore) {
   const Sampled sparse(5, 12), dense(50, 12);
   EXPECT_TRUE(sampling_warning(sparse.track, sparse.motor));
   EXPECT_FALSE(sampling_warning(dense.track, dense.motor));
+}
+
+MaybeRefusal refusal_of(MotorKind kind) {
+  const Motor motor(kind, 0.5, 0.1);
+  const MotorTrack track = test::track_of([&](double t_s) { return motor.angle_rad(t_s); }, 0, 4);
+  return motor_refusal(track, find_sweeps(track));
+}
+
+TEST(MotorRefusal, AMotorThatTurnsToAndFroHasNone) {
+  for (const MotorKind kind : {MotorKind::kTriangle, MotorKind::kTrapezoid, MotorKind::kSine})
+    EXPECT_FALSE(refusal_of(kind));
+}
+
+TEST(MotorRefusal, AMotorThatIsStuckOrTurnsOneWaySaysSo) {
+  EXPECT_EQ(refusal_of(MotorKind::kStuck).value().kind, RefusalKind::kMotorDoesNotMove);
+  EXPECT_NE(refusal_of(MotorKind::kStuck)->text.find("does not move"), std::string::npos);
+  const std::string one_way = refusal_of(MotorKind::kOneWay).value().text;
+  EXPECT_NE(one_way.find("one way only, at one speed"), std::string::npos) << one_way;
+  EXPECT_NE(one_way.find("Record 5 s at one speed and 5 s at half of it."), std::string::npos) << one_way;
+}
+
+TEST(MotorRefusal, ATrackOfHardlyAnySampleSaysSo) {
+  EXPECT_EQ(motor_refusal(MotorTrack{{1.0}, {0.2}}, MotorMotion()).value().kind,
+            RefusalKind::kFewMotorSamples);
 }
 
 TEST(DriftReason, NeedsAMillisecondAndThreeSigma) {

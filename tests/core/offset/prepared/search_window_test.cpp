@@ -7,8 +7,6 @@
 namespace sweepscope {
 namespace {
 
-using simulation::Motor;
-using simulation::MotorKind;
 using test::kDegree;
 using test::kMs;
 using test::kPi;
@@ -65,30 +63,6 @@ TEST_F(CheckedOffsets, RangesWithoutACandidateAreWrongUsage) {
   expect_refused({{0, 10 * kMs, 0}}, "STEP above 0");
   expect_refused({{0, std::nan(""), kMs}}, "FROM <= TO");
   expect_refused({{-200 * kMs, 200 * kMs, 1e-9}}, "100000");
-}
-
-std::vector<std::string> reasons_for(MotorKind kind) {
-  const Motor motor(kind, 0.5, 0.1);
-  const MotorTrack track = test::track_of([&](double t_s) { return motor.angle_rad(t_s); }, 0, 4);
-  return motor_reasons(track, find_sweeps(track));
-}
-
-TEST(MotorReasons, AMotorThatTurnsToAndFroHasNone) {
-  for (const MotorKind kind : {MotorKind::kTriangle, MotorKind::kTrapezoid, MotorKind::kSine})
-    EXPECT_TRUE(reasons_for(kind).empty());
-}
-
-TEST(MotorReasons, AMotorThatIsStuckOrTurnsOneWaySaysSo) {
-  ASSERT_EQ(reasons_for(MotorKind::kStuck).size(), 1u);
-  EXPECT_NE(reasons_for(MotorKind::kStuck)[0].find("does not move"), std::string::npos);
-  ASSERT_EQ(reasons_for(MotorKind::kOneWay).size(), 1u);
-  const std::string one_way = reasons_for(MotorKind::kOneWay)[0];
-  EXPECT_NE(one_way.find("one way only, at one speed"), std::string::npos) << one_way;
-  EXPECT_NE(one_way.find("Record 5 s at one speed and 5 s at half of it."), std::string::npos) << one_way;
-}
-
-TEST(MotorReasons, ATrackOfHardlyAnySampleSaysSo) {
-  ASSERT_EQ(motor_reasons(MotorTrack{{1.0}, {0.2}}, MotorMotion()).size(), 1u);
 }
 
 // Scans of 10 ms every 100 ms from 0 to 1.9 s; the motor's track from 0.3 to 1.5 s.

@@ -107,7 +107,7 @@ TEST(GivenPoses, OfARigThatStoodStillAreRefused) {
   const auto found = estimated_with(test::room(0.024), GivenPoses{"T.tum", true_poses(0), false});
   ASSERT_FALSE(found);
   EXPECT_EQ(found.error().code, ExitCode::kWrongUsage);
-  EXPECT_NE(found.error().message.find("poses have no use for a stationary rig"), std::string::npos);
+  EXPECT_NE(found.error().message.find("poses are not used for a stationary rig"), std::string::npos);
 }
 
 TEST(GivenPoses, AreForTheDirectMethodAlone) {

@@ -221,9 +221,9 @@ TEST(Assemble, OfDoubledStampsTheFirstIsKept) {
   add_sample(raw.joints[0], 0.5, 99);
   const Recording recording = assembled(raw);
   EXPECT_EQ(recording.scans.size(), 40U);
-  EXPECT_EQ(recording.report.scans_doubled, 1U);
+  EXPECT_EQ(recording.report.scans_duplicate, 1U);
   EXPECT_EQ(recording.ranges(recording.scans[0])[0], 1);
-  EXPECT_EQ(recording.report.motor_doubled, 1U);
+  EXPECT_EQ(recording.report.motor_duplicate, 1U);
   EXPECT_NEAR(recording.motor.angle_at(0.5), 0.5, 1e-9);
   EXPECT_EQ(recording.ranges_m.size(), 200U);
 }

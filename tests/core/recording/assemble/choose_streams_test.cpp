@@ -48,7 +48,7 @@ TEST(ChooseLaser, TakesTheOnlyOneOrTheOneThatTheRigNames) {
 
 TEST(ChooseLaser, RefusesSeveralAndListsThem) {
   EXPECT_EQ(refusal(choose_laser(with_lasers({"/a", "/b"}), {})),
-            "a.bag: has 2 topics of scans, and it is ambiguous which to use; name one in a rig file (laser: "
+            "a.bag: 2 topics of scans, and it is ambiguous which to use; name one in a rig file (laser: "
             "{topic: /a}, given with --rig):\n    /a   sensor_msgs/LaserScan   1 messages\n    /b   "
             "sensor_msgs/LaserScan   1 messages");
 }
@@ -57,7 +57,7 @@ TEST(ChooseLaser, RefusesATopicThatIsNotThereAndListsTheOthers) {
   Rig rig;
   rig.laser.topic = "/c";
   EXPECT_EQ(refusal(choose_laser(with_lasers({"/a"}), rig)),
-            "a.bag: has no usable scans on /c, the rig's laser.topic; its topics of scans are:\n"
+            "a.bag: no usable scans on /c, the rig's laser.topic. Topics of scans found:\n"
             "    /a   sensor_msgs/LaserScan   1 messages");
 }
 
@@ -74,7 +74,7 @@ TEST(ChooseLaser, SaysWhatIsThereWhereThereAreNoScans) {
   raw.file = "a.bag";
   raw.topics.push_back({"/tf", "tf2_msgs/TFMessage", 3, 0});
   EXPECT_EQ(refusal(choose_laser(raw, {})),
-            "a.bag: holds no sensor_msgs/LaserScan. It holds:\n    /tf   tf2_msgs/TFMessage   3 messages");
+            "a.bag: no sensor_msgs/LaserScan. Topics found:\n    /tf   tf2_msgs/TFMessage   3 messages");
 }
 
 TEST(ChooseJoint, TakesTheOnlyOneThatMoves) {
@@ -118,13 +118,13 @@ TEST(ChooseJoint, RefusesAJointThatIsNotThereAndListsTheOthers) {
   Rig rig;
   rig.motor.joint = "pitch";
   EXPECT_EQ(refusal(choose_joint(with_joints({{"roll", 3}}), rig)),
-            "a.bag: has no positions of joint pitch on topic (any), which the rig asks for; its joints are:\n"
+            "a.bag: no positions of joint pitch on topic (any), which the rig names. Joints found:\n"
             "    roll   turns over 171.9 deg   3 samples   on /joints");
 }
 
 TEST(ChooseJoint, SaysWhatIsThereWhereThereAreNoJoints) {
   EXPECT_EQ(refusal(choose_joint(with_lasers({"/scan"}), {})),
-            "a.bag: holds no sensor_msgs/JointState. It holds:\n    /scan   sensor_msgs/LaserScan   "
+            "a.bag: no sensor_msgs/JointState. Topics found:\n    /scan   sensor_msgs/LaserScan   "
             "1 messages");
 }
 

@@ -92,7 +92,7 @@ TEST_F(CsvRecording, TheRigLeavesOutOtherTopicsAndJoints) {
 
 TEST_F(CsvRecording, WhatIsWrongIsNamedWithItsPlace) {
   EXPECT_EQ(refusal(kScans + "1,0,1,0.001,1 x 2\n", kMotor),
-            "scans.csv: line 4, column ranges_m: \"x\" is no number");
+            "scans.csv: line 4, column ranges_m: \"x\" is not a number");
   EXPECT_EQ(refusal(kScans + "-1,0,1,0,1\n", kMotor),
             "scans.csv: line 4, column stamp_s: \"-1\" is not a time in decimal seconds (0 or more)");
   EXPECT_EQ(refusal(kScans + "1e9,0,1,0,1\n", kMotor),
@@ -103,7 +103,7 @@ TEST_F(CsvRecording, WhatIsWrongIsNamedWithItsPlace) {
   EXPECT_EQ(refusal(kScans + "1,0,1,1\n", kMotor),
             "scans.csv: line 4 has 4 cells, and line 1 names 5 columns");
   EXPECT_EQ(refusal(kScans, "stamp_s,angle_rad\n1,\n"),
-            "motor.csv: line 2, column angle_rad: \"\" is no number");
+            "motor.csv: line 2, column angle_rad: \"\" is not a number");
   EXPECT_EQ(
       refusal(kScans, "stamp_s,angle\n1,1\n"),
       "motor.csv: line 1 has no column angle_rad or angle_deg or position; its columns are: stamp_s, angle");
@@ -129,7 +129,7 @@ TEST_F(CsvRecording, ALastLineThatWasCutShortIsLeftAside) {
 TEST_F(CsvRecording, AFolderIsRefusedByWhatItLacks) {
   std::filesystem::create_directories(folder_ / "rec");
   const auto refused = [&] { return read_raw_recording(folder_ / "rec", Rig(), Job()).error().message; };
-  EXPECT_NE(refused().find("rec: is a folder that holds no recording"), std::string::npos);
+  EXPECT_NE(refused().find("rec: is a folder without a recording"), std::string::npos);
   test::write_file(folder_ / "rec/motor.csv", kMotor);
   EXPECT_NE(refused().find("rec: is a folder with motor.csv and without scans.csv"), std::string::npos);
 }

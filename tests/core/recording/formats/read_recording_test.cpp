@@ -99,7 +99,7 @@ TEST(ReadRecordingOfJoints, TheRigChoosesAmongTopicsAndJoints) {
     }
     bag.close();
   }
-  EXPECT_NE(read(folder / "a.bag").error().message.find("has 2 topics of scans"), std::string::npos);
+  EXPECT_NE(read(folder / "a.bag").error().message.find("2 topics of scans"), std::string::npos);
   ReadOptions options{Rig(), {}};
   options.rig->laser.topic = "/scan_2";
   EXPECT_NE(read(folder / "a.bag", options).error().message.find("2 of 2 joints move"), std::string::npos);
@@ -167,9 +167,9 @@ TEST(ReadRecordingOfDamage, AnotherVersionOfAMessageIsNotUsed) {
 TEST(ReadRecordingOfDamage, RefusesWhatIsNoRecording) {
   EXPECT_EQ(refusal(""), "a.bag: is empty");
   EXPECT_EQ(refusal("stamp, range\n0.1, 2\n").substr(0, 74),
-            "a.bag: its first bytes are of no known recording format; sweepscope reads ");
+            "a.bag: its first bytes are not those of a known recording format; sweepscope reads ");
   EXPECT_EQ(refusal("#").substr(0, 74),
-            "a.bag: its first bytes are of no known recording format; sweepscope reads ");
+            "a.bag: its first bytes are not those of a known recording format; sweepscope reads ");
   EXPECT_EQ(refusal("#ROSBAG V1.2\n1234567890").substr(0, 82),
             "a.bag: is a ROS 1 bag of format 1; convert it with `rosbag fix`; sweepscope reads ");
   EXPECT_EQ(refusal("#ROSBAG V2.0\n"),

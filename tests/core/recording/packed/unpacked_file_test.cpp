@@ -70,13 +70,13 @@ TEST_F(UnpackedFiles, WhatComesBeforeTheDamageIsThere) {
   const std::string plain = sample_text(3'000'000), packed = test::packed_by_zstd(plain);
   const auto cut = unpack(packed.substr(0, packed.size() / 2));
   ASSERT_TRUE(cut);
-  EXPECT_EQ(cut->problem(), "its zstd data ends too early; what is there was read");
+  EXPECT_EQ(cut->problem(), "its zstd data ends too early; the part that exists was read");
   const std::string left = test::contents_of(cut->path());
   EXPECT_GT(left.size(), plain.size() / 4);
   EXPECT_EQ(left, plain.substr(0, left.size()));
   const std::string no_block(200'000, '\xff');
   EXPECT_EQ(unpack(packed.substr(0, packed.size() / 2) + no_block)->problem(),
-            "its zstd data is damaged; what comes before was read");
+            "its zstd data is damaged; the part before the damage was read");
 }
 
 TEST_F(UnpackedFiles, ABombIsRefusedAtTheLimit) {

@@ -35,11 +35,11 @@ TEST(UnpackingLimit, LargeFilesMayUnpackToAMultipleOfTheirSize) {
 
 TEST(UnpackingLimit, APartMayUnpackToOneByteMoreThanIsLeft) {
   UnpackingLimit limit("a.bag", 10);
-  EXPECT_EQ(limit.most(1000), 1000U);
+  EXPECT_EQ(limit.max_bytes(1000), 1000U);
   EXPECT_FALSE(limit.take(kAlwaysUnpacked_bytes - 99));
-  EXPECT_EQ(limit.most(1000), 100U);
+  EXPECT_EQ(limit.max_bytes(1000), 100U);
   EXPECT_FALSE(limit.take(99));
-  EXPECT_EQ(limit.most(1000), 1U);
+  EXPECT_EQ(limit.max_bytes(1000), 1U);
 }
 
 /// Files of some hundred kilobytes that unpack to 300 MiB.
