@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/loam/sweep_matcher.hpp"
 #include "core/map/pose_reader.hpp"
 #include "core/offset/search_window.hpp"
 #include "core/offset/still_motion.hpp"
@@ -34,13 +35,7 @@ Result<void> check_scans(const OffsetProblem& problem, double offset_s) {
 std::vector<SweepPose> stationary_poses(const OffsetProblem& problem, double offset_s) {
   std::vector<SweepPose> poses;
   SweepPlacer placer(problem, offset_s);
-  for (PlacedSweep sweep; placer.next(sweep);) {
-    SweepPose& pose = poses.emplace_back();
-    pose.sweep = sweep.sweep;
-    pose.direction = sweep.direction;
-    pose.begin_s = sweep.begin_s;
-    pose.end_s = sweep.end_s;
-  }
+  for (PlacedSweep sweep; placer.next(sweep);) poses.push_back(pose_of(sweep));
   return poses;
 }
 
