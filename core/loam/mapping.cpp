@@ -4,7 +4,7 @@
 #include <functional>
 #include <optional>
 
-#include "core/loam/given_motion.hpp"
+#include "core/loam/path/given_motion.hpp"
 #include "core/loam/tracker.hpp"
 
 namespace sweepscope {

@@ -7,7 +7,7 @@
 #include <optional>
 #include <span>
 
-#include "core/loam/least_squares.hpp"
+#include "core/loam/path/least_squares.hpp"
 #include "core/loam/sweep_matcher.hpp"
 #include "core/parallel.hpp"
 

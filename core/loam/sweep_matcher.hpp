@@ -8,9 +8,9 @@
 #include "core/loam/feature_map.hpp"
 #include "core/loam/mapping_options.hpp"
 #include "core/loam/patch_search.hpp"
-#include "core/loam/path_equations.hpp"
+#include "core/loam/path/path_equations.hpp"
+#include "core/loam/path/sweep_pose.hpp"
 #include "core/loam/sweep_features.hpp"
-#include "core/loam/sweep_pose.hpp"
 
 namespace sweepscope {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/loam/given_motion.hpp"
-#include "core/loam/least_squares.hpp"
-#include "core/loam/path_equations.hpp"
+#include "core/loam/path/given_motion.hpp"
+#include "core/loam/path/least_squares.hpp"
+#include "core/loam/path/path_equations.hpp"
 
 namespace sweepscope {
 namespace {

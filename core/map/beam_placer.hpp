@@ -4,7 +4,7 @@
 
 #include "core/geometry/kinematics.hpp"
 #include "core/geometry/map_cloud.hpp"
-#include "core/loam/sweep_pose.hpp"
+#include "core/loam/path/sweep_pose.hpp"
 #include "core/recording/recording.hpp"
 
 namespace sweepscope {

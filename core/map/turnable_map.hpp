@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/geometry/map_cloud.hpp"
-#include "core/loam/sweep_pose.hpp"
+#include "core/loam/path/sweep_pose.hpp"
 #include "core/offset/prepared.hpp"
 
 namespace sweepscope {
