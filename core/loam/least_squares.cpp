@@ -1,4 +1,4 @@
-#include "core/loam/least_squares.hpp"
+#include "core/loam/path/least_squares.hpp"
 
 #include <Eigen/Eigenvalues>
 

@@ -4,7 +4,7 @@
 #include <functional>
 #include <optional>
 
-#include "core/loam/given_motion.hpp"
+#include "core/loam/path/given_motion.hpp"
 #include "core/loam/tracker.hpp"
 
 namespace sweepscope {
@@ -20,15 +20,6 @@ struct Range {
   std::size_t first, end;
   std::size_t size() const { return end - first; }
 };
-
-SweepPose pose_of(const PlacedSweep& sweep) {
-  SweepPose pose;
-  pose.sweep = sweep.sweep;
-  pose.direction = sweep.direction;
-  pose.begin_s = sweep.begin_s;
-  pose.end_s = sweep.end_s;
-  return pose;
-}
 
 // How far a sweep's features lie from where the last sweep saw them, were the rig at rest or moved as given.
 double cost_at_rest_m(const PlacedSweep& from, const PlacedSweep& to, const MappingOptions& options) {

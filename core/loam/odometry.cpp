@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/loam/least_squares.hpp"
 #include "core/loam/patch_search.hpp"
+#include "core/loam/path/least_squares.hpp"
 
 namespace sweepscope {
 namespace {

@@ -7,7 +7,7 @@
 #include <optional>
 #include <span>
 
-#include "core/loam/least_squares.hpp"
+#include "core/loam/path/least_squares.hpp"
 #include "core/loam/sweep_matcher.hpp"
 #include "core/parallel.hpp"
 
@@ -201,12 +201,10 @@ MatchCount OldMap::linearise(const Glimpse& glimpse, const Pose& pose, bool wide
   MatchCount count;
   const auto use = [&](MatchedKind kind, const PlacedFeature&, const Vector3d& p_m,
                        const std::optional<MatchResidual>& residual) {
-    const double distance_m = residual ? residual->distance_m : 0.0;
-    count.add(residual.has_value(), std::abs(distance_m),
-              kind == MatchedKind::kPlane ? options_.plane_gate_m : options_.edge_gate_m,
-              options_.cost_cap_m);
+    count.add(residual, gate_m(kind, options_), options_.cost_cap_m);
     if (residual && residual->has_normal)
-      equations.add(p_m, residual->normal, distance_m, cauchy_weight(distance_m, width_m));
+      equations.add(p_m, residual->normal, residual->distance_m,
+                    cauchy_weight(residual->distance_m, width_m));
   };
   for (std::size_t k = 0; k < glimpse.sweeps.size(); ++k)
     match_features(

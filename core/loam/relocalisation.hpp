@@ -7,8 +7,8 @@
 
 #include "core/job.hpp"
 #include "core/loam/mapping_options.hpp"
+#include "core/loam/path/sweep_pose.hpp"
 #include "core/loam/sweep_features.hpp"
-#include "core/loam/sweep_pose.hpp"
 
 namespace sweepscope {
 

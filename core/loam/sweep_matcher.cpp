@@ -3,16 +3,26 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/loam/least_squares.hpp"
+#include "core/loam/path/least_squares.hpp"
 
 namespace sweepscope {
 
 using Eigen::Vector3d;
 
-void MatchCount::add(bool found, double distance_m, double gate_m, double cap_m) {
+SweepPose pose_of(const PlacedSweep& sweep) {
+  SweepPose pose;
+  pose.sweep = sweep.sweep;
+  pose.direction = sweep.direction;
+  pose.begin_s = sweep.begin_s;
+  pose.end_s = sweep.end_s;
+  return pose;
+}
+
+void MatchCount::add(const std::optional<MatchResidual>& residual, double gate_m, double cap_m) {
   ++features;
-  capped_sum_m += found ? std::min(distance_m, cap_m) : cap_m;
-  if (!found || !(distance_m < gate_m)) return;
+  const double distance_m = residual ? std::abs(residual->distance_m) : 0;
+  capped_sum_m += residual ? std::min(distance_m, cap_m) : cap_m;
+  if (!residual || !(distance_m < gate_m)) return;
   ++matches;
   distance_sum_m += distance_m;
 }
@@ -70,11 +80,10 @@ void SweepMatcher::linearise(std::vector<Matched<Patch>>& features, const SweepM
     const Vector3d p_m = motion(feature.p_in_base_m, feature.u);
     refresh(feature, p_m, search);
     const auto residual = residual_of(feature.patch, p_m);
-    const double distance_m = residual ? residual->distance_m : 0.0;
-    count.add(residual.has_value(), std::abs(distance_m), gate_m, options_.cost_cap_m);
+    count.add(residual, gate_m, options_.cost_cap_m);
     if (residual && residual->has_normal)
-      equations.add(feature.u, distance_jacobian(p_m, residual->normal, pivot_m), distance_m,
-                    weight_of(distance_m));
+      equations.add(feature.u, distance_jacobian(p_m, residual->normal, pivot_m), residual->distance_m,
+                    weight_of(residual->distance_m));
   }
 }
 
@@ -110,17 +119,14 @@ MatchCount count_sweep(const SweepMaps& maps, const PlacedSweep& sweep, const Sw
   match_features(sweep, place, search,
                  [&](MatchedKind kind, const PlacedFeature& feature, const Vector3d& p_m,
                      const std::optional<MatchResidual>& residual) {
-                   const double distance_m = residual ? residual->distance_m : 0.0;
-                   count.add(residual.has_value(), std::abs(distance_m),
-                             kind == MatchedKind::kPlane ? options.plane_gate_m : options.edge_gate_m,
-                             options.cost_cap_m);
+                   count.add(residual, gate_m(kind, options), options.cost_cap_m);
                    if (!residual || !residual->has_normal) return;
                    // How the distance changes as the sweep turns on about the motor's axis.
                    const Pose base = pose.at(feature.u);
                    const double lever_m = (sweep.direction * (base.rotation * motor_axis))
                                               .cross(p_m - base.translation_m)
                                               .dot(residual->normal);
-                   count.roll_moment_m2 += lever_m * distance_m;
+                   count.roll_moment_m2 += lever_m * residual->distance_m;
                    count.roll_inertia_m2 += lever_m * lever_m;
                  });
   return count;

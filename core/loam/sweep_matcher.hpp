@@ -8,9 +8,9 @@
 #include "core/loam/feature_map.hpp"
 #include "core/loam/mapping_options.hpp"
 #include "core/loam/patch_search.hpp"
-#include "core/loam/path_equations.hpp"
+#include "core/loam/path/path_equations.hpp"
+#include "core/loam/path/sweep_pose.hpp"
 #include "core/loam/sweep_features.hpp"
-#include "core/loam/sweep_pose.hpp"
 
 namespace sweepscope {
 
@@ -27,10 +27,17 @@ struct MatchCount {
   double matched_part() const { return features == 0 ? 0.0 : double(matches) / double(features); }
   /// Of the sweeps against those of the other direction, in their direction of turning.
   double roll_rad() const { return roll_inertia_m2 > 0 ? roll_moment_m2 / roll_inertia_m2 : 0.0; }
-  /// Adds one feature; `distance_m` counts where it was `found`.
-  void add(bool found, double distance_m, double gate_m, double cap_m);
+  /// Adds one feature, with a residual where a patch was found.
+  void add(const std::optional<MatchResidual>& residual, double gate_m, double cap_m);
   MatchCount& operator+=(const MatchCount& other);
 };
+
+inline double gate_m(MatchedKind kind, const MappingOptions& options) {
+  return kind == MatchedKind::kPlane ? options.plane_gate_m : options.edge_gate_m;
+}
+
+/// A sweep's number, direction and times, at the map's origin.
+SweepPose pose_of(const PlacedSweep& sweep);
 
 /// The map that LOAM keeps of the edges and the planes seen so far.
 struct SweepMaps {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/loam/given_motion.hpp"
-#include "core/loam/least_squares.hpp"
-#include "core/loam/path_equations.hpp"
+#include "core/loam/path/given_motion.hpp"
+#include "core/loam/path/least_squares.hpp"
+#include "core/loam/path/path_equations.hpp"
 
 namespace sweepscope {
 namespace {
@@ -73,11 +73,7 @@ Tracker::Tracker(const MappingOptions& options, SweepPose first, double time_sig
           Eigen::Vector2d::Constant(std::pow(options.first_acceleration / options.acceleration_factor, 2))) {}
 
 SweepPose Tracker::add(const PlacedSweep& sweep) {
-  SweepPose pose;
-  pose.sweep = sweep.sweep;
-  pose.direction = sweep.direction;
-  pose.begin_s = sweep.begin_s;
-  pose.end_s = sweep.end_s;
+  SweepPose pose = pose_of(sweep);
   const double duration_s = sweep.end_s - sweep.begin_s;
   const std::size_t steps = steps_of(sweep, options_);
   if (sweeps_ == 0) {

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "core/geometry/morton.hpp"
-#include "core/loam/least_squares.hpp"
+#include "core/loam/path/least_squares.hpp"
 #include "core/parallel.hpp"
 
 namespace sweepscope {

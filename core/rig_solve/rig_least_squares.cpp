@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/loam/least_squares.hpp"
+#include "core/loam/path/least_squares.hpp"
 #include "core/numbers.hpp"
 #include "core/parallel.hpp"
 #include "core/rig_solve/rig_cloud.hpp"

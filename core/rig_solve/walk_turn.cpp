@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "core/loam/least_squares.hpp"
+#include "core/loam/path/least_squares.hpp"
 #include "core/numbers.hpp"
 #include "core/rig_solve/rig_unknowns.hpp"
 

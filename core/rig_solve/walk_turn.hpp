@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "core/loam/sweep_pose.hpp"
+#include "core/loam/path/sweep_pose.hpp"
 #include "core/recording/recording.hpp"
 
 namespace sweepscope {

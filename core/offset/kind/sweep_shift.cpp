@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/loam/least_squares.hpp"
+#include "core/loam/path/least_squares.hpp"
 
 namespace sweepscope {
 namespace {

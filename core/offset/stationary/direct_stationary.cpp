@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/loam/least_squares.hpp"
+#include "core/loam/path/least_squares.hpp"
 #include "core/numbers.hpp"
 #include "core/offset/judgement/unseen_sigma.hpp"
 #include "core/parallel.hpp"

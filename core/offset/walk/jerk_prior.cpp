@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "core/loam/path_equations.hpp"
+#include "core/loam/path/path_equations.hpp"
 #include "core/numbers.hpp"
 
 namespace sweepscope {

@@ -6,7 +6,7 @@
 #include <array>
 #include <vector>
 
-#include "core/loam/guided_path.hpp"
+#include "core/loam/path/guided_path.hpp"
 #include "core/loam/sweep_features.hpp"
 #include "core/offset/walk/joint_walk.hpp"
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/loam/feature_map.hpp"
-#include "core/loam/guided_path.hpp"
-#include "core/loam/least_squares.hpp"
+#include "core/loam/path/guided_path.hpp"
+#include "core/loam/path/least_squares.hpp"
 
 namespace sweepscope {
 

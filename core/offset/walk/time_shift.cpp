@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <map>
 
-#include "core/loam/smooth_path.hpp"
+#include "core/loam/path/smooth_path.hpp"
 
 namespace sweepscope {
 namespace {

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "core/loam/given_motion.hpp"
-#include "core/loam/sweep_pose.hpp"
+#include "core/loam/path/given_motion.hpp"
+#include "core/loam/path/sweep_pose.hpp"
 
 namespace sweepscope {
 

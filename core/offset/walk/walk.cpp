@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 
-#include "core/loam/given_motion.hpp"
+#include "core/loam/path/given_motion.hpp"
+#include "core/loam/path/straighten.hpp"
 #include "core/loam/relocalisation.hpp"
-#include "core/loam/straighten.hpp"
 #include "core/offset/search/coarse_search.hpp"
 #include "core/offset/walk/jerk_prior.hpp"
 

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/loam/guided_path.hpp"
+#include "core/loam/path/guided_path.hpp"
 #include "core/offset/walk/scan_equations.hpp"
 
 namespace sweepscope {

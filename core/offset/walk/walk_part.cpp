@@ -6,7 +6,7 @@
 #include <map>
 #include <numeric>
 
-#include "core/loam/path_equations.hpp"
+#include "core/loam/path/path_equations.hpp"
 
 namespace sweepscope {
 

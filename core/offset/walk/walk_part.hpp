@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/job.hpp"
-#include "core/loam/guided_path.hpp"
 #include "core/loam/patch_search.hpp"
+#include "core/loam/path/guided_path.hpp"
 #include "core/loam/sweep_features.hpp"
 #include "core/offset/walk/jerk_prior.hpp"
 #include "core/offset/walk/joint_walk.hpp"

@@ -61,11 +61,11 @@ Result<std::vector<std::string>> collect(const fs::path& path, MessageCollector&
   const auto file = open_stream_file(path, limit, job);
   if (!file) return tl::unexpected(file.error());
   collector.begin_file(limit);
-  struct Topic {
+  struct Numbered {
     MessageCollector::Topic topic;
     std::optional<std::size_t> number;  // given by its first message
   };
-  std::vector<Topic> topics;
+  std::vector<Numbered> topics;
   const auto visit_topic = [&](const StreamTopic& topic) {
     topics.push_back({collected_topic(topic), std::nullopt});
     return topics.size() - 1;

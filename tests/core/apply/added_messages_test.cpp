@@ -4,6 +4,7 @@
 #include <ros/serialization.h>
 #include <sensor_msgs/PointCloud2.h>
 
+#include "core/recording/streams/message_stream.hpp"
 #include "tests/core/recording/message_allocator.hpp"
 
 namespace sweepscope {
@@ -70,6 +71,16 @@ TEST(AddedMessages, ATransformReadsBackInEitherSerialisation) {
     EXPECT_EQ(transforms[0].child, "laser");
     EXPECT_EQ(transforms[0].translation_m, pose.translation_m);
     EXPECT_LT(transforms[0].rotation.angularDistance(pose.rotation), 1e-12);
+  }
+}
+
+TEST(AddedMessages, TopicsNameTypesThatAreKnown) {
+  for (const Encoding encoding : {Encoding::kRos1, Encoding::kCdr}) {
+    for (const StreamTopic& topic : {written_topic("/sweeps", "sensor_msgs/PointCloud2", encoding),
+                                     written_topic("/tf", "tf2_msgs/TFMessage", encoding)}) {
+      ASSERT_NE(find_message_type(topic.type), nullptr) << topic.type;
+      EXPECT_NE(topic.definition.find("string frame_id"), std::string::npos);
+    }
   }
 }
 

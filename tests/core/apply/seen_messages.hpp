@@ -10,6 +10,7 @@
 
 #include "core/apply/apply.hpp"
 #include "core/numbers.hpp"
+#include "core/recording/streams/message_sink.hpp"
 #include "tests/core/recording/test_bag.hpp"
 #include "tests/folder_test.hpp"
 

@@ -350,9 +350,8 @@ TEST_F(OverTimeFile, PartsGiveTheBytesOfTheWhole) {
 }
 
 TEST_F(OverTimeFile, AWalkIsReadWholly) {
-  const Recording walk = test::simulated("metro-station", 0.024, 70).recording;
   const std::filesystem::path bag = folder_ / "walk.bag";
-  ASSERT_TRUE(write_bag(walk, bag, Job()));
+  ASSERT_TRUE(write_bag(test::simulated("metro-station", 0.024, 70), bag, Job()));
   const auto file = RecordingFile::open(bag, {}, Job(), 0).value();
   EXPECT_FALSE(plan_estimate(file.outline(), {}, false).parts.empty());
   const Estimate found = estimate(file, {}, Job()).value();

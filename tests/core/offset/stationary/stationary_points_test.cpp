@@ -43,15 +43,15 @@ TEST_F(InABox, AtTheTrueOffsetPointsLieOnItsWalls) {
 }
 
 TEST_F(InABox, EveryCellHasTheMotorsAngleAndSpeedOneOffsetAfterItsStamp) {
-  constexpr double kOffset_s = -0.011;
-  const StationaryPoints points = place_stationary(grid_, kOffset_s, StationaryDetail::kPoints);
+  constexpr double kPlaced_s = -0.011;
+  const StationaryPoints points = place_stationary(grid_, kPlaced_s, StationaryDetail::kPoints);
   const double speed_rad_s = test::kPi / test::Bench().sweep_s;
   std::size_t placed = 0;
   for (std::size_t cell = 0; cell < points.placed.size(); ++cell) {
     if (!points.placed[cell]) continue;
     ++placed;
     const std::size_t line = cell / points.bins;
-    EXPECT_NEAR(points.angle_rad[cell], recording().motor.angle_at(grid_.time_s[cell] + kOffset_s), 1e-9);
+    EXPECT_NEAR(points.angle_rad[cell], recording().motor.angle_at(grid_.time_s[cell] + kPlaced_s), 1e-9);
     EXPECT_GT(points.speed_rad_s[cell] * float(points.direction[line]), 0.5 * speed_rad_s);
     EXPECT_LT(points.speed_rad_s[cell] * float(points.direction[line]), 1.1 * speed_rad_s);
   }

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/loam/given_motion.hpp"
+#include "core/loam/path/given_motion.hpp"
 
 namespace sweepscope {
 namespace {

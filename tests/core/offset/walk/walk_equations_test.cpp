@@ -5,7 +5,7 @@
 #include <cmath>
 #include <functional>
 
-#include "core/loam/given_motion.hpp"
+#include "core/loam/path/given_motion.hpp"
 #include "core/offset/walk/jerk_prior.hpp"
 
 namespace sweepscope {

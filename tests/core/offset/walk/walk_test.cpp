@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/loam/given_motion.hpp"
-#include "core/loam/straighten.hpp"
+#include "core/loam/path/given_motion.hpp"
+#include "core/loam/path/straighten.hpp"
 #include "tests/core/engine_fixtures.hpp"
 
 namespace sweepscope {

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "core/loam/sweep_motion.hpp"
+#include "core/loam/path/sweep_motion.hpp"
 
 namespace sweepscope {
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "core/loam/given_motion.hpp"
-#include "core/loam/smooth_path.hpp"
+#include "core/loam/path/given_motion.hpp"
+#include "core/loam/path/smooth_path.hpp"
 
 namespace sweepscope {
 

@@ -1,11 +1,11 @@
-#include "core/loam/given_motion.hpp"
+#include "core/loam/path/given_motion.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "core/loam/guided_path.hpp"
-#include "core/loam/path_equations.hpp"
+#include "core/loam/path/guided_path.hpp"
+#include "core/loam/path/path_equations.hpp"
 #include "core/loam/tracker.hpp"
 
 namespace sweepscope {

@@ -1,10 +1,10 @@
-#include "core/loam/smooth_path.hpp"
+#include "core/loam/path/smooth_path.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/loam/least_squares.hpp"
-#include "core/loam/path_equations.hpp"
+#include "core/loam/path/least_squares.hpp"
+#include "core/loam/path/path_equations.hpp"
 
 namespace sweepscope {
 namespace {

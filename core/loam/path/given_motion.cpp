@@ -1,9 +1,9 @@
-#include "core/loam/given_motion.hpp"
+#include "core/loam/path/given_motion.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/loam/path_equations.hpp"
+#include "core/loam/path/path_equations.hpp"
 #include "core/numbers.hpp"
 
 namespace sweepscope {

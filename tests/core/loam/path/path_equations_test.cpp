@@ -1,4 +1,4 @@
-#include "core/loam/path_equations.hpp"
+#include "core/loam/path/path_equations.hpp"
 
 #include <gtest/gtest.h>
 

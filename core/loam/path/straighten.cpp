@@ -1,10 +1,10 @@
-#include "core/loam/straighten.hpp"
+#include "core/loam/path/straighten.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <span>
 
-#include "core/loam/path_equations.hpp"
+#include "core/loam/path/path_equations.hpp"
 
 namespace sweepscope {
 namespace {

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "core/loam/least_squares.hpp"
+#include "core/loam/path/least_squares.hpp"
 
 namespace sweepscope {
 

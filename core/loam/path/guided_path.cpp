@@ -1,9 +1,9 @@
-#include "core/loam/guided_path.hpp"
+#include "core/loam/path/guided_path.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/loam/path_equations.hpp"
+#include "core/loam/path/path_equations.hpp"
 
 namespace sweepscope {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "core/loam/sweep_pose.hpp"
+#include "core/loam/path/sweep_pose.hpp"
 
 namespace sweepscope {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/geometry/pose.hpp"
-#include "core/loam/sweep_pose.hpp"
+#include "core/loam/path/sweep_pose.hpp"
 
 namespace sweepscope {
 

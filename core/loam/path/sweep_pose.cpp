@@ -1,9 +1,9 @@
-#include "core/loam/sweep_pose.hpp"
+#include "core/loam/path/sweep_pose.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/loam/path_equations.hpp"
+#include "core/loam/path/path_equations.hpp"
 
 namespace sweepscope {
 

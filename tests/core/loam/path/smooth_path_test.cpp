@@ -1,4 +1,4 @@
-#include "core/loam/smooth_path.hpp"
+#include "core/loam/path/smooth_path.hpp"
 
 #include <gtest/gtest.h>
 
