@@ -120,7 +120,7 @@ TEST_F(Shards, CandidatesOfAnotherSearchOrRecordingAreRefused) {
   const std::string kept = file("kept.candidates");
   const Outcome other = run("estimate room.bag --method stationary --range 20:28:2 --resume kept.candidates");
   EXPECT_EQ(other.exit_code, 2);
-  EXPECT_NE(other.err.find("kept.candidates: it holds --method=stationary --range=20:28:1"),
+  EXPECT_NE(other.err.find("kept.candidates: it contains --method=stationary --range=20:28:1"),
             std::string::npos)
       << other.err;
   expect_done("simulate room-3 -o other.bag");

@@ -97,7 +97,7 @@ TEST(EstimateJson, ARefusalHasNoOffset) {
   estimate.refusals = {refusal(RefusalKind::kMotorDoesNotMove, 0.1, 0.1)};
   const std::string text = estimate_to_json(estimate);
   EXPECT_NE(text.find("\"offset_ms\": null,\n  \"sigma_ms\": null"), std::string::npos);
-  EXPECT_NE(text.find("\"The motor does not move.\""), std::string::npos);
+  EXPECT_NE(text.find("\"The motor does not move: its angle stays within 0.10 deg.\""), std::string::npos);
 }
 
 TEST(EstimateJson, ReadsBackWhatItWrote) {
