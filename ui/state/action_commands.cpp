@@ -1,3 +1,4 @@
+#include "core/simulation/scenes/scene.hpp"
 #include "ui/state/command_parts.hpp"
 
 namespace sweepscope::ui {
@@ -42,12 +43,7 @@ void add_actions_of_opening(std::vector<Command>& all) {
   all.push_back(action({"open-chosen", "Open", "Opens the recording with the choices of the page."}));
 }
 
-}  // namespace
-
-void add_actions(std::vector<Command>& all) {
-  const std::vector<std::string> scenes{"room-1",   "room-2",      "room-3",        "room-4",
-                                        "room-5",   "room-6",      "metro-station", "parking-area",
-                                        "cemetery", "lecture-room"};
+void add_recordings(std::vector<Command>& all) {
   all.push_back(action({"open", "Open a recording",
                         "A recording (a ROS 1 or ROS 2 bag, or a folder of CSV tables), with the trajectory "
                         "of the rig (TUM) if it is known; a saved session; or an estimate written as JSON."},
@@ -55,9 +51,11 @@ void add_actions(std::vector<Command>& all) {
   all.push_back(
       action({"sample", "Open a simulated sample",
               "A recording whose true offset is known to be 24 ms: a room, or the first seconds of a walk."},
-             {choice_of("SCENE", scenes),
+             {choice_of("SCENE", simulation::scene_names()),
               {.name = "SECONDS", .unit = "s", .least = 1, .greatest = 300, .optional = true}}));
-  add_actions_of_opening(all);
+}
+
+void add_actions_on_maps(std::vector<Command>& all) {
   all.push_back(action({"close", "Close the recording", "Back to the start page."}));
   all.push_back(action({"fit-view", "Fit the view", "Shows the whole map."}));
   all.push_back(action({"next-place", "Next place",
@@ -73,6 +71,9 @@ void add_actions(std::vector<Command>& all) {
   all.push_back(action({"cancel", "Cancel", "Stops everything that runs in the background."}));
   all.push_back(action({"solve", "Solve the maps", "Resumes what was cancelled."}));
   all.push_back(action({"take-found", "Use the found offset", "Sets map B to the offset that was found."}));
+}
+
+void add_actions_on_files(std::vector<Command>& all) {
   all.push_back(action({"undo", "Undo", "Reverts the last change of a setting."}));
   all.push_back(action({"redo", "Redo", "Repeats the change that was undone."}));
   all.push_back(
@@ -105,6 +106,9 @@ void add_actions(std::vector<Command>& all) {
   all.push_back(action({"export-report", "Export a report",
                         "Writes one HTML page into a folder: the offset, its evidence and the maps."},
                        {text_of("FOLDER")}));
+}
+
+void add_actions_on_windows(std::vector<Command>& all) {
   all.push_back(action({"palette", "All commands", "A searchable list of all commands."}));
   all.push_back(action({"help", "Keys", "The list of keys."}));
   all.push_back(
@@ -123,6 +127,16 @@ void add_actions(std::vector<Command>& all) {
       action({"next-field", "Next field", "Types into the next number; \"back\": into the previous one."},
              {{.name = "WAY", .kind = Kind::kChoice, .choices = {"back"}, .optional = true}}));
   all.push_back(action({"quit", "Quit", "Ends the program."}));
+}
+
+}  // namespace
+
+void add_actions(std::vector<Command>& all) {
+  add_recordings(all);
+  add_actions_of_opening(all);
+  add_actions_on_maps(all);
+  add_actions_on_files(all);
+  add_actions_on_windows(all);
 }
 
 }  // namespace sweepscope::ui

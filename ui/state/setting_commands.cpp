@@ -274,7 +274,7 @@ void add_fields_of_display(std::vector<Command>& all) {
              &Settings::colouring, {"elevation", "intensity", "time", "direction", "features", "blur"}));
   all.push_back(table_choice());
   all.push_back(choice({"heights", "Heights",
-                        "Where blur shows: at least 0.8 m above or below the sensor's path, without the "
+                        "Blur shows: at least 0.8 m above or below the sensor's path, without the "
                         "ceiling. All: everything. Slab: between two heights above the path."},
                        &Settings::heights, {"sharp", "all", "slab"}));
   all.push_back(numbers({"slab", "Slab", "The visible range of heights above the sensor's path."},
@@ -303,6 +303,9 @@ void add_fields_of_display(std::vector<Command>& all) {
                        &Settings::time_s, number_of("TIME", "s", -1, 1e7, 0.1)));
   all.push_back(number({"play-speed", "Speed", "Seconds of the recording that are played in one second."},
                        &Settings::play_speed, number_of("SPEED", "×", 0.05, 50, 0.05)));
+}
+
+void add_fields_of_window(std::vector<Command>& all) {
   all.push_back(choice({"theme", "Theme", "Dark for the screen, light for paper and bright rooms."},
                        &Settings::theme, {"dark", "light"}));
   all.push_back(
@@ -448,6 +451,7 @@ void add_edits(std::vector<Command>& all) {
 void add_settings(std::vector<Command>& all) {
   add_fields_of_maps(all);
   add_fields_of_display(all);
+  add_fields_of_window(all);
   add_fields_of_tools(all);
   add_fields_of_estimates(all);
   add_edits(all);
