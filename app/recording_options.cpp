@@ -130,7 +130,7 @@ Result<ReadOptions> RecordingOptions::read_options() const {
 Result<Recording> RecordingOptions::read(const Job& job) const {
   const auto options = read_options();
   if (!options) return tl::unexpected(options.error());
-  auto whole = read_recording(recording, *options, job);
+  auto whole = read_fitting(recording, *options, job);
   if (!whole || !window) return whole;
   return cut_to_window(*whole, {window->from_s, window->to_s}, recording.string());
 }
@@ -138,7 +138,7 @@ Result<Recording> RecordingOptions::read(const Job& job) const {
 Result<RecordingFile> RecordingOptions::open(const Job& job) const {
   if (window) return read(job).map([](Recording&& cut) { return RecordingFile(std::move(cut)); });
   return read_options().and_then(
-      [&](ReadOptions&& options) { return RecordingFile::open(recording, std::move(options), job); });
+      [&](ReadOptions&& options) { return open_fitting(recording, options, job); });
 }
 
 CLI::Validator finite_number() {

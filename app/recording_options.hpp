@@ -12,7 +12,7 @@
 #include "core/error.hpp"
 #include "core/job.hpp"
 #include "core/offset/estimate.hpp"
-#include "core/recording/formats/read_recording.hpp"
+#include "core/offset/readings/fitting_recording.hpp"
 #include "core/recording/formats/recording_file.hpp"
 #include "core/recording/rig/named_streams.hpp"
 

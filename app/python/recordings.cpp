@@ -6,9 +6,9 @@
 
 #include "app/python/arrays.hpp"
 #include "app/python/handles.hpp"
+#include "core/offset/readings/fitting_recording.hpp"
 #include "core/offset/summary.hpp"
 #include "core/recording/formats/read_raw_recording.hpp"
-#include "core/recording/formats/read_recording.hpp"
 #include "core/recording/time_window.hpp"
 #include "core/results/info_json.hpp"
 
@@ -38,7 +38,7 @@ Result<Opened> read(const Reading& reading, const std::optional<StampSource>& st
   if (reading.laser) opened.rig.laser.topic = reading.laser;
   if (reading.motor) opened.rig.motor.topic = reading.motor;
   if (reading.joint) opened.rig.motor.joint = reading.joint;
-  auto whole = read_recording(reading.path, {opened.rig, stamps}, job);
+  auto whole = read_fitting(reading.path, {opened.rig, stamps}, job);
   if (whole && reading.window) whole = cut_to_window(*whole, *reading.window, reading.path.string());
   if (!whole) return tl::unexpected(whole.error());
   opened.recording = std::move(*whole);

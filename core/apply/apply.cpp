@@ -14,7 +14,7 @@
 #include "core/apply/survey.hpp"
 #include "core/io/atomic_file.hpp"
 #include "core/io/atomic_folder.hpp"
-#include "core/recording/formats/read_recording.hpp"
+#include "core/offset/readings/fitting_recording.hpp"
 #include "core/recording/formats/recording_file.hpp"
 #include "core/recording/streams/message_sink.hpp"
 
@@ -106,7 +106,7 @@ Result<Recording> Application::recording_to_add() const {
   options.rig = options_.rig;
   options.stamps = options_.stamps;
   auto read = options_.add.clouds_topic.empty() ? read_outline(recording_.path, options, 0, job_)
-                                                : read_recording(recording_.path, options, job_);
+                                                : read_fitting(recording_.path, options, job_);
   if (!read) return read;
   return without_offset(std::move(*read), move_.clocks);
 }

@@ -77,7 +77,7 @@ std::vector<std::string> head(const RigSnippet& snippet) {
 /// What a robot model cannot hold.
 std::vector<std::string> missing_parts(const Rig& rig) {
   std::vector<std::string> lines;
-  const double unit = std::abs(rig.motor.scale);
+  const double unit = std::abs(rig.motor.rad_per_value());
   if (unit != 1)
     lines.push_back(fmt::format(
         "The joint's positions must be in rad: multiply those of the recording by {}.", number(unit)));

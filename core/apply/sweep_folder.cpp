@@ -10,7 +10,7 @@
 #include "core/io/atomic_folder.hpp"
 #include "core/io/cloud_file.hpp"
 #include "core/io/trajectory_file.hpp"
-#include "core/recording/formats/read_recording.hpp"
+#include "core/offset/readings/fitting_recording.hpp"
 #include "core/recording/streams/message_sink.hpp"
 #include "core/recording/streams/message_stream.hpp"
 
@@ -62,7 +62,7 @@ Result<WrittenSweeps> write_sweeps(Recording recording, const AppliedOffset& off
 Result<WrittenSweeps> write_applied_sweeps(const std::filesystem::path& path, const ApplyOptions& options,
                                            const std::filesystem::path& folder, const std::string& extension,
                                            const Job& job) {
-  auto recording = read_recording(path, {options.rig, options.stamps}, job);
+  auto recording = read_fitting(path, {options.rig, options.stamps}, job);
   if (!recording) return tl::unexpected(recording.error());
   const auto stream = open_stream(path, job);
   if (!options.again && stream) {

@@ -23,7 +23,7 @@ inline constexpr std::uint32_t kMaxBeamsAScan = 65'536;
 /// Recording::direction() their directions.
 struct LaserScan {
   double first_beam_s = 0;      // laser clock, seconds since Recording::epoch_ns
-  double time_increment_s = 0;  // > 0
+  double time_increment_s = 0;  // >= 0; 0: all beams at one instant
   double angle_min_rad = 0;
   double angle_increment_rad = 0;
   std::size_t first_range = 0;  // index of beam 0 in Recording::ranges_m
@@ -47,6 +47,25 @@ struct RecordedTopic {
   std::string type;
   std::size_t messages = 0;
   std::size_t malformed = 0;  // of those, not decodable and skipped
+};
+
+/// How the beams of a message follow each other in time: see core/offset/readings.
+enum class BeamReadingKind {
+  kRecorded,
+  kReversed,  // the last beam of the array was fired first
+  kAtOnce,
+  kMirror,  // the mirror turns once from scan to scan
+  kMirrorReversed,
+  kPeriod,  // a scan takes all of the time from scan to scan
+  kPeriodReversed
+};
+/// A reading, and how well sweeps of opposite directions fit each other by it.
+struct BeamReading {
+  BeamReadingKind kind = BeamReadingKind::kRecorded;
+  double time_increment_s = 0;       // as Rig::Laser::time_increment_s
+  std::optional<double> residual_m;  // robust deviation of distances; absent where surfaces do not match
+  std::optional<double> offset_s;    // present where the reading fits
+  bool chosen = false;
 };
 
 /// The stamps of one stream, the laser's or the motor's.
@@ -73,6 +92,7 @@ struct ReadReport {
   /// The possible error of the time of a scan's last beam, if a time_increment is a guess or ambiguous
   /// (beam_times.hpp): the mean over the scans.
   double beam_time_doubt_s = 0;
+  std::vector<BeamReading> readings;  // of the laser's messages, those that were tried; empty: none was
   bool intensities = false;           // every scan has them, whether they were kept or not
   std::vector<std::string> warnings;  // whole sentences for a person
 };

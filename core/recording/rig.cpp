@@ -1,6 +1,7 @@
 #include "core/recording/rig.hpp"
 
 #include <cmath>
+#include <numbers>
 
 #include "core/io/yaml_members.hpp"
 #include "core/numbers.hpp"
@@ -40,9 +41,8 @@ void read_laser(const YAML::Node& node, Rig::Laser& laser) {
                  }},
                 {"time_increment_s", [&](const YAML::Node& value) {
                    const double increment_s = read_number(value, "laser.time_increment_s");
-                   if (increment_s <= 0 || increment_s >= 1) {
-                     refuse(value, "laser.time_increment_s must be more than 0 and less than 1 s");
-                   }
+                   if (std::abs(increment_s) >= 1)
+                     refuse(value, "laser.time_increment_s must be more than -1 and less than 1 s");
                    laser.time_increment_s = increment_s;
                  }}});
 }
@@ -56,6 +56,12 @@ void read_motor(const YAML::Node& node, Rig::Motor& motor) {
                  [&](const YAML::Node& value) {
                    motor.scale = read_number(value, "motor.scale");
                    if (motor.scale == 0) refuse(value, "motor.scale must not be 0");
+                 }},
+                {"unit",
+                 [&](const YAML::Node& value) {
+                   motor.unit = read_choice<AngleUnit>(
+                       value, "motor.unit",
+                       {{"rad", AngleUnit::kRad}, {"deg", AngleUnit::kDeg}, {"turns", AngleUnit::kTurns}});
                  }},
                 {"zero_deg",
                  [&](const YAML::Node& value) { motor.zero_deg = read_number(value, "motor.zero_deg"); }}});
@@ -127,6 +133,11 @@ Rig read_document(const YAML::Node& document) {
 }
 
 }  // namespace
+
+double Rig::Motor::rad_per_value() const {
+  if (unit == AngleUnit::kRad) return scale;
+  return scale * (unit == AngleUnit::kDeg ? kRadPerDeg : 2 * std::numbers::pi);
+}
 
 Gear Rig::Gear::angles() const {
   const double amplitude_rad = encoder_amplitude_deg * kRadPerDeg, phase_rad = encoder_phase_deg * kRadPerDeg;

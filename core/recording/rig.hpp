@@ -14,6 +14,8 @@ namespace sweepscope {
 enum class StampSource { kHeader, kReceive };
 /// The instant of a scan that its stamp refers to.
 enum class StampAt { kFirstBeam, kLastBeam, kArrival };
+/// The unit of a motor's values, before `scale`.
+enum class AngleUnit { kRad, kDeg, kTurns };
 
 /// As the rig file spells them.
 inline std::string name_of(StampSource stamp) {
@@ -24,20 +26,31 @@ inline std::string name_of(StampAt stamp_at) {
   return stamp_at == StampAt::kLastBeam ? "last_beam" : "arrival";
 }
 
+inline std::string name_of(AngleUnit unit) {
+  if (unit == AngleUnit::kRad) return "rad";
+  return unit == AngleUnit::kDeg ? "deg" : "turns";
+}
+
 /// The rig that made a recording: the rig file. Empty members are detected from the recording.
 struct Rig {
   struct Laser {
     std::optional<std::string> topic;
     std::optional<StampSource> stamp;
     StampAt stamp_at = StampAt::kFirstBeam;
-    std::optional<double> time_increment_s;  // used if the recording's is 0 or in doubt
+    /// From beam to beam of a message's array. 0: all beams of a scan at once. Negative: the last beam of the
+    /// array was fired first, and the stamp is that of the first beam fired. The recorded one is used, with
+    /// this sign, where both differ by at most 25 %.
+    std::optional<double> time_increment_s;
+    bool increment_is_found = false;  // by the surfaces (core/offset/readings): nobody stated it
   };
   struct Motor {
     std::optional<std::string> topic;
     std::optional<std::string> joint;
     std::optional<StampSource> stamp;
-    double scale = 1.0;  // angle_rad = scale * raw - zero_deg * pi / 180
+    double scale = 1.0;  // in units for each value of the recording
+    AngleUnit unit = AngleUnit::kRad;
     double zero_deg = 0.0;
+    double rad_per_value() const;  // angle_rad = rad_per_value * value - zero_deg * pi / 180
   };
   using Mount = sweepscope::Mount;
   /// An IMU (sensor_msgs/Imu) on the base, whose gyroscope is a prior of a moving rig's rotation.

@@ -10,6 +10,7 @@
 #include "core/io/content_hash.hpp"
 #include "core/map/feature_points.hpp"
 #include "core/map/offset_map.hpp"
+#include "core/offset/readings/fitting_recording.hpp"
 #include "core/offset/walk/walk.hpp"
 #include "core/recording/rig.hpp"
 #include "core/results/candidate_file.hpp"
@@ -40,7 +41,7 @@ Result<Recording> read(const RecordedFile& file, const Job& job) {
     if (!rig) return tl::unexpected(rig.error());
     options.rig = std::move(*rig);
   }
-  return read_recording(file.path, options, job);
+  return read_fitting(file.path, options, job);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "core/map/stamped_poses.hpp"
 #include "core/numbers.hpp"
 #include "core/offset/kind/rig_motion.hpp"
+#include "core/offset/readings/fitting_recording.hpp"
 #include "core/simulation/simulate.hpp"
 #include "ui/state/value.hpp"
 
@@ -43,7 +44,7 @@ Result<LoadedPtr> finish(std::shared_ptr<Loaded> loaded, const Job& job) {
 Result<LoadedPtr> load_file(const ReadingChoices& choices, const Job& job) {
   const auto options = read_options(choices);
   if (!options) return tl::unexpected(options.error());
-  auto recording = read_recording(choices.file, *options, job);
+  auto recording = read_fitting(choices.file, *options, job);
   if (recording && choices.window) recording = cut_to_window(*recording, *choices.window, choices.file);
   if (!recording) return tl::unexpected(recording.error());
   auto loaded = std::make_shared<Loaded>();

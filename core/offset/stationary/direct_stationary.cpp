@@ -171,6 +171,34 @@ Sums summed(const std::vector<LineResiduals>& lines, double loss_width_m) {
   return sums;
 }
 
+// Fills in the scan time's error: the patches of a cell are of its own bin, so that both move alike.
+void fill_scan_time(const std::vector<LineResiduals>& lines, std::size_t bins, double loss_width_m,
+                    StationaryDirect& result) {
+  const auto sum = [&](const auto& term) {
+    double total = 0;
+    for (const LineResiduals& line : lines) {
+      for (std::size_t i = 0; i < line.residuals.size(); ++i) {
+        const PatchDistance& residual = line.residuals[i];
+        const double beam = double(line.cells[i] % bins) / double(bins - 1);
+        total += cauchy_weight(residual.distance_m, loss_width_m) * term(residual, beam);
+      }
+    }
+    return total;
+  };
+  if (bins < 2) return;
+  const auto squared = [](const PatchDistance& of) { return of.jacobian_m_s * of.jacobian_m_s; };
+  const double jj = sum([&](const PatchDistance& of, double) { return squared(of); });
+  if (!(jj > 0)) return;
+  const double middle = sum([&](const PatchDistance& of, double beam) { return squared(of) * beam; }) / jj;
+  const double ss = sum(
+      [&](const PatchDistance& of, double beam) { return squared(of) * (beam - middle) * (beam - middle); });
+  if (!(ss > 0)) return;
+  result.scan_time_error_s = -sum([&](const PatchDistance& of, double beam) {
+    return of.jacobian_m_s * (beam - middle) * of.distance_m;
+  }) / ss;
+  result.scan_time_formal_sigma_s = result.residual_m / std::sqrt(ss);
+}
+
 // Which block of sweeps each line belongs to, kNoSweep where none.
 struct Blocks {
   std::vector<std::size_t> of_line;
@@ -420,6 +448,7 @@ StationaryDirect solve_stationary(const StationaryGrid& grid, double first_offse
     const bool last = result.converged || result.iterations + 1 == options.max_iterations;
     result.offset_s += step_s;
     if (last) {
+      fill_scan_time(lines, grid.bins, loss_width_m, result);
       if (options.resampling != Resampling::kNone)
         resample(grid, at, lines, loss_width_m, options.resampling, result);
       break;

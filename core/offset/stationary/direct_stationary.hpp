@@ -60,6 +60,10 @@ struct StationaryDirect {
   double middle_s =
       0;  // laser clock, mean time of the matches by their weight: where a drifting offset is right
   double residual_m = 0;  // robust deviation of the distances
+  // What the distances say of the time from a scan's first to its last beam, beyond the recording's: a step
+  // of a second unknown, tau (b - mean b), of beams b from 0 to 1; and its deviation as if all matches erred
+  // independently.
+  double scan_time_error_s = 0, scan_time_formal_sigma_s = 0;
   double lever_m =
       0;  // rms of n . (a x p): the distance by which a turn of 1 rad moves the points off the patches
   double reach_m = 0;  // rms of |a x p|: its upper bound

@@ -15,13 +15,45 @@ std::size_t beams_per_bin(const FeatureOptions& options) {
   return std::size_t(std::max(1, options.map_spacing));
 }
 
+// Which column of the grid a beam belongs to, before columns are put together to bins: its number, or, where
+// scans do not all begin in the same direction, the number of increments from the first direction of all.
+class Columns {
+ public:
+  explicit Columns(const Recording& recording) {
+    if (recording.scans.empty() || !recording.directions.empty()) return;
+    const LaserScan& first = recording.scans.front();
+    const auto repeats = [&](const LaserScan& scan) {
+      const double end_rad = scan.beam_angle_rad(first.beams) - first.beam_angle_rad(first.beams);
+      return std::max(std::abs(scan.angle_min_rad - first.angle_min_rad), std::abs(end_rad)) <
+             std::abs(first.angle_increment_rad) / 2;
+    };
+    if (std::ranges::all_of(recording.scans, repeats)) return;
+    increment_rad_ = first.angle_increment_rad;
+    first_rad_ = first.angle_min_rad;
+    for (const LaserScan& scan : recording.scans)
+      if ((scan.angle_min_rad - first_rad_) * increment_rad_ < 0) first_rad_ = scan.angle_min_rad;
+  }
+  double of(const LaserScan& scan, double beam) const {
+    constexpr double kMost = 1e6;
+    if (increment_rad_ == 0) return beam;
+    return std::clamp((scan.beam_angle_rad(beam) - first_rad_) / increment_rad_, 0.0, kMost);
+  }
+  double beam_at(const LaserScan& scan, double column) const {
+    if (increment_rad_ == 0) return column;
+    return (first_rad_ + column * increment_rad_ - scan.angle_min_rad) / scan.angle_increment_rad;
+  }
+
+ private:
+  double first_rad_ = 0, increment_rad_ = 0;  // 0: beams count
+};
+
 // Enough for the longest scan; but where a few scans are that much longer than the others that the grid would
 // be empty mostly, their far ends are left out of it.
-std::size_t bins_of(const std::vector<LaserScan>& scans, std::size_t beams_a_bin) {
+std::size_t bins_of(const std::vector<LaserScan>& scans, const Columns& columns, std::size_t beams_a_bin) {
   constexpr std::size_t kSparsest = 16;  // bounds the grid's memory by so many times that of its beams
   std::size_t most = 0, all = 0;
   for (const LaserScan& scan : scans) {
-    most = std::max<std::size_t>(most, scan.beams);
+    most = std::max(most, std::size_t(columns.of(scan, scan.beams) + 0.5));
     all += scan.beams;
   }
   const std::size_t mean = all / std::max<std::size_t>(1, scans.size()) + 1;
@@ -44,7 +76,8 @@ StationaryGrid stationary_grid(const OffsetProblem& problem) {
   const FeatureOptions& options = problem.feature_options;
   StationaryGrid grid;
   grid.problem = &problem;
-  grid.bins = bins_of(scans, beams_per_bin(options));
+  const Columns columns(*problem.recording);
+  grid.bins = bins_of(scans, columns, beams_per_bin(options));
   for (std::size_t i = 0; i < scans.size(); ++i)
     if (problem.scan_used[i]) grid.scan.push_back(std::uint32_t(i));
   grid.feature.assign(grid.lines() * grid.bins, StationaryGrid::kNone);
@@ -54,10 +87,12 @@ StationaryGrid stationary_grid(const OffsetProblem& problem) {
   for (std::size_t line = 0; line < grid.lines(); ++line) {
     const std::size_t scan = grid.scan[line], first = line * grid.bins;
     for (std::size_t bin = 0; bin < grid.bins; ++bin)
-      grid.time_s[first + bin] = scans[scan].beam_s(half + (double(bin) + 0.5) * options.map_spacing);
+      grid.time_s[first + bin] =
+          scans[scan].beam_s(columns.beam_at(scans[scan], half + (double(bin) + 0.5) * options.map_spacing));
     for (std::size_t i = planes.scan_begin[scan]; i < planes.scan_begin[scan + 1]; ++i) {
       const Feature& feature = planes.features[i];
-      const std::size_t bin = (feature.beam - std::size_t(half)) / beams_per_bin(options);
+      const double column = std::round(columns.of(scans[scan], feature.beam));
+      const std::size_t bin = std::size_t(std::max(0.0, column - half)) / beams_per_bin(options);
       if (bin >= grid.bins) continue;
       grid.feature[first + bin] = std::uint32_t(i);
       grid.time_s[first + bin] = feature.time_s;

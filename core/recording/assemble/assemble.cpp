@@ -11,6 +11,7 @@
 #include "core/numbers.hpp"
 #include "core/recording/assemble/beam_times.hpp"
 #include "core/recording/assemble/choose_streams.hpp"
+#include "core/recording/assemble/turns.hpp"
 #include "core/recording/stream_stamps.hpp"
 
 namespace sweepscope {
@@ -50,6 +51,7 @@ class ScanAssembler {
   bool check_cloud_times(const std::vector<LaserScan>& lines);
   void order_lines(std::vector<LaserScan>& lines);
   void take_ranges();
+  void put_together();
   /// Only the scans' headers were read.
   bool without_ranges() const { return raw_.ranges_m.empty(); }
   void clean(const RawScan& raw, std::span<float> ranges_m);
@@ -61,7 +63,7 @@ class ScanAssembler {
   ReadReport& report_;
   std::vector<double> cloud_spans_s_;  // of the lines placed
   std::string cloud_problem_;
-  double period_s_ = 0;  // from scan to scan; 0 where it is not known
+  double period_s_ = 0;  // of a turn of the mirror; 0 where it is not known
   BeamTimesReport beam_times_;
   std::size_t without_stamp_ = 0, without_beams_ = 0;
 };
@@ -76,8 +78,7 @@ void ScanAssembler::set_epoch() {
   recording_.epoch_ns = first_ns - first_ns % kSecond_ns;
 }
 
-/// A scan whose beams were fired from the last to the first (a negative time_increment), in the order of
-/// time.
+/// A scan whose beams were fired from the last to the first, in the order of time.
 void ScanAssembler::turn_round(RawScan& scan) {
   const auto reverse = [&](std::vector<float>& of_beams) {
     const auto first = of_beams.begin() + static_cast<std::ptrdiff_t>(scan.first_range);
@@ -87,9 +88,11 @@ void ScanAssembler::turn_round(RawScan& scan) {
   if (raw_.has_intensities) reverse(raw_.intensities);
   scan.angle_min_rad = last_beam_angle_rad(scan);
   scan.angle_increment_rad = -scan.angle_increment_rad;
-  scan.time_increment_s = -scan.time_increment_s;
-  // The stamp of the first beam in the message is that of the last one fired.
-  if (recording_.rig.laser.stamp_at == StampAt::kFirstBeam)
+  const bool recorded = scan.time_increment_s < 0;
+  scan.time_increment_s = std::abs(scan.time_increment_s);
+  // Where only the message says so, its stamp is that of its first beam, the last one fired.
+  const bool of_message = recorded && !recording_.rig.laser.time_increment_s;
+  if (of_message && recording_.rig.laser.stamp_at == StampAt::kFirstBeam)
     scan.first_beam_after_stamp_s = -(scan.beams - 1.0) * double{scan.time_increment_s};
 }
 
@@ -106,12 +109,14 @@ bool ScanAssembler::place(const RawScan& raw, LaserScan& scan) {
   scan.angle_min_rad = double{raw.angle_min_rad};
   scan.angle_increment_rad = double{raw.angle_increment_rad};
   scan.first_range = raw.first_range;
+  std::optional<double> rig_increment_s = recording_.rig.laser.time_increment_s;
+  if (rig_increment_s) rig_increment_s = std::abs(*rig_increment_s);
   // The times of a cloud's points have a check of their own.
-  const BeamTimes times =
-      judge_beam_times(raw, raw_.of_clouds ? 0 : period_s_, recording_.rig.laser.time_increment_s);
-  beam_times_.add(raw, times);
-  if (times.time_increment_s == 0) return false;
-  scan.time_increment_s = times.time_increment_s;
+  if (raw_.of_clouds && usable_increment(double{raw.time_increment_s})) rig_increment_s.reset();
+  const BeamTimes times = judge_beam_times(raw, raw_.of_clouds ? 0 : period_s_, rig_increment_s);
+  beam_times_.add(raw, times, recording_.rig.laser.increment_is_found);
+  if (!times.time_increment_s) return false;
+  scan.time_increment_s = *times.time_increment_s;
   scan.ring = raw.ring;
   const double stamp_s = since_s(ns, recording_.epoch_ns);
   const bool first = recording_.rig.laser.stamp_at == StampAt::kFirstBeam;
@@ -125,12 +130,13 @@ bool ScanAssembler::place(const RawScan& raw, LaserScan& scan) {
 
 bool ScanAssembler::assemble() {
   set_epoch();
-  period_s_ = scan_period_s(raw_.scans, report_.laser_stamps.used);
+  const double turns = raw_.of_clouds ? 1 : turns_per_message(raw_.scans);
+  period_s_ = scan_period_s(raw_.scans, report_.laser_stamps.used) / turns;
   std::vector<LaserScan> placed;
   std::vector<double> times_s;
   for (RawScan& raw : raw_.scans) {
     LaserScan scan;
-    if (!raw_.of_clouds && usable_increment(-double{raw.time_increment_s})) turn_round(raw);
+    if (!raw_.of_clouds && fired_backwards(raw, recording_.rig.laser.time_increment_s)) turn_round(raw);
     if (!place(raw, scan)) {
       ++report_.scans_dropped;
       continue;
@@ -151,6 +157,7 @@ bool ScanAssembler::assemble() {
     for (const std::size_t i : order.kept) recording_.scans.push_back(placed[i]);
   }
   if (!without_ranges()) take_ranges();
+  if (turns != 1 && !without_ranges()) put_together();
   warn_of_drops();
   warn_of_overlap();
   return true;
@@ -246,6 +253,15 @@ void ScanAssembler::take_ranges() {
   }
 }
 
+/// Messages that cover parts of a turn, as whole turns.
+void ScanAssembler::put_together() {
+  const std::size_t messages = recording_.scans.size();
+  recording_.scans = whole_turns(recording_.scans);
+  report_.warnings.push_back(
+      fmt::format("the {} messages on {} cover parts of a turn of the mirror: they are read as {} turns",
+                  messages, raw_.topic, recording_.scans.size()));
+}
+
 std::string ScanAssembler::reason() const {
   std::vector<std::string> reasons;
   if (!cloud_problem_.empty()) reasons.push_back(cloud_problem_);
@@ -309,7 +325,7 @@ bool assemble_motor(const RawJoint& raw, Recording& recording) {
   std::vector<double> times_s, angles_rad;
   for (std::size_t i = 0; i < raw.stamps.size(); ++i) {
     const std::int64_t ns = stamp_ns(raw.stamps[i], report.motor_stamps.used);
-    const double angle_rad = rig.scale * raw.positions[i] - rig.zero_deg * std::numbers::pi / 180;
+    const double angle_rad = rig.rad_per_value() * raw.positions[i] - rig.zero_deg * std::numbers::pi / 180;
     if (ns == 0 || !std::isfinite(angle_rad)) {
       ++report.motor_dropped;
       continue;
@@ -370,10 +386,10 @@ void compare_streams(Recording& recording) {
 /// What a number means is not said in the file.
 void warn_of_source(const RawJoint& joint, Recording& recording) {
   if (joint.source != JointSource::kNumber) return;
-  recording.report.warnings.push_back(
-      fmt::format("{} holds plain numbers: they are multiplied by {:.6g} (the rig's motor.scale) to give "
-                  "rad; whether they are measured angles or commands is not known",
-                  joint.topic, recording.rig.motor.scale));
+  recording.report.warnings.push_back(fmt::format(
+      "{} holds plain numbers: they are multiplied by {:.6g} (the rig's motor.scale and motor.unit) "
+      "to give rad; whether they are measured angles or commands is not known",
+      joint.topic, recording.rig.motor.rad_per_value()));
 }
 
 /// Receive times of messages that came late are corrected, if receive times are used.

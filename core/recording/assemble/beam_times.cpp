@@ -54,33 +54,39 @@ bool usable_increment(double increment_s) {
   return increment_s > 0 && increment_s < kLongestTimeIncrement_s;
 }
 
+bool fired_backwards(const RawScan& scan, std::optional<double> rig_increment_s) {
+  return rig_increment_s ? *rig_increment_s < 0 : usable_increment(-double{scan.time_increment_s});
+}
+
 double BeamTimes::doubt_s(double beams) const {
-  return other_s > 0 ? std::abs(time_increment_s - other_s) * std::max(0.0, beams - 1) : 0;
+  return other_s > 0 ? std::abs(time_increment_s.value_or(0) - other_s) * std::max(0.0, beams - 1) : 0;
 }
 
 BeamTimes judge_beam_times(const RawScan& scan, double period_s, std::optional<double> rig_increment_s) {
   BeamTimes times;
   times.finding = finding_of(scan, period_s);
   times.time_increment_s = double{scan.time_increment_s};
-  if (times.finding == IncrementFinding::kSound) return times;
-  if (rig_increment_s) {
+  const bool sound = times.finding == IncrementFinding::kSound;
+  if (rig_increment_s && !(sound && alike(*rig_increment_s, double{scan.time_increment_s}))) {
     times.time_increment_s = *rig_increment_s;
     times.of_rig = true;
     return times;
   }
+  if (sound) return times;
   const bool guessed =
       times.finding == IncrementFinding::kMissing || times.finding == IncrementFinding::kImpossible;
   const double scan_time_s = double{scan.scan_time_s};
   if (guessed)
     times.time_increment_s = plausible_scan_time(scan_time_s, period_s) ? scan_time_s / scan.beams : 0;
-  if (!usable_increment(times.time_increment_s)) {
-    times.time_increment_s = 0;
+  if (!usable_increment(*times.time_increment_s)) {
+    times.other_s = period_s * std::abs(double{scan.angle_increment_rad}) / kFullTurn;
+    if (!(period_s > 0)) times.time_increment_s.reset();
     return times;
   }
   const double turn_s = guessed ? scan_time_s : period_s;
   const double of_mirror_s = turn_s * std::abs(double{scan.angle_increment_rad}) / kFullTurn;
   // A scan of a whole turn takes its whole period by either reading.
-  if (!guessed || !alike(times.time_increment_s, of_mirror_s, kSameTime)) times.other_s = of_mirror_s;
+  if (!guessed || !alike(*times.time_increment_s, of_mirror_s, kSameTime)) times.other_s = of_mirror_s;
   return times;
 }
 
@@ -100,16 +106,16 @@ double scan_period_s(const std::vector<RawScan>& scans, StampSource stamps) {
   return unevenness_s(times_s) < period_s / 4 ? period_s : 0;
 }
 
-void BeamTimesReport::add(const RawScan& scan, const BeamTimes& times) {
+void BeamTimesReport::add(const RawScan& scan, const BeamTimes& times, bool explained) {
   const bool impossible = times.finding == IncrementFinding::kImpossible;
-  if (times.time_increment_s == 0) {
+  if (!times.time_increment_s) {
     ++without_any_;
     return;
   }
   ++used_;
   doubt_sum_s_ += times.doubt_s(scan.beams);
-  if (times.finding == IncrementFinding::kSound) return;
-  if (times.of_rig && times.finding == IncrementFinding::kMissing) return;
+  if (times.finding == IncrementFinding::kSound && !times.of_rig) return;
+  if (times.of_rig && (explained || times.finding == IncrementFinding::kMissing)) return;
   Seen& seen = times.of_rig                                          ? corrected_
                : times.finding == IncrementFinding::kMissing         ? missing_
                : impossible                                          ? impossible_
@@ -129,7 +135,8 @@ std::string BeamTimesReport::unusable() const {
 }
 
 std::string BeamTimesReport::warning(const Seen& seen, const std::string& topic, double period_s) const {
-  const double recorded_s = double{seen.scan.time_increment_s}, used_s = seen.times.time_increment_s;
+  const double recorded_s = double{seen.scan.time_increment_s},
+               used_s = seen.times.time_increment_s.value_or(0);
   const std::string what = fmt::format(
       "{} scans on {} have a time_increment of {:.4g} s, by which a scan takes {:.4g} s of the {:.4g} s from "
       "scan to scan",
@@ -137,7 +144,18 @@ std::string BeamTimesReport::warning(const Seen& seen, const std::string& topic,
   if (seen.times.of_rig) return fmt::format("{}; the rig file's {:.4g} s is used instead", what, used_s);
   constexpr const char* kHelp = "give laser.time_increment_s in a rig file";
   switch (seen.times.finding) {
+    case IncrementFinding::kMissing:
     case IncrementFinding::kImpossible:
+      if (used_s == 0)
+        return fmt::format(
+            "{} scans on {} have neither a time_increment nor a scan_time that can be right: their beams are "
+            "taken as fired all at once, as simulators do, or take {:.4g} s each ({})",
+            seen.scans, topic, seen.times.other_s, kHelp);
+      if (seen.times.finding == IncrementFinding::kMissing)
+        return fmt::format(
+            "{} scans on {} have no time_increment; scan_time / beams is used, {:.4g} s, which is too long "
+            "for a scanner with a blind sector ({})",
+            seen.scans, topic, used_s, kHelp);
       return fmt::format("{}: its time_increment is too {}; scan_time / beams is used instead, {:.4g} s ({})",
                          what, recorded_s > used_s ? "long" : "short", used_s, kHelp);
     case IncrementFinding::kSkipsOrTooShort:
@@ -151,10 +169,7 @@ std::string BeamTimesReport::warning(const Seen& seen, const std::string& topic,
           "mirror that turns once a scan ({})",
           what, seen.times.other_s, kHelp);
     default:
-      return fmt::format(
-          "{} scans on {} have no time_increment; scan_time / beams is used, {:.4g} s, which is too long for "
-          "a scanner with a blind sector ({})",
-          seen.scans, topic, used_s, kHelp);
+      return what;
   }
 }
 

@@ -15,22 +15,31 @@ namespace sweepscope {
 /// If a driver leaves out scans, the period is 2 to 10 turns of the mirror: an increment shorter by that
 /// factor is used unchanged if scan_time gives the same number of turns. If scan_time does not, or if the
 /// increment is the second one, there are two readings: the recorded one is used, and the difference is the
-/// doubt. Any other increment is implausible and is treated as missing: the rig's is used, otherwise
-/// scan_time / beams, with doubt if the mirror's differs.
+/// doubt. Any other increment is implausible and is treated as missing: scan_time / beams is used, with doubt
+/// if the mirror's differs.
+///
+/// An increment of the rig file replaces the recorded one unless both are within 25 % of each other and have
+/// the same sign.
 enum class IncrementFinding { kSound, kMissing, kSkipsOrTooShort, kWholePeriodOrTooLong, kImpossible };
 
 /// Whether a time_increment is given, and shorter than one second.
 bool usable_increment(double increment_s);
 
+/// Whether the last beam of the scan's array was fired first: by the sign of the rig's increment, otherwise
+/// by that of the recorded one.
+bool fired_backwards(const RawScan& scan, std::optional<double> rig_increment_s);
+
 struct BeamTimes {
   IncrementFinding finding = IncrementFinding::kSound;
-  bool of_rig = false;                 // time_increment_s is the rig's
-  double time_increment_s = 0;         // the value in use; 0 if unknown
-  double other_s = 0;                  // the other reading; 0 where there is none
-  double doubt_s(double beams) const;  // of the last beam's instant: between the two readings
+  bool of_rig = false;                     // time_increment_s is the rig's
+  std::optional<double> time_increment_s;  // the value in use, >= 0; absent if unknown
+  double other_s = 0;                      // the other reading; 0 where there is none
+  double doubt_s(double beams) const;      // of the last beam's instant: between the two readings
 };
 
-/// `period_s` is the scans' own (scan_period_s), or 0 if it is not known: increments are then not checked.
+/// `period_s` is that of a turn of the mirror (scan_period_s, turns_per_message), or 0 if it is not known:
+/// increments are then not checked. The scan's beams and the rig's increment are in the order of time (see
+/// fired_backwards).
 BeamTimes judge_beam_times(const RawScan& scan, double period_s, std::optional<double> rig_increment_s);
 
 /// The median spacing of the scans' stamps; 0 for fewer than eight spacings, and for stamps that are uneven
@@ -40,7 +49,8 @@ double scan_period_s(const std::vector<RawScan>& scans, StampSource stamps);
 /// Counts the findings and words them.
 class BeamTimesReport {
  public:
-  void add(const RawScan& scan, const BeamTimes& times);
+  /// `explained`: where the rig's increment comes from is said elsewhere.
+  void add(const RawScan& scan, const BeamTimes& times, bool explained = false);
   /// Warnings, whole sentences for a person, about the scans of a topic.
   std::vector<std::string> warnings(const std::string& topic, double period_s) const;
   /// Scans that cannot be used: their beams' times are not known.

@@ -16,7 +16,7 @@ constexpr double kMinMotion_deg = 1.0;
 constexpr std::size_t kMaxListed = 40;
 
 double turn_deg(const RawJoint& joint, const Rig& rig) {
-  return range_of(joint) * std::abs(rig.motor.scale) * kDegPerRad;
+  return range_of(joint) * std::abs(rig.motor.rad_per_value()) * kDegPerRad;
 }
 
 /// An indented line per choice, the first ones where there are many.

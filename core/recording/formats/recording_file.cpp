@@ -68,7 +68,9 @@ Result<Recording> RecordingFile::parts(const std::vector<RecordingPart>& parts, 
 
 Result<Recording> RecordingFile::whole(const Job& job) const {
   if (is_whole()) return outline_;
-  return read(path_, options_, {}, job);
+  auto recording = read(path_, options_, {}, job);
+  if (recording) recording->report = outline_.report;
+  return recording;
 }
 
 }  // namespace sweepscope

@@ -27,6 +27,8 @@ class RecordingFile {
 
   /// All but the ranges, which are there if `is_whole`.
   const Recording& outline() const { return outline_; }
+  /// What is known of the file beyond what reading found.
+  ReadReport& report() { return outline_.report; }
   bool is_whole() const { return !outline_.ranges_m.empty() || outline_.scans.empty(); }
 
   /// The scans of some parts of the recording and its first and last scan: the result of parts_of without the

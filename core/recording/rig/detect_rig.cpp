@@ -50,6 +50,10 @@ void judge_stamp(const Recording& recording, const LaserSummary& laser, bool giv
 
 void note_increment(const RawScan& first, const Recording& recording, DetectedRig& detected) {
   const double recorded_s = double{first.time_increment_s};
+  if (detected.rig.laser.increment_is_found) {
+    detected.increment_note = fmt::format("as the surfaces show; recorded: {:.6g}", recorded_s);
+    return;
+  }
   if (recorded_s != 0) {
     detected.increment_note = recording.report.beam_time_doubt_s > 0
                                   ? fmt::format("recorded: {:.6g}, implausible or ambiguous", recorded_s)

@@ -54,7 +54,8 @@ std::string motor_text(const DetectedRig& detected) {
   if (motor.topic) text += line("  topic: " + yaml_name(*motor.topic), "");
   if (motor.joint) text += line("  joint: " + yaml_name(*motor.joint), detected.motor_note);
   if (motor.stamp) text += line("  stamp: " + name_of(*motor.stamp), "header | receive");
-  text += line(fmt::format("  scale: {}", motor.scale), "angle_rad = scale * raw - zero_deg * pi / 180");
+  text += line(fmt::format("  scale: {}", motor.scale), "angle = scale * value in `unit`, less zero_deg");
+  text += line("  unit: " + name_of(motor.unit), "rad | deg | turns");
   if (!detected.scale_note.empty()) text += "  # " + printable_line(detected.scale_note) + "\n";
   return text + line(fmt::format("  zero_deg: {}", motor.zero_deg), "");
 }

@@ -118,7 +118,7 @@ RecordingSurvey survey(const RawRecording& raw, const Rig& rig) {
   for (const RawLaser& laser : raw.lasers)
     if (!laser.scans.empty()) found.lasers.push_back(choice_of(laser));
   for (const RawJoint& joint : raw.joints)
-    if (!joint.positions.empty()) found.joints.push_back(choice_of(joint, rig.motor.scale));
+    if (!joint.positions.empty()) found.joints.push_back(choice_of(joint, rig.motor.rad_per_value()));
   if (const auto laser = choose_laser(raw, rig)) {
     const RawLaser& chosen = raw.lasers[*laser];
     found.laser = listed(found.lasers, [&](const LaserChoice& c) { return c.topic == chosen.topic; });

@@ -1,0 +1,91 @@
+#include "core/recording/assemble/turns.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/numbers.hpp"
+
+namespace sweepscope {
+namespace {
+
+constexpr double kTurn_rad = 2 * std::numbers::pi;
+constexpr double kSameDirection = 1.5;  // increments
+
+bool same_direction(double a_rad, double b_rad, double increment_rad) {
+  return std::abs(std::remainder(a_rad - b_rad, kTurn_rad)) < kSameDirection * std::abs(increment_rad);
+}
+
+bool continues(const LaserScan& scan, const LaserScan& next) {
+  constexpr double kLate = 0.25;  // of a scan: stamps jitter
+  const double end_s = scan.beam_s(scan.beams), duration_s = end_s - scan.first_beam_s;
+  return same_direction(scan.beam_angle_rad(scan.beams), next.angle_min_rad, scan.angle_increment_rad) &&
+         std::abs(next.first_beam_s - end_s) <= kLate * duration_s &&
+         scan.angle_increment_rad * next.angle_increment_rad > 0;
+}
+
+// A beam of a run of scans.
+struct BeamOfRun {
+  std::size_t scan = 0;
+  std::uint32_t beam = 0;
+};
+
+// The beams of a run at which the mirror passes a direction; the run's first beam is one, whatever its
+// direction.
+std::vector<BeamOfRun> beginnings(std::span<const LaserScan> run, double direction_rad) {
+  std::vector<BeamOfRun> found{{0, 0}};
+  for (std::size_t i = 0; i < run.size(); ++i) {
+    const LaserScan& scan = run[i];
+    // Beams from the first one to the direction, a turn or less ahead.
+    const double turn_beams = kTurn_rad / std::abs(scan.angle_increment_rad);
+    double ahead = std::remainder(direction_rad - scan.angle_min_rad, kTurn_rad) / scan.angle_increment_rad;
+    if (ahead < -0.5) ahead += turn_beams;
+    for (double beam = std::max(0.0, std::round(ahead)); beam < scan.beams; beam += turn_beams)
+      if (i > 0 || beam >= 0.5) found.push_back({i, std::uint32_t(beam)});
+  }
+  return found;
+}
+
+void append_turns(std::span<const LaserScan> run, double direction_rad, std::vector<LaserScan>& turns) {
+  const std::vector<BeamOfRun> begins = beginnings(run, direction_rad);
+  for (std::size_t i = 0; i < begins.size(); ++i) {
+    const LaserScan& first = run[begins[i].scan];
+    const bool last_turn = i + 1 == begins.size();
+    const LaserScan& end = last_turn ? run.back() : run[begins[i + 1].scan];
+    const std::uint32_t end_beam = last_turn ? end.beams : begins[i + 1].beam;
+    LaserScan turn = first;
+    turn.first_beam_s = first.beam_s(begins[i].beam);
+    turn.angle_min_rad = first.beam_angle_rad(begins[i].beam);
+    turn.first_range = first.first_range + begins[i].beam;
+    turn.beams = std::uint32_t(end.first_range + end_beam - turn.first_range);
+    if (turn.beams > 0) turn.time_increment_s = (end.beam_s(end_beam) - turn.first_beam_s) / turn.beams;
+    if (turn.beams > 0) turns.push_back(turn);
+  }
+}
+
+}  // namespace
+
+double turns_per_message(const std::vector<RawScan>& messages) {
+  std::vector<double> turned;
+  for (std::size_t i = 0; i + 1 < messages.size(); ++i) {
+    const double begin_rad = double{messages[i].angle_min_rad},
+                 next_rad = double{messages[i + 1].angle_min_rad},
+                 increment_rad = double{messages[i].angle_increment_rad},
+                 span_rad = messages[i].beams * increment_rad;
+    if (same_direction(begin_rad + span_rad, next_rad, increment_rad) &&
+        !same_direction(begin_rad, next_rad, increment_rad))
+      turned.push_back(std::abs(span_rad) / kTurn_rad);
+  }
+  return 2 * turned.size() > messages.size() ? median(turned) : 1;
+}
+
+std::vector<LaserScan> whole_turns(const std::vector<LaserScan>& scans) {
+  std::vector<LaserScan> turns;
+  for (std::size_t first = 0, end = 1; first < scans.size(); first = end++) {
+    while (end < scans.size() && continues(scans[end - 1], scans[end])) ++end;
+    append_turns({scans.data() + first, end - first}, scans.front().angle_min_rad, turns);
+  }
+  return turns;
+}
+
+}  // namespace sweepscope

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <vector>
+
+#include "core/recording/raw_recording.hpp"
+
+namespace sweepscope {
+
+/// The turns of the mirror from one message to the next. Drivers that cover a part of a turn by a message
+/// begin each where the one before ended; all others begin in the same direction: 1.
+double turns_per_message(const std::vector<RawScan>& messages);
+
+/// Scans that go on where the one before ended, put together and cut again where the mirror passes the first
+/// beam's direction: whole turns. `scans` are in order of time and so are their ranges, without gaps.
+std::vector<LaserScan> whole_turns(const std::vector<LaserScan>& scans);
+
+}  // namespace sweepscope
