@@ -157,7 +157,7 @@ bool ScanAssembler::assemble() {
     for (const std::size_t i : order.kept) recording_.scans.push_back(placed[i]);
   }
   if (!without_ranges()) take_ranges();
-  if (turns != 1 && !without_ranges()) put_together();
+  if (turns != 1 && !recording_.ranges_m.empty()) put_together();
   warn_of_drops();
   warn_of_overlap();
   return true;
