@@ -8,6 +8,7 @@
 #include "app/say.hpp"
 #include "core/io/printable_text.hpp"
 #include "core/offset/summary.hpp"
+#include "core/offset/readings/fitting_recording.hpp"
 #include "core/recording/inspect.hpp"
 #include "core/recording/rig.hpp"
 #include "core/results/info_json.hpp"
@@ -53,6 +54,18 @@ std::string stream_text(const StreamSummary& stream, const std::string& where = 
                                   stream.duplicates, stream.dropped));
 }
 
+// The reading in use, and how well the others fit.
+std::string readings_text(const LaserSummary& laser) {
+  const auto chosen = std::ranges::find_if(laser.readings, &BeamReading::chosen);
+  if (chosen == laser.readings.end() || !chosen->residual_m) return "";
+  std::string others;
+  for (const BeamReading& reading : laser.readings)
+    if (!reading.chosen && reading.residual_m)
+      others += fmt::format("{} {:.1f} mm", others.empty() ? "; others" : ",", *reading.residual_m * 1e3);
+  return row("reading", fmt::format("{}: surfaces fit to {:.1f} mm{}", description_of(chosen->kind),
+                                    *chosen->residual_m * 1e3, others));
+}
+
 std::string laser_text(const LaserSummary& laser) {
   const std::string beams = laser.min_beams == laser.max_beams
                                 ? fmt::format("{}", laser.max_beams)
@@ -70,6 +83,7 @@ std::string laser_text(const LaserSummary& laser) {
          stream_text(laser, laser.stamp_at == StampAt::kFirstBeam  ? ", taken as the first beam's"
                             : laser.stamp_at == StampAt::kLastBeam ? ", taken as the last beam's"
                                                                    : ", taken as the scan's arrival") +
+         readings_text(laser) +
          row("ranges",
              fmt::format("{:.1f} % usable, median {:.2f} m; {} NaN, {} infinite, {} zero, {} out of range",
                          usable, laser.median_range_m, laser.nan, laser.infinite, laser.zero,

@@ -28,6 +28,7 @@ struct Estimate : Answer {
   bool identifiable = false;
   std::optional<OffsetOverTime> over_time;  // where it was asked for; offset_s then holds at the middle
   std::optional<SweepSample> sample;        // none: all sweeps are used
+  std::vector<BeamReading> readings;        // see ReadReport
   std::size_t sweeps = 0;
   std::size_t scans = 0;
   double cpu_s = 0;

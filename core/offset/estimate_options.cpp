@@ -41,6 +41,13 @@ Result<void> set_range(EstimateOptions& options, const std::string& text) {
   return {};
 }
 
+Result<void> set_search(EstimateOptions& options, const std::string& text) {
+  const auto ms = numbers_of(text, 2);
+  if (!ms || !((*ms)[0] < (*ms)[1])) return wrong("needs FROM:TO in milliseconds, with FROM < TO");
+  options.search = SearchRange{(*ms)[0] * 1e-3, (*ms)[1] * 1e-3};
+  return {};
+}
+
 Result<void> set_around(EstimateOptions& options, const std::string& text) {
   constexpr double kMaxSteps = 100'000;  // against typing errors: a day of computing
   const auto ms = numbers_of(text, 3);
@@ -175,7 +182,15 @@ std::vector<EstimateOption> method_options() {
 
 // Where the offset is searched for.
 std::vector<EstimateOption> range_options() {
-  return {{"range",
+  return {{"search",
+           "FROM:TO",
+           "Where the offset is searched for, in milliseconds, such as 100:300 (default: about 0, and if it is "
+           "not there, a quarter of the motor's period to either side)",
+           {},
+           false,
+           false,
+           set_search},
+          {"range",
            "FROM:TO:STEP",
            "Candidates in milliseconds, such as 19:29:1; repeatable (default: coarse to fine about 0)",
            {},

@@ -41,6 +41,7 @@ Estimate begun(const PreparedRecording& prepared, const EstimatePlan& plan, cons
   if (plan.sample && !plan.over_time()) result.sample = plan.sample->counts;
   result.recording = prepared.recording->name;
   result.warnings = prepared.recording->report.warnings;
+  result.readings = prepared.recording->report.readings;
   result.method = method_of(options, kUnknownKind, kept.store != nullptr);
   result.refusals = stream_refusals(prepared, scale);
   if (result.refusals.empty())
@@ -52,10 +53,26 @@ Result<SearchWindow> window_of(const EstimateOptions& options, const SearchScale
   std::vector<OffsetRange> ranges = options.ranges;
   if (options.around) ranges.push_back(range_around(*options.around));
   const bool by_default = ranges.empty();
-  if (by_default) ranges.push_back({-scale.half_width_s, scale.half_width_s, scale.unit_s});
+  if (const auto& search = options.search; by_default && search)
+    ranges.push_back({search->from_s, search->to_s, scale.unit_s});
+  else if (by_default)
+    ranges.push_back({-scale.half_width_s, scale.half_width_s, scale.unit_s});
   return checked_offsets(ranges, scale).map([&](std::vector<double>&& offsets_s) {
     return SearchWindow{std::move(offsets_s), by_default};
   });
+}
+
+// The coarse search, in a window that it may move.
+CoarseSearch searched(const PreparedRecording& prepared, const EstimateOptions& options,
+                      const SearchScale& scale, const KeptCandidates& kept, SearchWindow& window,
+                      const Job& job) {
+  if (!window.by_default || options.search) {
+    const double from_s = window.from_s(), to_s = window.to_s();
+    return search_coarsely(problem_for(prepared, from_s, to_s), from_s, to_s, scale, job, kept.finished);
+  }
+  SearchedWindow found = search_by_default(prepared, scale, job, kept.finished);
+  window.offsets_s = offsets_of({{found.from_s, found.to_s, scale.unit_s}});
+  return std::move(found.coarse);
 }
 
 // Options that contradict each other, whatever the recording.
@@ -185,16 +202,15 @@ Result<Estimate> find_offset(const RecordingSource& source, const EstimatePlan& 
   const SearchScale scale = search_scale(prepared->motor);
   Estimate result = begun(*prepared, plan, options, kept, scale);
   if (!result.refusals.empty()) return result;
-  const auto window = check_options(options, kept).and_then([&] { return window_of(options, scale); });
+  auto window = check_options(options, kept).and_then([&] { return window_of(options, scale); });
   if (!window) return tl::unexpected(window.error());
+  const CoarseSearch coarse = searched(*prepared, options, scale, kept, *window, job);
+  if (job.cancelled()) return result;
   const OffsetProblem problem = problem_for(*prepared, window->from_s(), window->to_s());
   result = counted(std::move(result), problem, *window);
   if (!result.refusals.empty()) return result;
 
   const StationaryGrid grid = stationary_grid(problem);
-  const CoarseSearch coarse =
-      search_coarsely(problem, window->from_s(), window->to_s(), scale, job, kept.finished);
-  if (job.cancelled()) return result;
   const OffsetOverTime groups = groups_of(plan, *prepared, coarse, options, job);
   if (job.cancelled()) return result;
   const MotionTest motion = test_motion_of_few(

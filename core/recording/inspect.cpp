@@ -43,6 +43,7 @@ LaserSummary inspect_laser(const Recording& recording) {
   laser.dropped = report.scans_dropped;
   laser.scans_without_motor = report.scans_without_motor;
   laser.beam_time_doubt_s = report.beam_time_doubt_s;
+  laser.readings = report.readings;
   laser.nan = report.nan_ranges;
   laser.infinite = report.infinite_ranges;
   laser.zero = report.zero_ranges;

@@ -34,6 +34,7 @@ struct LaserSummary : StreamSummary {
   double median_range_m = 0;
   std::size_t scans_without_motor = 0;  // at offset 0
   double beam_time_doubt_s = 0;         // see ReadReport
+  std::vector<BeamReading> readings;    // likewise
   bool intensities = false;
 };
 

@@ -365,6 +365,7 @@ Estimate estimate_from_json(const Json& document) {
     if (auto solved = solved_rig_of(*parameters))
       estimate.rig = std::make_shared<const SolvedRig>(std::move(*solved));
   estimate.warnings = required<std::vector<std::string>>(document, "warnings");
+  if (document.contains("readings")) estimate.readings = readings_of(document["readings"]);
   estimate.refusals = refusals_from_json(document);
   estimate.criteria = criteria_from_json(member(document, "criteria", ""));
   estimate.curve = curve_from_json(member(document, "curve", ""));
@@ -410,6 +411,7 @@ std::string estimate_to_json(const Estimate& estimate, Timing timing) {
   document["reason_codes"] = Json::array();
   for (const Refusal& refusal : estimate.refusals)
     document["reason_codes"].push_back(entry_of(refusal.kind).code);
+  document["readings"] = readings_json(estimate.readings);
   document["criteria"] = Json::object();
   for (const CriterionOptimum& optimum : estimate.criteria) {
     document["criteria"][optimum.name] = {{"offset_ms", written_ms(optimum.offset_s)},

@@ -32,6 +32,10 @@ inline double written_ms(double seconds) {
   return std::round(seconds * 1e12) / 1e9;
 }
 
+/// The readings that were tried of a recording's messages.
+nlohmann::ordered_json readings_json(const std::vector<BeamReading>& readings);
+std::vector<BeamReading> readings_of(const nlohmann::ordered_json& json);
+
 /// Three numbers. Throws the library's exception where there are none.
 inline Eigen::Vector3d vector_of(const nlohmann::ordered_json& object, const char* key) {
   const auto values = object.at(key).get<std::array<double, 3>>();

@@ -49,7 +49,8 @@ Json laser_json(const LaserSummary& laser) {
                    {"median_range_m", laser.median_range_m},
                    {"scans_without_motor", laser.scans_without_motor},
                    {"intensities", laser.intensities},
-                   {"rings", laser.rings}});
+                   {"rings", laser.rings},
+                   {"readings", readings_json(laser.readings)}});
   return json;
 }
 

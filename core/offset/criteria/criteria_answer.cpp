@@ -28,11 +28,14 @@ void compare_criteria(Answer& answer, double n_offset_s, double e_offset_s, cons
 }
 
 // A wrong offset must turn the sweeps against each other by twice the motor's speed times the error. If
-// it does not, the scene does not constrain the motor's angle.
-MaybeRefusal rotation_refusal(const std::vector<CurvePoint>& curve, double speed_rad_s) {
+// it does not, the scene does not constrain the motor's angle. Seen within a few units of the best candidate:
+// farther off sweeps are not registered.
+MaybeRefusal rotation_refusal(const std::vector<CurvePoint>& curve, double offset_s, double unit_s,
+                              double speed_rad_s) {
+  constexpr double kNear_units = 10;
   double sx = 0, sy = 0, sxx = 0, sxy = 0, n = 0;
   for (const CurvePoint& point : curve) {
-    if (!point.signed_rotation_rad) continue;
+    if (!point.signed_rotation_rad || std::abs(point.offset_s - offset_s) > kNear_units * unit_s) continue;
     const double x = point.offset_s - curve.front().offset_s, y = *point.signed_rotation_rad;
     sx += x, sy += y, sxx += x * x, sxy += x * y, n += 1;
   }
@@ -147,7 +150,9 @@ Answer judged_by_criteria(const OffsetSearch& search, const SharedByCandidates& 
   add_extrema(answer, search, best);
   if (moving && shared.walk->joint)
     add(answer.refusals, lever_refusal(shared.walk->joint->lever_m, shared.walk->joint->reach_m));
-  if (!moving) add(answer.refusals, rotation_refusal(answer.curve, motor.median_speed_rad_s));
+  if (!moving)
+    add(answer.refusals, rotation_refusal(answer.curve, answer.curve[best].offset_s, search.scale.unit_s,
+                                          motor.median_speed_rad_s));
   if (!moving) add(answer.refusals, apart_refusal(answer.curve[best]));
   if (!answer.refusals.empty()) return answer;
   const double offset_s = answer.criteria.front().offset_s;

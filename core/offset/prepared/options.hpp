@@ -27,12 +27,18 @@ enum class Method { kDirect, kStationary, kMoving };
 enum class Fit { kNone, kParabola };
 enum class Scoring { kTwoStage, kLoam };
 
+/// Where an offset is searched for, in seconds.
+struct SearchRange {
+  double from_s = 0, to_s = 0;
+};
+
 /// How an offset is searched for. Empty members are decided from the recording.
 struct EstimateOptions {
   std::optional<Method> method;     // none: see method_of
   std::optional<RigKind> assume;    // instead of the motion test
   std::vector<OffsetRange> ranges;  // none, and no `around`: coarse to fine over the default window
   std::optional<OffsetsAround> around;
+  std::optional<SearchRange> search;  // none: all that can be distinguished, about 0 first
   std::optional<Fit> fit;  // none: a parabola for moving rigs and slow motors, else the best candidate
   std::optional<Scoring> scoring;      // none: two-stage
   std::optional<double> weight_c;      // c of equation 3; none: 1

@@ -45,9 +45,9 @@ ReadingFit fit_by(const Recording& recording, const Job& job) {
   const auto prepared = prepare(recording, FeatureOptions{}, job);
   if (!prepared || prepared->motor.sweeps.size() < 2) return fit;
   const SearchScale scale = search_scale(prepared->motor);
-  const OffsetProblem problem = problem_for(*prepared, -scale.half_width_s, scale.half_width_s);
-  const CoarseSearch coarse = search_coarsely(problem, -scale.half_width_s, scale.half_width_s, scale, job);
+  const auto [from_s, to_s, coarse] = search_by_default(*prepared, scale, job);
   if (!coarse.best || job.cancelled()) return fit;
+  const OffsetProblem problem = problem_for(*prepared, from_s, to_s);
   StationaryDirectOptions options;
   options.resampling = Resampling::kNone;
   fit.direct = solve_stationary(stationary_grid(problem), coarse.offset_s(), options, job);

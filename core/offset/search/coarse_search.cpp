@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 
+#include "core/numbers.hpp"
 #include "core/offset/prepared/candidates.hpp"
 #include "core/offset/prepared/prepared.hpp"
 #include "core/offset/stationary/stationary_points.hpp"
@@ -90,20 +91,43 @@ std::vector<double> every_second(const std::vector<double>& offsets_s) {
   return chosen_s;
 }
 
+OffsetProblem first_sweeps_of(const OffsetProblem& problem, double middle_s, std::size_t max_sweeps) {
+  return problem.motor.one_way() ? beginnings_of_sides(problem, middle_s, max_sweeps / 2)
+                                 : beginning_of(problem, middle_s, max_sweeps);
+}
+
+void set_best(CoarseSearch& search) {
+  const std::size_t best = index_of_min(search.curve, &CurvePoint::capped_cost_m);
+  if (best < search.curve.size()) search.best = best;
+}
+
+double cost_m(const CoarseSearch& search) {
+  return *search.curve[*search.best].capped_cost_m;
+}
+
+// Whether the minimum lies inside, and is far below the usual cost: 0.68 to 0.86 of simulated rooms and walks
+// (tests/benchmark/thresholds).
+bool has_clear_valley(const CoarseSearch& search) {
+  constexpr double kClearDepth = 0.5;  // of the median
+  if (!search.best || *search.best == 0 || *search.best + 1 == search.curve.size()) return false;
+  std::vector<double> costs_m;
+  for (const CurvePoint& point : search.curve)
+    if (point.capped_cost_m) costs_m.push_back(*point.capped_cost_m);
+  return cost_m(search) < (1 - kClearDepth) * median(std::move(costs_m));
+}
+
 }  // namespace
 
 CoarseSearch search_coarsely(const OffsetProblem& problem, double from_s, double to_s,
                              const SearchScale& scale, const Job& job,
                              const std::function<void(const CurvePoint&)>& finished) {
   const double middle_s = (from_s + to_s) / 2;
-  const OffsetProblem part = problem.motor.one_way() ? beginnings_of_sides(problem, middle_s, kMaxSweeps / 2)
-                                                     : beginning_of(problem, middle_s, kMaxSweeps);
+  const OffsetProblem part = first_sweeps_of(problem, middle_s, kMaxSweeps);
   const StationaryGrid grid = stationary_grid(part);
   CoarseSearch search;
   const auto compute = [&](const std::vector<double>& offsets_s) {
     search.curve = united(std::move(search.curve), coarse_curve(grid, offsets_s, job, finished));
-    const std::size_t best = index_of_min(search.curve, &CurvePoint::capped_cost_m);
-    if (best < search.curve.size()) search.best = best;
+    set_best(search);
   };
   const std::vector<double> all_s = offsets_of({{from_s, to_s, scale.unit_s}});
   compute(every_second(all_s));
@@ -119,6 +143,39 @@ CoarseSearch search_coarsely(const OffsetProblem& problem, double from_s, double
       beside_s.push_back(offset_s);
   compute(beside_s);
   return search;
+}
+
+CoarseSearch search_roughly(const OffsetProblem& problem, double from_s, double to_s,
+                            const SearchScale& scale, const Job& job) {
+  constexpr std::size_t kSweeps = 12;
+  constexpr double kStep_units = 4;  // 1.4 deg of the motor: valleys are wider
+  const OffsetProblem part = first_sweeps_of(problem, (from_s + to_s) / 2, kSweeps);
+  CoarseSearch search;
+  search.curve =
+      coarse_curve(stationary_grid(part), offsets_of({{from_s, to_s, kStep_units * scale.unit_s}}), job, {});
+  set_best(search);
+  return search;
+}
+
+SearchedWindow search_by_default(const PreparedRecording& prepared, const SearchScale& scale, const Job& job,
+                                 const std::function<void(const CurvePoint&)>& finished) {
+  constexpr double kClearlyLower = 0.7;  // than the best of the default window
+  const auto about = [&](double middle_s) {
+    const double from_s = std::max(middle_s - scale.half_width_s, -scale.max_half_width_s),
+                 to_s = std::min(middle_s + scale.half_width_s, scale.max_half_width_s);
+    return SearchedWindow{
+        from_s, to_s,
+        search_coarsely(problem_for(prepared, from_s, to_s), from_s, to_s, scale, job, finished)};
+  };
+  SearchedWindow near = about(0);
+  if (has_clear_valley(near.coarse) || scale.half_width_s >= scale.max_half_width_s || job.cancelled())
+    return near;
+  const double reach_s = scale.max_half_width_s;
+  const CoarseSearch all =
+      search_roughly(problem_for(prepared, -reach_s, reach_s), -reach_s, reach_s, scale, job);
+  if (!has_clear_valley(all) || std::abs(all.offset_s()) <= scale.half_width_s) return near;
+  if (near.coarse.best && cost_m(all) > kClearlyLower * cost_m(near.coarse)) return near;
+  return about(scale.unit_s * std::round(all.offset_s() / scale.unit_s));
 }
 
 }  // namespace sweepscope

@@ -8,6 +8,7 @@
 
 #include "core/job.hpp"
 #include "core/offset/prepared/curve_point.hpp"
+#include "core/offset/prepared/prepared.hpp"
 #include "core/offset/prepared/search_window.hpp"
 
 namespace sweepscope {
@@ -26,5 +27,19 @@ struct CoarseSearch {
 CoarseSearch search_coarsely(const OffsetProblem& problem, double from_s, double to_s,
                              const SearchScale& scale, const Job& job,
                              const std::function<void(const CurvePoint&)>& finished = {});
+
+/// The same in steps of four units, on the first twelve sweeps: a third of the cost of as wide a search.
+CoarseSearch search_roughly(const OffsetProblem& problem, double from_s, double to_s,
+                            const SearchScale& scale, const Job& job);
+
+/// A search of the window that an estimate takes by default.
+struct SearchedWindow {
+  double from_s = 0, to_s = 0;
+  CoarseSearch coarse;
+};
+/// The default window about 0. Where the cost has no clear valley there, and a lower one elsewhere, a window
+/// as wide about the best of all offsets that can be distinguished (SearchScale::max_half_width_s).
+SearchedWindow search_by_default(const PreparedRecording& prepared, const SearchScale& scale, const Job& job,
+                                 const std::function<void(const CurvePoint&)>& finished = {});
 
 }  // namespace sweepscope
