@@ -227,7 +227,7 @@ void declare(CLI::App& command, EstimateArguments& options) {
   input.recording.declare_reading(command);
   input.recording.declare_computing(command);
   declare_poses(command, options);
-  declare_estimate_options(command, input.estimate, {"method", "over-time"}, "Search");
+  declare_estimate_options(command, input.estimate, {"method", "search", "over-time"}, "Search");
   declare_estimate_options(command, input.estimate,
                            {"range", "around", "fit", "scoring", "weight-c", "edge-gate-m", "plane-gate-m"},
                            kPaperGroup);

@@ -93,6 +93,7 @@ struct ReadReport {
   /// (beam_times.hpp): the mean over the scans.
   double beam_time_doubt_s = 0;
   std::vector<BeamReading> readings;  // of the laser's messages, those that were tried; empty: none was
+  bool fired_backwards = false;       // scans have the order of time, messages the opposite one
   bool intensities = false;           // every scan has them, whether they were kept or not
   std::vector<std::string> warnings;  // whole sentences for a person
 };

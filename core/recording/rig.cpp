@@ -139,6 +139,12 @@ double Rig::Motor::rad_per_value() const {
   return scale * (unit == AngleUnit::kDeg ? kRadPerDeg : 2 * std::numbers::pi);
 }
 
+bool Rig::has_default_mount() const {
+  const Mount none;
+  return mount.axis == none.axis && mount.laser_in_motor_xyz_m == none.laser_in_motor_xyz_m &&
+         mount.laser_in_motor_rpy_deg == none.laser_in_motor_rpy_deg;
+}
+
 Gear Rig::Gear::angles() const {
   const double amplitude_rad = encoder_amplitude_deg * kRadPerDeg, phase_rad = encoder_phase_deg * kRadPerDeg;
   return {play_deg * kRadPerDeg, {amplitude_rad * std::cos(phase_rad), amplitude_rad * std::sin(phase_rad)}};

@@ -53,6 +53,8 @@ struct Rig {
     double rad_per_value() const;  // angle_rad = rad_per_value * value - zero_deg * pi / 180
   };
   using Mount = sweepscope::Mount;
+  /// Whether the mount is the one that is used where none is stated: the motor rolls the laser about x.
+  bool has_default_mount() const;
   /// An IMU (sensor_msgs/Imu) on the base, whose gyroscope is a prior of a moving rig's rotation.
   struct Imu {
     std::optional<std::string> topic;  // none: no IMU is used

@@ -11,6 +11,8 @@
 #include "core/offset/judgement/limits.hpp"
 #include "core/offset/judgement/unseen_sigma.hpp"
 #include "core/offset/judgement/warnings.hpp"
+#include "core/offset/readings/beam_readings.hpp"
+#include "core/offset/readings/fitting_recording.hpp"
 #include "core/offset/stationary/direct_stationary.hpp"
 #include "core/offset/walk/motion_source.hpp"
 #include "core/rig_solve/rig_check.hpp"
@@ -101,6 +103,17 @@ Remark sectors_warning(const StationaryDirect& found) {
       min->offset_s * 1e3, min->angle_rad * kDegPerRad, max->offset_s * 1e3, max->angle_rad * kDegPerRad);
 }
 
+// A rig file that states other times of the beams than the surfaces show is not overruled.
+Remark reading_warning(const Recording& recording, const StationaryDirect& found) {
+  const auto better = better_reading(recording, found);
+  if (!better) return std::nullopt;
+  return fmt::format(
+      "The surfaces fit better if {}: from the first to the last beam of a scan they show {:.1f} ms more than the {}. "
+      "Set laser: {{time_increment_s: {:.6g}}} in the rig file.",
+      description_of(better->kind), found.scan_time_error_s * 1e3,
+      recording.rig.laser.time_increment_s ? "rig file" : "recording", better->time_increment_s);
+}
+
 Answer of_stationary(const OffsetSearch& search, Answer answer, const Job& job) {
   const Recording& recording = *search.problem.recording;
   const StationaryDirect found = solve_stationary(search.grid, search.coarse.offset_s(), {}, job);
@@ -114,6 +127,7 @@ Answer of_stationary(const OffsetSearch& search, Answer answer, const Job& job) 
   add(answer.refusals, lever_refusal(found.lever_m, found.reach_m));
   add(answer.warnings, few_matches_warning(found.matches, found.features));
   add(answer.warnings, sectors_warning(found));
+  add(answer.warnings, reading_warning(recording, found));
   std::optional<double> sigma_s = sigma_of(found, recording);
   judge_convergence(answer, found.converged, found.step_s, sigma_s.value_or(0));
   const double stamps_s = stamps_sigma_s(recording),

@@ -8,13 +8,12 @@
 #include "core/offset/prepared/prepared.hpp"
 #include "core/offset/search/coarse_search.hpp"
 #include "core/offset/stationary/direct_stationary.hpp"
+#include "core/rig_solve/plane_cells.hpp"
 
 namespace sweepscope {
 namespace {
 
-// A reading that explains the recording leaves little more than range noise; wrong ones left 3 to 40 times as
-// much in simulated rooms (tests/benchmark/random_readings).
-constexpr double kClearlyBetter = 0.6;
+// Of a reading that explains the recording: little more than range noise.
 constexpr double kMaxResidual_m = 0.03;
 
 double median_increment_s(const Recording& recording) {
@@ -52,8 +51,28 @@ ReadingFit fit_by(const Recording& recording, const Job& job) {
   options.resampling = Resampling::kNone;
   fit.direct = solve_stationary(stationary_grid(problem), coarse.offset_s(), options, job);
   fit.fits = fit.direct.matches >= options.min_matches && fit.direct.residual_m < kMaxResidual_m &&
-             std::abs(fit.direct.offset_s - coarse.offset_s()) < 5 * scale.unit_s;
+             std::abs(fit.direct.offset_s - coarse.offset_s())<5 * scale.unit_s&& * coarse.best> 0 &&
+             *coarse.best + 1 < coarse.curve.size();
   return fit;
+}
+
+// The mean width of flat surfaces: what bends walls makes them narrow.
+double flat_width_m(const Recording& recording, double offset_s, const Job& job) {
+  constexpr std::size_t kMaxPoints = 20'000;
+  const auto prepared = prepare(recording, FeatureOptions{}, job);
+  if (!prepared) return 0;
+  const OffsetProblem problem = problem_for(*prepared, offset_s, offset_s);
+  const StationaryPoints points =
+      place_stationary(stationary_grid(problem), offset_s, StationaryDetail::kPoints);
+  std::vector<Eigen::Vector3d> placed_m, some_m;
+  for (std::size_t i = 0; i < points.placed.size(); ++i)
+    if (points.placed[i]) placed_m.push_back(points.p_m[i]);
+  for (std::size_t i = 0; i < placed_m.size(); i += placed_m.size() / kMaxPoints + 1)
+    some_m.push_back(placed_m[i]);
+  double sum_m = 0;
+  for (const PlaneCell& cell : plane_cells(some_m, PlaneCellOptions{}))
+    sum_m += double(cell.points.size()) * std::sqrt(cell.along_m.col(0).norm() * cell.along_m.col(1).norm());
+  return some_m.empty() ? 0 : sum_m / double(some_m.size());
 }
 
 // Whether no other reading lies nearer to what the surfaces say of the time from the first to the last beam.
@@ -75,6 +94,11 @@ Recording first_sweeps(const Recording& recording) {
   return recording;
 }
 
+const BeamReading* best_of(const std::vector<BeamReading>& readings) {
+  const auto found = std::ranges::find_if(readings, &BeamReading::chosen);
+  return found == readings.end() ? nullptr : &*found;
+}
+
 }  // namespace
 
 std::vector<BeamReading> possible_readings(const Recording& recording) {
@@ -84,6 +108,7 @@ std::vector<BeamReading> possible_readings(const Recording& recording) {
                period_s = recording.report.laser_stamps.median_period_s,
                of_mirror_s = period_s * std::abs(scan.angle_increment_rad) / (2 * std::numbers::pi),
                of_period_s = period_s / median_beams(recording);
+  const double in_array = recording.report.fired_backwards ? -1 : 1;  // from the order of time
   std::vector<BeamReading> readings;
   for (const auto& [kind, time_increment_s] : {std::pair{BeamReadingKind::kRecorded, increment_s},
                                                {BeamReadingKind::kReversed, -increment_s},
@@ -98,12 +123,14 @@ std::vector<BeamReading> possible_readings(const Recording& recording) {
     });
     if (!listed) readings.push_back({kind, time_increment_s, {}, {}, false});
   }
+  for (BeamReading& reading : readings) reading.time_increment_s *= in_array;
   return readings;
 }
 
 Recording read_as(const Recording& recording, double time_increment_s) {
   Recording read = recording;
-  const bool reversed = time_increment_s < 0, first = recording.rig.laser.stamp_at == StampAt::kFirstBeam;
+  const bool reversed = time_increment_s != 0 && (time_increment_s < 0) != recording.report.fired_backwards,
+             first = recording.rig.laser.stamp_at == StampAt::kFirstBeam;
   for (LaserScan& scan : read.scans) {
     const double stamp_s = first ? scan.first_beam_s : scan.last_beam_s();
     scan.time_increment_s = std::abs(time_increment_s);
@@ -119,9 +146,10 @@ Recording read_as(const Recording& recording, double time_increment_s) {
   return read;
 }
 
-std::vector<BeamReading> rank_readings(const Recording& recording, const Job& job) {
-  if (!recording.directions.empty() || recording.scans.empty() || recording.ranges_m.empty()) return {};
-  const Recording first = first_sweeps(recording);
+namespace {
+
+// By one axis, of the first sweeps of a recording.
+std::vector<BeamReading> rank_beams(const Recording& first, const Job& job) {
   std::vector<BeamReading> readings = possible_readings(first);
   const double beams = median_beams(first);
   std::vector<ReadingFit> fits;
@@ -148,6 +176,51 @@ std::vector<BeamReading> rank_readings(const Recording& recording, const Job& jo
   if (!fits[best].fits) return {};
   readings[best].chosen = fits.size() == 1 || residual_m(best) < kClearlyBetter * residual_m(next);
   return readings;
+}
+
+}  // namespace
+
+RankedReadings rank_readings(const Recording& recording, const Job& job) {
+  constexpr double kClearlyWider = 1.15;
+  RankedReadings ranked;
+  ranked.axis = recording.rig.mount.axis;
+  if (!recording.directions.empty() || recording.scans.empty() || recording.ranges_m.empty()) return ranked;
+  const Recording first = first_sweeps(recording);
+  ranked.beams = rank_beams(first, job);
+  if (!recording.rig.has_default_mount() || job.cancelled()) return ranked;
+  Recording about_y = first;
+  about_y.rig.mount.axis = Eigen::Vector3d::UnitY();
+  const BeamReading* best = best_of(ranked.beams);
+  std::vector<BeamReading> of_y;
+  if (best == nullptr) {
+    of_y = rank_beams(about_y, job);
+    best = best_of(of_y);
+  }
+  if (best == nullptr || job.cancelled()) return ranked;
+  const auto width_m = [&](const Recording& about) {
+    return flat_width_m(read_as(about, best->time_increment_s), *best->offset_s, job);
+  };
+  if (width_m(about_y) < kClearlyWider * width_m(first)) return ranked;
+  ranked.beams = of_y.empty() ? rank_beams(about_y, job) : std::move(of_y);
+  ranked.axis = about_y.rig.mount.axis;
+  ranked.axis_is_found = true;
+  return ranked;
+}
+
+std::optional<BeamReading> better_reading(const Recording& recording, const StationaryDirect& found) {
+  constexpr double kMinFormalSigmas = 10;
+  if (!recording.directions.empty() || recording.scans.empty()) return std::nullopt;
+  if (std::abs(found.scan_time_error_s) < kMinFormalSigmas * found.scan_time_formal_sigma_s)
+    return std::nullopt;
+  const double beams = median_beams(recording);
+  const std::vector<BeamReading> readings = possible_readings(recording);
+  const double in_array = recording.report.fired_backwards ? -1 : 1;
+  const double shown_s = scan_time_s(readings.front(), beams) + in_array * found.scan_time_error_s;
+  const auto nearest = std::ranges::min_element(readings, {}, [&](const BeamReading& reading) {
+    return std::abs(scan_time_s(reading, beams) - shown_s);
+  });
+  if (nearest == readings.begin()) return std::nullopt;
+  return *nearest;
 }
 
 }  // namespace sweepscope

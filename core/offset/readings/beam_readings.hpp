@@ -1,26 +1,45 @@
 #pragma once
 
-// The mathematics: docs/algorithms.md, section 15.
+// The mathematics: docs/algorithms.md, section 18.
 
+#include <optional>
 #include <vector>
 
 #include "core/job.hpp"
+#include "core/offset/stationary/direct_stationary.hpp"
 #include "core/recording/recording.hpp"
 
 namespace sweepscope {
 
+/// A reading is clearly better than another one if its distances are shorter by this factor: wrong ones left
+/// 3 to 40 times as much in simulated rooms (tests/benchmark/random_readings).
+inline constexpr double kClearlyBetter = 0.6;
+
 /// How the beams of a 2D scanner's message may follow each other in time: as recorded, in the opposite order,
-/// all at once, or in the time that a mirror takes which turns once a scan, or that passes from scan to scan.
+/// all at once, or in the time that a mirror takes that turns once a scan, or that passes from scan to scan.
 /// Readings that hardly differ are listed once; the recorded one is the first.
 std::vector<BeamReading> possible_readings(const Recording& recording);
 
-/// The recording as another reading has it: times of beams, and their order, change.
+/// The recording as another reading has it: times of beams, and their order, change. `time_increment_s` is as
+/// in BeamReading: of the message's array.
 Recording read_as(const Recording& recording, double time_increment_s);
+
+/// How a recording is to be read.
+struct RankedReadings {
+  std::vector<BeamReading> beams;  // empty if nothing is decided: 3D scanner, moving rig, too few sweeps
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  // that the motor turns about
+  bool axis_is_found = false;                       // another than the rig's
+};
 
 /// Ranks the readings of a recording by how well sweeps of opposite directions fit each other: for a
 /// stationary rig, a wrong reading leaves distances that no offset removes. Each costs a coarse search and a
 /// small least squares on the first sweeps; the recorded one alone is tried where it fits. The one to be used
-/// is `chosen`. Empty where nothing is decided: a 3D scanner, a moving rig, too few sweeps.
-std::vector<BeamReading> rank_readings(const Recording& recording, const Job& job);
+/// is `chosen`. Unless the rig states its mount, the laser's y axis is tried beside its x axis: the wrong one
+/// bends walls, and the other one is taken if flat surfaces are clearly wider.
+RankedReadings rank_readings(const Recording& recording, const Job& job);
+
+/// The possible reading that is nearest to what the surfaces say of the time from a scan's first to its last
+/// beam, if this is another one than the recording's and they say it clearly.
+std::optional<BeamReading> better_reading(const Recording& recording, const StationaryDirect& found);
 
 }  // namespace sweepscope

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/offset/readings/beam_readings.hpp"
 
@@ -19,13 +20,26 @@ bool is_stated(const ReadOptions& options) {
   return options.rig && options.rig->laser.time_increment_s;
 }
 
-// The rig that a recording was read with, and another reading.
-ReadOptions with_reading(ReadOptions options, const Recording& read, const BeamReading& reading) {
+// How to read the recording where it has to be read again, otherwise nothing.
+std::optional<ReadOptions> other_options(ReadOptions options, const Recording& read,
+                                         const RankedReadings& ranked) {
+  const BeamReading* chosen = chosen_of(ranked.beams);
+  const bool beams_differ = chosen != nullptr && chosen->kind != BeamReadingKind::kRecorded;
+  if (!beams_differ && !ranked.axis_is_found) return std::nullopt;
   options.rig = options.rig.value_or(Rig{});
   options.rig->laser.topic = read.rig.laser.topic;
-  options.rig->laser.time_increment_s = reading.time_increment_s;
+  options.rig->mount.axis = ranked.axis;
+  if (!beams_differ) return options;
+  options.rig->laser.time_increment_s = chosen->time_increment_s;
   options.rig->laser.increment_is_found = true;
   return options;
+}
+
+std::string axis_warning(const RankedReadings& ranked) {
+  return fmt::format(
+      "The motor turns the laser about its y axis, as the surfaces show: walls are flat then, and bent about x. Set "
+      "mount: {{axis: [{:g}, {:g}, {:g}]}} in a rig file to state it.",
+      ranked.axis.x(), ranked.axis.y(), ranked.axis.z());
 }
 
 std::string warning_of(const std::vector<BeamReading>& readings, const BeamReading& chosen,
@@ -41,16 +55,21 @@ std::string warning_of(const std::vector<BeamReading>& readings, const BeamReadi
 }
 
 // What is known of the beams' times after the readings were ranked.
-void add_readings(const std::vector<BeamReading>& readings, const Recording& read, ReadReport& report) {
-  report.readings = readings;
+void add_readings(const RankedReadings& ranked, const Recording& read, ReadReport& report) {
+  const std::vector<BeamReading>& readings = report.readings = ranked.beams;
+  if (ranked.axis_is_found) report.warnings.push_back(axis_warning(ranked));
   if (const BeamReading* chosen = chosen_of(readings)) {
     report.beam_time_doubt_s = 0;
     if (chosen != &readings.front()) report.warnings.push_back(warning_of(readings, *chosen, read));
     return;
   }
+  const auto residual_m = [](const BeamReading& reading) { return reading.residual_m.value_or(0); };
+  double best_m = std::numeric_limits<double>::infinity();
+  for (const BeamReading& reading : readings)
+    if (reading.offset_s) best_m = std::min(best_m, residual_m(reading));
   std::vector<const BeamReading*> alike;
   for (const BeamReading& reading : readings)
-    if (reading.offset_s) alike.push_back(&reading);
+    if (reading.offset_s && best_m > kClearlyBetter * residual_m(reading)) alike.push_back(&reading);
   for (const BeamReading* one : alike)
     for (const BeamReading* other : alike)
       report.beam_time_doubt_s =
@@ -83,11 +102,10 @@ Result<Recording> read_fitting(const std::filesystem::path& path, const ReadOpti
                                const Job& job) {
   auto recording = read_recording(path, options, job);
   if (!recording || is_stated(options)) return recording;
-  const std::vector<BeamReading> readings = rank_readings(*recording, job);
-  const BeamReading* chosen = chosen_of(readings);
-  if (chosen != nullptr && chosen != &readings.front())
-    recording = read_recording(path, with_reading(options, *recording, *chosen), job);
-  if (recording) add_readings(readings, *recording, recording->report);
+  const RankedReadings ranked = rank_readings(*recording, job);
+  if (const auto other = other_options(options, *recording, ranked))
+    recording = read_recording(path, *other, job);
+  if (recording) add_readings(ranked, *recording, recording->report);
   return recording;
 }
 
@@ -98,11 +116,10 @@ Result<RecordingFile> open_fitting(const std::filesystem::path& path, const Read
   constexpr double kFirst_s = 60;
   const auto first = file->parts({{0, kFirst_s}}, job);
   if (!first) return tl::unexpected(first.error());
-  const std::vector<BeamReading> readings = rank_readings(*first, job);
-  const BeamReading* chosen = chosen_of(readings);
-  if (chosen != nullptr && chosen != &readings.front())
-    file = RecordingFile::open(path, with_reading(options, *first, *chosen), job);
-  if (file) add_readings(readings, *first, file->report());
+  const RankedReadings ranked = rank_readings(*first, job);
+  if (const auto other = other_options(options, *first, ranked))
+    file = RecordingFile::open(path, *other, job);
+  if (file) add_readings(ranked, *first, file->report());
   return file;
 }
 

@@ -173,7 +173,10 @@ SearchedWindow search_by_default(const PreparedRecording& prepared, const Search
   const double reach_s = scale.max_half_width_s;
   const CoarseSearch all =
       search_roughly(problem_for(prepared, -reach_s, reach_s), -reach_s, reach_s, scale, job);
-  if (!has_clear_valley(all) || std::abs(all.offset_s()) <= scale.half_width_s) return near;
+  if (!has_clear_valley(all)) return near;
+  const std::optional<std::size_t>& best = near.coarse.best;
+  const bool inside = best && *best > 0 && *best + 1 < near.coarse.curve.size();
+  if (inside && std::abs(all.offset_s()) <= scale.half_width_s) return near;
   if (near.coarse.best && cost_m(all) > kClearlyLower * cost_m(near.coarse)) return near;
   return about(scale.unit_s * std::round(all.offset_s() / scale.unit_s));
 }

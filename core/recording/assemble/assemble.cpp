@@ -63,6 +63,7 @@ class ScanAssembler {
   ReadReport& report_;
   std::vector<double> cloud_spans_s_;  // of the lines placed
   std::string cloud_problem_;
+  double turns_ = 1;     // of the mirror, from message to message
   double period_s_ = 0;  // of a turn of the mirror; 0 where it is not known
   BeamTimesReport beam_times_;
   std::size_t without_stamp_ = 0, without_beams_ = 0;
@@ -113,7 +114,7 @@ bool ScanAssembler::place(const RawScan& raw, LaserScan& scan) {
   if (rig_increment_s) rig_increment_s = std::abs(*rig_increment_s);
   // The times of a cloud's points have a check of their own.
   if (raw_.of_clouds && usable_increment(double{raw.time_increment_s})) rig_increment_s.reset();
-  const BeamTimes times = judge_beam_times(raw, raw_.of_clouds ? 0 : period_s_, rig_increment_s);
+  const BeamTimes times = judge_beam_times(raw, raw_.of_clouds ? 0 : period_s_, rig_increment_s, turns_);
   beam_times_.add(raw, times, recording_.rig.laser.increment_is_found);
   if (!times.time_increment_s) return false;
   scan.time_increment_s = *times.time_increment_s;
@@ -130,13 +131,15 @@ bool ScanAssembler::place(const RawScan& raw, LaserScan& scan) {
 
 bool ScanAssembler::assemble() {
   set_epoch();
-  const double turns = raw_.of_clouds ? 1 : turns_per_message(raw_.scans);
-  period_s_ = scan_period_s(raw_.scans, report_.laser_stamps.used) / turns;
+  if (!raw_.of_clouds) turns_ = turns_per_message(raw_.scans);
+  period_s_ = scan_period_s(raw_.scans, report_.laser_stamps.used) / turns_;
   std::vector<LaserScan> placed;
   std::vector<double> times_s;
   for (RawScan& raw : raw_.scans) {
     LaserScan scan;
-    if (!raw_.of_clouds && fired_backwards(raw, recording_.rig.laser.time_increment_s)) turn_round(raw);
+    const bool backwards = !raw_.of_clouds && fired_backwards(raw, recording_.rig.laser.time_increment_s);
+    if (backwards) turn_round(raw);
+    report_.fired_backwards = report_.fired_backwards || backwards;
     if (!place(raw, scan)) {
       ++report_.scans_dropped;
       continue;
@@ -157,7 +160,7 @@ bool ScanAssembler::assemble() {
     for (const std::size_t i : order.kept) recording_.scans.push_back(placed[i]);
   }
   if (!without_ranges()) take_ranges();
-  if (turns != 1 && !recording_.ranges_m.empty()) put_together();
+  if (turns_ != 1 && !recording_.ranges_m.empty()) put_together();
   warn_of_drops();
   warn_of_overlap();
   return true;

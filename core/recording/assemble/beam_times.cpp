@@ -62,7 +62,8 @@ double BeamTimes::doubt_s(double beams) const {
   return other_s > 0 ? std::abs(time_increment_s.value_or(0) - other_s) * std::max(0.0, beams - 1) : 0;
 }
 
-BeamTimes judge_beam_times(const RawScan& scan, double period_s, std::optional<double> rig_increment_s) {
+BeamTimes judge_beam_times(const RawScan& scan, double period_s, std::optional<double> rig_increment_s,
+                           double turns) {
   BeamTimes times;
   times.finding = finding_of(scan, period_s);
   times.time_increment_s = double{scan.time_increment_s};
@@ -77,7 +78,8 @@ BeamTimes judge_beam_times(const RawScan& scan, double period_s, std::optional<d
       times.finding == IncrementFinding::kMissing || times.finding == IncrementFinding::kImpossible;
   const double scan_time_s = double{scan.scan_time_s};
   if (guessed)
-    times.time_increment_s = plausible_scan_time(scan_time_s, period_s) ? scan_time_s / scan.beams : 0;
+    times.time_increment_s =
+        plausible_scan_time(scan_time_s, period_s) ? scan_time_s * turns / scan.beams : 0;
   if (!usable_increment(*times.time_increment_s)) {
     times.other_s = period_s * std::abs(double{scan.angle_increment_rad}) / kFullTurn;
     if (!(period_s > 0)) times.time_increment_s.reset();

@@ -39,8 +39,9 @@ struct BeamTimes {
 
 /// `period_s` is that of a turn of the mirror (scan_period_s, turns_per_message), or 0 if it is not known:
 /// increments are then not checked. The scan's beams and the rig's increment are in the order of time (see
-/// fired_backwards).
-BeamTimes judge_beam_times(const RawScan& scan, double period_s, std::optional<double> rig_increment_s);
+/// fired_backwards). `turns`: that the mirror makes from message to message.
+BeamTimes judge_beam_times(const RawScan& scan, double period_s, std::optional<double> rig_increment_s,
+                           double turns = 1);
 
 /// The median spacing of the scans' stamps; 0 for fewer than eight spacings, and for stamps that are uneven
 /// by at least a quarter of it.

@@ -123,12 +123,6 @@ void take_mount(const FrameMount& found, const Recording& recording, DetectedRig
                                     found.chain.back(), found.parent, kAxes);
 }
 
-bool has_default_mount(const std::optional<Rig>& rig) {
-  const Rig::Mount none, given = rig ? rig->mount : Rig::Mount();
-  return given.axis == none.axis && given.laser_in_motor_xyz_m == none.laser_in_motor_xyz_m &&
-         given.laser_in_motor_rpy_deg == none.laser_in_motor_rpy_deg;
-}
-
 /// What is kept of a file's contents when the recording is made of it.
 struct Evidence {
   RawScan first_scan;
@@ -158,7 +152,7 @@ Result<DetectedRig> detect_rig(const std::filesystem::path& path, const ReadOpti
   if (!raw) return tl::unexpected(raw.error());
   auto evidence = evidence_of(*raw, rig);
   if (!evidence) return tl::unexpected(evidence.error());
-  const bool mount_given = !has_default_mount(options.rig);
+  const bool mount_given = options.rig && !options.rig->has_default_mount();
   if (evidence->mount && !mount_given) {
     name_turning_frame(*raw, *evidence->mount, rig);
     // The angle of a turning frame is that about its axis, which was not known before.
