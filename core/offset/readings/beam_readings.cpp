@@ -15,6 +15,7 @@ namespace {
 
 // Of a reading that explains the recording: little more than range noise.
 constexpr double kMaxResidual_m = 0.03;
+constexpr double kSmallResidual_m = 0.005;
 
 double median_increment_s(const Recording& recording) {
   std::vector<double> increments_s;
@@ -160,7 +161,8 @@ std::vector<BeamReading> rank_beams(const Recording& first, const Job& job) {
     const ReadingFit& fit = fits.back();
     if (fit.direct.matches > 0) reading.residual_m = fit.direct.residual_m;
     if (fit.fits) reading.offset_s = fit.direct.offset_s;
-    if (!recorded || !fit.fits || !is_nearest(fit.direct, readings, beams)) continue;
+    const bool explains = fit.fits && is_nearest(fit.direct, readings, beams);
+    if (!recorded || !explains || fit.direct.residual_m > kSmallResidual_m) continue;
     readings.front().chosen = true;
     readings.resize(1);
     return readings;
@@ -174,7 +176,13 @@ std::vector<BeamReading> rank_beams(const Recording& first, const Job& job) {
   for (std::size_t i = 0; i < fits.size(); ++i)
     if (i != best && (next == best || residual_m(i) < residual_m(next))) next = i;
   if (!fits[best].fits) return {};
-  readings[best].chosen = fits.size() == 1 || residual_m(best) < kClearlyBetter * residual_m(next);
+  // What is recorded holds unless another reading is clearly better.
+  if (fits.front().fits && is_nearest(fits.front().direct, readings, beams) &&
+      residual_m(best) > kClearlyBetter * residual_m(0))
+    best = 0;
+  else if (residual_m(best) > kClearlyBetter * residual_m(next))
+    return readings;
+  readings[best].chosen = true;
   return readings;
 }
 

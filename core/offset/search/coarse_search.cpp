@@ -105,11 +105,15 @@ double cost_m(const CoarseSearch& search) {
   return *search.curve[*search.best].capped_cost_m;
 }
 
+bool is_inside(const CoarseSearch& search) {
+  return search.best && *search.best > 0 && *search.best + 1 < search.curve.size();
+}
+
 // Whether the minimum lies inside, and is far below the usual cost: 0.68 to 0.86 of simulated rooms and walks
 // (tests/benchmark/thresholds).
 bool has_clear_valley(const CoarseSearch& search) {
   constexpr double kClearDepth = 0.5;  // of the median
-  if (!search.best || *search.best == 0 || *search.best + 1 == search.curve.size()) return false;
+  if (!is_inside(search)) return false;
   std::vector<double> costs_m;
   for (const CurvePoint& point : search.curve)
     if (point.capped_cost_m) costs_m.push_back(*point.capped_cost_m);
@@ -173,11 +177,9 @@ SearchedWindow search_by_default(const PreparedRecording& prepared, const Search
   const double reach_s = scale.max_half_width_s;
   const CoarseSearch all =
       search_roughly(problem_for(prepared, -reach_s, reach_s), -reach_s, reach_s, scale, job);
-  if (!has_clear_valley(all)) return near;
-  const std::optional<std::size_t>& best = near.coarse.best;
-  const bool inside = best && *best > 0 && *best + 1 < near.coarse.curve.size();
-  if (inside && std::abs(all.offset_s()) <= scale.half_width_s) return near;
-  if (near.coarse.best && cost_m(all) > kClearlyLower * cost_m(near.coarse)) return near;
+  if (!is_inside(all)) return near;
+  const bool lower = !near.coarse.best || cost_m(all) < kClearlyLower * cost_m(near.coarse);
+  if (is_inside(near.coarse) && (!lower || std::abs(all.offset_s()) <= scale.half_width_s)) return near;
   return about(scale.unit_s * std::round(all.offset_s() / scale.unit_s));
 }
 
