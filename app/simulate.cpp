@@ -41,14 +41,18 @@ std::string summary(const Simulation& simulation, const std::filesystem::path& o
     text += fmt::format("  the smoothed walk is {:.2f} mm and {:.3f} deg from the recorded poses (RMS)\n",
                         simulation.deviation.position_m * 1e3,
                         simulation::degrees(simulation.deviation.rotation_rad));
-  return text + fmt::format("  the truth is in {} and {}", truth_json_path(output).string(),
-                            truth_tum_path(output).filename().string());
+  text += fmt::format("  the truth is in {} and {}", truth_json_path(output).string(),
+                      truth_tum_path(output).filename().string());
+  const std::vector<std::filesystem::path> files = files_of_simulation(o, output);
+  if (files.back() == rig_path(output))
+    text += fmt::format("\n  {} says how it is to be read (--rig)", files.back().filename().string());
+  return text;
 }
 
 Result<Simulation> simulate_into(const SimulationOptions& options, const std::filesystem::path& output) {
-  const auto checked =
-      check_outputs({output.string(), truth_json_path(output).string(), truth_tum_path(output).string()},
-                    {options.own.mesh, options.own.trajectory});
+  std::vector<std::string> files;
+  for (const auto& file : files_of_simulation(options, output)) files.push_back(file.string());
+  const auto checked = check_outputs(files, {options.own.mesh, options.own.trajectory});
   if (!checked) return tl::unexpected(checked.error());
   const Progress progress;
   auto simulation = simulate(options, progress.job());
@@ -91,6 +95,7 @@ void declare_options(CLI::App& app, CLI::Option& scene, Typed& typed) {
     if (!option.needs.empty()) declared->needs(app.get_option("--" + option.needs));
     if (option.name == "mesh") declared->excludes(&scene);
     if (option.group == SimulationOption::Group::kOwnScene) declared->group("A scene and a walk of your own");
+    if (option.group == SimulationOption::Group::kMessages) declared->group("How drivers write messages");
     if (option.group == SimulationOption::Group::kFaults) declared->group("Faults of real rigs");
   }
 }
@@ -105,7 +110,10 @@ void add_simulate(CLI::App& app, ExitCode& exit_code) {
                            ->add_option("SCENE", typed->scene,
                                         fmt::format("One of {}", fmt::join(simulation::scene_names(), ", ")))
                            ->type_name("");
-  simulate->add_option("-o,--output", typed->output, "The bag; beside it OUT.truth.json and OUT.truth.tum")
+  simulate
+      ->add_option(
+          "-o,--output", typed->output,
+          "The bag; beside it OUT.truth.json, OUT.truth.tum and, where reading it needs one, OUT.rig.yaml")
       ->required()
       ->type_name("OUT.bag");
   declare_options(*simulate, *scene, *typed);

@@ -44,9 +44,8 @@ SimulationOptions options_of(const std::optional<std::string>& scene, const py::
 std::string simulate_into(const std::optional<std::string>& scene, const Path& output, const py::dict& given,
                           const Call& call) {
   const SimulationOptions options = options_of(scene, given);
-  value_of(check_run_files({{options.own.mesh, options.own.trajectory},
-                            {output, truth_json_path(output), truth_tum_path(output)},
-                            {}}));
+  value_of(check_run_files(
+      {{options.own.mesh, options.own.trajectory}, files_of_simulation(options, output), {}}));
   return result_of(call, [&](const Job& job) {
     return simulate(options, job).and_then([&](const Simulation& simulation) {
       return write_bag(simulation, output, job)

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/apply/driver_parameters.hpp"
 #include "core/geometry/pose.hpp"
 #include "core/io/printable_text.hpp"
 
@@ -256,11 +257,25 @@ std::string fast_lio(const RigSnippet& snippet) {
              number(r(1, 2)), number(r(2, 0)), number(r(2, 1)), number(r(2, 2)));
 }
 
+std::string driver_params(const RigSnippet& snippet) {
+  auto lines = joined(
+      head(snippet),
+      {"Parameters by which drivers of lasers shift the header stamps of their scans, in seconds (REP 138). Each",
+       "driver below adds its parameter: set the one of your driver. Its value is right if the recording was made",
+       "with the driver's default; otherwise add the offset to the value that it was made with. Scans that are",
+       "recorded from then on have an offset of 0. Your driver has no such parameter (rplidar_ros, LMS1xx,",
+       "ldlidar_stl_ros2)? Shift the stamps of a recording, with sweepscope apply, or those of the motor."});
+  if (snippet.rig.laser.stamp == StampSource::kReceive)
+    lines.emplace_back(
+        "This rig uses the laser's receive times, which no parameter shifts: estimate with --stamps header.");
+  return driver_parameters_text(lines, snippet.offset.offset_s);
+}
+
 }  // namespace
 
 const std::vector<std::string>& rig_system_names() {
-  static const std::vector<std::string> names{"urdf",         "xacro",   "ros2-static-tf", "laser_assembler",
-                                              "cartographer", "fast-lio"};
+  static const std::vector<std::string> names{"urdf",         "xacro",    "ros2-static-tf", "laser_assembler",
+                                              "cartographer", "fast-lio", "driver-params"};
   return names;
 }
 
@@ -277,9 +292,11 @@ std::string rig_snippet(const RigSnippet& snippet, RigSystem system) {
     case RigSystem::kCartographer:
       return cartographer(snippet);
     case RigSystem::kFastLio:
+      return fast_lio(snippet);
+    case RigSystem::kDriverParams:
       break;
   }
-  return fast_lio(snippet);
+  return driver_params(snippet);
 }
 
 Eigen::Vector3d rpy_rad_of(const Eigen::Quaterniond& rotation) {

@@ -11,8 +11,17 @@
 
 namespace sweepscope {
 
-/// A system that reads the mount of a laser, in its own notation.
-enum class RigSystem { kUrdf, kXacro, kRos2StaticTf, kLaserAssembler, kCartographer, kFastLio };
+/// A system that reads the mount of a laser, in its own notation; or the laser's driver, which takes the
+/// offset.
+enum class RigSystem {
+  kUrdf,
+  kXacro,
+  kRos2StaticTf,
+  kLaserAssembler,
+  kCartographer,
+  kFastLio,
+  kDriverParams
+};
 
 /// As the command line spells them, in the order of the enum.
 const std::vector<std::string>& rig_system_names();

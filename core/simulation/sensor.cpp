@@ -68,24 +68,55 @@ Sensor::Sensor(const SimulationOptions& options, const Scene& scene)
       caster_(scene.mesh),
       trajectory_(trajectory_of(scene, options.seed)),
       motor_(options.motor, options.sweep_s, phase_s(options, 0, 2 * options.sweep_s),
-             {options.uneven_motor, options.seed}, course_of(options)),
+             {options.uneven_motor, options.seed}, course_of(options), radians(options.swing_deg)),
       encoder_phase_s_(phase_s(options, 1, 1 / options.encoder_hz)),
       glass_(options.glass, options.seed) {
-  const Eigen::Matrix3d motor_from_laser = rotation_of(options.mount_error_deg);
-  for (std::size_t beam = 0; beam < kBeams; ++beam) {
-    const SinCos angle = sin_cos(radians(-90 + 0.25 * static_cast<double>(beam)));
+  const Eigen::Matrix3d motor_from_laser = rotation_of(laser_in_motor_rpy_deg(options));
+  for (std::uint32_t beam = 0; beam < options.scanner.beams; ++beam) {
+    const SinCos angle = sin_cos(angle_rad(array_index(beam)));
     beam_directions_.emplace_back(motor_from_laser * Vector3d(angle.cos, angle.sin, 0));
   }
 }
 
-LaserScan Sensor::scan(std::size_t number) const {
+double Sensor::angle_rad(std::uint32_t array_index) const {
+  const Scanner& scanner = options_.scanner;
+  return radians(scanner.angle_min_deg + scanner.angle_increment_deg * static_cast<double>(array_index));
+}
+
+std::uint32_t Sensor::array_index(std::uint32_t beam) const {
+  return fired_times(options_) == BeamTimes::kReversed ? options_.scanner.beams - 1 - beam : beam;
+}
+
+std::uint32_t Sensor::first_beam(std::uint32_t part) const {
+  return static_cast<std::uint32_t>(std::uint64_t{options_.scanner.beams} * part / options_.parts);
+}
+
+std::uint32_t Sensor::part_of(std::uint32_t beam) const {
+  auto part = static_cast<std::uint32_t>(std::uint64_t{beam} * options_.parts / options_.scanner.beams);
+  while (first_beam(part + 1) <= beam) ++part;
+  return part;
+}
+
+double Sensor::fired_s(std::uint32_t beam) const {
+  const bool instant = fired_times(options_) == BeamTimes::kInstant;
+  return (instant ? first_beam(part_of(beam)) : beam) * options_.scanner.increment_s();
+}
+
+LaserScan Sensor::scan(std::size_t turn, std::uint32_t part) const {
+  const Scanner& scanner = options_.scanner;
+  const std::uint32_t begin = first_beam(part), end = first_beam(part + 1);
+  const BeamTimes times = fired_times(options_);
+  const double late_s =
+      options_.stamp_jitter_s * Random(options_.seed, kScanStamp, turn * options_.parts + part).normal();
+  const double first_s = static_cast<double>(turn) * scanner.scan_period_s + fired_s(begin);
   LaserScan scan;
-  const double late_s = options_.stamp_jitter_s * Random(options_.seed, kScanStamp, number).normal();
-  scan.first_beam_s = whole_ns(std::max(0.0, static_cast<double>(number) * kScanPeriod_s + late_s));
-  scan.time_increment_s = kTimeIncrement_s;
-  scan.angle_min_rad = kAngleMin_rad;
-  scan.angle_increment_rad = kAngleIncrement_rad;
-  scan.beams = kBeams;
+  scan.first_beam_s = whole_ns(std::max(0.0, first_s + late_s));
+  scan.time_increment_s = times == BeamTimes::kInstant ? 0 : scanner.increment_s();
+  scan.angle_min_rad = static_cast<float>(angle_rad(array_index(begin)));
+  scan.angle_increment_rad = static_cast<float>(radians(scanner.angle_increment_deg));
+  if (times == BeamTimes::kReversed) scan.angle_increment_rad = -scan.angle_increment_rad;
+  scan.first_range = begin;
+  scan.beams = end - begin;
   return scan;
 }
 
@@ -99,10 +130,14 @@ Pose Sensor::pose_at(double t_s) const {
 }
 
 Vector3d Sensor::from_motor(const Pose& pose, double t_s, const Vector3d& in_motor) const {
-  const SinCos roll = sin_cos(radians(options_.motor_middle_deg) +
-                              motor_.laser_angle_rad(t_s, radians(options_.backlash_deg)));
-  const Vector3d in_base(in_motor.x(), in_motor.y() * roll.cos - in_motor.z() * roll.sin,
-                         in_motor.y() * roll.sin + in_motor.z() * roll.cos);
+  const SinCos turned = sin_cos(radians(options_.motor_middle_deg) +
+                                motor_.laser_angle_rad(t_s, radians(options_.backlash_deg)));
+  const int about = index_of(options_.axis);
+  const double cosine = turned.cos, sine = is_negative(options_.axis) ? -turned.sin : turned.sin;
+  const int from = (about + 1) % 3, to = (about + 2) % 3;
+  Vector3d in_base = in_motor;
+  in_base[from] = in_motor[from] * cosine - in_motor[to] * sine;
+  in_base[to] = in_motor[from] * sine + in_motor[to] * cosine;
   return pose.orientation * in_base;
 }
 
@@ -111,13 +146,14 @@ Vector3d Sensor::laser_position_at(double t_s) const {
   return pose.position_m + from_motor(pose, t_s, options_.mount_error_m);
 }
 
-Sensor::Return Sensor::fire(std::size_t number, std::size_t beam, float& intensity) const {
-  const double t_s =
-      static_cast<double>(number) * kScanPeriod_s + static_cast<double>(beam) * kTimeIncrement_s;
+Sensor::Return Sensor::fire(std::size_t turn, std::uint32_t beam, float& intensity) const {
+  const Scanner& scanner = options_.scanner;
+  const double t_s = static_cast<double>(turn) * scanner.scan_period_s + fired_s(beam);
   const Pose pose = pose_at(t_s);
   const Vector3d origin = pose.position_m + from_motor(pose, t_s, options_.mount_error_m);
   const Vector3d direction = from_motor(pose, t_s, beam_directions_[beam]).normalized();
-  auto [hit, end_m] = glass_.cast(caster_, origin, direction, kRangeMax_m, number * kBeams + beam);
+  auto [hit, end_m] =
+      glass_.cast(caster_, origin, direction, scanner.range_max_m, turn * scanner.beams + beam);
   for (const Person& person : people_) {
     const auto body = person.cast(origin, direction, t_s);
     if (!body || body->range_m >= end_m) continue;
@@ -130,23 +166,27 @@ Sensor::Return Sensor::fire(std::size_t number, std::size_t beam, float& intensi
           options_.grazing_dropout * std::max(0.0, 1 - 2 * hit->albedo * hit->cos_incidence)};
 }
 
-void Sensor::cast_scan(std::size_t number, std::span<float> ranges_m, std::span<float> intensities) const {
-  Random random(options_.seed, kBeamNoise, number), weak(options_.seed, kWeakReturn, number);
-  std::vector<Return> met(kBeams);
-  for (std::size_t beam = 0; beam < kBeams; ++beam) met[beam] = fire(number, beam, intensities[beam]);
-  for (std::size_t beam = 0; beam < kBeams; ++beam) {
+void Sensor::cast_turn(std::size_t turn, std::span<float> ranges_m, std::span<float> intensities) const {
+  const Scanner& scanner = options_.scanner;
+  const double constant_noise_m = options_.noise_m.value_or(scanner.noise_m);
+  const double noise_per_m = options_.noise_per_m + (options_.noise_m ? 0 : scanner.noise_per_m);
+  Random random(options_.seed, kBeamNoise, turn), weak(options_.seed, kWeakReturn, turn);
+  std::vector<Return> met(scanner.beams);
+  for (std::uint32_t beam = 0; beam < scanner.beams; ++beam) met[beam] = fire(turn, beam, intensities[beam]);
+  for (std::uint32_t beam = 0; beam < scanner.beams; ++beam) {
     // Drawn whatever the beam met, so that one option does not change the luck of another.
     const double luck = random.normal();
     const bool dropped = random.uniform() < options_.dropout, lost = weak.uniform() < met[beam].lost;
     const double mixed = random.uniform(), between = random.uniform();
     double range_m = met[beam].range_m;
-    const double beside_m = met[std::min(beam + 1, kBeams - 1)].range_m;
+    const double beside_m = met[std::min(beam + 1, scanner.beams - 1)].range_m;
     if (mixed < options_.mixed_pixels && std::isfinite(beside_m) && std::abs(beside_m - range_m) > 0.2)
       range_m += between * (beside_m - range_m);
     // Nothing is NaN from here on, and not usable.
-    const double noise_m = (options_.noise_m + options_.noise_per_m * range_m) * luck;
+    const double noise_m = (constant_noise_m + noise_per_m * range_m) * luck;
     const double whole_mm = std::floor((range_m + noise_m) * 1e3 + 0.5);
-    const bool usable = !dropped && !lost && whole_mm >= kRangeMin_m * 1e3 && whole_mm <= kRangeMax_m * 1e3;
+    const bool usable =
+        !dropped && !lost && whole_mm >= scanner.range_min_m * 1e3 && whole_mm <= scanner.range_max_m * 1e3;
     ranges_m[beam] = usable ? static_cast<float>(whole_mm / 1e3) : std::numeric_limits<float>::quiet_NaN();
     if (!usable) intensities[beam] = 0;
   }

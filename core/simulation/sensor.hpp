@@ -18,23 +18,18 @@
 
 namespace sweepscope::simulation {
 
-/// The two streams of a UTM-30LX that a motor rolls in a scene. True time is the laser's clock, 0
-/// at the first beam of the first scan.
+/// The two streams of a scanner that a motor turns in a scene. True time is the laser's clock, 0 at the first
+/// beam of the first scan.
 class Sensor {
  public:
-  static constexpr std::size_t kBeams = 721;
-  static constexpr double kScanPeriod_s = 0.025;
-  static constexpr float kTimeIncrement_s = 1.736e-5F;
-  static constexpr float kAngleMin_rad = -1.57079632679489661923F;
-  static constexpr float kAngleIncrement_rad = 0.00436332312998582394F;
-  static constexpr double kRangeMin_m = 0.1, kRangeMax_m = 30;
-
   Sensor(const SimulationOptions& options, const Scene& scene);
 
-  /// A scan's times and angles; its stamp is a whole number of nanoseconds.
-  LaserScan scan(std::size_t number) const;
-  /// Fires every beam of a scan at its own time. NaN if there is no usable return.
-  void cast_scan(std::size_t number, std::span<float> ranges_m, std::span<float> intensities) const;
+  /// The times and angles of a scan: the turn of the mirror, or a part of one. Beams are in the order in
+  /// which they are fired; the stamp is a whole number of nanoseconds. `first_range` is that within its turn.
+  LaserScan scan(std::size_t turn, std::uint32_t part = 0) const;
+  /// Fires the beams of one turn, in the order of time, each at its own instant. NaN if there is no usable
+  /// return.
+  void cast_turn(std::size_t turn, std::span<float> ranges_m, std::span<float> intensities) const;
   /// The encoder's samples from a little before true time 0 to a little after duration_s.
   MotorTrack motor_track(double duration_s) const;
   /// Of the base frame.
@@ -53,7 +48,15 @@ class Sensor {
   };
   /// The reading of an ideal encoder without steps.
   double encoder_angle_rad(double t_s) const;
-  Return fire(std::size_t number, std::size_t beam, float& intensity) const;
+  Return fire(std::size_t turn, std::uint32_t beam, float& intensity) const;
+  /// The first beam of a part of a turn, and the part that a beam belongs to.
+  std::uint32_t first_beam(std::uint32_t part) const;
+  std::uint32_t part_of(std::uint32_t beam) const;
+  /// When a beam is fired, after the turn's begin.
+  double fired_s(std::uint32_t beam) const;
+  /// The number in the message's array of the beam that is fired as number `beam` of its turn.
+  std::uint32_t array_index(std::uint32_t beam) const;
+  double angle_rad(std::uint32_t array_index) const;
   /// v_in_world of a vector in the frame that turns with the motor.
   Vector3d from_motor(const Pose& pose, double t_s, const Vector3d& in_motor) const;
 
@@ -64,7 +67,7 @@ class Sensor {
   double encoder_phase_s_ = 0;
   Glass glass_;
   std::vector<Person> people_;
-  std::vector<Vector3d> beam_directions_;  // in the frame that turns with the motor
+  std::vector<Vector3d> beam_directions_;  // in the frame that turns with the motor, in the order of time
 };
 
 }  // namespace sweepscope::simulation

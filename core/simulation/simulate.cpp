@@ -40,14 +40,18 @@ struct Bound {
   const char* unit;
 };
 
-Result<void> check(const SimulationOptions& o) {
+std::vector<Bound> bounds_of(const SimulationOptions& o) {
   const Vector3d at_m = o.own.placement.at_m.value_or(Vector3d::Zero());
-  const Bound bounds[] = {
+  return {
       {"the offset", o.offset_s * 1e3, -10e3, 10e3, " ms"},
-      {"the noise", o.noise_m * 1e3, 0, 1000, " mm"},
+      {"the noise", o.noise_m.value_or(0) * 1e3, 0, 1000, " mm"},
       {"the dropout", o.dropout, 0, 1, ""},
       {"the sweep", o.sweep_s, 0.05, 60, " s"},
       {"the middle of the motor's swing", o.motor_middle_deg, -180, 180, " deg"},
+      {"the motor's swing", o.swing_deg, 1, 180, " deg"},
+      {"the factor of scan_time", o.scan_time_factor, 0, 100, ""},
+      {"the number of parts of a turn", double(o.parts), 1, std::min(100.0, double(o.scanner.beams)), ""},
+      {"the number of repeats of a motor angle", double(o.motor_repeats), 1, 100, ""},
       {"the encoder's step", o.encoder_step_deg, 1e-6, 10, " deg"},
       {"the encoder's rate", o.encoder_hz, 5, 2000, " Hz"},
       {"the encoder's jitter", o.encoder_jitter_s * 1e3, 0, 300 / o.encoder_hz, " ms"},
@@ -81,14 +85,18 @@ Result<void> check(const SimulationOptions& o) {
       {"the trajectory's start", o.own.from_s, 0, 1e6, " s"},
       {"the trajectory's smoothing", o.own.placement.smoothing_s * 1e3, 10, 1000, " ms"},
   };
+}
+
+Result<void> check(const SimulationOptions& o) {
   for (const double speed_dps : o.speeds_dps)
     if (!(speed_dps >= 1 && speed_dps <= 3600))
       return wrong(fmt::format("a speed of the motor is {:g} deg/s, but must lie between 1 and 3600 deg/s",
                                speed_dps));
   if (!o.speeds_dps.empty() && o.motor != MotorKind::kOneWay)
     return wrong("speeds are those of a motor that turns one way: use it with --motor one-way");
+  if (o.stamp_at == StampAt::kArrival) return wrong("a simulated scan is stamped at its first or last beam");
   if (o.speed_ramp && o.speeds_dps.size() < 2) return wrong("a ramp needs at least two speeds");
-  for (const Bound& b : bounds)
+  for (const Bound& b : bounds_of(o))
     if (!(b.value >= b.least && b.value <= b.most))
       return wrong(fmt::format("{} is {:g}{}, but must lie between {:g} and {:g}{}", b.name, b.value, b.unit,
                                b.least, b.most, b.unit));
@@ -145,21 +153,21 @@ Result<void> furnish(Sensor& sensor, const SimulationOptions& options) {
   return {};
 }
 
-/// Casts all scans into the recording; false where the job was cancelled.
-bool cast_scans(const Sensor& sensor, Recording& recording, const Job& job) {
-  const std::size_t scans = recording.scans.size();
+/// Casts all beams into the recording; false where the job was cancelled.
+bool cast_turns(const Sensor& sensor, std::size_t beams, Recording& recording, const Job& job) {
+  const std::size_t turns = recording.ranges_m.size() / beams;
   std::atomic<std::size_t> done{0};
   std::atomic<bool> stopped{false};
-  for_each_index(scans, [&](std::size_t i) {
+  for_each_index(turns, [&](std::size_t i) {
     if (stopped || job.cancelled()) {
       stopped = true;
       return;
     }
-    const std::size_t first = recording.scans[i].first_range;
-    sensor.cast_scan(i, {recording.ranges_m.data() + first, Sensor::kBeams},
-                     {recording.intensities.data() + first, Sensor::kBeams});
+    const std::size_t first = i * beams;
+    sensor.cast_turn(i, {recording.ranges_m.data() + first, beams},
+                     {recording.intensities.data() + first, beams});
     const std::size_t finished = ++done;
-    if (finished % 64 == 0) job.report("casting", static_cast<double>(finished) / static_cast<double>(scans));
+    if (finished % 64 == 0) job.report("casting", static_cast<double>(finished) / static_cast<double>(turns));
   });
   return !stopped;
 }
@@ -168,14 +176,18 @@ Recording blank_recording(const SimulationOptions& options, const Sensor& sensor
   Recording recording;
   recording.name = options.scene;
   recording.epoch_ns = kEpoch_ns;
-  const auto scans = static_cast<std::size_t>(std::floor(duration_s / Sensor::kScanPeriod_s + 1e-9));
-  for (std::size_t i = 0; i < scans; ++i) {
-    LaserScan scan = sensor.scan(i);
-    scan.first_range = i * Sensor::kBeams;
-    recording.scans.push_back(scan);
+  recording.rig = rig_of(options);
+  const std::size_t beams = options.scanner.beams;
+  const auto turns = static_cast<std::size_t>(std::floor(duration_s / options.scanner.scan_period_s + 1e-9));
+  for (std::size_t turn = 0; turn < turns; ++turn) {
+    for (std::uint32_t part = 0; part < options.parts; ++part) {
+      LaserScan scan = sensor.scan(turn, part);
+      scan.first_range += turn * beams;
+      recording.scans.push_back(scan);
+    }
   }
-  recording.ranges_m.resize(scans * Sensor::kBeams);
-  recording.intensities.resize(scans * Sensor::kBeams);
+  recording.ranges_m.resize(turns * beams);
+  recording.intensities.resize(turns * beams);
   recording.motor = sensor.motor_track(duration_s);
   return recording;
 }
@@ -217,6 +229,27 @@ void fill_imu(Simulation& simulation, const Sensor& sensor) {
 
 }  // namespace
 
+Eigen::Vector3d laser_in_motor_rpy_deg(const SimulationOptions& options) {
+  const double roll_deg = (index_of(options.axis) == 2 ? 90 : 0) + (options.laser_upside_down ? 180 : 0);
+  return options.mount_error_deg + roll_deg * Vector3d::UnitX();
+}
+
+Rig rig_of(const SimulationOptions& options) {
+  Rig rig;
+  const double increment_s = options.scanner.increment_s();
+  if (fired_times(options) == BeamTimes::kInstant)
+    rig.laser.time_increment_s = 0;
+  else if (fired_times(options) == BeamTimes::kReversed)
+    rig.laser.time_increment_s = -increment_s;
+  else if (options.no_time_increment)
+    rig.laser.time_increment_s = increment_s;
+  rig.laser.stamp_at = options.stamp_at;
+  if (options.motor_in_degrees) rig.motor.scale = radians(1);
+  rig.mount.axis = (is_negative(options.axis) ? -1 : 1) * Vector3d::Unit(index_of(options.axis));
+  rig.mount.laser_in_motor_rpy_deg = laser_in_motor_rpy_deg(options) - options.mount_error_deg;
+  return rig;
+}
+
 Result<Simulation> simulate(const SimulationOptions& options, const Job& job) {
   if (auto checked = check(options); !checked) return tl::unexpected(checked.error());
   Simulation simulation;
@@ -232,7 +265,8 @@ Result<Simulation> simulate(const SimulationOptions& options, const Job& job) {
   if (auto furnished = furnish(sensor, simulation.options); !furnished)
     return tl::unexpected(furnished.error());
   simulation.recording = blank_recording(simulation.options, sensor, *duration_s);
-  if (!cast_scans(sensor, simulation.recording, job)) return failure(ExitCode::kInterrupted, "interrupted");
+  if (!cast_turns(sensor, simulation.options.scanner.beams, simulation.recording, job))
+    return failure(ExitCode::kInterrupted, "interrupted");
   fill_truth(simulation, sensor);
   if (simulation.options.imu) fill_imu(simulation, sensor);
   return simulation;

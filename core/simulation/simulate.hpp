@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/error.hpp"
@@ -13,6 +14,7 @@
 #include "core/recording/recording.hpp"
 #include "core/simulation/motion/motor.hpp"
 #include "core/simulation/motion/recorded_path.hpp"
+#include "core/simulation/scanner.hpp"
 
 namespace sweepscope {
 
@@ -33,10 +35,13 @@ struct SimulationOptions {
   std::uint64_t seed = 1;            // of noise, dropouts, jitter, swaying and the motor's phase
   std::optional<double> duration_s;  // the first seconds of the walk; none: all of it, and 4.5 s in a room
 
-  double noise_m = 0.010;  // standard deviation of a range, 0 to 1
-  double dropout = 0.002;  // fraction of the beams without a return, 0 to 1
-  double sweep_s = 0.5;    // one half turn of the motor, 0.05 to 60
+  simulation::Scanner scanner = {};
+  std::optional<double> noise_m = {};  // standard deviation of a range, 0 to 1; none: the scanner's
+  double dropout = 0.002;              // fraction of the beams without a return, 0 to 1
+  double sweep_s = 0.5;                // one half turn of the motor, 0.05 to 60
   simulation::MotorKind motor = simulation::MotorKind::kTrapezoid;
+  simulation::MotorAxis axis = simulation::MotorAxis::kX;
+  double swing_deg = 90;        // by which the motor swings to either side, 1 to 180
   double motor_middle_deg = 0;  // about which the motor swings, within +-180; 0: the scanner is level there
   /// Of a motor that turns one way, instead of sweep_s: each for an equal part of the recording, or with
   /// speed_ramp evenly from one to the next. 1 to 3600 each; empty: one speed, half a turn in sweep_s.
@@ -45,6 +50,18 @@ struct SimulationOptions {
   double encoder_step_deg = 0.088;   // above 0, up to 10
   double encoder_hz = 100;           // 5 to 2000
   double encoder_jitter_s = 0.0005;  // standard deviation of the sampling instants, up to 0.3 / encoder_hz
+
+  // How drivers write messages; by default as the fields of a LaserScan are meant. What a rig file has to say
+  // about it: rig_of.
+  std::optional<simulation::BeamTimes> beam_times = {};  // none: the scanner's
+  StampAt stamp_at = StampAt::kFirstBeam;  // first or last beam; in the messages alone, not in `recording`
+  bool no_time_increment = false;          // time_increment is 0 in the messages
+  double scan_time_factor = 1;             // scan_time is that of a turn, times this; 0 to 100
+  std::uint32_t parts = 1;                 // messages that a turn of the mirror is cut into, 1 to 100
+  bool laser_upside_down = false;          // mounted so; turned by 180 deg about its forward axis
+  std::uint32_t motor_repeats =
+      1;  // each angle is sent this often before the next, under new stamps, 1 to 100
+  bool motor_in_degrees = false;
 
   // Faults of real rigs, none by default.
   double mixed_pixels = 0;     // fraction of the beams at an edge that return a range in between, 0 to 1
@@ -80,9 +97,22 @@ struct TruthPose {
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
 };
 
+/// When the beams are fired.
+inline simulation::BeamTimes fired_times(const SimulationOptions& options) {
+  return options.beam_times.value_or(options.scanner.beam_times);
+}
+
+/// How the laser is mounted on the motor: roll, pitch and yaw, with the mount's error. On a motor that turns
+/// about z it is rolled by 90 deg, so that its plane contains the motor's axis.
+Eigen::Vector3d laser_in_motor_rpy_deg(const SimulationOptions& options);
+
+/// What a rig file has to say for the messages to be read as they were made: the axis, the mount without its
+/// error, and how the driver writes. Rig() for default options.
+Rig rig_of(const SimulationOptions& options);
+
 /// A recording and its ground truth.
 struct Simulation {
-  Recording recording;           // equal to the recording read from the bag of write_bag
+  Recording recording;  // equal to the recording read from the bag of write_bag with the rig of rig_of
   std::vector<TruthPose> truth;  // every 10 ms from the first beam to the last; every 5 ms in an own scene
   TurnRates imu;                 // if requested: 200 Hz, with a bias and noise, on its own clock
   SimulationOptions options;     // with the duration filled in
@@ -95,10 +125,11 @@ struct Simulation {
   simulation::SplineDeviation deviation;   // of the spline from an own trajectory's poses
 };
 
-/// Records a scene with a UTM-30LX (40 scans/s, 721 beams over 180 deg, 0.1 to 30 m) that a motor rolls about
-/// the base frame's x axis. Every beam is cast at its own time, with the pose and the motor angle of that
-/// time. Ranges are rounded to 1 mm and angles to the encoder's step. Invalid options are
-/// ExitCode::kWrongUsage, and so is a user's walk that comes nearer than 0.15 m to a surface.
+/// Records a scene with a scanner (by default a UTM-30LX: 40 scans/s, 721 beams over 180 deg, 0.1 to 30 m)
+/// that a motor turns about an axis of the base frame (by default x: it rolls). Every beam is cast at its own
+/// time, with the pose and the motor angle of that time. Ranges are rounded to 1 mm and angles to the
+/// encoder's step. Invalid options are ExitCode::kWrongUsage, and so is a user's walk that comes nearer than
+/// 0.15 m to a surface.
 Result<Simulation> simulate(const SimulationOptions& options, const Job& job);
 
 }  // namespace sweepscope

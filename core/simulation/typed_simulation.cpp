@@ -37,26 +37,33 @@ tl::unexpected<Error> not_a_triple(const char* option, const std::string& text) 
 
 std::vector<SimulationOption> recording_options(TypedSimulation& typed) {
   SimulationOptions& options = typed.options;
-  return {{"offset-ms", &typed.offset_ms, "t_motor = t_laser + offset"},
-          {"seed", &options.seed, "Random seed; the same seed gives the same file"},
-          {"duration-s", &options.duration_s,
-           "Length of the recording (default: the whole walk, 4.5 s in a room)", "", "", false},
-          {"noise-mm", &typed.noise_mm, "Standard deviation of the range noise"},
-          {"dropout", &options.dropout, "Fraction of beams without a return"},
-          {"sweep-s", &options.sweep_s, "Duration of one half turn of the motor"},
-          {"motor", &typed.motor, "triangle, trapezoid, sine, one-way or stuck"},
-          {"motor-middle-deg", &options.motor_middle_deg,
-           "Angle about which the motor swings by 90 deg to either side; the scanner is level at 0"},
-          {"speeds-dps", &options.speeds_dps,
-           "Speeds of a motor that turns one way (deg/s), each for an equal part of the recording", "A,B,...",
-           "", false},
-          {"speed-ramp", &options.speed_ramp,
-           "Turn evenly faster or slower from one of --speeds-dps to the next"},
-          {"encoder-step-deg", &options.encoder_step_deg, "The encoder's resolution"},
-          {"encoder-hz", &options.encoder_hz, "Motor samples per second"},
-          {"encoder-jitter-ms", &typed.encoder_jitter_ms, "Standard deviation of the sampling instants"},
-          {"imu", &options.imu, "Also record a gyroscope on the base, as sensor_msgs/Imu on /imu"},
-          {"imu-shift-ms", &typed.imu_shift_ms, "t_laser = t_imu + time shift", "", "imu"}};
+  return {
+      {"offset-ms", &typed.offset_ms, "t_motor = t_laser + offset"},
+      {"seed", &options.seed, "Random seed; the same seed gives the same file"},
+      {"duration-s", &options.duration_s,
+       "Length of the recording (default: the whole walk, 4.5 s in a room)", "", "", false},
+      {"noise-mm", &typed.noise_mm,
+       "Standard deviation of the range noise (default: the scanner's, 10 for a UTM-30LX)", "", "", false},
+      {"dropout", &options.dropout, "Fraction of beams without a return"},
+      {"scanner", &typed.scanner,
+       fmt::format("The scanner, as its driver writes it: {}", fmt::join(simulation::scanner_names(), ", "))},
+      {"laser-upside-down", &options.laser_upside_down, "Mount the scanner upside down"},
+      {"sweep-s", &options.sweep_s, "Duration of one sweep of the motor, from reversal to reversal"},
+      {"motor", &typed.motor, "triangle, trapezoid, sine, one-way or stuck"},
+      {"axis", &typed.axis, "The axis that the motor turns about: x rolls, y tilts, z yaws; also -x, -y, -z"},
+      {"swing-deg", &options.swing_deg, "Angle by which the motor swings to either side"},
+      {"motor-middle-deg", &options.motor_middle_deg,
+       "Angle about which the motor swings; the scanner is level at 0"},
+      {"speeds-dps", &options.speeds_dps,
+       "Speeds of a motor that turns one way (deg/s), each for an equal part of the recording", "A,B,...", "",
+       false},
+      {"speed-ramp", &options.speed_ramp,
+       "Turn evenly faster or slower from one of --speeds-dps to the next"},
+      {"encoder-step-deg", &options.encoder_step_deg, "The encoder's resolution"},
+      {"encoder-hz", &options.encoder_hz, "Motor samples per second"},
+      {"encoder-jitter-ms", &typed.encoder_jitter_ms, "Standard deviation of the sampling instants"},
+      {"imu", &options.imu, "Also record a gyroscope on the base, as sensor_msgs/Imu on /imu"},
+      {"imu-shift-ms", &typed.imu_shift_ms, "t_laser = t_imu + time shift", "", "imu"}};
 }
 
 std::vector<SimulationOption> own_scene_options(TypedSimulation& typed) {
@@ -77,6 +84,21 @@ std::vector<SimulationOption> own_scene_options(TypedSimulation& typed) {
       {"trajectory-from-s", &own.from_s, "Skip its first seconds", "", "trajectory"},
       {"trajectory-smoothing-ms", &typed.smoothing_ms, "Time between the knots of the spline", "",
        "trajectory"}};
+}
+
+std::vector<SimulationOption> message_options(TypedSimulation& typed) {
+  SimulationOptions& options = typed.options;
+  return {{"beam-times", &typed.beam_times,
+           "When the beams are fired: spread over the scan, instant (all at the stamp, time_increment 0) or "
+           "reversed (the last beam of the array first) (default: as the scanner's driver writes)",
+           "", "", false},
+          {"stamp-at", &typed.stamp_at, "The beam whose time is the stamp: first_beam or last_beam"},
+          {"no-time-increment", &options.no_time_increment, "Write a time_increment of 0"},
+          {"scan-time-factor", &options.scan_time_factor, "Write a scan_time that is wrong by this factor"},
+          {"parts", &typed.parts, "Write each turn of the mirror as this many messages"},
+          {"motor-repeats", &typed.motor_repeats,
+           "Write each motor angle this many times, under new stamps, before the next one"},
+          {"motor-in-degrees", &options.motor_in_degrees, "Write the motor's angles in degrees"}};
 }
 
 std::vector<SimulationOption> faults(TypedSimulation& typed) {
@@ -105,6 +127,31 @@ std::vector<SimulationOption> faults(TypedSimulation& typed) {
       {"glass", &options.glass, "Fraction of the upright surfaces that are glass"}};
 }
 
+tl::unexpected<Error> not_one_of(const char* option, const std::string& text,
+                                 const std::vector<std::string_view>& names) {
+  return failure(ExitCode::kWrongUsage,
+                 fmt::format("{} needs one of {}, not '{}'", option, fmt::join(names, ", "), text));
+}
+
+/// The options that are names, and counts.
+Result<void> take_names(const TypedSimulation& typed, SimulationOptions& options) {
+  const auto scanner = simulation::scanner(typed.scanner);
+  if (!scanner) return not_one_of("--scanner", typed.scanner, simulation::scanner_names());
+  options.scanner = *scanner;
+  const auto axis = simulation::motor_axis(typed.axis);
+  if (!axis) return not_one_of("--axis", typed.axis, {"x", "y", "z", "-x", "-y", "-z"});
+  options.axis = *axis;
+  if (!typed.beam_times.empty()) options.beam_times = simulation::beam_times(typed.beam_times);
+  if (!typed.beam_times.empty() && !options.beam_times)
+    return not_one_of("--beam-times", typed.beam_times, simulation::beam_times_names());
+  if (typed.stamp_at != "first_beam" && typed.stamp_at != "last_beam")
+    return not_one_of("--stamp-at", typed.stamp_at, {"first_beam", "last_beam"});
+  options.stamp_at = typed.stamp_at == "first_beam" ? StampAt::kFirstBeam : StampAt::kLastBeam;
+  options.parts = static_cast<std::uint32_t>(std::max(0, typed.parts));
+  options.motor_repeats = static_cast<std::uint32_t>(std::max(0, typed.motor_repeats));
+  return {};
+}
+
 }  // namespace
 
 Result<SimulationOptions> simulation_of(const TypedSimulation& typed) {
@@ -118,8 +165,9 @@ Result<SimulationOptions> simulation_of(const TypedSimulation& typed) {
                    fmt::format("there is no motor '{}'; the motors are {}", typed.motor,
                                fmt::join(simulation::motor_names(), ", ")));
   options.motor = *motor;
+  if (auto named = take_names(typed, options); !named) return tl::unexpected(named.error());
   options.offset_s = typed.offset_ms / 1e3;
-  options.noise_m = typed.noise_mm / 1e3;
+  if (typed.noise_mm) options.noise_m = *typed.noise_mm / 1e3;
   options.encoder_jitter_s = typed.encoder_jitter_ms / 1e3;
   options.grazing_bias_m = typed.grazing_bias_mm / 1e3;
   options.stamp_jitter_s = typed.stamp_jitter_ms / 1e3;
@@ -149,6 +197,7 @@ std::vector<SimulationOption> simulation_options(TypedSimulation& typed) {
     }
   };
   add(own_scene_options(typed), Group::kOwnScene);
+  add(message_options(typed), Group::kMessages);
   add(faults(typed), Group::kFaults);
   return all;
 }

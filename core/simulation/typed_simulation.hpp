@@ -16,9 +16,13 @@ namespace sweepscope {
 /// `options` has as well take the place of those.
 struct TypedSimulation {
   std::string scene;  // empty: a scene of one's own
-  std::string motor{simulation::name_of(SimulationOptions{}.motor)};
+  std::string motor{simulation::name_of(SimulationOptions{}.motor)}, axis{"x"};
+  std::string scanner{SimulationOptions{}.scanner.name}, beam_times,
+      stamp_at{"first_beam"};  // empty: the scanner's
   SimulationOptions options;
-  double offset_ms = 24, noise_mm = 10, encoder_jitter_ms = 0.5;
+  double offset_ms = 24, encoder_jitter_ms = 0.5;
+  std::optional<double> noise_mm;
+  int parts = 1, motor_repeats = 1;
   double grazing_bias_mm = 0, stamp_jitter_ms = 0, nudge_mm = 0, jump_ms = 0;
   double noise_per_m_mm = 0, smoothing_ms = 50, imu_shift_ms = 0;
   std::string mount_error_deg{"0,0,0"}, mount_error_mm{"0,0,0"}, at_m;
@@ -31,7 +35,7 @@ Result<SimulationOptions> simulation_of(const TypedSimulation& typed);
 /// One option of a simulation, declared once: the command line's `--name VALUE` and Python's keyword come
 /// from it.
 struct SimulationOption {
-  enum class Group { kRecording, kOwnScene, kFaults };
+  enum class Group { kRecording, kOwnScene, kMessages, kFaults };
   using Value = std::variant<bool*, int*, std::uint64_t*, double*, std::optional<double>*,
                              std::vector<double>*, std::string*, std::filesystem::path*>;
 

@@ -10,14 +10,13 @@
 
 #include "core/io/atomic_file.hpp"
 #include "core/recording/formats/recording_writer.hpp"
+#include "core/recording/rig/detect_rig.hpp"
 #include "core/simulation/math/portable_math.hpp"
-#include "core/simulation/sensor.hpp"
 
 namespace sweepscope {
 namespace {
 
 using simulation::Random;
-using simulation::Sensor;
 
 enum ArrivalPurpose : std::uint64_t { kScanArrival = 101, kMotorArrival = 102 };
 
@@ -32,6 +31,38 @@ std::int64_t in_ns(const Recording& recording, double time_s) {
   return recording.epoch_ns + static_cast<std::int64_t>(std::floor(time_s * 1e9 + 0.5));
 }
 
+/// Turns the order of the beams of a scan round.
+void reverse(const RawScan& scan, std::vector<float>& of_beams) {
+  const auto first = of_beams.begin() + static_cast<std::ptrdiff_t>(scan.first_range);
+  std::reverse(first, first + scan.beams);
+}
+
+/// What a driver writes of a scan.
+RawScan raw_scan(const Simulation& simulation, std::size_t number) {
+  const SimulationOptions& options = simulation.options;
+  const Recording& recording = simulation.recording;
+  const LaserScan& scan = recording.scans[number];
+  const double known_s = scan.last_beam_s() + kScanLatency_s;
+  const bool first = options.stamp_at == StampAt::kFirstBeam;
+  const bool reversed = fired_times(options) == simulation::BeamTimes::kReversed;
+  RawScan raw;
+  raw.stamps = {in_ns(recording, first ? scan.first_beam_s : scan.last_beam_s()),
+                in_ns(recording, known_s + delay_s(simulation, kScanArrival, number))};
+  raw.first_range = scan.first_range;
+  raw.beams = scan.beams;
+  raw.angle_min_rad =
+      static_cast<float>(reversed ? scan.beam_angle_rad(scan.beams - 1.0) : scan.angle_min_rad);
+  raw.angle_increment_rad =
+      static_cast<float>(reversed ? -scan.angle_increment_rad : scan.angle_increment_rad);
+  raw.angle_max_rad =
+      static_cast<float>(double{raw.angle_min_rad} + (scan.beams - 1.0) * double{raw.angle_increment_rad});
+  raw.time_increment_s = static_cast<float>(options.no_time_increment ? 0 : scan.time_increment_s);
+  raw.scan_time_s = static_cast<float>(options.scanner.scan_period_s * options.scan_time_factor);
+  raw.range_min_m = static_cast<float>(options.scanner.range_min_m);
+  raw.range_max_m = static_cast<float>(options.scanner.range_max_m);
+  return raw;
+}
+
 RawLaser raw_laser(const Simulation& simulation) {
   const Recording& recording = simulation.recording;
   RawLaser laser;
@@ -41,37 +72,35 @@ RawLaser raw_laser(const Simulation& simulation) {
     if (std::isnan(range_m)) range_m = std::numeric_limits<float>::infinity();
   laser.intensities = recording.intensities;
   for (std::size_t i = 0; i < recording.scans.size(); ++i) {
-    const LaserScan& scan = recording.scans[i];
-    const double known_s = scan.last_beam_s() + kScanLatency_s;
-    RawScan raw;
-    raw.stamps = {in_ns(recording, scan.first_beam_s),
-                  in_ns(recording, known_s + delay_s(simulation, kScanArrival, i))};
-    raw.angle_min_rad = static_cast<float>(scan.angle_min_rad);
-    raw.angle_max_rad = static_cast<float>(scan.beam_angle_rad(scan.beams - 1.0));
-    raw.angle_increment_rad = static_cast<float>(scan.angle_increment_rad);
-    raw.time_increment_s = static_cast<float>(scan.time_increment_s);
-    raw.scan_time_s = static_cast<float>(Sensor::kScanPeriod_s);
-    raw.range_min_m = static_cast<float>(Sensor::kRangeMin_m);
-    raw.range_max_m = static_cast<float>(Sensor::kRangeMax_m);
-    raw.first_range = scan.first_range;
-    raw.beams = scan.beams;
-    laser.scans.push_back(raw);
+    laser.scans.push_back(raw_scan(simulation, i));
+    if (fired_times(simulation.options) != simulation::BeamTimes::kReversed) continue;
+    reverse(laser.scans.back(), laser.ranges_m);
+    reverse(laser.scans.back(), laser.intensities);
   }
   return laser;
 }
 
 RawJoint raw_joint(const Simulation& simulation) {
-  const Recording& recording = simulation.recording;
+  const SimulationOptions& options = simulation.options;
+  const std::vector<double>& times_s = simulation.recording.motor.time_s;
   RawJoint joint;
   joint.topic = "/joint_states";
   joint.joint = "roll_motor";
-  joint.positions = recording.motor.angle_rad;
-  for (std::size_t i = 0; i < recording.motor.time_s.size(); ++i) {
-    // Where the motor's clock is behind the laser's, its stamp is older than the instant it is about.
-    const double known_s =
-        recording.motor.time_s[i] + std::max(0.0, -simulation.options.offset_s) + kMotorLatency_s;
-    joint.stamps.push_back({in_ns(recording, recording.motor.time_s[i]),
-                            in_ns(recording, known_s + delay_s(simulation, kMotorArrival, i))});
+  for (std::size_t i = 0; i < times_s.size(); ++i) {
+    const double angle_rad = simulation.recording.motor.angle_rad[i];
+    for (std::uint32_t repeat = 0; repeat < options.motor_repeats; ++repeat) {
+      // The last one is repeated as quickly as the one before it.
+      const std::size_t from = std::min(i, times_s.size() - 2);
+      const double since_s = repeat * (times_s[from + 1] - times_s[from]) / options.motor_repeats;
+      const double stamp_s = repeat == 0 ? times_s[i] : times_s[i] + since_s;
+      // Where the motor's clock is behind the laser's, its stamp is older than the instant it is about.
+      const double known_s = stamp_s + std::max(0.0, -options.offset_s) + kMotorLatency_s;
+      const std::size_t number = i * options.motor_repeats + repeat;
+      joint.positions.push_back(options.motor_in_degrees ? simulation::degrees(angle_rad) : angle_rad);
+      joint.stamps.push_back(
+          {in_ns(simulation.recording, stamp_s),
+           in_ns(simulation.recording, known_s + delay_s(simulation, kMotorArrival, number))});
+    }
   }
   return joint;
 }
@@ -110,7 +139,7 @@ Json options_json(const SimulationOptions& o) {
   for (const double speed_dps : o.speeds_dps) speeds.push_back(tidy(speed_dps));
   return {{"seed", o.seed},
           {"duration_s", tidy(*o.duration_s)},
-          {"noise_mm", tidy(o.noise_m * 1e3)},
+          {"noise_mm", tidy(o.noise_m.value_or(o.scanner.noise_m) * 1e3)},
           {"dropout", tidy(o.dropout)},
           {"sweep_s", tidy(o.sweep_s)},
           {"motor", simulation::name_of(o.motor)},
@@ -139,6 +168,21 @@ Json options_json(const SimulationOptions& o) {
           {"glass", tidy(o.glass)}};
 }
 
+/// The scanner, the motor's axis and swing, and how the drivers write.
+Json recorded_as_json(const SimulationOptions& o) {
+  return {{"scanner", o.scanner.name},
+          {"beam_times", name_of(fired_times(o))},
+          {"stamp_at", name_of(o.stamp_at)},
+          {"no_time_increment", o.no_time_increment},
+          {"scan_time_factor", tidy(o.scan_time_factor)},
+          {"parts", o.parts},
+          {"axis", name_of(o.axis)},
+          {"swing_deg", tidy(o.swing_deg)},
+          {"laser_upside_down", o.laser_upside_down},
+          {"motor_repeats", o.motor_repeats},
+          {"motor_in_degrees", o.motor_in_degrees}};
+}
+
 /// The files that an own scene is made of, and how far its motion is from the recorded one.
 Json own_json(const Simulation& simulation) {
   const OwnScene& own = simulation.options.own;
@@ -158,6 +202,23 @@ Json own_json(const Simulation& simulation) {
   return json;
 }
 
+/// Whether the messages are read wrongly, or not with certainty, without a rig file.
+bool needs_rig_file(const SimulationOptions& options) {
+  const Rig rig = rig_of(options), plain;
+  return rig.laser.time_increment_s || rig.laser.stamp_at != plain.laser.stamp_at ||
+         rig.motor.scale != plain.motor.scale || rig.mount.axis != plain.mount.axis ||
+         rig.mount.laser_in_motor_rpy_deg != plain.mount.laser_in_motor_rpy_deg;
+}
+
+std::string rig_text(const Simulation& simulation, const std::filesystem::path& bag_path) {
+  DetectedRig rig;
+  rig.rig = rig_of(simulation.options);
+  rig.recording = bag_path.filename().string();
+  rig.stamp_at_note = rig.mount_note = "as simulated";
+  rig.increment_note = "0: all beams at once; negative: the last beam of the array is fired first";
+  return rig_file_text(rig);
+}
+
 std::filesystem::path stem_of(std::filesystem::path bag_path) {
   return bag_path.extension() == ".bag" ? bag_path.replace_extension() : bag_path;
 }
@@ -167,6 +228,25 @@ std::filesystem::path stem_of(std::filesystem::path bag_path) {
 Result<void> write_bag(const Simulation& simulation, const std::filesystem::path& path, const Job& job) {
   return write_recording(raw_laser(simulation), raw_joint(simulation), RecordingFormat::kRos1, "none", path,
                          job, raw_imu(simulation));
+}
+
+RawRecording messages_of(const Simulation& simulation) {
+  RawRecording raw;
+  raw.file = raw.name = simulation.recording.name;
+  raw.lasers.push_back(raw_laser(simulation));
+  raw.joints.push_back(raw_joint(simulation));
+  return raw;
+}
+
+std::vector<std::filesystem::path> files_of_simulation(const SimulationOptions& options,
+                                                       const std::filesystem::path& bag_path) {
+  std::vector<std::filesystem::path> files{bag_path, truth_json_path(bag_path), truth_tum_path(bag_path)};
+  if (needs_rig_file(options)) files.push_back(rig_path(bag_path));
+  return files;
+}
+
+std::filesystem::path rig_path(const std::filesystem::path& bag_path) {
+  return stem_of(bag_path).string() + ".rig.yaml";
 }
 
 std::filesystem::path truth_json_path(const std::filesystem::path& bag_path) {
@@ -193,9 +273,11 @@ std::string truth_json(const Simulation& simulation) {
                {"triangles", simulation.triangles},
                {"laser_in_motor",
                 {{"xyz_m", triple(simulation.options.mount_error_m)},
-                 {"rpy_deg", triple(simulation.options.mount_error_deg)}}},
+                 {"rpy_deg", triple(laser_in_motor_rpy_deg(simulation.options))}}},
                {"options", options_json(simulation.options)},
                {"version", SWEEPSCOPE_VERSION}};
+  const Json recorded_as = recorded_as_json(simulation.options);
+  if (recorded_as != recorded_as_json({})) json["recorded_as"] = recorded_as;
   if (!simulation.options.own.mesh.empty()) json["own_scene"] = own_json(simulation);
   if (simulation.options.imu)
     json["imu"] = {{"topic", "/imu"}, {"time_shift_ms", tidy(simulation.options.imu_shift_s * 1e3)}};
@@ -215,9 +297,11 @@ std::string truth_tum(const Simulation& simulation) {
 }
 
 Result<void> write_truth(const Simulation& simulation, const std::filesystem::path& bag_path) {
-  return write_file(truth_json_path(bag_path), truth_json(simulation)).and_then([&] {
+  const auto written = write_file(truth_json_path(bag_path), truth_json(simulation)).and_then([&] {
     return write_file(truth_tum_path(bag_path), truth_tum(simulation));
   });
+  if (!written || !needs_rig_file(simulation.options)) return written;
+  return write_file(rig_path(bag_path), rig_text(simulation, bag_path));
 }
 
 }  // namespace sweepscope

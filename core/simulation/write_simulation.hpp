@@ -2,8 +2,10 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "core/error.hpp"
+#include "core/recording/raw_recording.hpp"
 #include "core/simulation/simulate.hpp"
 
 namespace sweepscope {
@@ -11,6 +13,10 @@ namespace sweepscope {
 /// The time at which a message reaches the recorder: after the last time that it refers to and after its own
 /// stamp.
 inline constexpr double kScanLatency_s = 0.0040, kMotorLatency_s = 0.0015;
+
+/// The messages of a simulation, as its drivers write them: the content of the bag of write_bag, for
+/// assemble(). Beams without a usable return are +inf.
+RawRecording messages_of(const Simulation& simulation);
 
 /// Writes a simulation as a ROS 1 bag: sensor_msgs/LaserScan on /scan, beams without a usable return as +inf,
 /// and sensor_msgs/JointState on /joint_states with the joint roll_motor. Messages are in the order in which
@@ -25,11 +31,15 @@ std::string truth_json(const Simulation& simulation);
 /// clock.
 std::string truth_tum(const Simulation& simulation);
 
-/// Writes both beside a bag: OUT.truth.json and OUT.truth.tum, where OUT is the bag's path without `.bag`.
+/// Writes both beside a bag: OUT.truth.json and OUT.truth.tum, where OUT is the bag's path without `.bag`;
+/// and OUT.rig.yaml if rig_of says something that is not in the messages.
 Result<void> write_truth(const Simulation& simulation, const std::filesystem::path& bag_path);
 
-/// The paths that write_truth writes to.
+/// All files of a simulation: the bag and those that write_truth writes.
+std::vector<std::filesystem::path> files_of_simulation(const SimulationOptions& options,
+                                                       const std::filesystem::path& bag_path);
 std::filesystem::path truth_json_path(const std::filesystem::path& bag_path);
 std::filesystem::path truth_tum_path(const std::filesystem::path& bag_path);
+std::filesystem::path rig_path(const std::filesystem::path& bag_path);
 
 }  // namespace sweepscope

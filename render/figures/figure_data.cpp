@@ -22,10 +22,10 @@ namespace {
 /// Everything that the simulation depends on, in one line.
 std::string canonical(const SimulationOptions& o) {
   return fmt::format("simulate {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}", o.scene, o.offset_s,
-                     o.seed, o.duration_s.value_or(-1), o.noise_m, o.dropout, o.sweep_s,
-                     simulation::name_of(o.motor), o.encoder_step_deg, o.encoder_hz, o.encoder_jitter_s,
-                     o.mixed_pixels, o.grazing_bias_m, o.stamp_jitter_s, o.backlash_deg, o.clock_drift_ppm,
-                     o.nudge_m);
+                     o.seed, o.duration_s.value_or(-1), o.noise_m.value_or(o.scanner.noise_m), o.dropout,
+                     o.sweep_s, simulation::name_of(o.motor), o.encoder_step_deg, o.encoder_hz,
+                     o.encoder_jitter_s, o.mixed_pixels, o.grazing_bias_m, o.stamp_jitter_s, o.backlash_deg,
+                     o.clock_drift_ppm, o.nudge_m);
 }
 
 template <typename T>

@@ -84,7 +84,7 @@ RecordingSpec read_recording(const std::string& key, const Node& node, const Rec
         }},
        {"simulate", [&](const Node& v) { simulation.scene = read_scene(v, name), simulated = true; }},
        {"offset_ms", number(simulation.offset_s, -10000, 10000, 1e-3)},
-       {"noise_mm", number(simulation.noise_m, 0, 1000, 1e-3)},
+       {"noise_mm", number(simulation.noise_m.emplace(simulation.scanner.noise_m), 0, 1000, 1e-3)},
        {"dropout", number(simulation.dropout, 0, 1, 1)},
        {"sweep_s", number(simulation.sweep_s, 0.05, 60, 1)},
        {"seed",

@@ -100,7 +100,7 @@ TEST_F(RigCommand, AsWritesTheMountAndTheOffsetOfARecordingOrARigFile) {
   const double offset_ms =
       nlohmann::json::parse(test::contents_of(folder_ / "E.json")).at("offset_ms").get<double>();
   for (const char* system :
-       {"urdf", "xacro", "ros2-static-tf", "laser_assembler", "cartographer", "fast-lio"}) {
+       {"urdf", "xacro", "ros2-static-tf", "laser_assembler", "cartographer", "fast-lio", "driver-params"}) {
     const std::string as = std::string(" --as ") + system;
     const Outcome of_estimate = run("rig room.bag --estimate E.json" + as);
     ASSERT_EQ(of_estimate.exit_code, 0) << of_estimate.err;

@@ -35,6 +35,36 @@ TEST_F(SimulateCommand, RefusesWrongUsageAndWritesNothing) {
   EXPECT_EQ(test::files_in(folder_).size(), 2U) << "what it said";
 }
 
+TEST_F(SimulateCommand, WritesAsTheDriverOfAScannerDoesAndARigFileToReadIt) {
+  const Outcome outcome = simulate("room-1 -o a.bag --scanner rplidar-a1 --axis -y --duration-s 1");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("a.rig.yaml says how it is to be read"), std::string::npos) << outcome.out;
+  EXPECT_NE(test::contents_of(folder_ / "a.rig.yaml").find("axis: [0, -1, 0]"), std::string::npos);
+  const auto truth = nlohmann::json::parse(std::ifstream(folder_ / "a.truth.json"));
+  EXPECT_EQ(truth["recorded_as"]["beam_times"], "reversed");
+  EXPECT_EQ(simulate("room-1 -o b.bag --duration-s 1").exit_code, 0);
+  EXPECT_FALSE(fs::exists(folder_ / "b.rig.yaml"));
+  EXPECT_FALSE(nlohmann::json::parse(std::ifstream(folder_ / "b.truth.json")).contains("recorded_as"));
+}
+
+TEST_F(SimulateCommand, ATiltedRigIsReadWithTheRigFileThatSimulateWrites) {
+  EXPECT_EQ(simulate("room-2 -o a.bag --axis y --swing-deg 45 --laser-upside-down").exit_code, 0);
+  const Outcome outcome = run("estimate a.bag --rig a.rig.yaml --expect 24+-0.3");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+}
+
+TEST_F(SimulateCommand, NamesTheChoicesWhereAnOptionIsNotOneOfThem) {
+  for (const auto& [arguments, choices] :
+       {std::pair("--scanner lms200", "--scanner needs one of utm30lx-180, utm30lx"),
+        std::pair("--axis w", "--axis needs one of x, y, z, -x, -y, -z, not 'w'"),
+        std::pair("--beam-times back", "--beam-times needs one of spread, instant, reversed"),
+        std::pair("--stamp-at arrival", "--stamp-at needs one of first_beam, last_beam")}) {
+    const Outcome outcome = simulate(std::string("room-1 -o a.bag ") + arguments);
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_NE(outcome.err.find(choices), std::string::npos) << outcome.err;
+  }
+}
+
 TEST_F(SimulateCommand, NamesTheScenesWhereOneIsUnknown) {
   EXPECT_NE(simulate("hall -o a.bag").err.find("the scenes are metro-station, parking-area, cemetery"),
             std::string::npos);

@@ -226,10 +226,10 @@ void run(const Family& family, const Arguments& arguments, Table& table) {
                    "{} {} {}: {:.1f} s sweep {} noise {:.0f} mm step {} hz {} jit {:.1f} offset {:+.2f}: err "
                    "{:+.4f} sigma {:.4f} z {:+.2f} {}\n",
                    family.name, options.scene, name, *options.duration_s, options.sweep_s,
-                   options.noise_m * 1e3, options.encoder_step_deg, options.encoder_hz,
-                   options.stamp_jitter_s * 1e3, options.offset_s * 1e3, outcome.error_s * 1e3,
-                   outcome.sigma_s * 1e3, outcome.sigma_s > 0 ? outcome.error_s / outcome.sigma_s : 0,
-                   outcome.reason);
+                   options.noise_m.value_or(options.scanner.noise_m) * 1e3, options.encoder_step_deg,
+                   options.encoder_hz, options.stamp_jitter_s * 1e3, options.offset_s * 1e3,
+                   outcome.error_s * 1e3, outcome.sigma_s * 1e3,
+                   outcome.sigma_s > 0 ? outcome.error_s / outcome.sigma_s : 0, outcome.reason);
     }
   }
   for (const auto& [name, outcomes] : rows) {

@@ -10,7 +10,7 @@
 namespace sweepscope::simulation {
 namespace {
 
-constexpr double kReach_rad = kPi / 2;
+constexpr double kHalfTurn_rad = kPi;
 constexpr double kReversal = 0.16;  // of a sweep is spent on one reversal of the trapezoid
 constexpr std::uint64_t kUnevenPurpose = 7;
 
@@ -21,6 +21,8 @@ constexpr std::array kNames = {
     std::pair{MotorKind::kOneWay, std::string_view("one-way")},
     std::pair{MotorKind::kStuck, std::string_view("stuck")},
 };
+
+constexpr std::array<std::string_view, 6> kAxes{"x", "y", "z", "-x", "-y", "-z"};  // as MotorAxis
 
 /// The angle u sweeps after the middle of an upward sweep, u in [-1/2, 1/2], as a part of the reach.
 double trapezoid(double u) {
@@ -75,9 +77,19 @@ std::vector<std::string_view> motor_names() {
   return names;
 }
 
+std::optional<MotorAxis> motor_axis(std::string_view name) {
+  const auto found = std::ranges::find(kAxes, name);
+  if (found == kAxes.end()) return std::nullopt;
+  return static_cast<MotorAxis>(found - kAxes.begin());
+}
+
+std::string_view name_of(MotorAxis axis) {
+  return kAxes[static_cast<std::size_t>(axis)];
+}
+
 Motor::Motor(MotorKind kind, double sweep_s, double phase_s, const Unevenness& uneven,
-             const SpeedCourse& course)
-    : kind_(kind), sweep_s_(sweep_s), phase_s_(phase_s) {
+             const SpeedCourse& course, double reach_rad)
+    : kind_(kind), sweep_s_(sweep_s), phase_s_(phase_s), reach_rad_(reach_rad) {
   for (const auto& [t_s, speed_radps] : timed_speeds(course)) {
     const SpeedKnot before = knots_.empty() ? SpeedKnot{t_s, speed_radps, 0} : knots_.back();
     const double turned_rad = (t_s - before.t_s) * (before.speed_radps + speed_radps) / 2;
@@ -100,8 +112,8 @@ double Motor::warped_s(double t_s) const {
 }
 
 double Motor::one_way_rad(double t_s) const {
-  if (knots_.empty()) return 2 * kReach_rad * (warped_s(t_s) + phase_s_) / sweep_s_;
-  const double even_s = warped_s(t_s), first_rad = 2 * kReach_rad * phase_s_ / sweep_s_;
+  if (knots_.empty()) return kHalfTurn_rad * (warped_s(t_s) + phase_s_) / sweep_s_;
+  const double even_s = warped_s(t_s), first_rad = kHalfTurn_rad * phase_s_ / sweep_s_;
   const auto next =
       std::find_if(knots_.begin(), knots_.end(), [&](const SpeedKnot& knot) { return knot.t_s > even_s; });
   const SpeedKnot& from = next == knots_.begin() ? *next : *(next - 1);
@@ -115,14 +127,14 @@ double Motor::one_way_rad(double t_s) const {
 Motor::Swing Motor::swing(double t_s) const {
   if (kind_ == MotorKind::kOneWay) return {one_way_rad(t_s), true};
   const double sweeps = (warped_s(t_s) + phase_s_) / sweep_s_;
-  if (kind_ == MotorKind::kStuck) return {2 * kReach_rad * phase_s_ / sweep_s_, true};
+  if (kind_ == MotorKind::kStuck) return {2 * reach_rad_ * phase_s_ / sweep_s_, true};
   const double nearest = std::floor(sweeps + 0.5);
   const double u = sweeps - nearest;
   const bool upwards = std::fmod(nearest, 2.0) == 0;
   double part = 2 * u;
   if (kind_ == MotorKind::kTrapezoid) part = trapezoid(u);
   if (kind_ == MotorKind::kSine) part = sin_cos(kPi * u).sin;
-  return {kReach_rad * (upwards ? part : -part), upwards};
+  return {reach_rad_ * (upwards ? part : -part), upwards};
 }
 
 double Motor::angle_rad(double t_s) const {
@@ -135,8 +147,8 @@ double Motor::laser_angle_rad(double t_s, double backlash_rad) const {
   const double half_rad = backlash_rad / 2;
   if (kind_ == MotorKind::kOneWay) return angle_rad - half_rad;
   // Upwards the laser hangs back, but stays where the last downward sweep left it until the play is used up.
-  return upwards ? std::max(angle_rad - half_rad, half_rad - kReach_rad)
-                 : std::min(angle_rad + half_rad, kReach_rad - half_rad);
+  return upwards ? std::max(angle_rad - half_rad, half_rad - reach_rad_)
+                 : std::min(angle_rad + half_rad, reach_rad_ - half_rad);
 }
 
 }  // namespace sweepscope::simulation

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <numbers>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -19,6 +20,20 @@ std::optional<MotorKind> motor_kind(std::string_view name);
 std::string_view name_of(MotorKind kind);
 std::vector<std::string_view> motor_names();
 
+/// The axis that a motor turns about, in the base frame.
+enum class MotorAxis { kX, kY, kZ, kMinusX, kMinusY, kMinusZ };
+
+/// "x", "-x" and so on.
+std::optional<MotorAxis> motor_axis(std::string_view name);
+std::string_view name_of(MotorAxis axis);
+/// 0 for x, 1 for y, 2 for z, whichever way round.
+constexpr int index_of(MotorAxis axis) {
+  return static_cast<int>(axis) % 3;
+}
+constexpr bool is_negative(MotorAxis axis) {
+  return axis >= MotorAxis::kMinusX;
+}
+
 /// A motor whose speed varies slowly (0.05 to 1 Hz) and at random, by at most the fraction `part`.
 struct Unevenness {
   double part = 0;
@@ -34,12 +49,13 @@ struct SpeedCourse {
   double duration_s = 0;
 };
 
-/// The motor's true angle over true time. It swings between -90 and +90 deg in sweep_s; phase_s, in [0, 2
-/// sweep_s), is how long after a passage through 0 deg, upwards, true time 0 falls.
+/// The motor's true angle over true time. It swings by reach_rad to either side of 0 deg, from one end to the
+/// other in sweep_s; one that turns one way makes half a turn in sweep_s. phase_s, in [0, 2 sweep_s), is how
+/// long after a passage through 0 deg, upwards, true time 0 falls.
 class Motor {
  public:
   Motor(MotorKind kind, double sweep_s, double phase_s, const Unevenness& uneven = {},
-        const SpeedCourse& course = {});
+        const SpeedCourse& course = {}, double reach_rad = std::numbers::pi / 2);
 
   /// The reading of an ideal encoder without steps, on the motor's side of the gears.
   double angle_rad(double t_s) const;
@@ -64,7 +80,7 @@ class Motor {
   double warped_s(double t_s) const;
 
   MotorKind kind_;
-  double sweep_s_, phase_s_;
+  double sweep_s_, phase_s_, reach_rad_;
   std::vector<Wave> waves_;
   std::vector<SpeedKnot> knots_;  // of a motor that turns one way
 };

@@ -28,6 +28,7 @@ using simulation::Sensor;
 using simulation::Stand;
 using simulation::Vector3d;
 
+constexpr std::size_t kBeamsATurn = simulation::Scanner{}.beams;
 constexpr std::size_t kForward = 360, kLeft = 720, kRight = 0;  // beams
 
 SimulationOptions clean() {
@@ -45,10 +46,10 @@ Scene room(double half_m) {
 }
 
 /// The ranges of one scan; the scans differ in the motor's angle.
-std::array<float, Sensor::kBeams> scan_of(const SimulationOptions& options, const Scene& scene,
-                                          std::size_t number = 0) {
-  std::array<float, Sensor::kBeams> ranges_m{}, intensities{};
-  Sensor(options, scene).cast_scan(number, ranges_m, intensities);
+std::array<float, kBeamsATurn> scan_of(const SimulationOptions& options, const Scene& scene,
+                                       std::size_t number = 0) {
+  std::array<float, kBeamsATurn> ranges_m{}, intensities{};
+  Sensor(options, scene).cast_turn(number, ranges_m, intensities);
   return ranges_m;
 }
 
@@ -130,7 +131,7 @@ TEST(Faults, NoiseGrowsWithRange) {
   double squares = 0, count = 0;
   for (std::size_t number = 0; number < 10; ++number) {
     const auto exact = scan_of(clean(), room(6), number), noisy = scan_of(options, room(6), number);
-    for (std::size_t beam = 0; beam < Sensor::kBeams; ++beam, ++count)
+    for (std::size_t beam = 0; beam < kBeamsATurn; ++beam, ++count)
       squares += std::pow((noisy[beam] - exact[beam]) / (0.01 + 0.005 * exact[beam]), 2);
   }
   EXPECT_NEAR(std::sqrt(squares / count), 1, 0.03);
@@ -144,8 +145,8 @@ TEST(Faults, GrazingBeamsAreDroppedTheMoreTheMoreTheyGraze) {
   int square = 0, at_60_deg = 0;
   constexpr int kScans = 600;
   for (std::size_t number = 0; number < kScans; ++number) {
-    std::array<float, Sensor::kBeams> ranges_m{}, intensities{};
-    sensor.cast_scan(number, ranges_m, intensities);
+    std::array<float, kBeamsATurn> ranges_m{}, intensities{};
+    sensor.cast_turn(number, ranges_m, intensities);
     square += std::isnan(ranges_m[kForward]);
     at_60_deg += std::isnan(ranges_m[kForward + 240]);
   }
@@ -159,8 +160,8 @@ TEST(Faults, DarkSurfacesLoseBeamsThatMeetThemSquarely) {
   const Sensor sensor(options, {box({4, -9, -9}, {5, 9, 9}, 0.1), Stand{}});
   int lost = 0;
   for (std::size_t number = 0; number < 400; ++number) {
-    std::array<float, Sensor::kBeams> ranges_m{}, intensities{};
-    sensor.cast_scan(number, ranges_m, intensities);
+    std::array<float, kBeamsATurn> ranges_m{}, intensities{};
+    sensor.cast_turn(number, ranges_m, intensities);
     lost += std::isnan(ranges_m[kForward]);
   }
   EXPECT_NEAR(lost, 0.8 * 400, 4 * std::sqrt(0.16 * 400));

@@ -18,7 +18,6 @@ namespace sweepscope {
 namespace {
 
 using simulation::RayCaster;
-using simulation::Sensor;
 using simulation::Vector3d;
 
 // A room of 12 triangles: x from -4 to 6, y from -3 to 3, z from 0 to 2.8 m.
@@ -72,7 +71,7 @@ TEST_F(OwnScenes, AStandingRigMeasuresTheRoom) {
   // The forward beam is the motor's axis: 5 m to the wall at x = 6, and 2.5 m to that at y = 3 when turned
   // left.
   for (std::size_t scan = 0; scan < 20; ++scan)
-    EXPECT_FLOAT_EQ(ahead->recording.ranges_m[scan * Sensor::kBeams + 360], 5.0F);
+    EXPECT_FLOAT_EQ(ahead->recording.ranges_m[scan * simulation::Scanner{}.beams + 360], 5.0F);
   stand.own.placement.yaw_deg = 90;
   EXPECT_FLOAT_EQ(simulated(stand)->recording.ranges_m[360], 2.5F);
 }

@@ -19,6 +19,8 @@ using simulation::Scene;
 using simulation::Sensor;
 using simulation::Stand;
 
+constexpr std::size_t kBeams = simulation::Scanner{}.beams;
+
 SimulationOptions clean_second() {
   SimulationOptions options;
   options.duration_s = 1.0;
@@ -69,8 +71,8 @@ void expect_angles_of_the_floor(SimulationOptions options, int min_compared) {
   const MotorTrack track = sensor.motor_track(1.0);
   int compared = 0;
   for (std::size_t number = 0; number < 40; ++number) {
-    std::vector<float> ranges_m(Sensor::kBeams), intensities(Sensor::kBeams);
-    sensor.cast_scan(number, ranges_m, intensities);
+    std::vector<float> ranges_m(kBeams), intensities(kBeams);
+    sensor.cast_turn(number, ranges_m, intensities);
     if (std::isnan(ranges_m.back()) || ranges_m.back() > 4) continue;
     const double stamp_s = sensor.scan(number).last_beam_s();
     const double phi_deg = degrees(-std::asin(1.0 / ranges_m.back()));
@@ -124,11 +126,11 @@ TEST(Simulate, SameBytesOnEveryMachine) {
   scene.motion = Stand{{0.1, 0.2, 1.3}, 5, 2};
   const Sensor sensor(SimulationOptions{}, scene);
   Recording recording;
-  recording.ranges_m.resize(8 * Sensor::kBeams);
-  recording.intensities.resize(8 * Sensor::kBeams);
+  recording.ranges_m.resize(8 * kBeams);
+  recording.intensities.resize(8 * kBeams);
   for (std::size_t i = 0; i < 8; ++i) {
-    sensor.cast_scan(3 * i, std::span(recording.ranges_m).subspan(i * Sensor::kBeams, Sensor::kBeams),
-                     std::span(recording.intensities).subspan(i * Sensor::kBeams, Sensor::kBeams));
+    sensor.cast_turn(3 * i, std::span(recording.ranges_m).subspan(i * kBeams, kBeams),
+                     std::span(recording.intensities).subspan(i * kBeams, kBeams));
     recording.scans.push_back(sensor.scan(i));
   }
   recording.motor = sensor.motor_track(1.0);

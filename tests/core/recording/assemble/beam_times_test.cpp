@@ -106,7 +106,7 @@ Result<Recording> room(double factor, const Rig& rig = {}) {
     scan.angle_min_rad = static_cast<float>(from.angle_min_rad);
     scan.angle_increment_rad = static_cast<float>(from.angle_increment_rad);
     scan.time_increment_s = static_cast<float>(factor * from.time_increment_s);
-    scan.scan_time_s = static_cast<float>(simulation::Sensor::kScanPeriod_s);
+    scan.scan_time_s = static_cast<float>(simulation::Scanner{}.scan_period_s);
     scan.first_range = from.first_range;
     scan.beams = from.beams;
   }
@@ -165,7 +165,7 @@ TEST(BeamTimes, ThePapersMethodSaysHowUnsureItIs) {
 
 TEST(BeamTimes, TheRigFileTakesTheDoubtAway) {
   Rig rig;
-  rig.laser.time_increment_s = double{simulation::Sensor::kTimeIncrement_s};
+  rig.laser.time_increment_s = simulation::Scanner{}.increment_s();
   for (const double factor : {1e-7, 0.5, 2.0, 0.0}) {
     const Recording recording = room(factor, rig).value();
     EXPECT_EQ(recording.report.beam_time_doubt_s, 0);
@@ -179,7 +179,7 @@ TEST(BeamTimes, TheRigFileTakesTheDoubtAway) {
 TEST(BeamTimes, BeamsInTheOtherDirectionOfTimeKeepTheirStamp) {
   for (const double factor : {-1.0, -1e-7}) {
     Rig rig;
-    rig.laser.time_increment_s = double{simulation::Sensor::kTimeIncrement_s};
+    rig.laser.time_increment_s = simulation::Scanner{}.increment_s();
     const Recording recording = room(factor, rig).value();
     EXPECT_EQ(recording.report.beam_time_doubt_s, 0);
     const Recording plain = room(1).value();

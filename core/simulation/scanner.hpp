@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace sweepscope::simulation {
+
+/// When the beams of a scan are fired. `angle` ascends along a message's array in all of them.
+enum class BeamTimes {
+  kSpread,    // beam i at stamp + i * time_increment
+  kInstant,   // all at the stamp; time_increment is 0
+  kReversed,  // beam i of n at stamp + (n - 1 - i) * time_increment: the last of the array is the first fired
+};
+
+std::optional<BeamTimes> beam_times(std::string_view name);
+std::string_view name_of(BeamTimes times);
+std::vector<std::string_view> beam_times_names();
+
+/// A scanner as its driver writes it. The sources are named in docs/recordings.md. The default is the
+/// UTM-30LX of the paper, used over 180 deg.
+struct Scanner {
+  std::string_view name = "utm30lx-180";
+  std::uint32_t beams = 721;  // of one turn of the mirror
+  double angle_min_deg = -90, angle_increment_deg = 0.25;
+  double scan_period_s = 0.025;        // one turn of the mirror
+  double time_increment_s = 1.736e-5;  // rounded to a float where it is used
+  double range_min_m = 0.1, range_max_m = 30;
+  double noise_m = 0.010, noise_per_m = 0;  // standard deviation: noise_m + noise_per_m * range
+  BeamTimes beam_times = BeamTimes::kSpread;
+
+  /// As a message keeps it.
+  double increment_s() const { return static_cast<float>(time_increment_s); }
+};
+
+std::optional<Scanner> scanner(std::string_view name);
+std::vector<std::string_view> scanner_names();
+
+}  // namespace sweepscope::simulation
