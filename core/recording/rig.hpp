@@ -14,6 +14,8 @@ namespace sweepscope {
 enum class StampSource { kHeader, kReceive };
 /// The instant of a scan that its stamp refers to.
 enum class StampAt { kFirstBeam, kLastBeam, kArrival };
+/// The echo of a beam that is used, of a scanner that reports several (sensor_msgs/MultiEchoLaserScan).
+enum class Echo { kFirst, kLast, kStrongest };
 
 /// As the rig file spells them.
 inline std::string name_of(StampSource stamp) {
@@ -23,17 +25,24 @@ inline std::string name_of(StampAt stamp_at) {
   if (stamp_at == StampAt::kFirstBeam) return "first_beam";
   return stamp_at == StampAt::kLastBeam ? "last_beam" : "arrival";
 }
+inline std::string name_of(Echo echo) {
+  if (echo == Echo::kFirst) return "first";
+  return echo == Echo::kLast ? "last" : "strongest";
+}
 
 /// The rig that made a recording: the rig file. Empty members are detected from the recording.
 struct Rig {
   struct Laser {
     std::optional<std::string> topic;
+    std::optional<std::string> field;  // that holds the scan, in a message of another type
+    Echo echo = Echo::kFirst;
     std::optional<StampSource> stamp;
     StampAt stamp_at = StampAt::kFirstBeam;
     std::optional<double> time_increment_s;  // used if the recording's is 0 or in doubt
   };
   struct Motor {
     std::optional<std::string> topic;
+    std::optional<std::string> field;  // that holds the angle, in a message of any type: "position[2]"
     std::optional<std::string> joint;
     std::optional<StampSource> stamp;
     double scale = 1.0;  // angle_rad = scale * raw - zero_deg * pi / 180
