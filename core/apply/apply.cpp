@@ -25,13 +25,19 @@ namespace fs = std::filesystem;
 
 Result<Move> find_move(StreamSurvey& surveyed, const ApplyOptions& options) {
   const bool of_motor = options.shifted == ShiftedStream::kMotor;
+  if (!of_motor && options.rig.laser.field)
+    return failure(ExitCode::kWrongUsage,
+                   fmt::format("{}: the scans are fields of other messages (laser.field), whose stamps "
+                               "--shift laser does not move; use --shift motor",
+                               surveyed.raw.file));
   MovedStream laser;
   if (!of_motor || options.offset.changes() || options.add.any()) {
     auto found = find_laser(surveyed, options.rig, options.stamps);
     if (!found) return tl::unexpected(found.error());
     laser = std::move(*found);
   }
-  Move move{laser, laser, options.shifted, clock_shift(options.offset, laser.first_ns, laser.last_ns)};
+  Move move{laser, laser, options.rig, options.shifted,
+            clock_shift(options.offset, laser.first_ns, laser.last_ns)};
   if (!of_motor) return move;
   auto motor = find_motor(surveyed, options.rig, options.stamps);
   if (!motor) return tl::unexpected(motor.error());

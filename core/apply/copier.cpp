@@ -10,6 +10,17 @@
 #include "core/recording/packed/compress.hpp"
 
 namespace sweepscope {
+namespace {
+
+/// Absent where the message is malformed or has none.
+std::optional<std::int64_t> laser_stamp_ns(TopicReading& reading, Encoding encoding,
+                                           std::span<const std::byte> message) {
+  if (!is_scan(*reading.kind)) return header_stamp_ns(*reading.kind, encoding, message);
+  const auto scan = reading.scans.read(message);
+  return scan && scan->header_ns != 0 ? std::optional(scan->header_ns) : std::nullopt;
+}
+
+}  // namespace
 
 std::size_t Copier::add_topic(const StreamTopic& recorded) {
   const StreamTopic topic = topic_in(format_, recorded);
@@ -18,8 +29,10 @@ std::size_t Copier::add_topic(const StreamTopic& recorded) {
   Entry& entry = entries_.emplace_back();
   const auto encoding = stream_encoding(topic);
   if (encoding) entry.encoding = *encoding;
-  if (encoding && topic.name == move_.stream.topic) entry.type = find_message_type(topic.type);
-  if (encoding && topic.name == move_.laser.topic) entry.laser = find_message_type(topic.type);
+  const bool moved = topic.name == move_.stream.topic, laser = topic.name == move_.laser.topic;
+  if (moved || laser) entry.reading = reading_of(message_topic(topic), move_.rig);
+  entry.moved = moved && entry.reading.kind;
+  entry.laser = laser && entry.reading.kind && is_laser(*entry.reading.kind);
   written_.topics.push_back(topic);
   written_.counts.push_back(0);
   if (const auto added = sink_.add_topic(topic); !added && !problem_) problem_ = added.error();
@@ -44,12 +57,11 @@ Error Copier::out_of_range(const StreamMessage& message) const {
 
 /// Whether a message on the motor's topic holds the motor's joint: several publishers may share a topic. No
 /// value if it is malformed.
-std::optional<bool> Copier::is_of_motor(const Entry& entry, std::span<const std::byte> plain) {
-  if (!decode_joints(entry.type->kind, entry.encoding, plain, Eigen::Vector3d::UnitX(), joints_))
-    return std::nullopt;
+std::optional<bool> Copier::is_of_motor(Entry& entry, std::span<const std::byte> plain) {
+  if (!entry.reading.joints.read(plain, Eigen::Vector3d::UnitX(), joints_)) return std::nullopt;
   const bool found = std::ranges::find(joints_, move_.stream.joint, &DecodedJoint::name) != joints_.end();
   const bool frames_apart =
-      entry.type->kind == MessageKind::kTransforms && move_.stream.stamp == StampSource::kHeader;
+      entry.reading.kind == MessageKind::kTransforms && move_.stream.stamp == StampSource::kHeader;
   if (found && !frames_apart)
     for (const DecodedJoint& joint : joints_)
       if (joint.name != move_.stream.joint) other_joints_.emplace(joint.name);
@@ -58,15 +70,15 @@ std::optional<bool> Copier::is_of_motor(const Entry& entry, std::span<const std:
 
 std::optional<Error> Copier::refuse_absolute_times(const Entry& entry,
                                                    std::span<const std::byte> plain) const {
-  if (!is_cloud(entry.type->kind)) return std::nullopt;
-  const auto cloud = decode_points(entry.type->kind, entry.encoding, plain);
+  if (!is_cloud(*entry.reading.kind)) return std::nullopt;
+  const auto cloud = decode_points(*entry.reading.kind, entry.encoding, plain);
   if (!cloud || !CloudReader::counts_since_1970(*cloud)) return std::nullopt;
   return Error{ExitCode::kWrongUsage, fmt::format("{}: the points on {} have absolute times, since 1970, "
                                                   "which --shift laser does not move; use --shift motor",
                                                   name_, move_.stream.topic)};
 }
 
-std::optional<Error> Copier::write_moved(const Entry& entry, StreamMessage message) {
+std::optional<Error> Copier::write_moved(Entry& entry, StreamMessage message) {
   const auto plain = plain_message(written_.topics[message.topic], message.bytes, plain_);
   if (move_.shifted == ShiftedStream::kMotor) {
     const auto of_motor = is_of_motor(entry, plain);
@@ -85,7 +97,7 @@ std::optional<Error> Copier::write_moved(const Entry& entry, StreamMessage messa
   const bool packed = plain.data() != message.bytes.data();
   copy_.assign(plain.begin(), plain.end());
   const StampShift shift =
-      shift_header_stamps(entry.type->kind, entry.encoding, move_.stream.joint, moved_ns, copy_);
+      shift_header_stamps(*entry.reading.kind, entry.encoding, move_.stream.joint, moved_ns, copy_);
   if (shift == StampShift::kOutOfRange) return out_of_range(message);
   if (shift == StampShift::kMalformed) ++malformed_;
   if (shift != StampShift::kShifted) return write(message);
@@ -116,11 +128,11 @@ std::optional<Error> Copier::write_added(const StreamTopic& topic, std::uint32_t
 }
 
 /// What was measured before a message of the laser.
-std::optional<Error> Copier::write_added_before(const Entry& entry, const StreamMessage& message) {
+std::optional<Error> Copier::write_added_before(Entry& entry, const StreamMessage& message) {
   std::optional<std::int64_t> stamp_ns = message.log_ns;
   if (move_.laser.stamp == StampSource::kHeader) {
     const auto plain = plain_message(written_.topics[message.topic], message.bytes, plain_);
-    stamp_ns = header_stamp_ns(entry.laser->kind, entry.encoding, plain);
+    stamp_ns = laser_stamp_ns(entry.reading, entry.encoding, plain);
   }
   if (!stamp_ns) return std::nullopt;
   return added_.write_until(*stamp_ns, message.log_ns,
@@ -135,10 +147,10 @@ std::optional<Error> Copier::end() {
 
 std::optional<Error> Copier::add(const StreamMessage& message) {
   if (problem_) return problem_;
-  const Entry entry = entries_[message.topic];
-  if (entry.laser != nullptr && added_.any())
+  Entry& entry = entries_[message.topic];
+  if (entry.laser && added_.any())
     if (auto error = write_added_before(entry, message)) return error;
-  return entry.type == nullptr ? write(message) : write_moved(entry, message);
+  return entry.moved ? write_moved(entry, message) : write(message);
 }
 
 Result<void> Copier::finish(const std::vector<std::string>& records) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <set>
 #include <string>
@@ -10,6 +11,7 @@
 #include "core/apply/apply_output.hpp"
 #include "core/apply/clock_shift.hpp"
 #include "core/apply/survey.hpp"
+#include "core/recording/messages/topic_reading.hpp"
 #include "core/recording/streams/message_sink.hpp"
 
 namespace sweepscope {
@@ -18,6 +20,7 @@ namespace sweepscope {
 struct Move {
   MovedStream stream;
   MovedStream laser;  // where it is moved, the offset changes, or topics are added
+  Rig rig;            // by which both are read
   ShiftedStream shifted = ShiftedStream::kMotor;
   ClockShift clocks{0};
 
@@ -46,16 +49,17 @@ class Copier {
 
  private:
   struct Entry {
-    const MessageType* type = nullptr;   // null: its messages stay as they are
-    const MessageType* laser = nullptr;  // null: not of the laser
+    TopicReading reading;
+    bool moved = false;  // or its messages stay as they are
+    bool laser = false;
     Encoding encoding = Encoding::kRos1;
   };
   std::optional<Error> write(const StreamMessage& message);
   std::optional<Error> write_added(const StreamTopic& topic, std::uint32_t sequence, std::int64_t log_ns,
                                    std::span<const std::byte> bytes);
-  std::optional<Error> write_added_before(const Entry& entry, const StreamMessage& message);
-  std::optional<Error> write_moved(const Entry& entry, StreamMessage message);
-  std::optional<bool> is_of_motor(const Entry& entry, std::span<const std::byte> plain);
+  std::optional<Error> write_added_before(Entry& entry, const StreamMessage& message);
+  std::optional<Error> write_moved(Entry& entry, StreamMessage message);
+  std::optional<bool> is_of_motor(Entry& entry, std::span<const std::byte> plain);
   std::optional<Error> refuse_absolute_times(const Entry& entry, std::span<const std::byte> plain) const;
   Error out_of_range(const StreamMessage& message) const;
 
@@ -63,8 +67,8 @@ class Copier {
   StreamFormat format_;
   const Move& move_;
   AddedStreams& added_;
-  std::string name_;  // of the recording, for messages
-  std::vector<Entry> entries_;
+  std::string name_;           // of the recording, for messages
+  std::deque<Entry> entries_;  // which stay in their places while topics are added
   std::optional<Error> problem_;
   WrittenFile written_;
   std::vector<std::byte> plain_, copy_;

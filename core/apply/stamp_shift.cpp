@@ -52,9 +52,7 @@ std::optional<std::vector<std::size_t>> stamp_places(MessageKind kind, Encoding 
     }
     return places;
   }
-  const bool headerless =
-      kind == MessageKind::kFloat64 || kind == MessageKind::kFloat32 || kind == MessageKind::kInt32;
-  if (headerless) return places;
+  if (kind == MessageKind::kFieldsWithoutHeader) return places;
   // ROS 1: the sequence number. CDR: the representation identifier.
   constexpr std::size_t kBefore_bytes = 4;
   if (message.size() < kBefore_bytes + kStamp_bytes) return std::nullopt;

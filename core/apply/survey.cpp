@@ -7,15 +7,12 @@
 
 #include "core/recording/assemble/choose_streams.hpp"
 #include "core/recording/messages/message_collector.hpp"
+#include "core/recording/messages/topic_reading.hpp"
 #include "core/recording/packed/unpacked_file.hpp"
 #include "core/recording/stream_stamps.hpp"
 
 namespace sweepscope {
 namespace {
-
-bool is_motor(MessageKind kind) {
-  return !is_laser(kind) && !is_motion(kind);
-}
 
 /// The earlier of each kind of stamp; 0 stands for none.
 MessageStamps lesser(MessageStamps a, const MessageStamps& b) {
@@ -33,19 +30,17 @@ class Surveyor {
   }
 
   std::size_t add_topic(const StreamTopic& topic);
-  void add(const StreamMessage& message);
+  std::optional<Error> add(const StreamMessage& message);
   StreamSurvey take() { return std::move(result_); }
 
  private:
   struct Entry {
-    const MessageType* type = nullptr;  // null: only counted
+    TopicReading reading;
     Encoding encoding = Encoding::kRos1;
-    std::optional<std::size_t> laser;
     std::map<std::string, std::size_t, std::less<>> joints;
   };
 
-  const MessageType* type_of(const StreamTopic& topic);
-  bool add_scan(const Entry& entry, const StreamMessage& message, std::span<const std::byte> bytes);
+  bool add_scan(Entry& entry, const StreamMessage& message, std::span<const std::byte> bytes);
   bool add_joints(Entry& entry, const StreamMessage& message, std::span<const std::byte> bytes);
   void add_position(RawJoint& joint, const MessageStamps& stamps, double position);
 
@@ -56,23 +51,11 @@ class Surveyor {
   std::vector<DecodedJoint> decoded_;
 };
 
-const MessageType* Surveyor::type_of(const StreamTopic& topic) {
-  const MessageType* type = find_message_type(topic.type);
-  const auto encoding = stream_encoding(topic);
-  if (type == nullptr || !encoding) return nullptr;
-  const std::string md5sum = topic.metadata_of("md5sum");
-  if (*encoding == Encoding::kRos1 && !md5sum.empty() && md5sum != "*" && md5sum != type->md5) return nullptr;
-  const bool laser = is_laser(type->kind);
-  if (!laser && !is_motor(type->kind)) return nullptr;
-  const auto& wanted = laser ? rig_.laser.topic : rig_.motor.topic;
-  return wanted && *wanted != topic.name ? nullptr : type;
-}
-
 std::size_t Surveyor::add_topic(const StreamTopic& topic) {
   const auto known = std::ranges::find(result_.topics, topic);
   if (known != result_.topics.end()) return static_cast<std::size_t>(known - result_.topics.begin());
   Entry& entry = entries_.emplace_back();
-  entry.type = type_of(topic);
+  entry.reading = reading_of(message_topic(topic), rig_);
   entry.encoding = stream_encoding(topic).value_or(Encoding::kRos1);
   result_.topics.push_back(topic);
   result_.messages.push_back(0);
@@ -80,29 +63,32 @@ std::size_t Surveyor::add_topic(const StreamTopic& topic) {
   return result_.topics.size() - 1;
 }
 
-void Surveyor::add(const StreamMessage& message) {
+std::optional<Error> Surveyor::add(const StreamMessage& message) {
   Entry& entry = entries_[message.topic];
   RecordedTopic& counts = result_.raw.topics[message.topic];
   ++counts.messages;
   ++result_.messages[message.topic];
+  if (!entry.reading.problem.empty())
+    return Error{ExitCode::kUnreadableInput, fmt::format("{}: {}", result_.raw.file, entry.reading.problem)};
   if (!result_.compression) result_.compression = message.compression;
-  if (entry.type == nullptr) return;
+  if (!entry.reading.kind || is_motion(*entry.reading.kind)) return std::nullopt;
   const auto bytes = plain_message(result_.topics[message.topic], message.bytes, buffer_);
   const bool whole =
-      is_motor(entry.type->kind) ? add_joints(entry, message, bytes) : add_scan(entry, message, bytes);
+      is_laser(*entry.reading.kind) ? add_scan(entry, message, bytes) : add_joints(entry, message, bytes);
   if (!whole) ++counts.malformed;
+  return std::nullopt;
 }
 
-bool Surveyor::add_scan(const Entry& entry, const StreamMessage& message, std::span<const std::byte> bytes) {
+bool Surveyor::add_scan(Entry& entry, const StreamMessage& message, std::span<const std::byte> bytes) {
   MessageStamps stamps{0, message.log_ns};
   std::string frame;
-  if (entry.type->kind == MessageKind::kLaserScan) {
-    const auto scan = decode_laser_scan(entry.encoding, bytes);
+  if (is_scan(*entry.reading.kind)) {
+    const auto scan = entry.reading.scans.read(bytes);
     if (!scan) return false;
     stamps.header_ns = scan->header_ns;
     frame = scan->frame;
   } else {
-    const auto cloud = decode_points(entry.type->kind, entry.encoding, bytes);
+    const auto cloud = decode_points(*entry.reading.kind, entry.encoding, bytes);
     if (!cloud || cloud->points() == 0) return false;
     stamps.header_ns = cloud->header_ns;
     frame = cloud->frame;
@@ -114,7 +100,8 @@ bool Surveyor::add_scan(const Entry& entry, const StreamMessage& message, std::s
     RawLaser& laser = lasers.emplace_back();
     laser.topic = topic;
     laser.frame = std::move(frame);
-    laser.of_clouds = is_cloud(entry.type->kind);
+    laser.of_clouds = is_cloud(*entry.reading.kind);
+    laser.of_echoes = entry.reading.kind == MessageKind::kMultiEcho;
     laser.scans.emplace_back().stamps = stamps;
     result_.first_scans.push_back(stamps);
     result_.last_scans.push_back(stamps);
@@ -130,7 +117,7 @@ bool Surveyor::add_scan(const Entry& entry, const StreamMessage& message, std::s
 }
 
 bool Surveyor::add_joints(Entry& entry, const StreamMessage& message, std::span<const std::byte> bytes) {
-  if (!decode_joints(entry.type->kind, entry.encoding, bytes, rig_.mount.axis, decoded_)) return false;
+  if (!entry.reading.joints.read(bytes, rig_.mount.axis, decoded_)) return false;
   const std::string& topic = result_.topics[message.topic].name;
   auto& joints = result_.raw.joints;
   for (const DecodedJoint& decoded : decoded_) {
@@ -144,7 +131,7 @@ bool Surveyor::add_joints(Entry& entry, const StreamMessage& message, std::span<
         RawJoint& added = joints.emplace_back();
         added.topic = topic;
         added.joint = decoded.name;
-        added.source = joint_source(entry.type->kind);
+        added.source = entry.reading.joints.source();
       }
     }
     add_position(joints[found->second], {decoded.header_ns, message.log_ns}, decoded.position);
@@ -198,10 +185,7 @@ std::span<const std::byte> plain_message(const StreamTopic& topic, std::span<con
 Result<StreamSurvey> survey(const StreamRecording& recording, const Rig& rig, const Job& job) {
   Surveyor surveyor(recording, rig);
   const StreamVisitor visitor{[&](const StreamTopic& topic) { return surveyor.add_topic(topic); },
-                              [&](const StreamMessage& message) {
-                                surveyor.add(message);
-                                return std::optional<Error>();
-                              }};
+                              [&](const StreamMessage& message) { return surveyor.add(message); }};
   std::vector<std::string> warnings;
   for (const StreamFile& file : recording.files) {
     const auto damage = read_stream(file, visitor, job);

@@ -60,6 +60,7 @@ struct RawLaser {
   std::string topic;
   std::string frame;       // of the first message's header
   bool of_clouds = false;  // the scans are lines of a 3D scanner's clouds
+  bool of_echoes = false;  // each beam is one of several echoes
   std::vector<RawScan> scans;
   std::vector<float> ranges_m;
   std::vector<float> intensities;  // like ranges_m as long as every scan had them
@@ -69,9 +70,9 @@ struct RawLaser {
 };
 
 /// The source of a joint's positions. If the rig names neither topic nor joint, the motor is searched for
-/// among joint states; among numbers only if there are none, and among transforms only if there is neither:
-/// numbers may be anything, and so may the cause of a frame's motion.
-enum class JointSource { kJointState, kNumber, kTransform };
+/// among joint states; without any among states of controllers, then among numbers, and then among
+/// transforms: numbers may be anything, and so may the cause of a frame's motion.
+enum class JointSource { kJointState, kController, kNumber, kTransform };
 
 /// The samples of one joint of one topic in the order of the file.
 struct RawJoint {

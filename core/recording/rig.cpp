@@ -31,6 +31,13 @@ StampSource read_stamp(const YAML::Node& node, const std::string& name) {
 void read_laser(const YAML::Node& node, Rig::Laser& laser) {
   read_members(node, "laser",
                {{"topic", [&](const YAML::Node& value) { laser.topic = read_name(value, "laser.topic"); }},
+                {"field", [&](const YAML::Node& value) { laser.field = read_name(value, "laser.field"); }},
+                {"echo",
+                 [&](const YAML::Node& value) {
+                   laser.echo = read_choice<Echo>(
+                       value, "laser.echo",
+                       {{"first", Echo::kFirst}, {"last", Echo::kLast}, {"strongest", Echo::kStrongest}});
+                 }},
                 {"stamp", [&](const YAML::Node& value) { laser.stamp = read_stamp(value, "laser.stamp"); }},
                 {"stamp_at",
                  [&](const YAML::Node& value) {
@@ -50,6 +57,7 @@ void read_laser(const YAML::Node& node, Rig::Laser& laser) {
 void read_motor(const YAML::Node& node, Rig::Motor& motor) {
   read_members(node, "motor",
                {{"topic", [&](const YAML::Node& value) { motor.topic = read_name(value, "motor.topic"); }},
+                {"field", [&](const YAML::Node& value) { motor.field = read_name(value, "motor.field"); }},
                 {"joint", [&](const YAML::Node& value) { motor.joint = read_name(value, "motor.joint"); }},
                 {"stamp", [&](const YAML::Node& value) { motor.stamp = read_stamp(value, "motor.stamp"); }},
                 {"scale",

@@ -16,6 +16,8 @@ enum class StampSource { kHeader, kReceive };
 enum class StampAt { kFirstBeam, kLastBeam, kArrival };
 /// The unit of a motor's values, before `scale`.
 enum class AngleUnit { kRad, kDeg, kTurns };
+/// The echo of a beam that is used, of a scanner that reports several (sensor_msgs/MultiEchoLaserScan).
+enum class Echo { kFirst, kLast, kStrongest };
 
 /// As the rig file spells them.
 inline std::string name_of(StampSource stamp) {
@@ -24,6 +26,10 @@ inline std::string name_of(StampSource stamp) {
 inline std::string name_of(StampAt stamp_at) {
   if (stamp_at == StampAt::kFirstBeam) return "first_beam";
   return stamp_at == StampAt::kLastBeam ? "last_beam" : "arrival";
+}
+inline std::string name_of(Echo echo) {
+  if (echo == Echo::kFirst) return "first";
+  return echo == Echo::kLast ? "last" : "strongest";
 }
 
 inline std::string name_of(AngleUnit unit) {
@@ -35,6 +41,8 @@ inline std::string name_of(AngleUnit unit) {
 struct Rig {
   struct Laser {
     std::optional<std::string> topic;
+    std::optional<std::string> field;  // that holds the scan, in a message of another type
+    Echo echo = Echo::kFirst;
     std::optional<StampSource> stamp;
     StampAt stamp_at = StampAt::kFirstBeam;
     /// From beam to beam of a message's array. 0: all beams of a scan at once. Negative: the last beam of the
@@ -45,6 +53,7 @@ struct Rig {
   };
   struct Motor {
     std::optional<std::string> topic;
+    std::optional<std::string> field;  // that holds the angle, in a message of any type: "position[2]"
     std::optional<std::string> joint;
     std::optional<StampSource> stamp;
     double scale = 1.0;  // in units for each value of the recording

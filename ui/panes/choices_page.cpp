@@ -40,9 +40,10 @@ std::string in_words(const LaserChoice& laser) {
 }
 
 std::string in_words(const JointChoice& joint) {
-  const char* source = joint.source == JointSource::kNumber      ? ", plain numbers"
-                       : joint.source == JointSource::kTransform ? ", of transforms"
-                                                                 : "";
+  const char* source = joint.source == JointSource::kNumber       ? ", plain numbers"
+                       : joint.source == JointSource::kController ? ", of a controller"
+                       : joint.source == JointSource::kTransform  ? ", of transforms"
+                                                                  : "";
   return fmt::format("{}   turns over {:.1f}°, {} samples on {}{}", printable_line(joint.joint),
                      joint.turned_deg, joint.samples, printable_line(joint.topic), source);
 }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "core/numbers.hpp"
 #include "core/recording/messages/messages.hpp"
@@ -27,12 +26,12 @@ std::string list_of(const std::vector<std::string>& lines) {
   return list;
 }
 
-std::string list_of_topics(const RawRecording& raw, std::string_view type_end) {
+std::string list_of_topics(const RawRecording& raw, bool lasers_only = false) {
   std::vector<std::string> lines;
   for (const RecordedTopic& topic : raw.topics) {
     const MessageType* const type = find_message_type(topic.type);
-    const bool cloud = type_end == "/LaserScan" && type != nullptr && is_cloud(type->kind);
-    if (!topic.type.ends_with(type_end) && !cloud) continue;
+    const bool laser = topic.type == "csv/LaserScan" || (type != nullptr && is_laser(type->kind));
+    if (lasers_only && !laser) continue;
     lines.push_back(fmt::format("{}   {}   {} messages", topic.name, topic.type, topic.messages));
   }
   return lines.empty() ? " nothing" : list_of(lines);
@@ -50,11 +49,11 @@ std::string list_of_joints(const RawRecording& raw, const std::vector<std::size_
   return list_of(lines);
 }
 
-std::size_t malformed_messages(const RawRecording& raw, std::string_view type_end) {
-  std::size_t malformed = 0;
-  for (const RecordedTopic& topic : raw.topics)
-    malformed += topic.type.ends_with(type_end) ? topic.malformed : 0;
-  return malformed;
+bool all_malformed(const RawRecording& raw, std::string_view type_end) {
+  const auto found = std::ranges::find_if(raw.topics, [&](const RecordedTopic& topic) {
+    return topic.type.ends_with(type_end) && topic.malformed > 0;
+  });
+  return found != raw.topics.end();
 }
 
 /// What reading met first, which may be why something is not there.
@@ -62,14 +61,54 @@ std::string first_warning(const RawRecording& raw) {
   return raw.warnings.empty() ? std::string() : fmt::format("\n  also: {}", raw.warnings.front());
 }
 
-/// Why nothing is there to choose from: the damage that was met comes first.
-std::string nothing_usable(const RawRecording& raw, std::string_view what, std::string_view type_end) {
-  if (!raw.warnings.empty()) {
-    return fmt::format("{}: nothing in it can be used: {}", raw.file, raw.warnings.front());
-  }
-  if (malformed_messages(raw, type_end) > 0)
-    return fmt::format("{}: all of its {} are malformed", raw.file, what);
-  return fmt::format("{}: no {}. Topics found:{}", raw.file, what, list_of_topics(raw, ""));
+/// How to name a topic of a type that is only read where it is named.
+std::string advice(const RawRecording& raw, std::string_view stream, std::string_view what) {
+  const auto other = std::ranges::find_if(raw.topics, [](const RecordedTopic& topic) {
+    return find_message_type(topic.type) == nullptr && !topic.type.starts_with("csv/");
+  });
+  if (other == raw.topics.end()) return "";
+  return fmt::format(
+      "\n  If one of them holds {}, name it in a rig file ({}: {{topic: {}}}, given with --rig).", what,
+      stream, other->name);
+}
+
+/// Why nothing is there to choose from.
+std::string nothing_usable(const RawRecording& raw, std::string_view what, std::string_view type_end,
+                           const std::string& advice) {
+  if (raw.topics.empty() && raw.warnings.empty())
+    return fmt::format("{}: is a whole recording without messages", raw.file);
+  if (all_malformed(raw, type_end))
+    return fmt::format("{}: all of its {} are malformed", raw.file, what) + first_warning(raw);
+  return fmt::format("{}: no {}. Topics found:{}{}", raw.file, what, list_of_topics(raw), advice) +
+         first_warning(raw);
+}
+
+/// A topic of joint states, all without positions.
+const RecordedTopic* without_positions(const RawRecording& raw, const Rig& rig) {
+  const auto found = std::ranges::find_if(raw.topics, [&](const RecordedTopic& topic) {
+    const MessageType* const type = find_message_type(topic.type);
+    return type != nullptr && type->kind == MessageKind::kJointState && topic.messages > topic.malformed &&
+           (!rig.motor.topic || *rig.motor.topic == topic.name) &&
+           std::ranges::find(raw.joints, topic.name, &RawJoint::topic) == raw.joints.end();
+  });
+  return found == raw.topics.end() ? nullptr : &*found;
+}
+
+/// Why no joint is there to choose from.
+std::string no_joint(const RawRecording& raw, const Rig& rig) {
+  if (const RecordedTopic* const topic = without_positions(raw, rig))
+    return fmt::format(
+               "{}: the {} messages on {} ({}) have no positions, which are the motor's angles. Record "
+               "them, or name another topic in a rig file (motor: {{topic: ...}}, given with --rig). "
+               "Topics found:{}",
+               raw.file, topic->messages, topic->name, topic->type, list_of_topics(raw)) +
+           first_warning(raw);
+  if (rig.motor.topic)
+    return fmt::format("{}: no angles on {}, the rig's motor.topic. Topics found:{}", raw.file,
+                       *rig.motor.topic, list_of_topics(raw)) +
+           first_warning(raw);
+  return nothing_usable(raw, "sensor_msgs/JointState", "/JointState",
+                        advice(raw, "motor", "the motor's angle"));
 }
 
 bool wanted(const RawJoint& joint, const Rig& rig) {
@@ -78,7 +117,7 @@ bool wanted(const RawJoint& joint, const Rig& rig) {
   return !joint.positions.empty();
 }
 
-/// Leaves out numbers where there are joint states, and transforms where there is either.
+/// Leaves out all but those of the first source in the order of JointSource.
 void keep_best_source(const RawRecording& raw, std::vector<std::size_t>& joints) {
   JointSource best = JointSource::kTransform;
   for (const std::size_t i : joints) best = std::min(best, raw.joints[i].source);
@@ -94,17 +133,22 @@ Result<std::size_t> choose_laser(const RawRecording& raw, const Rig& rig) {
     if (rig.laser.topic && *rig.laser.topic != laser.topic) continue;
     if (!laser.scans.empty()) usable.push_back(i);
   }
-  // Where nothing is named, a scanner's own scans go before clouds: those may be made of anything.
-  const auto of_scans = [&](std::size_t i) { return !raw.lasers[i].of_clouds; };
-  if (std::ranges::any_of(usable, of_scans)) std::erase_if(usable, std::not_fn(of_scans));
+  // Where nothing is named, a scanner's own scans go before those of several echoes, which hold the same, and
+  // before clouds, which may be made of anything.
+  const auto rank = [&](std::size_t i) {
+    return raw.lasers[i].of_clouds ? 2 : raw.lasers[i].of_echoes ? 1 : 0;
+  };
+  int first = 2;
+  for (const std::size_t i : usable) first = std::min(first, rank(i));
+  std::erase_if(usable, [&](std::size_t i) { return rank(i) != first; });
   if (usable.size() == 1) return usable.front();
   if (usable.size() > 1) {
     return unreadable(fmt::format(
         "{}: {} topics of scans, and it is ambiguous which to use; name one in a rig file (laser: {{topic: "
         "{}}}, given with --rig):{}",
-        raw.file, usable.size(), raw.lasers[usable.front()].topic, list_of_topics(raw, "/LaserScan")));
+        raw.file, usable.size(), raw.lasers[usable.front()].topic, list_of_topics(raw, true)));
   }
-  const std::string any = list_of_topics(raw, "/LaserScan");
+  const std::string any = list_of_topics(raw, true);
   if (rig.laser.topic && any != " nothing") {
     return unreadable(
         fmt::format("{}: no usable scans on {}, the rig's laser.topic. Topics of scans found:{}", raw.file,
@@ -116,7 +160,8 @@ Result<std::size_t> choose_laser(const RawRecording& raw, const Rig& rig) {
     return unreadable(fmt::format("{}: no cloud on {} has a line of points with positions and times",
                                   raw.file, laser.topic));
   }
-  return unreadable(nothing_usable(raw, "sensor_msgs/LaserScan", "/LaserScan"));
+  return unreadable(
+      nothing_usable(raw, "sensor_msgs/LaserScan", "LaserScan", advice(raw, "laser", "the scans")));
 }
 
 Result<std::size_t> choose_joint(const RawRecording& raw, const Rig& rig) {
@@ -145,12 +190,7 @@ Result<std::size_t> choose_joint(const RawRecording& raw, const Rig& rig) {
                     list_of_joints(raw, all, rig)) +
         first_warning(raw));
   }
-  if (rig.motor.topic) {
-    return unreadable(fmt::format("{}: no usable joint states on {}, the rig's motor.topic. Topics found:{}",
-                                  raw.file, *rig.motor.topic, list_of_topics(raw, "")) +
-                      first_warning(raw));
-  }
-  return unreadable(nothing_usable(raw, "sensor_msgs/JointState", "/JointState"));
+  return unreadable(no_joint(raw, rig));
 }
 
 }  // namespace sweepscope

@@ -4,115 +4,44 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
-#include <optional>
 #include <string_view>
 #include <vector>
 
 #include "core/numbers.hpp"
+#include "core/recording/csv/csv_beams.hpp"
+#include "core/recording/csv/csv_cells.hpp"
 #include "core/recording/messages/message_collector.hpp"
 
 namespace sweepscope {
 namespace {
 
-constexpr std::int64_t kLastSecond = 9'000'000'000;  // what fits into 63 bits of nanoseconds
 constexpr const char* kDefaultLaser = "/scan";
 constexpr const char* kDefaultMotor = "/joint_states";
 constexpr const char* kDefaultJoint = "motor";
 
-/// "12.5" as 12'500'000'000, digit by digit: a double holds no nanoseconds since 1970.
-std::optional<std::int64_t> parse_stamp_ns(std::string_view text) {
-  std::int64_t seconds = 0;
-  const char* const end = text.data() + text.size();
-  const auto [after, error] = std::from_chars(text.data(), end, seconds);
-  if (error != std::errc() || seconds < 0 || seconds > kLastSecond || text.front() == '-')
-    return std::nullopt;
-  std::int64_t ns = seconds * kSecond_ns;
-  if (after == end) return ns;
-  if (*after != '.') return std::nullopt;
-  std::int64_t unit_ns = kSecond_ns / 10;
-  for (const char* digit = after + 1; digit < end; ++digit, unit_ns /= 10) {
-    if (*digit < '0' || *digit > '9') return std::nullopt;
-    ns += unit_ns * (*digit - '0');
-  }
-  return ns;
-}
-
-}  // namespace
-
-/// Reads the cells of a line; the first that is wrong is kept as the problem.
-class Cells {
- public:
-  explicit Cells(const CsvTable& table) : table_(table) {}
-
-  std::int64_t stamp_ns(std::size_t column) {
-    const std::string_view text = table_.cell(column);
-    if (text.empty()) return 0;
-    const auto ns = parse_stamp_ns(text);
-    if (!ns) refuse(column, text, "is not a time in decimal seconds (0 or more)");
-    return ns.value_or(0);
-  }
-  /// 0 where the cell is empty.
-  template <typename T>
-  T number(std::size_t column) {
-    const std::string_view text = table_.cell(column);
-    T value = 0;
-    if (!text.empty() && !parse(text, value)) refuse(column, text, "is not a number");
-    return value;
-  }
-  /// Appends numbers with spaces between them, and gives how many.
-  std::size_t list(std::size_t column, std::vector<float>& numbers) {
-    std::string_view rest = table_.cell(column);
-    const std::size_t before = numbers.size();
-    while (!rest.empty()) {
-      const std::string_view word = rest.substr(0, rest.find(' '));
-      rest.remove_prefix(std::min(rest.size(), word.size() + 1));
-      if (word.empty()) continue;
-      if (!parse(word, numbers.emplace_back())) {
-        refuse(column, word, "is not a number");
-        break;
-      }
-    }
-    return numbers.size() - before;
-  }
-  std::string text(std::size_t column, const char* otherwise) const {
-    const std::string_view text = table_.cell(column);
-    return text.empty() ? otherwise : std::string(text);
-  }
-  void refuse(std::size_t column, std::string_view text, std::string_view why) {
-    constexpr std::size_t kMaxQuoted = 40;
-    if (problem_.empty())
-      problem_ = fmt::format("{}: \"{}\" {}", table_.place(column), text.substr(0, kMaxQuoted), why);
-  }
-  const std::string& problem() const { return problem_; }
-
- private:
-  template <typename T>
-  static bool parse(std::string_view text, T& value) {
-    const char* const end = text.data() + text.size();
-    const auto [after, error] = std::from_chars(text.data(), end, value);
-    return error == std::errc() && after == end;
-  }
-
-  const CsvTable& table_;
-  std::string problem_;
-};
-
-namespace {
-
 using Names = std::vector<std::string_view>;
+
+const Names kStamps{"stamp_s",    "receive_s", "stamp_ms", "receive_ms", "stamp_us", "receive_us", "stamp_ns",
+                    "receive_ns", "time_s",    "time_ms",  "time_us",    "time_ns",  "time",       "%time"};
 
 Result<void> check_columns(const CsvTable& table, const std::vector<Names>& needed, const Names& known,
                            const std::string& file, RawRecording& raw) {
-  const auto has = [&](std::string_view name) { return table.column(name) < table.columns().size(); };
   for (const Names& group : needed) {
-    if (std::ranges::any_of(group, has)) continue;
-    return unreadable(fmt::format("{} has no column {}; its columns are: {}", table.place(),
-                                  fmt::join(group, " or "), fmt::join(table.columns(), ", ")));
+    if (std::ranges::any_of(group, [&](std::string_view name) { return table.has(name); })) continue;
+    const bool stamps = &group == &needed.front();
+    return unreadable(
+        fmt::format("{} has no column {}; its columns are: {}", table.place(),
+                    stamps ? "stamp_s or receive_s" : fmt::format("{}", fmt::join(group, " or ")),
+                    fmt::join(table.columns(), ", ")));
   }
   std::vector<std::string> unknown;
+  const auto is_known = [&](const std::string& name) {
+    return std::ranges::find(known, name) != known.end() ||
+           std::ranges::find(kStamps, name) != kStamps.end() ||
+           name.starts_with("field.");  // of rostopic, which writes all of a message
+  };
   for (const std::string& name : table.columns())
-    if (std::ranges::find(known, name) == known.end()) unknown.push_back(name);
+    if (!is_known(name)) unknown.push_back(name);
   if (!unknown.empty()) {
     raw.warnings.push_back(
         fmt::format("{} has unknown columns, which were ignored: {}", file, fmt::join(unknown, ", ")));
@@ -120,39 +49,87 @@ Result<void> check_columns(const CsvTable& table, const std::vector<Names>& need
   return {};
 }
 
+/// The columns of an array as rostopic numbers them: "field.ranges0", "field.ranges1" and so on.
+std::vector<std::size_t> numbered(const CsvTable& table, const std::string& name) {
+  std::vector<std::size_t> columns;
+  std::size_t at = table.column(name + "0");
+  for (; at < table.columns().size() && table.columns()[at] == fmt::format("{}{}", name, columns.size());
+       ++at)
+    columns.push_back(at);
+  return columns;
+}
+
 }  // namespace
 
+/// The first of these that a table has.
+Scaled first_of(const CsvTable& table, std::initializer_list<std::pair<std::string_view, double>> names) {
+  for (const auto& [name, factor] : names)
+    if (table.has(name)) return {table.column(name), factor};
+  return {table.columns().size(), 1};
+}
+
+StampColumns::StampColumns(const CsvTable& table) : header(find(table, false)), receive(find(table, true)) {}
+
+StampColumns::Column StampColumns::find(const CsvTable& table, bool receive) {
+  constexpr std::int64_t kMs_ns = 1'000'000, kUs_ns = 1'000;
+  for (const auto& [unit, ns] : {std::pair("_s", kSecond_ns), {"_ms", kMs_ns}, {"_us", kUs_ns}, {"_ns", 1L}})
+    for (const char* kind : {"stamp", "time"})
+      if (const std::string name = (receive ? "receive" : kind) + std::string(unit); table.has(name))
+        return {table.column(name), ns};
+  if (!receive && table.has("time")) return {table.column("time"), kSecond_ns};
+  return {table.column(receive ? "%time" : "field.header.stamp"), 1};
+}
+
 Result<void> check_scan_columns(const CsvTable& table, const std::string& file, RawRecording& raw) {
+  if (is_beam_table(table))
+    return check_columns(table, {kStamps},
+                         {"angle_rad", "angle_deg", "angle", "range_m", "range_mm", "range", "distance_m",
+                          "distance_mm", "distance"},
+                         file, raw);
   return check_columns(table,
-                       {{"stamp_s", "receive_s"}, {"angle_min_rad"}, {"angle_increment_rad"}, {"ranges_m"}},
-                       {"stamp_s", "receive_s", "angle_min_rad", "angle_increment_rad", "time_increment_s",
-                        "scan_time_s", "range_min_m", "range_max_m", "ranges_m", "intensities", "topic"},
+                       {kStamps,
+                        {"angle_min_rad", "angle_min_deg", "field.angle_min"},
+                        {"angle_increment_rad", "angle_increment_deg", "field.angle_increment"},
+                        {"ranges_m", "ranges_mm", "range_mm", "field.ranges0"}},
+                       {"angle_min_rad", "angle_min_deg", "angle_increment_rad", "angle_increment_deg",
+                        "time_increment_s", "scan_time_s", "range_min_m", "range_max_m", "ranges_m",
+                        "ranges_mm", "range_mm", "intensities", "topic"},
                        file, raw);
 }
 
 Result<void> check_motor_columns(const CsvTable& table, const std::string& file, RawRecording& raw) {
-  return check_columns(table, {{"stamp_s", "receive_s"}, {"angle_rad", "angle_deg", "position"}},
-                       {"stamp_s", "receive_s", "angle_rad", "angle_deg", "position", "topic", "joint"}, file,
-                       raw);
+  const Names angles{"angle_rad", "angle_deg", "position"};
+  Names needed = angles;
+  if (table.has("field.position0") || table.has("field.data")) needed = {"field.position0", "field.data"};
+  return check_columns(table, {kStamps, needed}, {"angle_rad", "angle_deg", "position", "topic", "joint"},
+                       file, raw);
 }
 
 ScanLines::ScanLines(const CsvTable& table, const Rig& rig, RawRecording& raw)
     : table_(table), rig_(rig), raw_(raw), stamps_(table) {
-  static constexpr const char* kNames[] = {"angle_min_rad", "angle_increment_rad", "time_increment_s",
-                                           "scan_time_s",   "range_min_m",         "range_max_m"};
-  for (std::size_t i = 0; i < std::size(kNames); ++i) numbers_[i] = table.column(kNames[i]);
-  ranges_ = table.column("ranges_m");
-  intensities_ = table.column("intensities");
+  constexpr double kMm_m = 1e-3;
+  numbers_ = {first_of(table, {{"angle_min_rad", 1}, {"angle_min_deg", kRadPerDeg}, {"field.angle_min", 1}}),
+              first_of(table, {{"angle_increment_rad", 1},
+                               {"angle_increment_deg", kRadPerDeg},
+                               {"field.angle_increment", 1}}),
+              first_of(table, {{"time_increment_s", 1}, {"field.time_increment", 1}}),
+              first_of(table, {{"scan_time_s", 1}, {"field.scan_time", 1}}),
+              first_of(table, {{"range_min_m", 1}, {"field.range_min", 1}}),
+              first_of(table, {{"range_max_m", 1}, {"field.range_max", 1}})};
+  ranges_ = first_of(table, {{"ranges_m", 1}, {"ranges_mm", kMm_m}, {"range_mm", kMm_m}});
+  intensities_ = {table.column("intensities"), 1};
+  range_columns_ = numbered(table, "field.ranges");
+  intensity_columns_ = numbered(table, "field.intensities");
   topic_ = table.column("topic");
 }
 
 std::string ScanLines::take() {
-  Cells cells(table_);
+  CsvCells cells(table_);
   RawScan scan;
   scan.stamps = {cells.stamp_ns(stamps_.header), cells.stamp_ns(stamps_.receive)};
   float* const values[] = {&scan.angle_min_rad, &scan.angle_increment_rad, &scan.time_increment_s,
                            &scan.scan_time_s,   &scan.range_min_m,         &scan.range_max_m};
-  for (std::size_t i = 0; i < std::size(values); ++i) *values[i] = cells.number<float>(numbers_[i]);
+  for (std::size_t i = 0; i < numbers_.size(); ++i) *values[i] = cells.number<float>(numbers_[i]);
   const std::string name = cells.text(topic_, kDefaultLaser);
   const auto [found, is_new] = topics_.try_emplace(name, raw_.topics.size(), raw_.lasers.size());
   const auto [topic, laser] = found->second;
@@ -165,13 +142,13 @@ std::string ScanLines::take() {
   return take_beams(cells, scan, raw_.lasers[laser]);
 }
 
-std::string ScanLines::take_beams(Cells& cells, RawScan& scan, RawLaser& laser) {
+std::string ScanLines::take_beams(CsvCells& cells, RawScan& scan, RawLaser& laser) {
   const std::size_t ranges_before = laser.ranges_m.size(), intensities_before = laser.intensities.size();
   scan.first_range = ranges_before;
-  scan.beams = static_cast<std::uint32_t>(cells.list(ranges_, laser.ranges_m));
-  const std::size_t intensities = cells.list(intensities_, laser.intensities);
+  scan.beams = static_cast<std::uint32_t>(cells.list(ranges_, range_columns_, laser.ranges_m));
+  const std::size_t intensities = cells.list(intensities_, intensity_columns_, laser.intensities);
   if (intensities != 0 && intensities != scan.beams) {
-    cells.refuse(intensities_, std::to_string(intensities),
+    cells.refuse(intensities_.at, std::to_string(intensities),
                  fmt::format("values, but ranges_m has {}", scan.beams));
   }
   if (!cells.problem().empty()) {
@@ -194,27 +171,43 @@ MotorLines::MotorLines(const CsvTable& table, const Rig& rig, RawRecording& raw)
       raw_(raw),
       stamps_(table),
       topic_(table.column("topic")),
-      joint_(table.column("joint")) {
-  for (const char* name : {"angle_rad", "angle_deg", "position"}) {
-    position_ = table.column(name);
-    degrees_ = name == std::string_view("angle_deg");
-    plain_ = name == std::string_view("position");
-    if (position_ < table.columns().size()) break;
-  }
-}
+      joint_(table.column("joint")),
+      plain_(!table.has("angle_rad") && !table.has("angle_deg") && !table.has("field.position0")),
+      position_(
+          first_of(table, {{"angle_rad", 1}, {"angle_deg", kRadPerDeg}, {"position", 1}, {"field.data", 1}})),
+      position_columns_(numbered(table, "field.position")),
+      name_columns_(numbered(table, "field.name")) {}
 
 std::string MotorLines::take() {
-  Cells cells(table_);
+  CsvCells cells(table_);
   const MessageStamps stamps{cells.stamp_ns(stamps_.header), cells.stamp_ns(stamps_.receive)};
-  double position = cells.number<double>(position_);
-  if (table_.cell(position_).empty()) cells.refuse(position_, "", "is not a number");
-  if (degrees_) position *= kRadPerDeg;
-  if (!cells.problem().empty()) return cells.problem();
-  const std::string topic = cells.text(topic_, kDefaultMotor), name = cells.text(joint_, kDefaultJoint);
+  const std::string topic = cells.text(topic_, kDefaultMotor);
   const auto [in_topics, new_topic] = topics_.try_emplace(topic, raw_.topics.size());
-  if (new_topic) raw_.topics.push_back({topic, "csv/JointState"});
+  if (position_columns_.empty()) {
+    const double position = cells.number<double>(position_);
+    if (table_.cell(position_.at).empty()) cells.refuse(position_.at, "", "is not a number");
+    if (cells.problem().empty()) add(topic, cells.text(joint_, kDefaultJoint), stamps, position);
+  }
+  for (std::size_t i = 0; i < position_columns_.size(); ++i) {
+    if (table_.cell(position_columns_[i]).empty()) continue;
+    const double position = cells.number<double>(position_columns_[i]);
+    const std::string name =
+        i < name_columns_.size() ? cells.text(name_columns_[i], kDefaultJoint) : fmt::format("position{}", i);
+    if (cells.problem().empty()) add(topic, name, stamps, position);
+  }
+  if (new_topic && cells.problem().empty()) raw_.topics.push_back({topic, "csv/JointState"});
+  if (!cells.problem().empty()) {
+    if (new_topic) topics_.erase(in_topics);
+    return cells.problem();
+  }
   ++raw_.topics[in_topics->second].messages;
-  if (rig_.motor.topic && *rig_.motor.topic != topic) return "";
+  const auto more = too_much(raw_.file, 0, samples_);
+  return more ? more->message : "";
+}
+
+void MotorLines::add(const std::string& topic, const std::string& name, const MessageStamps& stamps,
+                     double position) {
+  if (rig_.motor.topic && *rig_.motor.topic != topic) return;
   const auto [in_joints, new_joint] = joints_.try_emplace({topic, name}, raw_.joints.size());
   if (new_joint) {
     RawJoint& joint = raw_.joints.emplace_back();
@@ -222,12 +215,11 @@ std::string MotorLines::take() {
     joint.joint = name;
     joint.source = plain_ ? JointSource::kNumber : JointSource::kJointState;
   }
-  if (rig_.motor.joint && *rig_.motor.joint != name) return "";
+  if (rig_.motor.joint && *rig_.motor.joint != name) return;
   RawJoint& joint = raw_.joints[in_joints->second];
   joint.stamps.push_back(stamps);
   joint.positions.push_back(position);
-  const auto more = too_much(raw_.file, 0, ++samples_);
-  return more ? more->message : "";
+  ++samples_;
 }
 
 }  // namespace sweepscope

@@ -1,9 +1,14 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
+#include <initializer_list>
 #include <map>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/recording/csv/csv_table.hpp"
@@ -19,14 +24,30 @@ namespace sweepscope {
 Result<void> check_scan_columns(const CsvTable& table, const std::string& file, RawRecording& raw);
 Result<void> check_motor_columns(const CsvTable& table, const std::string& file, RawRecording& raw);
 
-class Cells;
+class CsvCells;
 
-/// The columns of a table's stamps; beyond the last column if there are none.
+/// A column of numbers and what they are multiplied by; beyond the last column if there is none.
+struct Scaled {
+  std::size_t at = 0;
+  double factor = 1;
+};
+
+/// The first of these columns that a table has, with its factor.
+Scaled first_of(const CsvTable& table, std::initializer_list<std::pair<std::string_view, double>> names);
+
+/// The columns of a table's stamps, in s, ms, us or ns; beyond the last column if there are none. rostopic's
+/// are field.header.stamp and %time.
 struct StampColumns {
-  std::size_t header, receive;
+  struct Column {
+    std::size_t at = 0;
+    std::int64_t unit_ns = 0;
+  };
+  Column header, receive;
 
-  explicit StampColumns(const CsvTable& table)
-      : header(table.column("stamp_s")), receive(table.column("receive_s")) {}
+  explicit StampColumns(const CsvTable& table);
+
+ private:
+  static Column find(const CsvTable& table, bool receive);
 };
 
 /// The lasers of scans.csv.
@@ -37,13 +58,16 @@ class ScanLines {
   std::string take();
 
  private:
-  std::string take_beams(Cells& cells, RawScan& scan, RawLaser& laser);
+  std::string take_beams(CsvCells& cells, RawScan& scan, RawLaser& laser);
 
   const CsvTable& table_;
   const Rig& rig_;
   RawRecording& raw_;
   StampColumns stamps_;
-  std::size_t numbers_[6], ranges_, intensities_, topic_;
+  std::array<Scaled, 6> numbers_;
+  Scaled ranges_, intensities_;
+  std::vector<std::size_t> range_columns_, intensity_columns_;  // a column for each beam
+  std::size_t topic_ = 0;
   std::map<std::string, std::pair<std::size_t, std::size_t>> topics_;  // in topics and in lasers
   std::size_t beams_ = 0;
 };
@@ -56,12 +80,16 @@ class MotorLines {
   std::string take();
 
  private:
+  void add(const std::string& topic, const std::string& name, const MessageStamps& stamps, double position);
+
   const CsvTable& table_;
   const Rig& rig_;
   RawRecording& raw_;
   StampColumns stamps_;
-  std::size_t topic_, joint_, position_ = 0;
-  bool degrees_ = false, plain_ = false;
+  std::size_t topic_, joint_;
+  bool plain_;
+  Scaled position_;
+  std::vector<std::size_t> position_columns_, name_columns_;  // a column for each joint
   std::map<std::string, std::size_t> topics_;
   std::map<std::pair<std::string, std::string>, std::size_t> joints_;
   std::size_t samples_ = 0;

@@ -8,6 +8,7 @@
 #include "core/io/atomic_file.hpp"
 #include "core/io/printable_text.hpp"
 #include "core/numbers.hpp"
+#include "core/recording/csv/csv_beams.hpp"
 #include "core/recording/csv/csv_lines.hpp"
 #include "core/recording/csv/csv_table.hpp"
 
@@ -72,6 +73,12 @@ Result<void> read_scans(const std::filesystem::path& path, const Rig& rig, RawRe
   TableReader reader(path, raw, job);
   auto table = reader.open(check_scan_columns);
   if (!table) return tl::unexpected(std::move(table.error()));
+  if (is_beam_table(*table)) {
+    BeamLines beams(*table, raw);
+    return reader.read(*table, [&] { return beams.take(); }).and_then([&] {
+      return beams.finish(path.filename().string());
+    });
+  }
   ScanLines lines(*table, rig, raw);
   return reader.read(*table, [&] { return lines.take(); });
 }
@@ -129,6 +136,33 @@ Result<void> write_motor(const RawJoint& joint, AtomicFile& file) {
   return file.write(lines);
 }
 
+const MessageStamps& stamps_of(const RawScan& scan) {
+  return scan.stamps;
+}
+const MessageStamps& stamps_of(const MessageStamps& stamps) {
+  return stamps;
+}
+
+/// Why the stamps of a stream cannot be seconds: from scan to scan, or from sample to sample, they advance by
+/// as many ms as a scanner's or a motor's do.
+template <typename Stream>
+Result<void> check_unit(const Stream& stream, const std::filesystem::path& table, std::string_view what) {
+  constexpr double kMinStep_s = 2, kMaxStep_s = 2000;
+  for (const auto& [of_source, column] :
+       {std::pair(&MessageStamps::header_ns, "stamp"), {&MessageStamps::receive_ns, "receive"}}) {
+    const auto at_s = [of = of_source](const auto& message) {
+      return static_cast<double>(stamps_of(message).*of) * 1e-9;
+    };
+    const double step_s = median(spacings(stream, at_s));
+    if (stream.size() < 10 || step_s < kMinStep_s || step_s > kMaxStep_s) continue;
+    return unreadable(
+        fmt::format("{}: {}_s advances by {:.4g} s from {} to {}, as if it counted ms; name the "
+                    "column {}_ms",
+                    table.string(), column, step_s, what, what, column));
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<RawRecording> read_csv_recording(const std::filesystem::path& folder, const Rig& rig, const Job& job) {
@@ -137,6 +171,12 @@ Result<RawRecording> read_csv_recording(const std::filesystem::path& folder, con
   raw.name = (folder.has_filename() ? folder : folder.parent_path()).filename().string();
   if (auto read = read_scans(folder / kScansCsv, rig, raw, job); !read) return tl::unexpected(read.error());
   if (auto read = read_motor(folder / kMotorCsv, rig, raw, job); !read) return tl::unexpected(read.error());
+  for (const RawLaser& laser : raw.lasers)
+    if (auto checked = check_unit(laser.scans, folder / kScansCsv, "scan"); !checked)
+      return tl::unexpected(checked.error());
+  for (const RawJoint& joint : raw.joints)
+    if (auto checked = check_unit(joint.stamps, folder / kMotorCsv, "sample"); !checked)
+      return tl::unexpected(checked.error());
   return raw;
 }
 

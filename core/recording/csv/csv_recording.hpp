@@ -8,10 +8,11 @@
 
 namespace sweepscope {
 
-/// A recording as a folder of two tables, for rigs without ROS. The first line of each names its columns, in
-/// any order; columns with other names are ignored with a warning. Cells may be in double quotes. Stamps are
-/// decimal seconds, exact to the nanosecond; empty or 0 if there is none. Numbers are written with enough
-/// digits to read back the same number; NaN and inf are "nan" and "inf".
+/// A recording as a folder of two tables, for rigs without ROS. The first line of each that is no comment
+/// names its columns, in any order; columns with other names are ignored with a warning. Cells are separated
+/// by commas, semicolons or tabs (CsvTable); with the latter two, numbers may have a decimal comma. Cells may
+/// be in double quotes. Stamps are decimal seconds, exact to the nanosecond; empty or 0 if there is none.
+/// Numbers are written with enough digits to read back the same number; NaN and inf are "nan" and "inf".
 ///
 /// scans.csv, a line per scan:
 ///   stamp_s, receive_s      when it was taken (its own clock), when it was received: at least one of the two
@@ -22,7 +23,10 @@ namespace sweepscope {
 ///   scan_time_s             from scan to scan
 ///   range_min_m, range_max_m    ranges outside are not used
 ///   topic                   the laser's name (default /scan)
-/// motor.csv, a line per sample:
+/// Stamps may also be in other units (stamp_ms, receive_us, ...) or called time_s, ranges be in mm
+/// (ranges_mm, range_mm), angles in degrees (angle_min_deg, angle_increment_deg). A table with a beam per
+/// line has a stamp, angle_rad or angle_deg, and range_m or range_mm (csv_beams.hpp). Both tables may be as
+/// `rostopic echo -p` writes them. motor.csv, a line per sample:
 ///   stamp_s, receive_s      as above
 ///   angle_rad, angle_deg or position       the joint's angle, or a raw number that the rig file's scale and
 ///                           zero make an angle of; they apply to angles too

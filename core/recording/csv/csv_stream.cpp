@@ -5,11 +5,19 @@
 #include <algorithm>
 #include <optional>
 
+#include "core/recording/csv/csv_beams.hpp"
 #include "core/recording/csv/csv_lines.hpp"
 #include "core/recording/csv/csv_table.hpp"
 
 namespace sweepscope {
 namespace {
+
+Result<void> check_live_columns(const CsvTable& table, const std::string& file, RawRecording& raw) {
+  if (is_beam_table(table))
+    return unreadable(fmt::format("{} names a beam per line, which only files may have; send a scan per line",
+                                  table.place()));
+  return check_scan_columns(table, file, raw);
+}
 
 /// One of the two tables, from when its columns are named.
 template <typename Lines>
@@ -31,7 +39,7 @@ class CsvStream::Tables {
     if (line.empty() || line.front() == '#') return {};
     const std::string_view word = line.substr(0, line.find(','));
     const std::string_view cells = line.substr(std::min(line.size(), word.size() + 1));
-    if (word == "scan") return take(scans_, cells, check_scan_columns);
+    if (word == "scan") return take(scans_, cells, check_live_columns);
     if (word == "motor") return take(motor_, cells, check_motor_columns);
     skip(fmt::format("{}: line {} begins with neither scan nor motor", raw_.file, line_number_));
     return {};

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t kBlock_bytes = std::size_t{1} << 18;
 constexpr std::size_t kLongestLine_bytes = std::size_t{1} << 26;
-constexpr std::size_t kMaxColumns = 1000;
+constexpr std::size_t kMaxColumns = std::size_t{1} << 18;  // one for each beam and intensity of a scan
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 }  // namespace
@@ -44,8 +44,13 @@ Result<bool> CsvTable::read_line() {
   return true;
 }
 
-/// Cells between commas, or between double quotes within which two stand for one. False where a quote has no
-/// end.
+bool CsvTable::is_comment() const {
+  // rostopic's columns begin with "%time".
+  return line_.empty() || line_.front() == '#' || (line_.front() == '%' && !line_.starts_with("%time"));
+}
+
+/// Cells between separators, or between double quotes within which two stand for one. False where a quote has
+/// no end.
 bool CsvTable::split_line() {
   std::size_t count = 0;
   bool quoted = false;
@@ -61,7 +66,7 @@ bool CsvTable::split_line() {
       *cell += line_[++i];
     } else if (c == '"') {
       quoted = !quoted;
-    } else if (c == ',' && !quoted) {
+    } else if (c == separator_ && !quoted) {
       if (count > kMaxColumns) break;
       cell = &next_cell();
     } else {
@@ -80,8 +85,13 @@ Result<CsvTable> CsvTable::open(const std::filesystem::path& path) {
   auto file = InputFile::open(path);
   if (!file) return tl::unexpected(std::move(file.error()));
   CsvTable table(std::move(*file), path.string());
-  const auto read = table.read_line();
-  if (!read) return tl::unexpected(read.error());
+  do {
+    const auto read = table.read_line();
+    if (!read) return tl::unexpected(read.error());
+    if (!*read) break;
+    if (table.line_.starts_with(kByteOrderMark)) table.line_.erase(0, kByteOrderMark.size());
+  } while (table.is_comment());
+  table.first_line_ = table.line_number_;
   if (auto named = table.name_columns(); !named) return tl::unexpected(named.error());
   return table;
 }
@@ -94,16 +104,18 @@ Result<CsvTable> CsvTable::of_lines(std::string name, std::string_view first_lin
   return table;
 }
 
-/// Of the present line, the first.
+/// Of the present line.
 Result<void> CsvTable::name_columns() {
-  if (line_.starts_with(kByteOrderMark)) line_.erase(0, kByteOrderMark.size());
+  for (const char separator : {';', '\t'})
+    if (std::ranges::count(line_, separator) > std::ranges::count(line_, separator_)) separator_ = separator;
   if (!split_line() || cells_.size() > kMaxColumns)
     return unreadable(fmt::format("{} does not name columns", place()));
   columns_ = cells_;
-  for (auto name = columns_.begin(); name != columns_.end(); ++name) {
-    if (!name->empty() && std::find(std::next(name), columns_.end(), *name) != columns_.end())
-      return unreadable(fmt::format("{} names column {} twice", place(), *name));
-  }
+  std::vector<std::string_view> names(columns_.begin(), columns_.end());
+  std::erase(names, "");
+  std::ranges::sort(names);
+  if (const auto twice = std::ranges::adjacent_find(names); twice != names.end())
+    return unreadable(fmt::format("{} names column {} twice", place(), *twice));
   return {};
 }
 
@@ -115,7 +127,7 @@ Result<bool> CsvTable::next() {
   while (true) {
     const auto read = read_line();
     if (!read || !*read) return read;
-    if (line_.empty()) continue;
+    if (is_comment()) continue;
     if (split_line() && cells_.size() == columns_.size()) return true;
     if (unended_) {
       cut_short_ = true;

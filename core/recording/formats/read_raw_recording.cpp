@@ -1,7 +1,11 @@
 #include "core/recording/formats/read_raw_recording.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
+#include <limits>
+#include <numeric>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,7 +14,6 @@
 #include "core/recording/csv/csv_recording.hpp"
 #include "core/recording/messages/message_collector.hpp"
 #include "core/recording/packed/unpacked_file.hpp"
-#include "core/recording/ros1/ros1_record.hpp"
 #include "core/recording/ros2/bag_files.hpp"
 #include "core/recording/streams/message_stream.hpp"
 
@@ -20,8 +23,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kReadable =
-    "sweepscope reads ROS 1 bags of format 2.0, ROS 2 bags (.db3 and MCAP, packed by zstd too) and folders "
-    "with scans.csv and motor.csv";
+    "sweepscope reads ROS 1 bags of format 2.0, ROS 2 bags (.db3 and MCAP, packed by zstd too), folders of "
+    "either, and folders with scans.csv and motor.csv";
 
 /// A file's first bytes, as far as it has them.
 Result<std::string> beginning(const fs::path& path) {
@@ -47,64 +50,104 @@ RawRecording named_recording(const fs::path& path) {
   return raw;
 }
 
-/// "cdr" or "ros1"; messages of other encodings are only counted.
-MessageCollector::Topic collected_topic(const StreamTopic& topic) {
-  const bool ros1 = topic.encoding == "ros1", cdr = topic.encoding == "cdr";
-  const std::string md5sum = ros1 ? topic.metadata_of("md5sum") : "";
-  return {topic.name, topic.type, cdr ? Encoding::kCdr : Encoding::kRos1, ros1 || cdr,
-          md5sum.empty() ? "*" : md5sum};
-}
+/// What reading one file gave besides its messages.
+struct FileReading {
+  std::vector<std::string> damage;
+  std::int64_t first_ns = std::numeric_limits<std::int64_t>::max(), last_ns = 0;  // receive times
+};
 
-/// Collects the messages of a file. Gives warnings about what was damaged or missing.
-Result<std::vector<std::string>> collect(const fs::path& path, MessageCollector& collector, const Job& job) {
+/// Collects the messages of a file.
+Result<FileReading> collect(const fs::path& path, MessageCollector& collector, const Job& job) {
   UnpackingLimit limit(path);
   const auto file = open_stream_file(path, limit, job);
   if (!file) return tl::unexpected(file.error());
   collector.begin_file(limit);
   struct Numbered {
-    MessageCollector::Topic topic;
+    MessageTopic topic;
     std::optional<std::size_t> number;  // given by its first message
   };
+  FileReading reading;
   std::vector<Numbered> topics;
   const auto visit_topic = [&](const StreamTopic& topic) {
-    topics.push_back({collected_topic(topic), std::nullopt});
+    topics.push_back({message_topic(topic), std::nullopt});
     return topics.size() - 1;
   };
   const auto visit_message = [&](const StreamMessage& message) {
     auto& [topic, number] = topics[message.topic];
     if (!number) number = collector.number_of(topic);
+    reading.first_ns = std::min(reading.first_ns, message.log_ns);
+    reading.last_ns = std::max(reading.last_ns, message.log_ns);
     return collector.add(*number, message.log_ns, message.bytes, [&] {
       return file->format == StreamFormat::kSqlite ? fmt::format("message {}", message.id)
                                                    : message.place.text();
     });
   };
-  return read_stream(*file, limit, {visit_topic, visit_message}, job);
+  auto damage = read_stream(*file, limit, {visit_topic, visit_message}, job);
+  if (!damage) return tl::unexpected(damage.error());
+  reading.damage = std::move(*damage);
+  return reading;
+}
+
+/// Bags that lie in a folder by chance are not one recording.
+std::optional<Error> not_together(const fs::path& folder, const std::vector<fs::path>& files,
+                                  const std::vector<FileReading>& readings) {
+  constexpr double kLongestBreak_s = 60;
+  std::vector<std::size_t> order(files.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::sort(order, {}, [&](std::size_t i) { return readings[i].first_ns; });
+  std::size_t latest = order.front();
+  for (const std::size_t i : order) {
+    const double break_s = static_cast<double>(readings[i].first_ns - readings[latest].last_ns) * 1e-9;
+    if (readings[i].last_ns > 0 && break_s > kLongestBreak_s)
+      return Error{
+          ExitCode::kUnreadableInput,
+          fmt::format("{}: its bags are of different recordings: {} begins {:.0f} s after the end of "
+                      "{}; give one bag, or a folder with those of one recording",
+                      folder.string(), files[i].filename().string(), break_s,
+                      files[latest].filename().string())};
+    if (readings[i].last_ns > readings[latest].last_ns) latest = i;
+  }
+  return std::nullopt;
 }
 
 Result<RawRecording> read_messages(const fs::path& path, const std::vector<fs::path>& files, const Rig& rig,
-                                   const Job& job, const ReadDetail& detail) {
+                                   const Job& job, const ReadDetail& detail, bool together) {
   RawRecording raw = named_recording(path);
   MessageCollector collector(rig, raw, detail);
   std::vector<std::string> damages;
+  std::vector<FileReading> readings;
   for (const fs::path& file : files) {
-    const auto damage = collect(file, collector, job);
-    if (!damage) return tl::unexpected(damage.error());
-    for (const std::string& what : *damage)
+    auto reading = collect(file, collector, job);
+    if (!reading) return tl::unexpected(reading.error());
+    for (const std::string& what : reading->damage)
       damages.push_back(file == path ? what : fmt::format("{}: {}", file.filename().string(), what));
+    readings.push_back(std::move(*reading));
   }
+  if (!together)
+    if (auto error = not_together(path, files, readings)) return tl::unexpected(std::move(*error));
   collector.finish();
   raw.warnings.insert(raw.warnings.begin(), damages.begin(), damages.end());
   return raw;
 }
 
-Result<RawRecording> read_ros2_folder(const fs::path& folder, const Rig& rig, const Job& job,
-                                      const ReadDetail& detail) {
+Result<RawRecording> read_bag_folder(const fs::path& folder, const Rig& rig, const Job& job,
+                                     const ReadDetail& detail) {
   const auto files = bag_files_of(folder);
   if (!files) return tl::unexpected(files.error());
-  auto raw = read_messages(folder, *files, rig, job, detail);
-  if (raw && !is_described(folder))
-    raw->warnings.insert(raw->warnings.begin(),
-                         "the folder has no metadata.yaml; its bags were read in the order of their names");
+  const auto stored = stored_as(files->front());
+  const bool ros1 = stored && stored->storage == BagStorage::kRos1;
+  auto raw = read_messages(folder, *files, rig, job, detail, !ros1);
+  if (!raw || is_described(folder)) return raw;
+  constexpr std::size_t kMaxListed = 10;
+  std::vector<std::string> names;
+  for (const fs::path& file : *files) names.push_back(file.filename().string());
+  if (names.size() > kMaxListed) {
+    names[kMaxListed - 2] = "...";
+    names.erase(names.begin() + kMaxListed - 1, names.end() - 1);
+  }
+  raw->warnings.push_back(
+      ros1 ? fmt::format("the bags of the folder are read as one recording: {}", fmt::join(names, ", "))
+           : "the folder has no metadata.yaml; its bags were read in the order of their names");
   return raw;
 }
 
@@ -117,7 +160,7 @@ Result<RawRecording> read_folder(const fs::path& folder, const Rig& rig, const J
     return unreadable(fmt::format("{}: is a folder with {} and without {}", folder.string(),
                                   scans ? kScansCsv : kMotorCsv, scans ? kMotorCsv : kScansCsv));
   }
-  if (is_ros2_folder(folder)) return read_ros2_folder(folder, rig, job, detail);
+  if (is_bag_folder(folder)) return read_bag_folder(folder, rig, job, detail);
   return unreadable(fmt::format("{}: is a folder without a recording; {}", folder.string(), kReadable));
 }
 
@@ -130,8 +173,7 @@ Result<RawRecording> read_raw_recording(const fs::path& path, const Rig& rig, co
   const auto start = beginning(path);
   if (!start) return tl::unexpected(start.error());
   const bool packed = begins_zstd(std::as_bytes(std::span(*start)));
-  if (start->starts_with(kBagMagic) || bag_storage(*start) || packed)
-    return read_messages(path, {path}, rig, job, detail);
+  if (bag_storage(*start) || packed) return read_messages(path, {path}, rig, job, detail, true);
   return unreadable(fmt::format("{}: {}; {}", path.string(), not_readable(*start), kReadable));
 }
 
@@ -139,7 +181,7 @@ std::vector<fs::path> recording_files(const fs::path& recording) {
   std::error_code ignored;
   std::vector<fs::path> named{recording};
   if (fs::is_directory(recording, ignored)) {
-    named = ros2_files(recording);
+    named = bag_folder_files(recording);
     named.push_back(recording / kScansCsv);
     named.push_back(recording / kMotorCsv);
   }

@@ -99,6 +99,20 @@ class MessageReader {
     const std::uint64_t step = cdr_ ? (bytes + kAligned_bytes - 1) / kAligned_bytes * kAligned_bytes : bytes;
     return take(step * (count - 1) + record_bytes);
   }
+  /// Passes over so many numbers of so many bytes.
+  void skip(std::size_t number_bytes, std::uint64_t count) {
+    if (count > 0) align(number_bytes);
+    take(number_bytes * count);
+  }
+  /// The position, for since().
+  std::size_t at() const { return at_; }
+  /// What was passed since then, of a message that begins with a header: from its first number on.
+  std::span<const std::byte> since(std::size_t begin) const {
+    constexpr std::size_t kAligned_bytes = 4;
+    if (cdr_) begin = (begin + kAligned_bytes - 1) / kAligned_bytes * kAligned_bytes;
+    return whole_ && begin <= at_ ? bytes_.subspan(begin, at_ - begin) : std::span<const std::byte>();
+  }
+  bool whole() const { return whole_; }
   bool swapped() const { return swapped_; }
   /// Middlewares fill a message of CDR up to a multiple of four bytes.
   bool at_end() const { return whole_ && bytes_.size() - at_ <= (cdr_ ? 3 : 0); }

@@ -9,18 +9,6 @@
 #include "core/recording/packed/unpacked_file.hpp"
 
 namespace sweepscope {
-JointSource joint_source(MessageKind kind) {
-  switch (kind) {
-    case MessageKind::kFloat64:
-    case MessageKind::kFloat32:
-    case MessageKind::kInt32:
-      return JointSource::kNumber;
-    case MessageKind::kTransforms:
-      return JointSource::kTransform;
-    default:
-      return JointSource::kJointState;
-  }
-}
 
 std::optional<Error> too_much(const std::string& file, std::size_t beams, std::size_t joint_samples) {
   if (beams <= kMaxBeams && joint_samples <= kMaxJointSamples) return std::nullopt;
@@ -32,38 +20,22 @@ std::optional<Error> too_much(const std::string& file, std::size_t beams, std::s
                            of_beams ? "beams" : "joint samples", of_beams ? "" : " and joint")};
 }
 
-const MessageType* MessageCollector::type_of(const Topic& topic) {
-  const MessageType* type = find_message_type(topic.type);
-  if (type == nullptr || !topic.decodable) return nullptr;
-  if (topic.md5sum != "*" && topic.md5sum != type->md5) {
-    raw_.warnings.push_back(
-        fmt::format("{}: topic {} holds another version of {} (md5sum {}) and is not used", raw_.name,
-                    topic.name, topic.type, topic.md5sum));
-    return nullptr;
-  }
-  if (type->kind == MessageKind::kTransforms) return type;
-  if (is_motion(type->kind)) {
-    const auto& named = type->kind == MessageKind::kImu ? rig_.imu.topic : rig_.odometry.topic;
-    return named == topic.name ? type : nullptr;
-  }
-  const bool laser = is_laser(type->kind);
-  const auto& wanted = laser ? rig_.laser.topic : rig_.motor.topic;
-  return wanted && *wanted != topic.name ? nullptr : type;
-}
-
 std::size_t MessageCollector::number_of(const Topic& topic) {
   const auto [found, is_new] =
       numbers_.try_emplace({topic.name, topic.type, topic.encoding}, entries_.size());
   if (is_new) {
     Entry& entry = entries_.emplace_back();
     entry.topic = topic;
-    entry.type = type_of(topic);
+    entry.reading = reading_of(topic, rig_);
+    if (!entry.reading.warning.empty())
+      raw_.warnings.push_back(fmt::format("{}: {}", raw_.name, entry.reading.warning));
     entry.laser = raw_.lasers.size();
     entry.may_be_motor = !rig_.motor.topic || *rig_.motor.topic == topic.name;
     raw_.topics.push_back({topic.name, topic.type});
-    if (entry.type != nullptr && is_laser(entry.type->kind)) {
+    if (const auto kind = entry.reading.kind; kind && is_laser(*kind)) {
       raw_.lasers.emplace_back().topic = topic.name;
-      raw_.lasers.back().of_clouds = is_cloud(entry.type->kind);
+      raw_.lasers.back().of_clouds = is_cloud(*kind);
+      raw_.lasers.back().of_echoes = kind == MessageKind::kMultiEcho;
     }
   }
   return found->second;
@@ -86,17 +58,16 @@ std::optional<Error> MessageCollector::add(std::size_t topic, std::int64_t recei
   Entry& entry = entries_[topic];
   RecordedTopic& counts = raw_.topics[topic];
   ++counts.messages;
-  if (entry.type == nullptr) return std::nullopt;
+  if (!entry.reading.problem.empty())
+    return Error{ExitCode::kUnreadableInput, fmt::format("{}: {}", raw_.file, entry.reading.problem)};
+  if (!entry.reading.kind) return std::nullopt;
   // CDR begins with 00, a frame of zstd never does.
   if (entry.topic.encoding == Encoding::kCdr && begins_zstd(message)) {
     const auto plain = unpacked(message);
     if (!plain) return plain.error();
     message = *plain;
   }
-  const bool whole = entry.type->kind == MessageKind::kLaserScan ? add_scan(entry, receive_ns, message)
-                     : is_cloud(entry.type->kind)                ? add_cloud(entry, receive_ns, message)
-                     : is_motion(entry.type->kind)               ? add_motion(entry, receive_ns, message)
-                                                                 : add_joints(entry, receive_ns, message);
+  const bool whole = add_kind(entry, receive_ns, message);
   if (!whole && counts.malformed++ == 0) entry.first_malformed = place();
   if (cloud_bytes_ > kMaxCloudBytes)
     return Error{ExitCode::kUnreadableInput,
@@ -106,8 +77,15 @@ std::optional<Error> MessageCollector::add(std::size_t topic, std::int64_t recei
   return too_much(raw_.file, beams_, joint_samples_);
 }
 
+bool MessageCollector::add_kind(Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message) {
+  const MessageKind kind = *entry.reading.kind;
+  if (is_scan(kind)) return add_scan(entry, receive_ns, message);
+  if (is_cloud(kind)) return add_cloud(entry, receive_ns, message);
+  return is_motion(kind) ? add_motion(entry, receive_ns, message) : add_joints(entry, receive_ns, message);
+}
+
 bool MessageCollector::add_scan(Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message) {
-  const auto decoded = decode_laser_scan(entry.topic.encoding, message);
+  const auto decoded = entry.reading.scans.read(message);
   if (!decoded) return false;
   const std::size_t number = entry.scans++;
   if (detail_.scans != nullptr && (number >= detail_.scans->size() || !(*detail_.scans)[number])) return true;
@@ -155,7 +133,7 @@ bool MessageCollector::add_cloud(Entry& entry, std::int64_t receive_ns, std::spa
   constexpr std::size_t kBeamsOfScans_a_beam = 4;  // a beam of a cloud has a direction besides
   RawLaser& laser = raw_.lasers[entry.laser];
   const std::size_t before = laser.ranges_m.size();
-  const auto cloud = decode_points(entry.type->kind, entry.topic.encoding, message);
+  const auto cloud = decode_points(*entry.reading.kind, entry.topic.encoding, message);
   const bool used = entry.clouds.add(cloud, receive_ns, laser);
   beams_ += kBeamsOfScans_a_beam * (laser.ranges_m.size() - before);
   if (used && detail_.clouds == CloudDetail::kWhole) keep_cloud(*cloud, receive_ns, laser);
@@ -182,9 +160,9 @@ void MessageCollector::keep_cloud(const CloudMessage& decoded, std::int64_t rece
 }
 
 bool MessageCollector::add_joints(Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message) {
-  if (entry.type->kind == MessageKind::kTransforms && !add_frames(entry, receive_ns, message)) return false;
+  if (entry.reading.kind == MessageKind::kTransforms && !add_frames(entry, receive_ns, message)) return false;
   if (!entry.may_be_motor) return true;
-  if (!decode_joints(entry.type->kind, entry.topic.encoding, message, rig_.mount.axis, joints_)) return false;
+  if (!entry.reading.joints.read(message, rig_.mount.axis, joints_)) return false;
   for (const DecodedJoint& decoded : joints_) {
     RawJoint& joint = joint_of(entry, decoded.name);
     // Known by name all the same, for a list of choices.
@@ -199,7 +177,7 @@ bool MessageCollector::add_joints(Entry& entry, std::int64_t receive_ns, std::sp
 bool MessageCollector::add_motion(const Entry& entry, std::int64_t receive_ns,
                                   std::span<const std::byte> message) {
   ++joint_samples_;  // as large as those
-  if (entry.type->kind == MessageKind::kImu) {
+  if (entry.reading.kind == MessageKind::kImu) {
     const auto imu = decode_imu(entry.topic.encoding, message);
     if (!imu) return false;
     raw_.turn_rates.stamps.push_back({imu->header_ns, receive_ns});
@@ -245,7 +223,7 @@ RawJoint& MessageCollector::joint_of(Entry& entry, std::string_view joint) {
     RawJoint& added = raw_.joints.emplace_back();
     added.topic = entry.topic.name;
     added.joint = joint;
-    added.source = joint_source(entry.type->kind);
+    added.source = entry.reading.joints.source();
   }
   return raw_.joints[found->second];
 }
@@ -253,6 +231,9 @@ RawJoint& MessageCollector::joint_of(Entry& entry, std::string_view joint) {
 void MessageCollector::finish() {
   for (const auto& [key, number] : numbers_) {
     const RecordedTopic& topic = raw_.topics[number];
+    if (entries_[number].reading.scans.without_strength())
+      raw_.warnings.push_back(fmt::format(
+          "scans on {} have no intensities: the first echo is used and not the strongest", topic.name));
     if (topic.malformed == 0) continue;
     const std::string& cloud_problem = entries_[number].cloud_problem;
     raw_.warnings.push_back(

@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "core/recording/messages/messages.hpp"
 #include "core/recording/messages/point_cloud.hpp"
+#include "core/recording/messages/topic_reading.hpp"
 #include "core/recording/packed/unpacking_limit.hpp"
 #include "core/recording/read_detail.hpp"
 
@@ -29,19 +30,11 @@ inline constexpr std::size_t kMaxCloudBytes = std::size_t{1} << 33;
 /// The error for a file that holds more beams or joint samples than that; otherwise empty.
 std::optional<Error> too_much(const std::string& file, std::size_t beams, std::size_t joint_samples);
 
-/// How a motor's messages of that kind hold its position.
-JointSource joint_source(MessageKind kind);
-
 /// Sorts the messages of a file, of any format, into lasers and joints. Those that the rig excludes by name
 /// are counted and not kept.
 class MessageCollector {
  public:
-  struct Topic {
-    std::string name, type;
-    Encoding encoding = Encoding::kRos1;
-    bool decodable = true;     // false: the encoding is another one; its messages are only counted
-    std::string md5sum = "*";  // of the ROS 1 definition; "*" if unknown
-  };
+  using Topic = MessageTopic;
 
   /// Both must outlive it, and so must what `detail` points to.
   MessageCollector(const Rig& rig, RawRecording& raw, const ReadDetail& detail = {})
@@ -61,23 +54,23 @@ class MessageCollector {
  private:
   struct Entry {
     Topic topic;
-    const MessageType* type = nullptr;  // null: only counted
-    std::size_t laser = 0;              // in RawRecording::lasers
-    std::size_t scans = 0;              // that were decoded, kept or not
-    bool may_be_motor = true;           // false: another topic is the rig's motor.topic
+    TopicReading reading;
+    std::size_t laser = 0;     // in RawRecording::lasers
+    std::size_t scans = 0;     // that were decoded, kept or not
+    bool may_be_motor = true;  // false: another topic is the rig's motor.topic
     std::map<std::string, std::size_t, std::less<>> joints;
     std::string first_malformed;  // the place
     CloudReader clouds;
     std::string cloud_problem;  // of the first unusable cloud
   };
 
-  const MessageType* type_of(const Topic& topic);
   Result<std::span<const std::byte>> unpacked(std::span<const std::byte> message);
   bool add_scan(Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message);
   void leave_ranges_out();
   bool add_cloud(Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message);
   void keep_cloud(const CloudMessage& decoded, std::int64_t receive_ns, RawLaser& laser);
   bool add_joints(Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message);
+  bool add_kind(Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message);
   bool add_motion(const Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message);
   bool add_frames(const Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message);
   RawJoint& joint_of(Entry& entry, std::string_view joint);

@@ -17,21 +17,23 @@ namespace {
 
 constexpr MessageType kTypes[] = {
     {"sensor_msgs/LaserScan", "90c7ef2dc6895d81024acba2ac42f369", MessageKind::kLaserScan},
+    {"sensor_msgs/MultiEchoLaserScan", "6fefb0c6da89d7c8abe4b339f5c2f8fb", MessageKind::kMultiEcho},
     {"sensor_msgs/PointCloud2", "1158d486dd51d683ce2f1be655c3c181", MessageKind::kCloud},
     {"livox_ros_driver/CustomMsg", "e4d6829bdfe657cb6c21a746c86b21a6", MessageKind::kLivox},
     {"livox_ros_driver2/CustomMsg", "e4d6829bdfe657cb6c21a746c86b21a6", MessageKind::kLivox},
     {"sensor_msgs/JointState", "3066dcd76a6cfaef579bd0f34173e9fd", MessageKind::kJointState},
-    {"dynamixel_msgs/JointState", "2b8449320cde76616338e2539db27c32", MessageKind::kDynamixel},
-    {"std_msgs/Float64", "fdb28210bfa9d7c91146260178d9a584", MessageKind::kFloat64},
-    {"std_msgs/Float32", "73fcbf46b49191e672908e50842a83d4", MessageKind::kFloat32},
-    {"std_msgs/Int32", "da5909fbe378aeaf85e547e830cc1bb7", MessageKind::kInt32},
+    {"dynamixel_msgs/JointState", "2b8449320cde76616338e2539db27c32", MessageKind::kFields},
+    {"dynamixel_workbench_msgs/DynamixelStateList", "*", MessageKind::kFields},
+    {"control_msgs/JointControllerState", "987ad85e4756f3aef7f1e5e7fe0595d1", MessageKind::kFields},
+    {"control_msgs/JointTrajectoryControllerState", "10817c60c2486ef6b33e97dcd87f4474", MessageKind::kFields},
+    {"std_msgs/Float64", "fdb28210bfa9d7c91146260178d9a584", MessageKind::kFields},
+    {"std_msgs/Float32", "73fcbf46b49191e672908e50842a83d4", MessageKind::kFields},
+    {"std_msgs/Int32", "da5909fbe378aeaf85e547e830cc1bb7", MessageKind::kFields},
     {"tf/tfMessage", "94810edda583a504dfda3829e70d7eec", MessageKind::kTransforms},
     {"tf2_msgs/TFMessage", "94810edda583a504dfda3829e70d7eec", MessageKind::kTransforms},
     {"sensor_msgs/Imu", "6a62c6daae103f4ff57a132d6f95cec2", MessageKind::kImu},
     {"nav_msgs/Odometry", "cd5e73d190d741a2f92e81eda573aca7", MessageKind::kOdometry},
 };
-
-constexpr std::string_view kOnlyJoint = "data";
 
 // The fields of each message, in order: for MessageReader, whose messages are not const, and MessageWriter.
 
@@ -111,30 +113,6 @@ bool decode_joint_state(Encoding encoding, std::span<const std::byte> message,
   return true;
 }
 
-bool decode_dynamixel(MessageReader reader, std::vector<DecodedJoint>& joints) {
-  DecodedJoint& joint = joints.emplace_back();
-  std::string_view frame;
-  PackedArray<std::int32_t> ids, temperatures;
-  double goal = 0;
-  std::array<double, 3> error_velocity_load{};
-  bool moving = false;
-  reader.header(joint.header_ns, frame);
-  reader.text(joint.name);
-  reader.array(ids);
-  reader.array(temperatures);
-  reader.numbers(goal, joint.position, error_velocity_load);
-  reader.flag(moving);
-  return reader.at_end();
-}
-
-template <typename T>
-bool decode_number(MessageReader reader, std::vector<DecodedJoint>& joints) {
-  T value{};
-  reader.numbers(value);
-  joints.push_back({0, kOnlyJoint, static_cast<double>(value)});
-  return reader.at_end();
-}
-
 struct CloudNumber {
   std::size_t size = 0;
   double (*load)(const std::byte* bytes, bool swapped) = nullptr;
@@ -158,12 +136,6 @@ constexpr CloudNumber kCloudNumbers[] = {{},
                                          cloud_number<float>(),
                                          cloud_number<double>()};
 
-/// The part of a rotation that is about an axis (the twist of its swing-twist decomposition).
-double angle_about(const Eigen::Vector3d& axis, const Eigen::Vector3d& vector, double scalar) {
-  constexpr double kTurn = 2 * std::numbers::pi;
-  return std::remainder(2 * std::atan2(axis.dot(vector), scalar), kTurn);
-}
-
 bool decode_turned_frames(Encoding encoding, std::span<const std::byte> message, const Eigen::Vector3d& axis,
                           std::vector<DecodedJoint>& joints) {
   std::vector<TransformMessage> frames;
@@ -176,15 +148,20 @@ bool decode_turned_frames(Encoding encoding, std::span<const std::byte> message,
 
 }  // namespace
 
+std::string short_type_name(std::string_view name) {
+  std::string shorter(name);
+  if (const std::size_t at = shorter.find("/msg/"); at != std::string::npos) shorter.erase(at, 4);
+  return shorter;
+}
+
 const MessageType* find_message_type(std::string_view name) {
-  const auto same = [&](const MessageType& type) {
-    if (type.name == name) return true;
-    const std::size_t slash = type.name.find('/');
-    return name.size() == type.name.size() + 4 && name.starts_with(type.name.substr(0, slash)) &&
-           name.substr(slash, 4) == "/msg" && name.ends_with(type.name.substr(slash));
-  };
-  const auto* const found = std::ranges::find_if(kTypes, same);
+  const auto* const found = std::ranges::find(kTypes, short_type_name(name), &MessageType::name);
   return found == std::end(kTypes) ? nullptr : found;
+}
+
+double angle_about(const Eigen::Vector3d& axis, const Eigen::Vector3d& vector, double scalar) {
+  constexpr double kTurn = 2 * std::numbers::pi;
+  return std::remainder(2 * std::atan2(axis.dot(vector), scalar), kTurn);
 }
 
 template <typename T>
@@ -281,28 +258,8 @@ std::optional<CloudMessage> decode_livox(Encoding encoding, std::span<const std:
 bool decode_joints(MessageKind kind, Encoding encoding, std::span<const std::byte> message,
                    const Eigen::Vector3d& axis, std::vector<DecodedJoint>& joints) {
   joints.clear();
-  const MessageReader reader(encoding, message);
-  switch (kind) {
-    case MessageKind::kJointState:
-      return decode_joint_state(encoding, message, joints);
-    case MessageKind::kDynamixel:
-      return decode_dynamixel(reader, joints);
-    case MessageKind::kFloat64:
-      return decode_number<double>(reader, joints);
-    case MessageKind::kFloat32:
-      return decode_number<float>(reader, joints);
-    case MessageKind::kInt32:
-      return decode_number<std::int32_t>(reader, joints);
-    case MessageKind::kTransforms:
-      return decode_turned_frames(encoding, message, axis, joints);
-    case MessageKind::kLaserScan:
-    case MessageKind::kCloud:
-    case MessageKind::kLivox:
-    case MessageKind::kImu:
-    case MessageKind::kOdometry:
-      break;
-  }
-  return false;
+  if (kind == MessageKind::kJointState) return decode_joint_state(encoding, message, joints);
+  return kind == MessageKind::kTransforms && decode_turned_frames(encoding, message, axis, joints);
 }
 
 std::optional<ImuMessage> decode_imu(Encoding encoding, std::span<const std::byte> message) {

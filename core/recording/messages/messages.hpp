@@ -21,13 +21,12 @@ enum class Encoding { kRos1, kCdr };
 
 enum class MessageKind {
   kLaserScan,
+  kMultiEcho,  // a scan with several echoes per beam
   kCloud,
   kLivox,  // a cloud in the own format of Livox scanners' drivers
   kJointState,
-  kDynamixel,
-  kFloat64,
-  kFloat32,
-  kInt32,
+  kFields,  // any other type, read by its definition, with a header before its fields
+  kFieldsWithoutHeader,
   kTransforms,
   kImu,
   kOdometry
@@ -37,8 +36,11 @@ enum class MessageKind {
 inline bool is_cloud(MessageKind kind) {
   return kind == MessageKind::kCloud || kind == MessageKind::kLivox;
 }
+inline bool is_scan(MessageKind kind) {
+  return kind == MessageKind::kLaserScan || kind == MessageKind::kMultiEcho;
+}
 inline bool is_laser(MessageKind kind) {
-  return kind == MessageKind::kLaserScan || is_cloud(kind);
+  return is_scan(kind) || is_cloud(kind);
 }
 /// Of the rig itself.
 inline bool is_motion(MessageKind kind) {
@@ -54,6 +56,9 @@ struct MessageType {
 /// The type with that name, in ROS 1's spelling or in ROS 2's (package/msg/Type); null if it is not one of
 /// these.
 const MessageType* find_message_type(std::string_view name);
+
+/// A type's name in ROS 1's spelling.
+std::string short_type_name(std::string_view name);
 
 /// Numbers in a message, at any alignment.
 template <typename T>
@@ -101,7 +106,7 @@ struct CloudMessage {
   double value(std::size_t point, const CloudField& field) const;
 };
 
-/// One joint's position in a message; std_msgs have no header (0 ns), and their only joint is "data".
+/// One joint's position in a message; without a header 0 ns.
 struct DecodedJoint {
   std::int64_t header_ns = 0;
   std::string_view name;
@@ -166,11 +171,14 @@ inline std::optional<CloudMessage> decode_points(MessageKind kind, Encoding enco
   return kind == MessageKind::kLivox ? decode_livox(encoding, message) : decode_cloud(encoding, message);
 }
 
-/// Fills `joints`, whose memory is reused from call to call; false if the message is malformed. Of a
-/// transform the joint is the child frame, and its position the angle about `axis` (unit length, in the
-/// parent frame), -pi to pi. A joint state without positions has no joints.
+/// Of kJointState and kTransforms. Fills `joints`, whose memory is reused from call to call; false if the
+/// message is malformed. Of a transform the joint is the child frame, and its position the angle about `axis`
+/// (unit length, in the parent frame), -pi to pi. A joint state without positions has no joints.
 bool decode_joints(MessageKind kind, Encoding encoding, std::span<const std::byte> message,
                    const Eigen::Vector3d& axis, std::vector<DecodedJoint>& joints);
+
+/// The part of a rotation (x, y, z and w of its quaternion) that is about an axis of unit length, -pi to pi.
+double angle_about(const Eigen::Vector3d& axis, const Eigen::Vector3d& vector, double scalar);
 
 /// Also empty if an IMU reports that it has no gyroscope: -1 as the first covariance of its angular velocity.
 std::optional<ImuMessage> decode_imu(Encoding encoding, std::span<const std::byte> message);

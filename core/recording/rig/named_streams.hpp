@@ -20,8 +20,11 @@ struct StreamNames {
 
 /// The rig with these streams instead of its own. A joint without a topic is searched for on all topics.
 inline Rig with_streams(Rig rig, const StreamNames& names) {
+  // A field is one of its topic.
+  if (names.laser && rig.laser.topic && rig.laser.topic != names.laser) rig.laser.field.reset();
+  if (names.motor && rig.motor.topic && rig.motor.topic != names.motor) rig.motor.field.reset();
   if (names.laser) rig.laser.topic = names.laser;
-  if (names.joint) rig.motor.topic.reset();
+  if (names.joint && !rig.motor.field) rig.motor.topic.reset();
   if (names.motor) rig.motor.topic = names.motor;
   if (names.motor && !names.joint) rig.motor.joint.reset();
   if (names.joint) rig.motor.joint = names.joint;

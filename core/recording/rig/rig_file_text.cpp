@@ -38,6 +38,8 @@ std::string laser_text(const DetectedRig& detected) {
   const Rig::Laser& laser = detected.rig.laser;
   std::string text = "laser:\n";
   if (laser.topic) text += line("  topic: " + yaml_name(*laser.topic), detected.laser_note);
+  if (laser.field) text += line("  field: " + yaml_name(*laser.field), "that holds the scan");
+  if (laser.echo != Echo::kFirst) text += line("  echo: " + name_of(laser.echo), "first | last | strongest");
   if (laser.stamp) text += line("  stamp: " + name_of(*laser.stamp), "header | receive");
   text += line("  stamp_at: " + name_of(laser.stamp_at),
                "first_beam | last_beam | arrival; " + detected.stamp_at_note);
@@ -52,6 +54,7 @@ std::string motor_text(const DetectedRig& detected) {
   const Rig::Motor& motor = detected.rig.motor;
   std::string text = "motor:\n";
   if (motor.topic) text += line("  topic: " + yaml_name(*motor.topic), "");
+  if (motor.field) text += line("  field: " + yaml_name(*motor.field), "that holds the angle");
   if (motor.joint) text += line("  joint: " + yaml_name(*motor.joint), detected.motor_note);
   if (motor.stamp) text += line("  stamp: " + name_of(*motor.stamp), "header | receive");
   text += line(fmt::format("  scale: {}", motor.scale), "angle = scale * value in `unit`, less zero_deg");

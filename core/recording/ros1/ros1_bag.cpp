@@ -38,6 +38,22 @@ bool fits_its_op(const BagFields& fields) {
   return false;
 }
 
+/// Whether `bytes` begin with the header of a record.
+bool begins_record(std::span<const std::byte> bytes) {
+  constexpr std::size_t kMinHeader_bytes = 8, kMaxLikelyHeader_bytes = 4096;
+  if (bytes.size() < 4 + kMinHeader_bytes) return false;
+  const std::size_t length = load<std::uint32_t>(bytes);
+  if (length < kMinHeader_bytes || length > std::min(kMaxLikelyHeader_bytes, bytes.size() - 4)) return false;
+  const auto fields = BagFields::parse(bytes.subspan(4, length));
+  return fields && fits_its_op(*fields);
+}
+
+std::optional<std::size_t> find_record(std::span<const std::byte> bytes, std::size_t from) {
+  for (std::size_t at = from; at < bytes.size(); ++at)
+    if (begins_record(bytes.subspan(at))) return at;
+  return std::nullopt;
+}
+
 /// Reads one bag. Members hold what is known so far; memory holds one chunk, packed and unpacked.
 class BagReader {
  public:
@@ -57,6 +73,15 @@ class BagReader {
     std::vector<std::byte> bytes;
     std::uint64_t data_bytes = 0;  // as claimed
     std::uint64_t data_at = 0;
+    std::uint64_t held_bytes = 0;  // of the data: up to the file's end, or to what the index places behind it
+    std::uint64_t end() const { return data_at + data_bytes; }
+    bool whole() const { return held_bytes == data_bytes; }
+  };
+  /// A part of the file of which nothing was used.
+  struct Lost {
+    std::string why;
+    BagPlace end;
+    std::optional<std::int64_t> before_ns;  // the last message before it
   };
 
   bool read_header(Header& header);
@@ -64,15 +89,21 @@ class BagReader {
   std::optional<Error> read_record(const Header& header);
   std::optional<Error> read_bag_header(const BagFields& fields);
   std::optional<Error> read_chunk(const Header& header, const BagFields& fields);
-  std::optional<Error> read_unpacked(std::span<const std::byte> chunk, BagPlace place, bool whole);
+  std::optional<Error> read_unpacked(std::span<const std::byte> chunk, const Header& header, bool whole);
+  BagPlace place_in(const Header& chunk, std::size_t byte) const;
   void add_connection(const BagFields& fields, std::span<const std::byte> data, const BagPlace& place);
   void describe(BagConnection connection, const BagPlace& place);
   std::optional<Error> visit_message(const BagFields& fields, std::span<const std::byte> data,
                                      const BagPlace& place);
   bool check_op(const BagFields& fields, const BagPlace& place);
   void learn_from_index();
-  bool ends_whole();
-  void warn_of_end(std::uint64_t at, std::uint64_t end);
+  std::optional<std::uint64_t> indexed_behind(std::uint64_t at) const;
+  bool record_at(std::uint64_t at);
+  std::uint64_t search(std::uint64_t from);
+  bool go_on_behind(std::uint64_t damage);
+  void lose(const std::string& why, const BagPlace& end);
+  void warn_of_lost(std::optional<std::int64_t> after_ns);
+  bool pass_wrong_end(const Header& header);
   void check_end();
   void warn(const std::string& what);
   Result<std::vector<std::string>> finish();
@@ -86,6 +117,11 @@ class BagReader {
   std::vector<std::byte> packed_, unpacked_;
   Compression compression_ = Compression::kNone;  // of the chunk that is read
   std::optional<std::uint64_t> index_at_;         // as claimed; 0 in a bag that was never closed
+  bool empty_ = false;                            // as claimed
+  std::vector<std::uint64_t> chunks_;             // where the index places them, ascending
+  std::string problem_;                           // of the last header
+  std::optional<Lost> lost_;                      // since the last message
+  std::optional<std::int64_t> first_ns_, last_ns_;
   bool cut_short_ = false;
   bool ends_whole_ = false;  // its index lies where it should, up to the file's end: it is not cut short
   std::size_t orphans_ = 0;  // messages of connections that nothing describes
@@ -101,39 +137,35 @@ void BagReader::warn(const std::string& what) {
   warnings_.push_back(what);
 }
 
-/// A record's header and the length of its data. False at the end of what can be read.
+/// A record's header and the length of its data. False at the end of what can be read; why is in `problem_`.
 bool BagReader::read_header(Header& header) {
   header.at = file_.position();
-  if (file_.left() == 0) return false;
   std::array<std::byte, 4> length;
-  const auto stop = [&](const std::string& why) {
-    warn(fmt::format("{} at byte {}; the last {} bytes of the file are not used", why, header.at,
-                     file_.size() - header.at));
-    return false;
-  };
-  const auto stop_cut = [&] {
-    cut_short_ = true;
-    return stop(ends_whole_ ? "the file is complete, but a length is damaged in the record"
-                            : "it is cut short in the record");
-  };
-  if (file_.read(length) != length.size()) return stop_cut();
+  problem_ = "it is cut short in the record";
+  if (file_.read(length) != length.size()) return false;
   const std::uint64_t header_bytes = load<std::uint32_t>(length);
-  if (header_bytes > kMaxHeader_bytes) return stop("there is no record");
-  if (header_bytes > file_.left()) return stop_cut();
+  if (header_bytes <= kMaxHeader_bytes && header_bytes > file_.left()) return false;
+  problem_ = "there is no record";
+  if (header_bytes > kMaxHeader_bytes) return false;
   header.bytes.resize(header_bytes);
-  if (file_.read(header.bytes) != header_bytes) return stop_cut();
-  if (!BagFields::parse(header.bytes)) return stop("there is no record");
-  if (file_.read(length) != length.size()) return stop_cut();
+  file_.read(header.bytes);
+  const auto fields = BagFields::parse(header.bytes);
+  if (!fields || !fields->find("op")) return false;
+  problem_ = "it is cut short in the record";
+  if (file_.read(length) != length.size()) return false;
   header.data_bytes = load<std::uint32_t>(length);
   header.data_at = file_.position();
+  header.held_bytes = std::min(header.data_bytes, file_.left());
+  if (const auto next = indexed_behind(header.at); next && header.end() > *next && record_at(*next))
+    header.held_bytes = *next - std::min(*next, header.data_at);
+  file_.seek(header.data_at);
   return true;
 }
 
-/// The data of a record, as far as the file goes.
+/// The data of a record, as far as the file holds it.
 std::span<const std::byte> BagReader::read_data(const Header& header) {
-  const std::uint64_t bytes = std::min(header.data_bytes, file_.left());
-  if (packed_.size() < bytes) packed_.resize(bytes);
-  const std::span<std::byte> data = std::span(packed_).first(bytes);
+  if (packed_.size() < header.held_bytes) packed_.resize(header.held_bytes);
+  const std::span<std::byte> data = std::span(packed_).first(header.held_bytes);
   return data.first(file_.read(data));
 }
 
@@ -152,7 +184,7 @@ std::optional<Error> BagReader::read_record(const Header& header) {
   }
   if (op == BagOp::kChunk) return read_chunk(header, fields);
   const std::span<const std::byte> data = read_data(header);
-  if (data.size() < header.data_bytes) return std::nullopt;  // the end is reported by the caller
+  if (!header.whole()) return std::nullopt;  // which the caller reports
   if (op == BagOp::kMessage) return visit_message(fields, data, place);
   add_connection(fields, data, place);
   return std::nullopt;
@@ -166,6 +198,8 @@ std::optional<Error> BagReader::read_bag_header(const BagFields& fields) {
   }
   if (index_at_) return std::nullopt;
   index_at_ = fields.number<std::uint64_t>("index_pos").value_or(0);
+  empty_ =
+      fields.number<std::uint32_t>("conn_count") == 0U && fields.number<std::uint32_t>("chunk_count") == 0U;
   learn_from_index();
   return std::nullopt;
 }
@@ -181,38 +215,90 @@ bool BagReader::check_op(const BagFields& fields, const BagPlace& place) {
   return false;
 }
 
-/// Whether records follow each other from here to the file's end.
-bool BagReader::ends_whole() {
-  Header header;
-  while (read_header(header)) {
-    if (header.data_bytes > file_.left()) return false;
-    file_.seek(header.data_at + header.data_bytes);
-  }
-  return file_.left() == 0;
-}
-
 /// A sound index describes every connection again, which helps where the chunk that introduced one is
-/// damaged.
+/// damaged, and places every chunk.
 void BagReader::learn_from_index() {
   if (*index_at_ == 0 || *index_at_ >= file_.size()) return;
   const std::uint64_t here = file_.position();
-  file_.seek(*index_at_);
   const std::size_t warnings_before = warnings_.size(), left_out_before = warnings_left_out_;
-  Header header;
-  while (read_header(header)) {
-    const BagFields fields = *BagFields::parse(header.bytes);
-    if (fields.op() != BagOp::kConnection || header.data_bytes > kMaxHeader_bytes) break;
-    const std::span<const std::byte> data = read_data(header);
-    if (data.size() < header.data_bytes) break;
-    add_connection(fields, data, {header.at, std::nullopt});
-  }
   file_.seek(*index_at_);
-  ends_whole_ = ends_whole();
+  std::vector<std::uint64_t> chunks;
+  Header header;
+  while (file_.left() > 0 && read_header(header) && header.whole()) {
+    const BagFields fields = *BagFields::parse(header.bytes);
+    if (fields.op() == BagOp::kConnection && header.data_bytes <= kMaxHeader_bytes)
+      add_connection(fields, read_data(header), {header.at, std::nullopt});
+    if (const auto at = fields.number<std::uint64_t>("chunk_pos"); at && fields.op() == BagOp::kChunkInfo)
+      chunks.push_back(*at);
+    file_.seek(header.end());
+  }
+  ends_whole_ = file_.left() == 0;
+  std::ranges::sort(chunks);
+  chunks_ = std::move(chunks);
   // What is wrong there is said when the reading comes there.
   warnings_.resize(warnings_before);
   warnings_left_out_ = left_out_before;
-  cut_short_ = false;
   file_.seek(here);
+}
+
+/// Where the next chunk or else the index lies, as the index says.
+std::optional<std::uint64_t> BagReader::indexed_behind(std::uint64_t at) const {
+  const auto chunk = std::ranges::upper_bound(chunks_, at);
+  const std::uint64_t next = chunk != chunks_.end() ? *chunk : ends_whole_ ? *index_at_ : 0;
+  return next > at && next < file_.size() ? std::optional(next) : std::nullopt;
+}
+
+bool BagReader::record_at(std::uint64_t at) {
+  std::array<std::byte, 4096> bytes;
+  file_.seek(at);
+  return begins_record(std::span(bytes).first(file_.read(bytes)));
+}
+
+/// The next place at which a record begins; the end of the file where there is none.
+std::uint64_t BagReader::search(std::uint64_t from) {
+  constexpr std::size_t kFirstBlock_bytes = 8192, kLargestBlock_bytes = std::size_t{1} << 20,
+                        kOverlap_bytes = 4200;
+  std::vector<std::byte> block;
+  for (std::size_t bytes = kFirstBlock_bytes; from < file_.size(); from += block.size() - kOverlap_bytes) {
+    file_.seek(from);
+    block.resize(bytes);
+    block.resize(file_.read(block));
+    if (const auto found = find_record(block, 0)) return from + *found;
+    if (block.size() <= kOverlap_bytes) break;
+    bytes = std::min(2 * bytes, kLargestBlock_bytes);
+  }
+  return file_.size();
+}
+
+/// Goes to the next record after one that cannot be read; false where there is none.
+bool BagReader::go_on_behind(std::uint64_t damage) {
+  const bool cut = problem_.starts_with("it is cut");
+  const std::uint64_t next = search(damage + 1);
+  const bool found = next < file_.size();
+  if (cut && (found || ends_whole_)) problem_ = "a length is damaged in the record";
+  cut_short_ |= cut && !found;
+  lose(fmt::format("{} at byte {}", problem_, damage), {next, std::nullopt});
+  file_.seek(next);
+  return found;
+}
+
+/// Parts between which there is no message are one.
+void BagReader::lose(const std::string& why, const BagPlace& end) {
+  if (!lost_) lost_ = Lost{why, end, last_ns_};
+  lost_->end = end;
+}
+
+void BagReader::warn_of_lost(std::optional<std::int64_t> after_ns) {
+  if (!lost_) return;
+  const auto since_first_s = [&](std::int64_t ns) { return static_cast<double>(ns - *first_ns_) * 1e-9; };
+  const auto& before_ns = lost_->before_ns;
+  const std::string times =
+      before_ns && after_ns ? fmt::format(", from {:.3f} s to {:.3f} s after the first message",
+                                          since_first_s(*before_ns), since_first_s(*after_ns))
+      : before_ns ? fmt::format(", from {:.3f} s after the first message on", since_first_s(*before_ns))
+                  : "";
+  warn(fmt::format("{}: nothing up to {} could be used{}", lost_->why, lost_->end.text(), times));
+  lost_.reset();
 }
 
 std::optional<Error> BagReader::read_chunk(const Header& header, const BagFields& fields) {
@@ -227,7 +313,7 @@ std::optional<Error> BagReader::read_chunk(const Header& header, const BagFields
   }
   compression_ = *compression;
   const std::span<const std::byte> packed = read_data(header);
-  const bool whole = packed.size() == header.data_bytes;
+  const bool whole = header.whole();
   const Decompressed unpacked =
       decompress(*compression, packed, limit_.max_bytes(kMaxChunk_bytes), unpacked_);
   if (*compression != Compression::kNone)
@@ -240,21 +326,30 @@ std::optional<Error> BagReader::read_chunk(const Header& header, const BagFields
     warn(fmt::format("the chunk at {} claims {} unpacked bytes and holds {}", place.text(),
                      claimed_bytes.value_or(0), unpacked.bytes.size()));
   }
-  return read_unpacked(unpacked.bytes, place, whole && unpacked.problem.empty());
+  return read_unpacked(unpacked.bytes, header, whole && unpacked.problem.empty());
 }
 
-/// The records of a chunk. Of one that is not whole, what is missing was reported already.
-std::optional<Error> BagReader::read_unpacked(std::span<const std::byte> chunk, BagPlace place, bool whole) {
+/// A place in a chunk: in the file, if the chunk lies there as it is.
+BagPlace BagReader::place_in(const Header& chunk, std::size_t byte) const {
+  if (compression_ == Compression::kNone) return {chunk.data_at + byte, std::nullopt};
+  return {chunk.at, byte};
+}
+
+/// The records of a chunk. At the end of one that is not whole, what is missing is reported by the caller.
+std::optional<Error> BagReader::read_unpacked(std::span<const std::byte> chunk, const Header& header,
+                                              bool whole) {
   std::size_t at = 0;
   while (at < chunk.size()) {
-    place.chunk_byte = at;
+    const BagPlace place{header.at, at};
     const auto record = parse_record(chunk.subspan(at));
-    if (!record) {
-      if (whole) {
-        warn(fmt::format("there is no complete record at {}; the rest of the chunk, {} bytes, was skipped",
-                         place.text(), chunk.size() - at));
-      }
-      return std::nullopt;
+    if (!record || !record->fields.find("op")) {
+      const auto next = find_record(chunk, at + 1);
+      if (whole || next)
+        lose(fmt::format("there is no complete record at {}", place_in(header, at).text()),
+             place_in(header, next.value_or(chunk.size())));
+      if (!next) return std::nullopt;
+      at = *next;
+      continue;
     }
     at += record->length;
     if (!check_op(record->fields, place)) continue;
@@ -312,28 +407,36 @@ std::optional<Error> BagReader::visit_message(const BagFields& fields, std::span
     }
     return std::nullopt;
   }
+  warn_of_lost(*receive_ns);
+  if (!first_ns_) first_ns_ = receive_ns;
+  last_ns_ = receive_ns;
   return visit_({connection->second, *receive_ns, data, place, compression_});
 }
 
-/// Of a record that claims to end beyond the file.
-void BagReader::warn_of_end(std::uint64_t at, std::uint64_t end) {
-  cut_short_ = true;
-  if (ends_whole_) {
-    return warn(
-        fmt::format("the length of the record at byte {} is damaged: it would end at byte {}, and the file "
-                    "is whole and ends at byte {}; what follows in it was not read",
-                    at, end, file_.size()));
+/// Of a record that claims to end behind what the file holds of it; false where that is the file's end.
+bool BagReader::pass_wrong_end(const Header& header) {
+  const std::uint64_t next = header.data_at + header.held_bytes;
+  cut_short_ |= next == file_.size();
+  if (next == file_.size()) {
+    warn(
+        fmt::format("it is cut short: the record at byte {} ends at byte {} and the file at byte {}; its "
+                    "intact part was read",
+                    header.at, header.end(), file_.size()));
+    return false;
   }
   warn(
-      fmt::format("it is cut short: the record at byte {} ends at byte {} and the file at byte {}; its "
-                  "intact part was read",
-                  at, end, file_.size()));
+      fmt::format("the length of the record at byte {} is damaged: it would end at byte {}, and the next "
+                  "record begins at byte {}",
+                  header.at, header.end(), next));
+  file_.seek(next);
+  return true;
 }
 
 void BagReader::check_end() {
   if (!index_at_) return warn("it has no bag header; its intact part was read");
   if (*index_at_ == 0) return warn("it was never closed (it has no index); its intact part was read");
-  if (!cut_short_ && *index_at_ >= file_.size()) {
+  const bool empty = empty_ && *index_at_ == file_.size();
+  if (!cut_short_ && !empty && *index_at_ >= file_.size()) {
     warn(
         fmt::format("it is cut short: its index should be at byte {} and the file ends at byte {}; its "
                     "intact part was read",
@@ -342,6 +445,7 @@ void BagReader::check_end() {
 }
 
 Result<std::vector<std::string>> BagReader::finish() {
+  warn_of_lost(std::nullopt);
   check_end();
   if (warnings_left_out_ > 0) {
     warnings_.push_back(fmt::format("{} more places are damaged", warnings_left_out_));
@@ -353,17 +457,19 @@ Result<std::vector<std::string>> BagReader::finish() {
 Result<std::vector<std::string>> BagReader::read(const Job& job) {
   file_.seek(kBagMagic.size());
   Header header;
-  while (read_header(header)) {
-    if (auto error = read_record(header)) return tl::unexpected(std::move(*error));
-    const std::uint64_t end = header.data_at + header.data_bytes;
-    if (end > file_.size()) {
-      warn_of_end(header.at, end);
-      break;
-    }
-    file_.seek(end);
-    job.report("reading", static_cast<double>(end) / static_cast<double>(file_.size()));
+  while (file_.left() > 0) {
+    job.report("reading", static_cast<double>(file_.position()) / static_cast<double>(file_.size()));
     if (job.cancelled())
       return failure(ExitCode::kInterrupted, fmt::format("{}: reading was interrupted", name_));
+    if (!read_header(header)) {
+      if (!go_on_behind(header.at)) break;
+      continue;
+    }
+    if (auto error = read_record(header)) return tl::unexpected(std::move(*error));
+    if (header.whole())
+      file_.seek(header.end());
+    else if (!pass_wrong_end(header))
+      break;
   }
   return finish();
 }

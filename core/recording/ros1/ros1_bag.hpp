@@ -16,9 +16,9 @@
 namespace sweepscope {
 
 /// ROS 1 bags, format 2.0 (http://wiki.ros.org/Bags/Format/2.0), read record by record from the front. The
-/// index at the end is not needed, so bags that were cut short or never closed read like any other. No size
-/// in the file is trusted: the size of a record is checked against the rest of the file and against these
-/// limits.
+/// index at the end is not needed, so bags that were cut short or never closed read like any other. Behind a
+/// damaged part reading goes on at the next record. No size in the file is trusted: the size of a record is
+/// checked against the rest of the file, against the places of chunks in the index, and against these limits.
 inline constexpr std::uint64_t kMaxChunk_bytes = std::uint64_t{256} << 20;  // packed or unpacked
 inline constexpr std::uint64_t kMaxHeader_bytes = std::uint64_t{1} << 20;
 

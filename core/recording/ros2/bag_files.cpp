@@ -8,6 +8,7 @@
 #include "core/io/yaml_members.hpp"
 #include "core/recording/packed/decompress.hpp"
 #include "core/recording/packed/unpacked_file.hpp"
+#include "core/recording/ros1/ros1_record.hpp"
 
 namespace sweepscope {
 namespace {
@@ -51,19 +52,39 @@ Result<std::vector<fs::path>> named_files(const fs::path& folder) {
   });
 }
 
-/// Those that are stored as bags are, by name.
+/// A name with its numbers filled up by zeros, so that part_2 comes before part_10.
+std::string sorting_name(const fs::path& path) {
+  constexpr std::size_t kDigits = 20;
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  const std::string name = path.filename().string();
+  std::string filled;
+  for (auto at = name.begin(); at != name.end();) {
+    const auto end = std::find_if_not(at, name.end(), is_digit);
+    const auto digits = static_cast<std::size_t>(end - at);
+    if (digits > 0 && digits < kDigits) filled.append(kDigits - digits, '0');
+    const auto next = digits > 0 ? end : at + 1;
+    filled.append(at, next);
+    at = next;
+  }
+  return filled;
+}
+
+/// Those that are stored as a ROS 2 bag is; without any the ROS 1 bags; by name.
 std::vector<fs::path> found_files(const fs::path& folder) {
-  std::vector<fs::path> files;
+  std::vector<fs::path> ros1, ros2;
   std::error_code error;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
-    if (stored_as(entry->path())) files.push_back(entry->path());
-  std::ranges::sort(files);
+    if (const auto stored = stored_as(entry->path()))
+      (stored->storage == BagStorage::kRos1 ? ros1 : ros2).push_back(entry->path());
+  std::vector<fs::path>& files = ros2.empty() ? ros1 : ros2;
+  std::ranges::sort(files, {}, [](const fs::path& path) { return std::pair(sorting_name(path), path); });
   return files;
 }
 
 }  // namespace
 
 std::optional<BagStorage> bag_storage(std::string_view beginning) {
+  if (beginning.starts_with(kBagMagic)) return BagStorage::kRos1;
   if (beginning.starts_with("\x89MCAP0\r\n")) return BagStorage::kMcap;
   if (beginning.starts_with(std::string_view("SQLite format 3\0", 16))) return BagStorage::kSqlite;
   return std::nullopt;
@@ -86,7 +107,7 @@ std::optional<StoredFile> stored_as(const fs::path& path) {
   const auto storage =
       bag_storage(packed ? unpacked_beginning(bytes)
                          : std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
-  if (!storage) return std::nullopt;
+  if (!storage || (packed && storage == BagStorage::kRos1)) return std::nullopt;
   return StoredFile{*storage, packed};
 }
 
@@ -99,11 +120,11 @@ bool is_described(const fs::path& folder) {
   return fs::exists(folder / kMetadata, ignored);
 }
 
-bool is_ros2_folder(const fs::path& folder) {
+bool is_bag_folder(const fs::path& folder) {
   return is_described(folder) || !found_files(folder).empty();
 }
 
-std::vector<fs::path> ros2_files(const fs::path& folder) {
+std::vector<fs::path> bag_folder_files(const fs::path& folder) {
   std::vector<fs::path> files = found_files(folder);
   files.push_back(folder / kMetadata);
   if (const auto named = named_files(folder)) files.insert(files.end(), named->begin(), named->end());

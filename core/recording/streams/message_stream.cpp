@@ -10,7 +10,6 @@
 #include "core/recording/messages/message_definitions.hpp"
 #include "core/recording/ros1/ros1_bag.hpp"
 #include "core/recording/ros1/ros1_record.hpp"
-#include "core/recording/ros2/bag_files.hpp"
 #include "core/recording/ros2/mcap_file.hpp"
 #include "core/recording/ros2/sqlite_bag.hpp"
 
@@ -103,6 +102,16 @@ std::string StreamTopic::metadata_of(std::string_view key) const {
   return "";
 }
 
+MessageTopic message_topic(const StreamTopic& topic) {
+  const bool ros1 = topic.encoding == "ros1", cdr = topic.encoding == "cdr";
+  MessageTopic same{topic.name, topic.type, cdr ? Encoding::kCdr : Encoding::kRos1, ros1 || cdr};
+  if (std::string md5sum = ros1 ? topic.metadata_of("md5sum") : ""; !md5sum.empty())
+    same.md5sum = std::move(md5sum);
+  if (topic.schema_encoding == "ros1msg" || topic.schema_encoding == "ros2msg")
+    same.definition = topic.definition;
+  return same;
+}
+
 StreamTopic written_topic(const std::string& name, std::string_view type, Encoding encoding) {
   StreamTopic topic{name, std::string(type), "ros1", "ros1msg", message_definition(type, encoding), "", {}};
   if (encoding == Encoding::kRos1) {
@@ -116,19 +125,14 @@ StreamTopic written_topic(const std::string& name, std::string_view type, Encodi
 }
 
 Result<StreamFile> open_stream_file(const fs::path& path, UnpackingLimit& limit, const Job& job) {
-  auto file = InputFile::open(path);
-  if (!file) return tl::unexpected(file.error());
-  std::string beginning(kBagMagic.size(), '\0');
-  file->read(std::as_writable_bytes(std::span(beginning)));
-  if (beginning == kBagMagic) return StreamFile{path, StreamFormat::kRos1};
+  if (const auto file = InputFile::open(path); !file) return tl::unexpected(file.error());
   const auto stored = stored_as(path);
   if (!stored)
     return unreadable(
         fmt::format("{}: byte 0 begins neither a ROS 1 bag of format 2.0, nor an MCAP file, nor the database "
                     "of a ROS 2 bag, nor one of these packed by zstd",
                     path.string()));
-  const bool mcap = stored->storage == BagStorage::kMcap;
-  StreamFile opened{path, mcap ? StreamFormat::kMcap : StreamFormat::kSqlite};
+  StreamFile opened{path, stored->storage};
   if (!stored->packed) return opened;
   auto plain = UnpackedFile::unpack(path, limit, job);
   if (!plain) return tl::unexpected(plain.error());
@@ -141,14 +145,14 @@ Result<StreamRecording> open_stream(const fs::path& path, const Job& job) {
   StreamRecording recording{path, fs::is_directory(path, ignored), {}};
   std::vector<fs::path> files{path};
   if (recording.is_folder) {
-    if (!is_ros2_folder(path)) {
+    if (!is_bag_folder(path)) {
       const bool csv = fs::exists(path / kScansCsv, ignored);
       return failure(
           csv ? ExitCode::kWrongUsage : ExitCode::kUnreadableInput,
           fmt::format("{}: {}", path.string(),
                       csv ? "is a folder of CSV tables, which have no messages; subtract the offset "
                             "from the stamps of motor.csv"
-                          : "is a folder without a ROS 2 bag"));
+                          : "is a folder without a bag"));
     }
     auto found = bag_files_of(path);
     if (!found) return tl::unexpected(found.error());

@@ -13,17 +13,18 @@
 
 #include "core/error.hpp"
 #include "core/job.hpp"
-#include "core/recording/messages/messages.hpp"
+#include "core/recording/messages/message_topic.hpp"
 #include "core/recording/packed/decompress.hpp"
 #include "core/recording/packed/unpacked_file.hpp"
 #include "core/recording/packed/unpacking_limit.hpp"
+#include "core/recording/ros2/bag_files.hpp"
 
 namespace sweepscope {
 
 /// A recording as a stream of serialised messages, with all that is needed to write each of them unchanged,
 /// in the same format or in another one.
 
-enum class StreamFormat { kRos1, kMcap, kSqlite };
+using StreamFormat = BagStorage;
 
 struct StreamFile {
   std::filesystem::path path;
@@ -36,8 +37,8 @@ struct StreamFile {
 
 struct StreamRecording {
   std::filesystem::path path;
-  bool is_folder = false;         // of a ROS 2 bag
-  std::vector<StreamFile> files;  // at least one; a ROS 1 bag is alone
+  bool is_folder = false;         // of a bag
+  std::vector<StreamFile> files;  // at least one
 };
 
 /// Opens a file; the format is detected from the content. A file that is compressed as a whole is
@@ -61,6 +62,9 @@ struct StreamTopic {
   /// Empty if there is none.
   std::string metadata_of(std::string_view key) const;
 };
+
+/// The same for reading its messages; not decodable where their encoding is neither "cdr" nor "ros1".
+MessageTopic message_topic(const StreamTopic& topic);
 
 /// A topic of a type that sweepscope writes (message_definition), which is in ROS 1's spelling.
 StreamTopic written_topic(const std::string& name, std::string_view type, Encoding encoding);

@@ -106,7 +106,8 @@ std::optional<std::size_t> listed(const Choices& choices, const Same& same) {
 }  // namespace
 
 Rig without_streams(Rig rig) {
-  rig.laser.topic.reset();
+  if (!rig.laser.field) rig.laser.topic.reset();
+  if (rig.motor.field) return rig;
   rig.motor.topic.reset();
   rig.motor.joint.reset();
   return rig;

@@ -49,7 +49,8 @@ struct RecordingSurvey {
 /// that it is to be read with.
 RecordingSurvey survey(const RawRecording& raw, const Rig& rig);
 
-/// The rig without the names of laser and motor, so that every stream is read.
+/// The rig without the names of laser and motor, so that every stream is read; a stream of which it names a
+/// field stays named.
 Rig without_streams(Rig rig);
 
 }  // namespace sweepscope

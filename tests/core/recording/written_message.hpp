@@ -10,6 +10,7 @@ namespace sweepscope::test {
 /// A message of any type for rosbag's writer: what its package defines, and its bytes (MessageBytes, kRos1).
 struct WrittenMessage {
   std::string type, md5sum, bytes;
+  std::string definition = "";
 };
 
 }  // namespace sweepscope::test
@@ -29,7 +30,9 @@ struct MD5Sum<sweepscope::test::WrittenMessage> {
 };
 template <>
 struct Definition<sweepscope::test::WrittenMessage> {
-  static const char* value(const sweepscope::test::WrittenMessage&) { return ""; }
+  static const char* value(const sweepscope::test::WrittenMessage& message) {
+    return message.definition.c_str();
+  }
 };
 }  // namespace message_traits
 

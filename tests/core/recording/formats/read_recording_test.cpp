@@ -2,7 +2,9 @@
 
 #include <sys/stat.h>
 
+#include "tests/core/recording/message_bytes.hpp"
 #include "tests/core/recording/test_bag.hpp"
+#include "tests/core/recording/written_message.hpp"
 
 namespace sweepscope {
 namespace {
@@ -62,7 +64,10 @@ TEST_P(ReadRecording, HasNoRecordingInABagThatIsCutBeforeItsFirstMessages) {
   const auto recording = read(folder / "cut.bag");
   ASSERT_FALSE(recording);
   EXPECT_EQ(recording.error().code, ExitCode::kUnreadableInput);
-  EXPECT_NE(recording.error().message.find("nothing in it can be used: it is cut short"), std::string::npos);
+  EXPECT_NE(
+      recording.error().message.find("no sensor_msgs/LaserScan. Topics found: nothing\n  also: it is cut"),
+      std::string::npos)
+      << recording.error().message;
 }
 
 TEST(ReadRecordingOfJoints, GathersAJointThatIsSpreadOverMessagesAndPublishers) {
@@ -149,9 +154,11 @@ TEST(ReadRecordingOfDamage, MalformedMessagesAreCountedAndSkippedNamingThePlace)
 }
 
 TEST(ReadRecordingOfDamage, ABagWithoutOneWholeScanIsRefused) {
-  EXPECT_NE(refusal(bag_with_malformed_scans(0, 2))
-                .find("a.bag: nothing in it can be used: 2 of 2 messages on /scan are malformed"),
-            std::string::npos);
+  EXPECT_NE(
+      refusal(bag_with_malformed_scans(0, 2))
+          .find("a.bag: all of its sensor_msgs/LaserScan are malformed\n  also: 2 of 2 messages on /scan are "
+                "malformed"),
+      std::string::npos);
 }
 
 TEST(ReadRecordingOfDamage, AnotherVersionOfAMessageIsNotUsed) {
@@ -172,10 +179,125 @@ TEST(ReadRecordingOfDamage, RefusesWhatIsNoRecording) {
             "a.bag: its first bytes are not those of a known recording format; sweepscope reads ");
   EXPECT_EQ(refusal("#ROSBAG V1.2\n1234567890").substr(0, 82),
             "a.bag: is a ROS 1 bag of format 1; convert it with `rosbag fix`; sweepscope reads ");
-  EXPECT_EQ(refusal("#ROSBAG V2.0\n"),
-            "a.bag: nothing in it can be used: it has no bag header; its intact part was read");
-  EXPECT_EQ(refusal("#ROSBAG V2.0\n" + std::string(100, '\xFF')).substr(0, 63),
-            "a.bag: nothing in it can be used: there is no record at byte 13");
+  EXPECT_EQ(
+      refusal("#ROSBAG V2.0\n"),
+      "a.bag: no sensor_msgs/LaserScan. Topics found: nothing\n  also: it has no bag header; its intact "
+      "part was read");
+  EXPECT_NE(refusal("#ROSBAG V2.0\n" + std::string(100, '\xFF'))
+                .find("also: there is no record at byte 13: nothing up to byte 113 could be used"),
+            std::string::npos);
+}
+
+TEST(ReadRecordingOfDamage, AWholeBagWithoutMessagesIsCalledThat) {
+  const test::ScratchFolder folder;
+  test::TestBag(folder / "a.bag").close();
+  EXPECT_EQ(read(folder / "a.bag").error().message,
+            (folder / "a.bag").string() + ": is a whole recording without messages");
+}
+
+TEST(ReadRecordingOfJoints, MessagesWithoutPositionsAreCalledThat) {
+  const test::ScratchFolder folder;
+  {
+    test::TestBag bag(folder / "a.bag");
+    for (int i = 0; i < 5; ++i) {
+      bag.scan(test::kStart_s + 0.025 * i);
+      auto state = test::sample_joints(test::kStart_s + 0.025 * i, {"roll"}, {});
+      state.velocity = {1};
+      bag.write("/joint_states", test::kStart_s + 0.025 * i, state);
+    }
+    bag.close();
+  }
+  EXPECT_NE(read(folder / "a.bag")
+                .error()
+                .message.find("the 5 messages on /joint_states (sensor_msgs/JointState) have no positions"),
+            std::string::npos);
+}
+
+/// Scans and a motor whose angle is in messages of one's own, by their definition.
+void write_own_messages(const std::filesystem::path& path) {
+  using test::MessageBytes;
+  test::TestBag bag(path);
+  for (int i = 0; i < 40; ++i) {
+    const double t_s = test::kStart_s + 0.025 * i;
+    const auto second = static_cast<std::uint32_t>(t_s);
+    const auto ns = static_cast<std::uint32_t>((t_s - second) * 1e9);
+    const std::string scan = test::scan_bytes(MessageBytes::kRos1, second, ns, {1, 2, 3, 4, 5});
+    bag.write("/head", t_s,
+              test::WrittenMessage{"my_msgs/Head", "0", scan + std::string(1, '\1'),
+                                   "sensor_msgs/LaserScan scan\nbool on\n"});
+    bag.write("/state", t_s,
+              test::WrittenMessage{"my_msgs/State", "1",
+                                   MessageBytes(MessageBytes::kRos1)
+                                       .header(second, ns, "")
+                                       .number(std::int32_t{i})
+                                       .array(std::vector<double>{0.5, -0.02 * i})
+                                       .bytes(),
+                                   "Header header\nint32 ticks\nfloat64[] position\n"});
+  }
+  bag.close();
+}
+
+TEST(ReadRecordingOfOwnMessages, ARigNamesTheirFields) {
+  const test::ScratchFolder folder;
+  write_own_messages(folder / "a.bag");
+  ReadOptions options{Rig(), {}};
+  Rig& rig = *options.rig;
+  const auto refused = [&] { return read(folder / "a.bag", options).error().message; };
+  EXPECT_NE(refused().find("name it in a rig file (laser: {topic: /head}, given with --rig)"),
+            std::string::npos);
+  rig.laser.topic = "/head";
+  EXPECT_NE(refused().find("name it in a rig file (motor: {topic: /state}, given with --rig)"),
+            std::string::npos)
+      << refused();
+  rig.motor.topic = "/state";
+  EXPECT_NE(refused().find("a.bag: topic /state (my_msgs/State) has several numbers. Name one"),
+            std::string::npos);
+  rig.motor.field = "position[1]";
+  rig.laser.field = "scan";
+  const auto recording = read(folder / "a.bag", options);
+  ASSERT_TRUE(recording) << recording.error().message;
+  EXPECT_EQ(recording->scans.size(), 40U);
+  EXPECT_EQ(recording->rig.motor.joint, "position[1]");
+  EXPECT_NEAR(recording->motor.angle_rad.back(), -0.78, 1e-12);
+  EXPECT_EQ(recording->report.motor_stamps.used, StampSource::kHeader);
+  rig.motor.joint = "roll";
+  EXPECT_EQ(read(folder / "a.bag", options)->rig.motor.joint, "roll");
+}
+
+void write_part(const std::filesystem::path& path, double from_s, double to_s) {
+  test::TestBag bag(path);
+  for (double t_s = from_s; t_s < to_s; t_s += 0.025) {
+    bag.scan(test::kStart_s + t_s);
+    bag.motor(test::kStart_s + t_s);
+  }
+  bag.close();
+}
+
+TEST(ReadRecordingOfFolders, Ros1BagsAreOneRecordingInTheOrderOfTheirNumbers) {
+  const test::ScratchFolder folder;
+  write_part(folder / "rec_2.bag", 1, 2);
+  write_part(folder / "rec_10.bag", 2, 3);
+  const auto recording = read(folder.path());
+  ASSERT_TRUE(recording) << recording.error().message;
+  EXPECT_NEAR(static_cast<double>(recording->scans.size()), 80, 1);
+  EXPECT_EQ(recording->report.scans_out_of_order, 0U);
+  ASSERT_EQ(recording->report.warnings.size(), 1U);
+  EXPECT_EQ(recording->report.warnings[0],
+            "the bags of the folder are read as one recording: rec_2.bag, rec_10.bag");
+}
+
+TEST(ReadRecordingOfFolders, Ros1BagsOfDifferentRecordingsAreRefused) {
+  const test::ScratchFolder folder;
+  write_part(folder / "a.bag", 1, 2);
+  write_part(folder / "b.bag", 100, 101);
+  const auto recording = read(folder.path());
+  ASSERT_FALSE(recording);
+  EXPECT_EQ(recording.error().code, ExitCode::kUnreadableInput);
+  EXPECT_NE(
+      recording.error().message.find("its bags are of different recordings: b.bag begins 98 s after the "
+                                     "end of a.bag"),
+      std::string::npos)
+      << recording.error().message;
 }
 
 TEST(ReadRecordingOfDamage, RefusesWhatIsNoFile) {

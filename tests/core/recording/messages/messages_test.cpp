@@ -37,7 +37,7 @@ TEST(Messages, KnowTheSameVersionsAsTheirDefinitions) {
 TEST(Messages, AreKnownByTheirNamesInRos1AndRos2) {
   EXPECT_EQ(find_message_type("sensor_msgs/LaserScan")->kind, MessageKind::kLaserScan);
   EXPECT_EQ(find_message_type("sensor_msgs/msg/LaserScan")->kind, MessageKind::kLaserScan);
-  EXPECT_EQ(find_message_type("dynamixel_msgs/msg/JointState")->kind, MessageKind::kDynamixel);
+  EXPECT_EQ(find_message_type("dynamixel_msgs/msg/JointState")->kind, MessageKind::kFields);
   EXPECT_EQ(find_message_type("tf2_msgs/msg/TFMessage")->kind, MessageKind::kTransforms);
   EXPECT_EQ(find_message_type("sensor_msgs/Imu")->kind, MessageKind::kImu);
   EXPECT_EQ(find_message_type("nav_msgs/msg/Odometry")->kind, MessageKind::kOdometry);

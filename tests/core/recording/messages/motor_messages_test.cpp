@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/recording/messages/joint_reader.hpp"
 #include "core/recording/messages/messages.hpp"
 #include "tests/core/recording/message_bytes.hpp"
 
@@ -23,13 +24,25 @@ class MotorMessages : public testing::TestWithParam<MessageBytes::Form> {
     if (!decode_joints(kind, encoding(), message, axis, decoded)) return std::nullopt;
     return decoded;
   }
-  /// Every cut of the message is malformed, and so is a byte too many for any filling.
-  void expect_whole_only(MessageKind kind, const std::string& message) const {
-    for (std::size_t n = 0; n < message.size(); ++n)
-      EXPECT_FALSE(joints(kind, as_span(message).first(n))) << "cut to " << n << " of " << message.size();
-    const std::string longer = message + std::string(GetParam() == MessageBytes::kRos1 ? 1 : 4, '\0');
-    EXPECT_FALSE(joints(kind, as_span(longer)));
+  /// Of a type that is read by its definition. Names are valid until the next call.
+  std::optional<std::vector<DecodedJoint>> joints(const std::string& type,
+                                                  std::span<const std::byte> message) {
+    reader_ = JointReader::by_definition({"/motor", type, encoding()}, {}, {}).value();
+    std::vector<DecodedJoint> decoded;
+    if (!reader_.read(message, Eigen::Vector3d::UnitX(), decoded)) return std::nullopt;
+    return decoded;
   }
+  /// Every cut of the message is malformed, and so is a byte too many for any filling.
+  template <typename Type>
+  void expect_whole_only(const Type& type, const std::string& message) {
+    for (std::size_t n = 0; n < message.size(); ++n)
+      EXPECT_FALSE(joints(type, as_span(message).first(n))) << "cut to " << n << " of " << message.size();
+    const std::string longer = message + std::string(GetParam() == MessageBytes::kRos1 ? 1 : 4, '\0');
+    EXPECT_FALSE(joints(type, as_span(longer)));
+  }
+
+ private:
+  JointReader reader_;
 };
 INSTANTIATE_TEST_SUITE_P(Ros1AndRos2, MotorMessages,
                          testing::Values(MessageBytes::kRos1, MessageBytes::kCdr,
@@ -76,16 +89,16 @@ TEST_P(MotorMessages, PlainNumbersHaveNoHeaderAndAreCalledData) {
   const std::string wide = MessageBytes(GetParam()).number(-1.25).bytes();
   const std::string narrow = MessageBytes(GetParam()).number(0.5F).bytes();
   const std::string whole = MessageBytes(GetParam()).number(std::int32_t{-90}).bytes();
-  const auto of_wide = joints(MessageKind::kFloat64, as_span(wide));
+  const auto of_wide = joints("std_msgs/Float64", as_span(wide));
   ASSERT_TRUE(of_wide);
   EXPECT_EQ(of_wide->at(0).position, -1.25);
   EXPECT_EQ(of_wide->at(0).name, "data");
   EXPECT_EQ(of_wide->at(0).header_ns, 0);
-  EXPECT_EQ(joints(MessageKind::kFloat32, as_span(narrow))->at(0).position, 0.5);
-  EXPECT_EQ(joints(MessageKind::kInt32, as_span(whole))->at(0).position, -90);
-  expect_whole_only(MessageKind::kFloat64, wide);
-  expect_whole_only(MessageKind::kFloat32, narrow);
-  expect_whole_only(MessageKind::kInt32, whole);
+  EXPECT_EQ(joints("std_msgs/Float32", as_span(narrow))->at(0).position, 0.5);
+  EXPECT_EQ(joints("std_msgs/Int32", as_span(whole))->at(0).position, -90);
+  expect_whole_only("std_msgs/Float64", wide);
+  expect_whole_only("std_msgs/Float32", narrow);
+  expect_whole_only("std_msgs/Int32", whole);
 }
 
 TEST_P(MotorMessages, ADynamixelsPositionIsItsCurrentOne) {
@@ -101,12 +114,12 @@ TEST_P(MotorMessages, ADynamixelsPositionIsItsCurrentOne) {
                                 .number(0.2)
                                 .number(std::uint8_t{1})
                                 .bytes();
-  const auto decoded = joints(MessageKind::kDynamixel, as_span(bytes));
+  const auto decoded = joints("dynamixel_msgs/JointState", as_span(bytes));
   ASSERT_TRUE(decoded);
   EXPECT_EQ(decoded->at(0).name, "tilt");
   EXPECT_EQ(decoded->at(0).position, 0.75);
   EXPECT_EQ(decoded->at(0).header_ns, 5'000'000'006);
-  expect_whole_only(MessageKind::kDynamixel, bytes);
+  expect_whole_only("dynamixel_msgs/JointState", bytes);
 }
 
 MessageBytes& transform(MessageBytes& message, const std::string& child, const Eigen::Quaterniond& rotation) {
@@ -159,22 +172,24 @@ TEST_P(MotorMessages, CountsThatTheMessageDoesNotHoldAllocateNothing) {
   }
 }
 
+bool is_float64(const std::string& bytes) {
+  std::vector<DecodedJoint> joints;
+  return JointReader::by_definition({"/motor", "std_msgs/Float64", Encoding::kCdr}, {}, {})
+      ->read(as_span(bytes), Eigen::Vector3d::UnitX(), joints);
+}
+
 TEST(Cdr, FillingToFourBytesIsAccepted) {
   for (const std::size_t filling : {1, 2, 3}) {
     const std::string bytes = MessageBytes(MessageBytes::kCdr).number(1.5).fill(filling).bytes();
-    std::vector<DecodedJoint> joints;
-    EXPECT_TRUE(decode_joints(MessageKind::kFloat64, Encoding::kCdr, as_span(bytes), Eigen::Vector3d::UnitX(),
-                              joints));
+    EXPECT_TRUE(is_float64(bytes));
   }
 }
 
 TEST(Cdr, OtherRepresentationsAreMalformed) {
   std::string bytes = MessageBytes(MessageBytes::kCdr).number(1.5).bytes();
-  std::vector<DecodedJoint> joints;
   for (const char representation : {'\x02', '\x03', '\x07', '\x0B'}) {
     bytes[1] = representation;
-    EXPECT_FALSE(decode_joints(MessageKind::kFloat64, Encoding::kCdr, as_span(bytes),
-                               Eigen::Vector3d::UnitX(), joints));
+    EXPECT_FALSE(is_float64(bytes));
   }
 }
 

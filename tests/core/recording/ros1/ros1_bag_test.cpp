@@ -246,6 +246,43 @@ TEST(Ros1Bag, AWrongLengthInABagThatIsNotCutShortIsCalledThat) {
     EXPECT_EQ(reading->all_warnings().find("it is cut short"), std::string::npos) << reading->all_warnings();
 }
 
+TEST(Ros1Bag, ReadingGoesOnBehindABlockOfZerosWithOneWarning) {
+  for (const bool with_index : {true, false}) {
+    const test::ScratchFolder folder;
+    test::write_sample_bag(folder / "a.bag");
+    std::string bytes = test::contents_of(folder / "a.bag");
+    const std::size_t all = read(folder / "a.bag").messages.size();
+    const std::size_t begin = bytes.size() / 3;
+    bytes.replace(begin, 4096, 4096, '\0');
+    if (!with_index) bytes.replace(bytes.find("index_pos=") + 10, 8, 8, '\0');
+    test::write_file(folder / "zeroed.bag", bytes);
+    const Reading reading = read(folder / "zeroed.bag");
+    ASSERT_TRUE(reading.warnings);
+    EXPECT_LT(reading.messages.size(), all);
+    EXPECT_GT(reading.messages.size(), all * 9 / 10);
+    ASSERT_EQ(reading.warnings->size(), with_index ? 1U : 2U) << reading.all_warnings();
+    const std::string& warning = reading.warnings->front();
+    EXPECT_NE(warning.find("record at byte "), std::string::npos) << warning;
+    EXPECT_NE(warning.find(": nothing up to byte "), std::string::npos) << warning;
+    EXPECT_NE(warning.find(" s after the first message"), std::string::npos) << warning;
+  }
+}
+
+TEST(Ros1Bag, AChunkWhoseLengthReachesIntoTheNextIsReadUpToThat) {
+  const test::ScratchFolder folder;
+  test::write_sample_bag(folder / "a.bag");
+  std::string bytes = test::contents_of(folder / "a.bag");
+  const std::size_t all = read(folder / "a.bag").messages.size();
+  // The length of a chunk's data follows its header, of which `size` is the last field.
+  const std::size_t length = bytes.find("size=", bytes.size() / 2) + 9;
+  bytes[length + 1] = static_cast<char>(bytes[length + 1] + 0x20);
+  test::write_file(folder / "long.bag", bytes);
+  const Reading reading = read(folder / "long.bag");
+  EXPECT_EQ(reading.messages.size(), all);
+  EXPECT_NE(reading.all_warnings().find("the length of the record at byte"), std::string::npos)
+      << reading.all_warnings();
+}
+
 TEST(Ros1Bag, AWrongOpCodeIsCalledThat) {
   const test::ScratchFolder folder;
   const std::string lost = RawBag::message(7, 5, "three");
