@@ -364,6 +364,7 @@ Result<Recording> assemble(RawRecording raw, const Rig& rig, std::optional<Stamp
   recording.report.topics = std::move(raw.topics);
   recording.report.warnings = std::move(raw.warnings);
   warn_of_source(raw_joint, recording);
+  warn_of_frames(raw_laser, recording);
   choose_both_stamps(raw_laser, raw_joint, stamps, recording);
   ScanAssembler scans(raw_laser, recording);
   if (!scans.assemble()) {

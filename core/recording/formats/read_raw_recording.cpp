@@ -63,20 +63,24 @@ Result<std::vector<std::string>> collect(const fs::path& path, MessageCollector&
   collector.begin_file(limit);
   struct Numbered {
     MessageCollector::Topic topic;
-    std::optional<std::size_t> number;  // given by its first message
+    std::string publisher;
+    std::optional<std::size_t> number = {};  // given by its first message
   };
   std::vector<Numbered> topics;
   const auto visit_topic = [&](const StreamTopic& topic) {
-    topics.push_back({collected_topic(topic), std::nullopt});
+    topics.push_back({collected_topic(topic), topic.metadata_of("callerid")});
     return topics.size() - 1;
   };
   const auto visit_message = [&](const StreamMessage& message) {
-    auto& [topic, number] = topics[message.topic];
+    auto& [topic, publisher, number] = topics[message.topic];
     if (!number) number = collector.number_of(topic);
-    return collector.add(*number, message.log_ns, message.bytes, [&] {
-      return file->format == StreamFormat::kSqlite ? fmt::format("message {}", message.id)
-                                                   : message.place.text();
-    });
+    return collector.add(
+        *number, message.log_ns, message.bytes,
+        [&] {
+          return file->format == StreamFormat::kSqlite ? fmt::format("message {}", message.id)
+                                                       : message.place.text();
+        },
+        publisher);
   };
   return read_stream(*file, limit, {visit_topic, visit_message}, job);
 }

@@ -9,6 +9,22 @@
 #include "core/recording/packed/unpacked_file.hpp"
 
 namespace sweepscope {
+namespace {
+
+constexpr std::size_t kMaxOtherFrames = 8;  // enough to name
+
+/// Which of the joint's publishers that is; a new one is added.
+std::uint16_t number_of_publisher(RawJoint& joint, std::string_view publisher) {
+  constexpr std::size_t kMaxPublishers = 256;  // further ones count as the last
+  auto found = std::ranges::find(joint.publishers, publisher);
+  if (found == joint.publishers.end() && joint.publishers.size() < kMaxPublishers)
+    found = joint.publishers.emplace(found, publisher);
+  return static_cast<std::uint16_t>(
+      std::min<std::size_t>(std::size_t(found - joint.publishers.begin()), joint.publishers.size() - 1));
+}
+
+}  // namespace
+
 JointSource joint_source(MessageKind kind) {
   switch (kind) {
     case MessageKind::kFloat64:
@@ -82,7 +98,8 @@ Result<std::span<const std::byte>> MessageCollector::unpacked(std::span<const st
 
 std::optional<Error> MessageCollector::add(std::size_t topic, std::int64_t receive_ns,
                                            std::span<const std::byte> message,
-                                           const std::function<std::string()>& place) {
+                                           const std::function<std::string()>& place,
+                                           std::string_view publisher) {
   Entry& entry = entries_[topic];
   RecordedTopic& counts = raw_.topics[topic];
   ++counts.messages;
@@ -96,7 +113,7 @@ std::optional<Error> MessageCollector::add(std::size_t topic, std::int64_t recei
   const bool whole = entry.type->kind == MessageKind::kLaserScan ? add_scan(entry, receive_ns, message)
                      : is_cloud(entry.type->kind)                ? add_cloud(entry, receive_ns, message)
                      : is_motion(entry.type->kind)               ? add_motion(entry, receive_ns, message)
-                                                                 : add_joints(entry, receive_ns, message);
+                                                   : add_joints(entry, receive_ns, message, publisher);
   if (!whole && counts.malformed++ == 0) entry.first_malformed = place();
   if (cloud_bytes_ > kMaxCloudBytes)
     return Error{ExitCode::kUnreadableInput,
@@ -125,6 +142,9 @@ bool MessageCollector::add_scan(Entry& entry, std::int64_t receive_ns, std::span
   if (scan.beams + scan_beams_ > detail_.max_beams) leave_ranges_out();
   scan.first_range = ranges_left_out_ ? number : laser.ranges_m.size();
   if (laser.scans.empty()) laser.frame = decoded->frame;
+  if (decoded->frame != laser.frame && laser.other_frames.size() < kMaxOtherFrames &&
+      std::ranges::count(laser.other_frames, decoded->frame) == 0)
+    laser.other_frames.emplace_back(decoded->frame);
   laser.scans.push_back(scan);
   if (ranges_left_out_) return true;
   decoded->ranges_m.append_to(laser.ranges_m);
@@ -181,7 +201,8 @@ void MessageCollector::keep_cloud(const CloudMessage& decoded, std::int64_t rece
   cloud_bytes_ += cloud.data.size();
 }
 
-bool MessageCollector::add_joints(Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message) {
+bool MessageCollector::add_joints(Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message,
+                                  std::string_view publisher) {
   if (entry.type->kind == MessageKind::kTransforms && !add_frames(entry, receive_ns, message)) return false;
   if (!entry.may_be_motor) return true;
   if (!decode_joints(entry.type->kind, entry.topic.encoding, message, rig_.mount.axis, joints_)) return false;
@@ -191,6 +212,7 @@ bool MessageCollector::add_joints(Entry& entry, std::int64_t receive_ns, std::sp
     if (rig_.motor.joint && decoded.name != *rig_.motor.joint) continue;
     joint.stamps.push_back({decoded.header_ns, receive_ns});
     joint.positions.push_back(decoded.position);
+    if (!publisher.empty()) joint.publisher.push_back(number_of_publisher(joint, publisher));
     ++joint_samples_;
   }
   return true;
