@@ -68,7 +68,7 @@ void print_rig(const SolvedRig& solved) {
   if (solved.along_walk)
     print("matches  {:.2f} mm apart before, {:.2f} mm after\n", solved.residual_before_m * 1e3,
           solved.residual_after_m * 1e3);
-  else
+  else if (solved.points > 0)
     print("surfaces {:.2f} mm thick before, {:.2f} mm after; {} of them, {} points\n",
           solved.residual_before_m * 1e3, solved.residual_after_m * 1e3, solved.surfaces, solved.points);
 }

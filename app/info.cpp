@@ -92,12 +92,23 @@ std::string laser_text(const LaserSummary& laser) {
                                       laser.scans_without_motor));
 }
 
+/// Samples that say nothing about the motor's angle at their stamps; empty where there are none.
+std::string left_out_text(const MotorSummary& motor) {
+  std::string text;
+  if (motor.repeated > 0)
+    text += row("repeated", fmt::format("{} samples repeat an old angle while the motor moves: left out",
+                                        motor.repeated));
+  if (motor.of_others > 0)
+    text += row("others", fmt::format("{} samples are of other publishers: left out", motor.of_others));
+  return text;
+}
+
 std::string motor_text(const MotorSummary& motor) {
   std::string sweeps = fmt::format("{} whole", motor.whole_sweeps());
   if (motor.median_sweep_s > 0) sweeps += fmt::format(", {:.3f} s each", motor.median_sweep_s);
   sweeps += fmt::format("; {} reversals", motor.reversals);
   return "motor\n" + row("joint", fmt::format("{} on {}, {} samples", motor.joint, motor.topic, motor.used)) +
-         stream_text(motor) +
+         stream_text(motor) + left_out_text(motor) +
          row("angle",
              fmt::format("{:.2f} to {:.2f} deg{}", motor.min_deg, motor.max_deg,
                          motor.unwrapped > 0 ? fmt::format(", unwrapped {} times", motor.unwrapped) : "")) +

@@ -30,12 +30,13 @@ std::optional<double> jackknife_sigma(double estimate, const std::vector<Without
   constexpr double kMinShare = 1e-3;  // of less, pseudo-values are differences of rounding errors
   double shares = 0;
   for (const WithoutPart& part : without) shares += std::max(0.0, part.share);
+  // Pseudo-values less the estimate, so that parts that are skipped take no part of it along.
   std::vector<double> pseudo_values, ratios;  // h = 1 / share
   for (const WithoutPart& part : without) {
     const double share = part.share / shares;
     if (!(share > kMinShare) || !(share < 1 - kMinShare)) continue;
     ratios.push_back(1 / share);
-    pseudo_values.push_back(estimate / share - (1 / share - 1) * part.value);
+    pseudo_values.push_back((1 / share - 1) * (estimate - part.value));
   }
   if (pseudo_values.size() < 3) return std::nullopt;
   const double n = double(pseudo_values.size());

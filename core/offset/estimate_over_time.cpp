@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/offset/find_offset.hpp"
+#include "core/offset/judgement/evidence.hpp"
 #include "core/offset/judgement/identifiability.hpp"
 #include "core/offset/judgement/unseen_sigma.hpp"
 #include "core/offset/over_time/over_time.hpp"
@@ -99,15 +101,79 @@ Result<FollowedWalk> follow_walk(const Recording& recording, double window_s, co
   return followed;
 }
 
-// The windows of either kind of rig.
-Result<FollowedWalk> windows_followed(const OffsetSearch& search, const RecordingSource& source,
-                                      const Recording& planned, const EstimatePlan& plan, const Job& job) {
-  const double near_s = search.coarse.offset_or(search.window.middle_s());
+// The windows of a stationary rig and the course through them.
+OffsetOverTime followed_in(const Recording& recording, const std::vector<RecordingPart>& windows,
+                           double near_s, double duration_s, const OffsetSearch& search, const Job& job) {
+  OffsetOverTime found{follow_offset(recording, windows, near_s, search.options.features, job), {}};
+  found.course = course_of(found.windows, duration_s / 2);
+  return found;
+}
+
+// Whether a course leaves windows far off it, or has so few that it could not be told from another one.
+bool is_described(const OffsetOverTime& over_time) {
+  constexpr std::size_t kMinWindows = 4;
+  return over_time.course && over_time.course->windows >= kMinWindows &&
+         std::ranges::none_of(parts_of_course(over_time), is_off_course);
+}
+
+// Of a stationary rig. Windows that no course describes, and few windows, are cut into shorter ones; these
+// count where they describe more.
+Result<OffsetOverTime> follow_stationary(const OffsetSearch& search, const RecordingSource& source,
+                                         const Recording& planned, const EstimatePlan& plan, const Job& job) {
+  const double near_s = search.coarse.offset_or(search.window.middle_s()),
+               duration_s = recorded_s(source.outline());
+  const MotorMotion& motor = search.problem.motor;
+  OffsetOverTime found = followed_in(planned, plan.windows, near_s, duration_s, search, job);
+  const bool fits = std::ranges::none_of(parts_of_course(found), is_off_course);
+  std::vector<RecordingPart> windows = plan.windows;
+  for (OffsetOverTime shorter = found; !is_described(shorter) && !job.cancelled();) {
+    windows = shorter_windows(windows, motor, duration_s);
+    if (windows.empty()) break;
+    const auto parts = source.read(used_parts(windows, motor), job);
+    if (!parts) return tl::unexpected(parts.error());
+    shorter = followed_in(**parts, windows, near_s, duration_s, search, job);
+    const bool as_constant = fits && found.course && shorter.course && shorter.course->constant();
+    if (shorter.course && !as_constant) found = shorter;
+  }
+  return found;
+}
+
+// The windows of either kind of rig, and the standard deviation of the error that they have in common.
+Result<std::pair<OffsetOverTime, double>> windows_followed(const OffsetSearch& search,
+                                                           const RecordingSource& source,
+                                                           const Recording& planned, const EstimatePlan& plan,
+                                                           const Job& job) {
+  using Followed = std::pair<OffsetOverTime, double>;
   if (!search.as_moving())
-    return FollowedWalk{follow_offset(planned, plan.windows, near_s, search.options.features, job), 0};
-  return source.read({}, job).and_then([&](const std::shared_ptr<const Recording>& whole) {
-    return follow_walk(*whole, plan.windows.front().end_s, search.options, job);
-  });
+    return follow_stationary(search, source, planned, plan, job).map([](OffsetOverTime&& found) {
+      return Followed{std::move(found), 0};
+    });
+  const auto whole = source.read({}, job);
+  if (!whole) return tl::unexpected(whole.error());
+  auto walk = follow_walk(**whole, plan.windows.front().end_s, search.options, job);
+  if (!walk) return tl::unexpected(walk.error());
+  OffsetOverTime found{std::move(walk->windows), {}};
+  found.course = course_of(found.windows, recorded_s(source.outline()) / 2);
+  return Followed{std::move(found), walk->common_sigma_s};
+}
+
+// The offset at the recording's middle, as far as the windows let it stand.
+void take_course(const OffsetSearch& search, const OffsetOverTime& over_time, double common_sigma_s,
+                 Estimate& result) {
+  const OffsetCourse& course = *over_time.course;
+  OffsetEvidence evidence;
+  evidence.parts = parts_of_course(over_time);
+  const double sigma_s =
+      std::hypot(course.sigma_s, common_sigma_s,
+                 unseen_sigma_s(*search.problem.recording, search.problem.motor, course.offset_s));
+  Verdict verdict = judge_course(evidence, sigma_s);
+  for (const auto& [name, by_s] : verdict.widened) result.sigma_parts.push_back({name, by_s});
+  for (Refusal& refused : verdict.refusals) result.refusals.push_back(std::move(refused));
+  if (course.rate_sigma > 0) result.drift_ppm = course.rate * 1e6;
+  result.identifiable = result.refusals.empty();
+  if (!result.identifiable) return;
+  result.offset_s = course.offset_s;
+  result.sigma_s = verdict.sigma_s;
 }
 
 }  // namespace
@@ -119,18 +185,11 @@ Result<Estimate> follow_over_time(Estimate begun, const OffsetSearch& search, co
   Estimate result = std::move(begun);
   result.curve = search.coarse.curve;
   if (job.cancelled()) return result;
-  OffsetOverTime over_time{std::move(followed->windows), {}};
-  over_time.course = course_of(over_time.windows, recorded_s(source.outline()) / 2);
-  if (const auto& course = over_time.course) {
-    result.identifiable = true;
-    result.offset_s = course->offset_s;
-    result.sigma_s =
-        std::hypot(course->sigma_s, followed->common_sigma_s,
-                   unseen_sigma_s(*search.problem.recording, search.problem.motor, course->offset_s));
-    if (course->rate_sigma > 0) result.drift_ppm = course->rate * 1e6;
-  } else {
+  auto& [over_time, common_sigma_s] = *followed;
+  if (over_time.course)
+    take_course(search, over_time, common_sigma_s, result);
+  else
     result.refusals.push_back(refusal(RefusalKind::kNoWindow, {}, over_time.windows.front().reason));
-  }
   if (plan.sample) {
     result.sweeps = plan.sample->counts.of_sweeps;
     result.scans = 0;

@@ -28,6 +28,8 @@ void append(std::vector<std::string>& to, const std::vector<std::string>& more) 
 Refusals stream_refusals(const PreparedRecording& prepared, const SearchScale& scale) {
   const Recording& recording = *prepared.recording;
   Refusals refusals;
+  add(refusals, motor_faults_refusal(recording.report));
+  if (!refusals.empty()) return refusals;
   add(refusals, motor_refusal(recording.motor, prepared.motor));
   if (!refusals.empty()) return refusals;
   add(refusals, scan_times_refusal(recording, scale));
@@ -183,7 +185,7 @@ MotionTest test_motion(const PreparedRecording& prepared, const StationaryGrid& 
 Result<Answer> answer_by_method(const OffsetSearch& search, const OffsetOverTime& groups,
                                 const KeptCandidates& kept, const Job& job) {
   if (search.method != Method::kDirect) return answer_by_criteria(search, kept, job);
-  auto changes = change_refusal(groups, search.recorded_s());
+  auto changes = change_refusal(groups, search.recorded_s(), search.problem.motor.median_sweep_s);
   if (!changes) return answer_directly(search, job);
   Answer answer;
   answer.curve = search.coarse.curve;

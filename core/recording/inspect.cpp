@@ -90,6 +90,8 @@ MotorSummary inspect_motor(const Recording& recording, const MotorMotion& motion
   motor.duplicates = report.motor_duplicate;
   motor.dropped = report.motor_dropped;
   motor.unwrapped = report.motor_unwrapped;
+  motor.repeated = report.motor_repeated;
+  motor.of_others = report.motor_of_others;
   if (track.time_s.empty()) return motor;
   motor.duration_s = track.time_s.back() - track.time_s.front();
   const auto [min_rad, max_rad] = std::ranges::minmax(track.angle_rad);

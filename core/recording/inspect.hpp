@@ -44,6 +44,8 @@ struct MotorSummary : StreamSummary {
   double median_speed_deg_s = 0;  // of the sweeps, away from their reversals
   std::size_t reversals = 0;
   std::size_t unwrapped = 0;
+  std::size_t repeated = 0;   // samples left out that repeat an old angle while the motor moves
+  std::size_t of_others = 0;  // samples left out of other publishers of the joint
   double median_sweep_s = 0;  // 0 where there is no whole sweep
   bool turns = false;         // by more than 1 deg
   bool one_way = false;       // more than a turn, and never back

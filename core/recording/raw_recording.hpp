@@ -58,9 +58,10 @@ enum class CloudDetail { kLines, kWhole };
 /// The scans of one topic in the order of the file.
 struct RawLaser {
   std::string topic;
-  std::string frame;       // of the first message's header
-  bool of_clouds = false;  // the scans are lines of a 3D scanner's clouds
-  bool of_echoes = false;  // each beam is one of several echoes
+  std::string frame;                      // of the first message's header
+  std::vector<std::string> other_frames;  // of later messages
+  bool of_clouds = false;                 // the scans are lines of a 3D scanner's clouds
+  bool of_echoes = false;                 // each beam is one of several echoes
   std::vector<RawScan> scans;
   std::vector<float> ranges_m;
   std::vector<float> intensities;  // like ranges_m as long as every scan had them
@@ -82,6 +83,10 @@ struct RawJoint {
   std::vector<MessageStamps> stamps;
   std::vector<double> positions;  // raw: before the rig's scale and zero
   std::size_t left_out = 0;       // samples that were counted and not kept
+  /// Who published each sample: an index of `publishers`, names of nodes. Both empty where that is not
+  /// recorded.
+  std::vector<std::uint16_t> publisher;
+  std::vector<std::string> publishers;
 };
 
 /// The largest minus the smallest finite position; 0 without any.

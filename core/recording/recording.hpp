@@ -77,6 +77,14 @@ struct StreamStamps {
   std::optional<double> receive_minus_header_s, receive_jitter_s;
 };
 
+/// What speaks against the motor's samples as a whole.
+struct MotorFaults {
+  double range_rad = 0;        // of the angles as recorded, before whole turns are taken out
+  double median_step_rad = 0;  // between neighbouring samples, as recorded
+  double returned_rad = 0;     // the longest way back, against the direction of the whole turn
+  std::string sources;         // two sources whose motions differ, named; else empty
+};
+
 /// Irregularities that were found while reading, and how they were handled. A gap is a spacing of more
 /// than 1.5 (scans) or 3 (motor samples) times the median one.
 struct ReadReport {
@@ -85,8 +93,11 @@ struct ReadReport {
   std::size_t nan_ranges = 0, infinite_ranges = 0, zero_ranges = 0, out_of_range_ranges = 0;
   std::size_t scans_out_of_order = 0, scans_duplicate = 0, scan_gaps = 0, scans_dropped = 0;
   std::size_t motor_out_of_order = 0, motor_duplicate = 0, motor_gaps = 0;
-  std::size_t motor_dropped = 0;        // samples without a stamp or a finite angle
-  std::size_t motor_unwrapped = 0;      // jumps of a whole turn that were taken out
+  std::size_t motor_dropped = 0;    // samples without a stamp or a finite angle
+  std::size_t motor_repeated = 0;   // samples that repeat an old angle while the motor moves, left out
+  std::size_t motor_of_others = 0;  // samples of other publishers of the joint, left out
+  std::size_t motor_unwrapped = 0;  // jumps of a whole turn that were taken out
+  MotorFaults motor_faults;
   std::size_t scans_without_motor = 0;  // scans that the motor track does not cover at offset 0
   double longest_scan_gap_s = 0, longest_motor_gap_s = 0;
   /// The possible error of the time of a scan's last beam, if a time_increment is a guess or ambiguous

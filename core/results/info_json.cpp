@@ -64,6 +64,8 @@ Json motor_json(const MotorSummary& motor) {
                    {"turns", motor.turns},
                    {"one_way", motor.one_way},
                    {"unwrapped", motor.unwrapped},
+                   {"repeated", motor.repeated},
+                   {"of_other_publishers", motor.of_others},
                    {"reversals", motor.reversals},
                    {"whole_sweeps", motor.whole_sweeps()},
                    {"median_sweep_s", motor.median_sweep_s}});

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/offset/judgement/evidence.hpp"
 #include "core/offset/judgement/identifiability.hpp"
 #include "core/offset/judgement/limits.hpp"
 #include "core/offset/judgement/unseen_sigma.hpp"
@@ -162,7 +163,11 @@ Answer judged_by_criteria(const OffsetSearch& search, const SharedByCandidates& 
       moving ? of_walk(*shared.walk, offset_s) : of_stationary(search, shared, offset_s, step_s, job);
   if (certainty.drift) {
     answer.drift_ppm = certainty.drift->slope * 1e6;
-    add(answer.refusals, drift_refusal(*certainty.drift, search.recorded_s(), certainty.drift_sigma_s));
+    OffsetEvidence evidence;
+    evidence.duration_s = search.recorded_s();
+    evidence.min_window_s = double(kMinSweepsOfWindow) * motor.median_sweep_s;
+    add(answer.refusals, drift_refusal(*certainty.drift, search.recorded_s(), certainty.drift_sigma_s,
+                                       advice_on_change(evidence, std::nullopt)));
   }
   if (!answer.refusals.empty()) return answer;
   answer.offset_s = offset_s;

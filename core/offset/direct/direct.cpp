@@ -7,6 +7,7 @@
 
 #include "core/numbers.hpp"
 #include "core/offset/direct/direct_moving.hpp"
+#include "core/offset/judgement/evidence.hpp"
 #include "core/offset/judgement/identifiability.hpp"
 #include "core/offset/judgement/limits.hpp"
 #include "core/offset/judgement/unseen_sigma.hpp"
@@ -25,22 +26,12 @@ using enum RefusalKind;
 
 constexpr double kMinPart_s = 5;  // of a walk over time: shorter parts hold too few turns
 
-// Where neighbours in time err together, their scatter hides it, and the halves disagree.
-struct HalvesCheck {
-  std::optional<double> sigma_s;  // widened where they do
-  Remark warning;
-};
-
-HalvesCheck check_halves(std::optional<double> sigma_s, const std::vector<double>& series_s) {
-  if (!sigma_s || series_s.size() < 4) return {sigma_s, {}};
-  double halves_s[2] = {0, 0};
-  const std::size_t middle = series_s.size() / 2;
-  for (std::size_t i = 0; i < series_s.size(); ++i)
-    halves_s[i < middle ? 0 : 1] += series_s[i] / double(i < middle ? middle : series_s.size() - middle);
-  const double half_apart_s = std::abs(halves_s[1] - halves_s[0]) / 2;
-  if (half_apart_s < 3 * *sigma_s) return {sigma_s, {}};
-  return {half_apart_s, fmt::format("The halves of the recording disagree: {:.3f} ms and {:.3f} ms.",
-                                    halves_s[0] * 1e3, halves_s[1] * 1e3)};
+// Takes over what the evidence says, and sigma as it leaves it.
+std::optional<double> judged_by(Verdict verdict, Answer& answer) {
+  for (const auto& [name, by_s] : verdict.widened) answer.sigma_parts.push_back({name, by_s});
+  answer.warnings.insert(answer.warnings.end(), verdict.warnings.begin(), verdict.warnings.end());
+  for (Refusal& refused : verdict.refusals) answer.refusals.push_back(std::move(refused));
+  return verdict.sigma_s;
 }
 
 // The answer with its offset, where nothing speaks against one.
@@ -50,17 +41,11 @@ Answer concluded(Answer answer, double offset_s, std::optional<double> sigma_s, 
   const auto& window = search.coarse.curve;
   if (offset_s < window.front().offset_s || offset_s > window.back().offset_s)
     answer.refusals.push_back(refusal(kBeyondSearch, offset_s * 1e3, offset_s * 1e3));
-  add(answer.refusals, sigma_refusal(sigma_s, search.scale));
+  if (answer.refusals.empty()) add(answer.refusals, sigma_refusal(sigma_s, search.scale));
   if (!answer.refusals.empty()) return answer;
   answer.offset_s = offset_s;
   answer.sigma_s = sigma_s;
   return answer;
-}
-
-// Matches come and go, so that the last steps may go to and fro: by less than sigma they leave an answer.
-void judge_convergence(Answer& answer, bool converged, double last_step_s, double sigma_s) {
-  if (converged) return;
-  answer.limit_by(refusal(kNotConverged, last_step_s * 1e3), !(std::abs(last_step_s) < sigma_s));
 }
 
 // What the motion of a rig that is treated as stationary leaves uncertain. From one sweep to the next it
@@ -114,6 +99,26 @@ Remark reading_warning(const Recording& recording, const StationaryDirect& found
       recording.rig.laser.time_increment_s ? "rig file" : "recording", better->time_increment_s);
 }
 
+// What the fit of a stationary rig shows about its answer. Where the offset may change, its parts are judged
+// as windows.
+OffsetEvidence evidence_of(const OffsetSearch& search, const StationaryDirect& found) {
+  OffsetEvidence evidence;
+  evidence.converged = found.converged;
+  if (std::abs(found.step_s) >= StationaryDirectOptions().step_tolerance_s)
+    evidence.last_step_s = found.step_s;
+  evidence.residual_m = found.residual_m;
+  evidence.range_noise_m = search.problem.features->range_noise_m;
+  evidence.lever_m_s = found.lever_m_s;
+  if (search.options.over_time_s) return evidence;
+  const double begin_s = search.problem.recording->scans.front().first_beam_s;
+  for (std::size_t i = 0; i < found.block_s.size(); ++i)
+    evidence.parts.push_back({found.block_s[i] - begin_s, found.block_offset_s[i]});
+  evidence.trend = trend_of(found.block_s, found.block_offset_s);
+  evidence.duration_s = search.recorded_s();
+  evidence.min_window_s = double(kMinSweepsOfWindow) * search.problem.motor.median_sweep_s;
+  return evidence;
+}
+
 Answer of_stationary(const OffsetSearch& search, Answer answer, const Job& job) {
   const Recording& recording = *search.problem.recording;
   const StationaryDirect found = solve_stationary(search.grid, search.coarse.offset_s(), {}, job);
@@ -129,7 +134,6 @@ Answer of_stationary(const OffsetSearch& search, Answer answer, const Job& job) 
   add(answer.warnings, sectors_warning(found));
   add(answer.warnings, reading_warning(recording, found));
   std::optional<double> sigma_s = sigma_of(found, recording);
-  judge_convergence(answer, found.converged, found.step_s, sigma_s.value_or(0));
   const double stamps_s = stamps_sigma_s(recording),
                encoder_s = unseen_sigma_s(recording, search.problem.motor, found.offset_s);
   if (sigma_s) {
@@ -143,17 +147,11 @@ Answer of_stationary(const OffsetSearch& search, Answer answer, const Job& job) 
   else if (sigma_s)
     sigma_s = std::hypot(*sigma_s, of_motion_s);
   answer.sigma_parts.push_back({"motion", of_motion_s});
-  if (const auto trend = trend_of(found.block_s, found.block_offset_s)) {
-    answer.drift_ppm = trend->slope * 1e6;
-    if (!search.options.over_time_s)
-      add(answer.refusals, drift_refusal(*trend, search.recorded_s(), sigma_s.value_or(0)));
-  }
-  const HalvesCheck halves = check_halves(sigma_s, found.block_offset_s);
-  add(answer.warnings, halves.warning);
-  if (halves.warning) answer.sigma_parts.push_back({"halves", *halves.sigma_s});
+  if (const auto trend = trend_of(found.block_s, found.block_offset_s)) answer.drift_ppm = trend->slope * 1e6;
+  sigma_s = judged_by(judge_constant(evidence_of(search, found), sigma_s), answer);
   answer.rig_effects = rig_effects(search.problem.motor);
   judge_rig(answer, search, found.offset_s, job);
-  return concluded(std::move(answer), found.offset_s, halves.sigma_s, found.residual_m, search);
+  return concluded(std::move(answer), found.offset_s, sigma_s, found.residual_m, search);
 }
 
 // The map must be sharpest at the offset that fits the walk best.
@@ -191,10 +189,22 @@ Remark left_out_warning(const std::vector<Interval>& lost, const std::optional<M
       source->name, lost.size(), lost.front().begin_s, lost.front().end_s);
 }
 
-std::vector<double> offsets_of_parts(const JointWalk& walk) {
-  std::vector<double> offsets_s;
-  for (const JointWalkPart& part : walk.parts) offsets_s.push_back(part.offset_s);
-  return offsets_s;
+// What a walk shows about its answer. Where the offset may change, its parts are judged as windows.
+OffsetEvidence evidence_of(const OffsetSearch& search, const MovingDirect& solved,
+                           const std::optional<Trend>& drift) {
+  const JointWalk& walk = *solved.walk->joint;
+  OffsetEvidence evidence;
+  evidence.converged = solved.converged;
+  evidence.last_step_s = solved.converged ? 0 : walk.step_s;
+  evidence.steps_may_alternate = true;
+  evidence.duration_s = search.recorded_s();
+  evidence.min_window_s = JointWalkOptions().part_s;
+  if (search.options.over_time_s) return evidence;
+  const double begin_s = search.problem.recording->scans.front().first_beam_s;
+  evidence.trend = drift;
+  for (const JointWalkPart& part : walk.parts)
+    evidence.parts.push_back({part.middle_s - begin_s, part.offset_s});
+  return evidence;
 }
 
 // What the parts' own sigmas leave of their mean. Where the offset may change, the parts' scatter says
@@ -224,7 +234,6 @@ Answer judged_walk(const OffsetSearch& search, const MovingDirect& solved, bool 
   answer.curve = united(std::move(answer.curve), solved.curve);
   const double e_m = solved.curve[1].e_m.value_or(0);
   answer.fit = FitEvidence{solved.converged, 0, walk.features, walk.matches, e_m, walk.lever_m, walk.reach_m};
-  judge_convergence(answer, solved.converged, walk.step_s, walk.sigma_s);
   add(answer.refusals, lever_refusal(walk.lever_m, walk.reach_m));
   if (!given) add(answer.warnings, sway_warning(solved.sway_rad));
   const bool may_change = search.options.over_time_s.has_value();
@@ -247,16 +256,11 @@ Answer judged_walk(const OffsetSearch& search, const MovingDirect& solved, bool 
   // is sharpest.
   if (is_known) add(answer.refusals, sharpest_refusal(solved.curve));
   const auto drift = is_known ? drift_of(walk) : std::nullopt;
-  if (drift) {
-    answer.drift_ppm = drift->slope * 1e6;
-    if (!may_change) add(answer.refusals, drift_refusal(*drift, search.recorded_s(), walk.sigma_s));
-  }
-  const HalvesCheck halves =
-      may_change ? HalvesCheck{sigma_s, {}} : check_halves(sigma_s, offsets_of_parts(walk));
-  add(answer.warnings, halves.warning);
-  if (halves.warning) answer.sigma_parts.push_back({"halves", *halves.sigma_s});
+  if (drift) answer.drift_ppm = drift->slope * 1e6;
+  const std::optional<double> judged_s =
+      judged_by(judge_constant(evidence_of(search, solved, drift), sigma_s), answer);
   add(answer.warnings, few_matches_warning(walk.matches, walk.features));
-  return concluded(std::move(answer), walk.offset_s, halves.sigma_s, e_m, search);
+  return concluded(std::move(answer), walk.offset_s, judged_s, e_m, search);
 }
 
 // Of a rig whose trajectory goes by `source`, as far as it is in `mapping`.

@@ -36,6 +36,21 @@ MaybeRefusal motor_refusal(const MotorTrack& track, const MotorMotion& motor) {
   return std::nullopt;
 }
 
+MaybeRefusal motor_faults_refusal(const ReadReport& report) {
+  constexpr double kTurn_deg = 360, kMaxStep_turns = 0.75, kMaxSpeed_deg_s = 10 * kTurn_deg;
+  const MotorFaults& faults = report.motor_faults;
+  const double step_deg = faults.median_step_rad * kDegPerRad, range_deg = faults.range_rad * kDegPerRad,
+               period_s = report.motor_stamps.median_period_s,
+               speed_deg_s = period_s > 0 ? step_deg / period_s : 0;
+  const bool far_back = faults.returned_rad * kDegPerRad > kLimits.max_swing_deg,
+             steps = step_deg > kMaxStep_turns * kTurn_deg;
+  if (range_deg > kLimits.max_swing_deg && (far_back || steps || speed_deg_s > kMaxSpeed_deg_s))
+    return refusal(kHardlyRadians, range_deg, range_deg, speed_deg_s,
+                   steps ? fmt::format(", {:.2g} turns from sample to sample", step_deg / kTurn_deg) : "");
+  if (!faults.sources.empty()) return refusal(kTwoMotorSources, {}, faults.sources);
+  return std::nullopt;
+}
+
 MaybeRefusal one_way_refusal(const MotorMotion& motor, RigKind kind, Method method) {
   if (!motor.one_way()) return std::nullopt;
   if (method != Method::kDirect) return refusal(kOneWayMotorAndCriteria, {});
@@ -155,12 +170,13 @@ MaybeRefusal smooth_motor_refusal(double sway_s, double sigma_s) {
   return refusal(kSmoothMotor, sway_s * 1e3, sway_s * 1e3);
 }
 
-MaybeRefusal drift_refusal(const Trend& trend, double duration_s, double sigma_s) {
+MaybeRefusal drift_refusal(const Trend& trend, double duration_s, double sigma_s, std::string_view advice) {
   const double apart_s = std::abs(trend.slope) * duration_s,
                chance_s = kLimits.min_change_sigmas * trend.sigma * duration_s;
   if (apart_s < std::max({kLimits.max_change_s, kLimits.min_change_sigmas * sigma_s, chance_s}))
     return std::nullopt;
-  return refusal(kClocksDrift, apart_s * 1e3, trend.slope * 1e6, trend.slope * duration_s * 1e3, duration_s);
+  return refusal(kClocksDrift, apart_s * 1e3, trend.slope * 1e6, trend.slope * duration_s * 1e3, duration_s,
+                 advice);
 }
 
 MaybeRefusal sigma_refusal(std::optional<double> sigma_s, const SearchScale& scale) {

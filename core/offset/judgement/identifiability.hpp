@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/offset/judgement/refusal.hpp"
@@ -20,6 +21,8 @@ using MaybeRefusal = std::optional<Refusal>;
 
 /// The motor has too few samples, does not move, or turns one way at one speed.
 MaybeRefusal motor_refusal(const MotorTrack& track, const MotorMotion& motor);
+/// The motor's samples are of two sources, or in another unit than radians.
+MaybeRefusal motor_faults_refusal(const ReadReport& report);
 /// A motor that turns one way does not determine the offset of a moving rig, or by the paper's criteria.
 MaybeRefusal one_way_refusal(const MotorMotion& motor, RigKind kind, Method method);
 
@@ -55,8 +58,12 @@ MaybeRefusal long_sweeps_refusal(const Recording& recording, const MotorMotion& 
 /// With a motor that slows down before it turns back, a sway in step with it cannot be excluded.
 MaybeRefusal smooth_motor_refusal(double sway_s, double sigma_s);
 
+/// What to do where the offset changes, in a recording that is long enough for it.
+inline constexpr std::string_view kSearchOverTime =
+    "Search over time for the offset and its course (estimate --over-time).";
 /// The clocks drift apart by more than max(1 ms, 3 sigma) over the recording, and by more than chance.
-MaybeRefusal drift_refusal(const Trend& trend, double duration_s, double sigma_s);
+MaybeRefusal drift_refusal(const Trend& trend, double duration_s, double sigma_s,
+                           std::string_view advice = kSearchOverTime);
 /// Sigma is larger than the motor's speed should allow, or not known.
 MaybeRefusal sigma_refusal(std::optional<double> sigma_s, const SearchScale& scale);
 

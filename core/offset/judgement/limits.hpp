@@ -13,6 +13,7 @@ namespace sweepscope {
 struct Limits {
   // The streams.
   std::size_t min_motor_samples = 3;
+  double max_swing_deg = 1500;    // of a motor that turns back, or of one with steps of most of a turn
   double min_speed_change = 0.1;  // of a one-way motor's speed; less is its own or the encoder's unevenness
   double max_scan_time_spread = 0.25;  // of a period, nine times in ten
   double min_samples_per_sweep = 3;    // the law of encoder_sampling_sigma_s is known down to it
@@ -30,8 +31,10 @@ struct Limits {
   std::size_t min_walk_sweeps = 12;  // besides those in which tracking settles
   double max_motion_sigma_units = 1;
   // The least squares.
-  std::size_t min_matches = 100;  // four for each of the 24 views that are resampled at most
-  double min_lever = 0.05;        // of the reach; 0.38 to 0.61 of simulated rooms and walks (thresholds)
+  std::size_t min_matches = 100;       // four for each of the 24 views that are resampled at most
+  double usual_residual_noises = 1.2;  // beyond, sigma covers what the noise does not explain
+  double max_residual_noises = 5;      // 0.3 to 0.9 of simulated rooms, stamps that jitter included
+  double min_lever = 0.05;             // of the reach; 0.38 to 0.61 of simulated rooms and walks (thresholds)
   // A walk.
   std::size_t min_tracked_sweeps = 20;
   double max_hopeless_units = 5;   // of what bends of the path leave, before it is solved for

@@ -18,6 +18,14 @@ constexpr std::array kEntries{
                  "The motor has only {} samples."},
     RefusalEntry{kMotorDoesNotMove, "motor_does_not_move", kNoLimit, "deg",
                  "The motor does not move: its angle stays within {:.2f} deg."},
+    RefusalEntry{
+        kTwoMotorSources, "two_motor_sources", kNoLimit, "",
+        "The motor's samples come from two sources whose motions differ: {}. Record the joint with one "
+        "publisher, or name another topic (motor: {{topic: ...}} in a rig file)."},
+    RefusalEntry{
+        kHardlyRadians, "hardly_radians", kLimits.max_swing_deg, "deg",
+        "The motor's angles are hardly radians: as such they span {:.0f} deg, at {:.0f} deg/s{}. If they "
+        "are degrees, write `motor: {{unit: deg}}` into a rig file (--rig)."},
     RefusalEntry{kOneWayAtOneSpeed, "one_way_at_one_speed", kLimits.min_speed_change, "of its speed",
                  "The motor turns one way only, at one speed ({:.0f} deg in {:.1f} s): an offset cannot be "
                  "distinguished from the encoder's zero. Record 5 s at one speed and 5 s at half of it."},
@@ -76,6 +84,11 @@ constexpr std::array kEntries{
     RefusalEntry{kFewMatches, "few_matches", double(kLimits.min_matches), "matches",
                  "Only {} of {} points lie on surfaces that were measured in the other direction."},
     RefusalEntry{kNotConverged, "not_converged", kNoLimit, "ms", "The least squares did not converge."},
+    RefusalEntry{
+        kLargeResiduals, "large_residuals", kLimits.max_residual_noises, "of the range noise",
+        "Even at the best offset the points lie {:.0f} mm from the surfaces that the other direction "
+        "measured, and the ranges scatter by only {:.0f} mm: the beams are not where or when the "
+        "recording says, or the scene moved."},
     RefusalEntry{kSmallLever, "small_lever", kLimits.min_lever, "of the reach",
                  "The scene does not constrain the offset: turning the motor by 1 deg moves the points only "
                  "{:.1f} mm away from their surfaces."},
@@ -112,14 +125,15 @@ constexpr std::array kEntries{
     RefusalEntry{kSigmaTooLarge, "sigma_too_large", kLimits.max_sigma_units, "units",
                  "There is too little information: the offset would be uncertain by +- {:.1f} ms."},
     RefusalEntry{kClocksDrift, "clocks_drift", kLimits.max_change_s * 1e3, "ms",
-                 "The clocks drift apart by {:.0f} ppm: by {:.1f} ms over these {:.1f} s. Search over "
-                 "time for the offset and its rate (estimate --over-time)."},
+                 "The clocks drift apart by {:.0f} ppm: by {:.1f} ms over these {:.1f} s. {}"},
     RefusalEntry{kOffsetJumps, "offset_jumps", kLimits.max_change_s * 1e3, "ms",
-                 "The offset jumps by {:.1f} ms between {:.1f} and {:.1f} s. Search over time to "
-                 "follow it (estimate --over-time)."},
+                 "The offset jumps by {:.1f} ms between {:.1f} and {:.1f} s. {}"},
     RefusalEntry{kOffsetChanges, "offset_changes", kLimits.max_change_s * 1e3, "ms",
-                 "The offset changes: it is {:.1f} ms near {:.1f} s and {:.1f} ms elsewhere. Search "
-                 "over time to follow it (estimate --over-time)."},
+                 "The offset changes: it is {:.1f} ms near {:.1f} s and {:.1f} ms elsewhere. {}"},
+    RefusalEntry{
+        kNoCourse, "no_course", kLimits.max_change_s * 1e3, "ms",
+        "The offset follows neither a constant, a rate nor jumps: at {:.1f} s it is {:.1f} ms, and {:.1f} "
+        "ms by the best course through all windows."},
     RefusalEntry{kNoWindow, "no_window", kNoLimit, "", "No window determines the offset. The first: {}"},
     RefusalEntry{kListeningEnded, "listening_ended", kNoLimit, "", "{}"},
     RefusalEntry{kInterrupted, "interrupted", kNoLimit, "",

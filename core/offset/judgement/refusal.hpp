@@ -17,6 +17,8 @@ enum class RefusalKind {
   // The streams.
   kFewMotorSamples,
   kMotorDoesNotMove,
+  kTwoMotorSources,
+  kHardlyRadians,
   kOneWayAtOneSpeed,
   kOneWayMotorAndCriteria,
   kOneWayMotorAndMovingRig,
@@ -41,6 +43,7 @@ enum class RefusalKind {
   // The least squares.
   kFewMatches,
   kNotConverged,
+  kLargeResiduals,
   kSmallLever,
   // A walk.
   kLongSweeps,
@@ -61,6 +64,7 @@ enum class RefusalKind {
   kClocksDrift,
   kOffsetJumps,
   kOffsetChanges,
+  kNoCourse,
   kNoWindow,
   // No recording's fault.
   kListeningEnded,

@@ -3,19 +3,21 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "core/numbers.hpp"
 
 namespace sweepscope {
 namespace {
 
-constexpr std::size_t kMinWindows = 3;  // between jumps, and before the first and after the last
+constexpr std::size_t kMinWindows = 2;  // between jumps, and before the first and after the last
 constexpr std::size_t kMinForLine = 4;  // windows
 constexpr std::size_t kMaxJumps = 20;   // a bound on the time; a clock that jumps more often has no course
 constexpr double kLossWidth = 3;        // Cauchy, in sigmas
 // Parameters that a jump counts as, since its time is fitted too (Zhang and Siegmund 2007). A rate counts as
 // many, so that one in a thousand constant offsets is mistaken for a drifting one.
 constexpr double kPenalty = 3;
+constexpr double kMinCounted = 30;  // windows, as BIC counts them: of few, chance would pass for a change
 
 // The windows with an offset, ordered by time, their sigmas multiplied by the scatter.
 struct Series {
@@ -50,6 +52,19 @@ struct Fitted {
   double level_s(const Segment& segment) const { return segment.offset_s - slope * segment.time_s; }
 };
 
+// One standard deviation as a multiple of the median of sizes of which the two largest are left out, as those
+// beside a jump; of many sizes they count for nothing.
+double scatter_of_smaller(std::vector<double> sizes) {
+  constexpr std::size_t kFew = 10;
+  if (sizes.size() >= kFew) return kSigmaPerMedianDeviation * median(std::move(sizes));
+  const double part = 0.5 * double(sizes.size() - 2) / double(sizes.size());
+  std::ranges::sort(sizes);
+  sizes.resize(sizes.size() - 2);
+  // The quantile of a normal distribution's sizes, by the first terms of its series: to 1 % up to a half.
+  const double quantile = std::sqrt(std::numbers::pi / 2) * part * (1 + std::numbers::pi / 12 * part * part);
+  return median(std::move(sizes)) / quantile;
+}
+
 // The scatter of the windows in units of their sigmas, from the distance of each from the mean of its
 // neighbours: insensitive to a drift and to a few jumps.
 double scatter_of(const Series& series) {
@@ -64,7 +79,7 @@ double scatter_of(const Series& series) {
         std::hypot(series.sigma_s[i], (1 - u) * series.sigma_s[i - 1], u * series.sigma_s[i + 1]);
     sizes.push_back(std::abs(series.offset_s[i] - between_s) / sigma_s);
   }
-  return std::max(1.0, kSigmaPerMedianDeviation * median(std::move(sizes)));
+  return std::max(1.0, scatter_of_smaller(std::move(sizes)));
 }
 
 Series series_of(const std::vector<OffsetWindow>& windows, double middle_s) {
@@ -149,7 +164,7 @@ Fitted fitted(const Series& series, const Model& model, int iterations) {
   for (const double residual : residuals)
     fit.cost += kLossWidth * kLossWidth * std::log1p(residual * residual);
   const double parameters = 1 + kPenalty * (double(model.line ? 1 : 0) + double(model.jumps.size()));
-  fit.score = fit.cost + parameters * std::log(double(series.size()));
+  fit.score = fit.cost + parameters * std::log(std::max(kMinCounted, double(series.size())));
   return fit;
 }
 
@@ -229,6 +244,24 @@ Fitted best_with_jumps(const Series& series, bool line) {
   return without_needless_jumps(series, std::move(best));
 }
 
+// From the last window before a jump to the first one after it; a window that lies on neither side is where
+// the offset jumps.
+std::pair<double, double> jump_interval_s(const Series& series, const Fitted& fit, const Segment& before,
+                                          const Segment& after) {
+  constexpr double kOfJump = 0.25, kSigmas = 5;
+  const double size_s = std::abs(fit.level_s(after) - fit.level_s(before));
+  const double sigma_s = median(series.sigma_s);
+  const auto lies_off = [&](std::size_t i, const Segment& segment) {
+    const double off_s =
+        series.offset_s[i] - fit.level_s(segment) - fit.slope * (series.time_s[i] - series.middle_s);
+    return std::abs(off_s) > std::max(kOfJump * size_s, kSigmas * sigma_s);
+  };
+  std::size_t last = before.end - 1, first = after.begin;
+  if (last > before.begin && lies_off(last, before)) --last;
+  if (first + 1 < after.end && lies_off(first, after)) ++first;
+  return {series.time_s[last], series.time_s[first]};
+}
+
 OffsetCourse course_from(const Series& series, const Fitted& fit, double scatter) {
   OffsetCourse course;
   course.middle_s = series.middle_s;
@@ -242,8 +275,9 @@ OffsetCourse course_from(const Series& series, const Fitted& fit, double scatter
     const Segment &before = segments[i], &after = segments[i + 1];
     if (series.middle_s > jump_time_s(series, after.begin)) at_middle = i + 1;
     const double apart_s = after.time_s - before.time_s;
+    const auto [begin_s, end_s] = jump_interval_s(series, fit, before, after);
     course.jumps.push_back(
-        {series.time_s[after.begin - 1], series.time_s[after.begin], fit.level_s(after) - fit.level_s(before),
+        {begin_s, end_s, fit.level_s(after) - fit.level_s(before),
          std::sqrt(1 / before.information + 1 / after.information + apart_s * apart_s * fit.slope_variance)});
   }
   const Segment& middle = segments[at_middle];

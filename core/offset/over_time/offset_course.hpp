@@ -45,7 +45,7 @@ struct OffsetOverTime {
 };
 
 /// The course with the lowest BIC among constant, linear, and either with jumps, from the residuals of a
-/// robust fit; a rate and a jump count as three parameters each. A jump requires three windows on each side.
+/// robust fit; a rate and a jump count as three parameters each. A jump requires two windows on each side.
 /// Absent if no window has an offset.
 std::optional<OffsetCourse> course_of(const std::vector<OffsetWindow>& windows, double middle_s);
 

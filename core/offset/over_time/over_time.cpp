@@ -67,7 +67,7 @@ OffsetWindow solved(const RecordingPart& window, const PreparedRecording& prepar
     return window_without(window, lever->text);
   const auto sigma_s = sigma_of(found, *prepared.recording);
   if (const auto unsure = sigma_refusal(sigma_s, scale)) return window_without(window, unsure->text);
-  if (!found.converged && std::abs(found.step_s) > *sigma_s)
+  if (!found.converged)
     return window_without(window, refusal(RefusalKind::kNotConverged, found.step_s * 1e3).text);
   return {window.begin_s, window.end_s, found.middle_s - recording_begin_s, found.offset_s,
           sigma_s,        {},           prepared.recording->scans.size()};
@@ -124,6 +124,15 @@ std::vector<RecordingPart> windows_of(double recorded_s, double window_s) {
   for (std::size_t i = 0; i < count; ++i)
     windows.push_back({recorded_s * double(i) / double(count), recorded_s * double(i + 1) / double(count)});
   return windows;
+}
+
+std::vector<RecordingPart> shorter_windows(const std::vector<RecordingPart>& windows,
+                                           const MotorMotion& motor, double recorded_s) {
+  const double min_s = double(kMinSweepsOfWindow) * motor.median_sweep_s;
+  std::vector<RecordingPart> shorter =
+      windows_of(recorded_s, std::max(min_s, recorded_s / double(windows.size()) / 2));
+  if (shorter.size() <= windows.size()) shorter.clear();
+  return shorter;
 }
 
 std::vector<RecordingPart> windows_over_time(const Recording& recording, const MotorMotion& motor,
@@ -191,22 +200,40 @@ MotorTrack without_course(const Recording& recording, const OffsetCourse& course
   return track;
 }
 
-MaybeRefusal change_refusal(const OffsetOverTime& groups, double duration_s) {
+std::vector<PartOffset> parts_of_course(const OffsetOverTime& over_time) {
+  std::vector<PartOffset> parts;
+  if (!over_time.course) return parts;
+  const OffsetCourse& course = *over_time.course;
+  for (const OffsetWindow& window : over_time.windows) {
+    if (!window.offset_s) continue;
+    const bool in_jump = std::ranges::any_of(course.jumps, [&](const OffsetJump& jump) {
+      return window.time_s > jump.begin_s && window.time_s < jump.end_s;
+    });
+    if (!in_jump)
+      parts.push_back({window.time_s, *window.offset_s, course.offset_at_s(window.time_s),
+                       course.scatter * *window.sigma_s});
+  }
+  return parts;
+}
+
+MaybeRefusal change_refusal(const OffsetOverTime& groups, double duration_s, double sweep_s) {
   constexpr double kChange_s = kLimits.max_change_s;
   const auto& course = groups.course;
   if (!course) return std::nullopt;
+  OffsetEvidence evidence;
+  evidence.duration_s = duration_s;
+  evidence.min_window_s = double(kMinSweepsOfWindow) * sweep_s;
   for (const OffsetJump& jump : course->jumps)
     if (std::abs(jump.size_s) > kChange_s)
       return refusal(RefusalKind::kOffsetJumps, jump.size_s * 1e3, jump.size_s * 1e3, jump.begin_s,
-                     jump.end_s);
+                     jump.end_s, advice_on_change(evidence, (jump.begin_s + jump.end_s) / 2));
   if (std::abs(course->rate) * duration_s > kChange_s)
     return drift_refusal({course->rate, course->rate_sigma}, duration_s, course->sigma_s);
-  for (const OffsetWindow& window : groups.windows) {
-    if (!window.offset_s) continue;
-    const double off_s = *window.offset_s - course->offset_at_s(window.time_s);
-    if (std::abs(off_s) > std::max(kChange_s, kLimits.min_window_sigmas * course->scatter * *window.sigma_s))
-      return refusal(RefusalKind::kOffsetChanges, off_s * 1e3, *window.offset_s * 1e3, window.time_s,
-                     course->offset_at_s(window.time_s) * 1e3);
+  for (const PartOffset& part : parts_of_course(groups)) {
+    const double off_s = part.offset_s - part.expected_s;
+    if (std::abs(off_s) > kChange_s && is_off_course(part))
+      return refusal(RefusalKind::kOffsetChanges, off_s * 1e3, part.offset_s * 1e3, part.time_s,
+                     part.expected_s * 1e3, kSearchOverTime);
   }
   return std::nullopt;
 }

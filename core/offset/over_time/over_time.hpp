@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/job.hpp"
+#include "core/offset/judgement/evidence.hpp"
 #include "core/offset/judgement/identifiability.hpp"
 #include "core/offset/over_time/offset_course.hpp"
 #include "core/recording/recording.hpp"
@@ -23,6 +24,11 @@ double default_window_s(const MotorMotion& motor, double recorded_s);
 /// Cuts a recording of this duration evenly into windows of at least `window_s`, in seconds since the first
 /// scan.
 std::vector<RecordingPart> windows_of(double recorded_s, double window_s);
+
+/// Half as long windows of a recording as these, of at least kMinSweepsOfWindow sweeps each; empty where
+/// these are as short already.
+std::vector<RecordingPart> shorter_windows(const std::vector<RecordingPart>& windows,
+                                           const MotorMotion& motor, double recorded_s);
 
 /// The windows of a recording, of at least `asked_s`; absent or 0: default_window_s.
 std::vector<RecordingPart> windows_over_time(const Recording& recording, const MotorMotion& motor,
@@ -54,7 +60,10 @@ OffsetOverTime follow_groups(const Recording& sample, const std::vector<Recordin
 /// The motor's track moved onto the laser's clock by the course: its offset is 0 at all times.
 MotorTrack without_course(const Recording& recording, const OffsetCourse& course);
 
+/// The windows against their course. A window in which the offset jumps lies on neither side and is left out.
+std::vector<PartOffset> parts_of_course(const OffsetOverTime& over_time);
+
 /// The offset of the groups changes by more than 1 ms.
-MaybeRefusal change_refusal(const OffsetOverTime& groups, double duration_s);
+MaybeRefusal change_refusal(const OffsetOverTime& groups, double duration_s, double sweep_s);
 
 }  // namespace sweepscope

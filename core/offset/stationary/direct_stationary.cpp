@@ -363,16 +363,18 @@ void fill_blocks(const Linearisation& at, const StationaryGrid& grid, double los
 }
 
 void fill_levers(const std::vector<LineResiduals>& lines, StationaryDirect& result) {
-  double lever_m2 = 0, reach_m2 = 0;
+  double lever_m2 = 0, reach_m2 = 0, lever_m2_s2 = 0;
   for (const LineResiduals& line : lines) {
     for (const PatchDistance& residual : line.residuals) {
       lever_m2 += double(residual.lever_m) * residual.lever_m;
       reach_m2 += double(residual.reach_m) * residual.reach_m;
+      lever_m2_s2 += residual.jacobian_m_s * residual.jacobian_m_s;
     }
   }
   const double n = std::max(1.0, double(result.matches));
   result.lever_m = std::sqrt(lever_m2 / n);
   result.reach_m = std::sqrt(reach_m2 / n);
+  result.lever_m_s = std::sqrt(lever_m2_s2 / n);
 }
 
 double middle_of_matches_s(const StationaryGrid& grid, const std::vector<LineResiduals>& lines,
@@ -434,6 +436,8 @@ StationaryDirect solve_stationary(const StationaryGrid& grid, double first_offse
   result.offset_s = first_offset_s;
   double loss_width_m = options.first_loss_width_m;
   bool narrowed = false;
+  double damping =
+      1;  // where matches come and go, steps go to and fro about a jump of the gradient: halve it
   for (; result.iterations < options.max_iterations && !job.cancelled(); ++result.iterations) {
     const Linearisation at(grid, patches, result.offset_s);
     const std::vector<LineResiduals> lines = at.residuals();
@@ -442,11 +446,12 @@ StationaryDirect solve_stationary(const StationaryGrid& grid, double first_offse
     result.matches = sums.matches;
     if (sums.matches < options.min_matches || !(sums.jj > 0)) return result;
     const double step_s = -sums.jr / sums.jj;
+    if (result.iterations >= options.undamped_iterations && step_s * result.step_s < 0) damping /= 2;
     result.step_s = step_s;
     result.residual_m = robust_deviation_m(lines);
-    result.converged = narrowed && std::abs(step_s) < options.step_tolerance_s;
+    result.converged = narrowed && std::abs(damping * step_s) < options.step_tolerance_s;
     const bool last = result.converged || result.iterations + 1 == options.max_iterations;
-    result.offset_s += step_s;
+    result.offset_s += damping * step_s;
     if (last) {
       fill_scan_time(lines, grid.bins, loss_width_m, result);
       if (options.resampling != Resampling::kNone)

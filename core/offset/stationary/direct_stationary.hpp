@@ -26,6 +26,7 @@ enum class Resampling { kAll, kParts, kNone };
 /// tests/benchmark).
 struct StationaryDirectOptions {
   int max_iterations = 30;          // rooms take 3 or 4, real surfaces up to 25
+  int undamped_iterations = 10;     // from then on a step that goes back is half as long
   double step_tolerance_s = 1e-6;   // a thousandth of the unit of most motors, see search_scale
   double first_loss_width_m = 0.1;  // later: `loss_widths` times the residuals' robust deviation
   double loss_widths = 2.5;         // near 2.385, where Cauchy's loss is 95 % efficient on normal noise
@@ -54,7 +55,7 @@ struct SectorOffset {
 struct StationaryDirect {
   bool converged = false;
   double offset_s = 0;
-  double step_s = 0;  // the last one
+  double step_s = 0;  // the last one, of Gauss and Newton
   int iterations = 0;
   std::size_t features = 0, matches = 0;
   double middle_s =
@@ -74,7 +75,8 @@ struct StationaryDirect {
   std::vector<SectorOffset> sectors;      // of the motor's angle, ascending
   bool depends_on_angle = false;          // the sectors' offsets differ clearly
   std::vector<double> block_s,
-      block_offset_s;  // blocks of sweeps: middle and own offset
+      block_offset_s;    // blocks of sweeps: middle and own offset
+  double lever_m_s = 0;  // rms of dr / d offset
 };
 
 StationaryDirect solve_stationary(const StationaryGrid& grid, double first_offset_s,

@@ -193,4 +193,12 @@ Result<std::size_t> choose_joint(const RawRecording& raw, const Rig& rig) {
   return unreadable(no_joint(raw, rig));
 }
 
+void warn_of_frames(const RawLaser& laser, Recording& recording) {
+  if (laser.other_frames.empty()) return;
+  recording.report.warnings.push_back(fmt::format(
+      "scans on {} have {} frame_ids, {} and {}: all are used as of one scanner; if there are two, "
+      "the answer is of neither",
+      laser.topic, laser.other_frames.size() + 1, laser.frame, fmt::join(laser.other_frames, ", ")));
+}
+
 }  // namespace sweepscope

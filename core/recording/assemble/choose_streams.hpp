@@ -15,4 +15,7 @@ Result<std::size_t> choose_laser(const RawRecording& raw, const Rig& rig);
 /// joint does not show what it carries.
 Result<std::size_t> choose_joint(const RawRecording& raw, const Rig& rig);
 
+/// Warns of several frame_ids on the laser's topic: the scans may be of several scanners.
+void warn_of_frames(const RawLaser& laser, Recording& recording);
+
 }  // namespace sweepscope

@@ -64,23 +64,27 @@ Result<FileReading> collect(const fs::path& path, MessageCollector& collector, c
   collector.begin_file(limit);
   struct Numbered {
     MessageTopic topic;
-    std::optional<std::size_t> number;  // given by its first message
+    std::string publisher;
+    std::optional<std::size_t> number = {};  // given by its first message
   };
   FileReading reading;
   std::vector<Numbered> topics;
   const auto visit_topic = [&](const StreamTopic& topic) {
-    topics.push_back({message_topic(topic), std::nullopt});
+    topics.push_back({message_topic(topic), topic.metadata_of("callerid")});
     return topics.size() - 1;
   };
   const auto visit_message = [&](const StreamMessage& message) {
-    auto& [topic, number] = topics[message.topic];
+    auto& [topic, publisher, number] = topics[message.topic];
     if (!number) number = collector.number_of(topic);
     reading.first_ns = std::min(reading.first_ns, message.log_ns);
     reading.last_ns = std::max(reading.last_ns, message.log_ns);
-    return collector.add(*number, message.log_ns, message.bytes, [&] {
-      return file->format == StreamFormat::kSqlite ? fmt::format("message {}", message.id)
-                                                   : message.place.text();
-    });
+    return collector.add(
+        *number, message.log_ns, message.bytes,
+        [&] {
+          return file->format == StreamFormat::kSqlite ? fmt::format("message {}", message.id)
+                                                       : message.place.text();
+        },
+        publisher);
   };
   auto damage = read_stream(*file, limit, {visit_topic, visit_message}, job);
   if (!damage) return tl::unexpected(damage.error());

@@ -9,6 +9,21 @@
 #include "core/recording/packed/unpacked_file.hpp"
 
 namespace sweepscope {
+namespace {
+
+constexpr std::size_t kMaxOtherFrames = 8;  // enough to name
+
+/// Which of the joint's publishers that is; a new one is added.
+std::uint16_t number_of_publisher(RawJoint& joint, std::string_view publisher) {
+  constexpr std::size_t kMaxPublishers = 256;  // further ones count as the last
+  auto found = std::ranges::find(joint.publishers, publisher);
+  if (found == joint.publishers.end() && joint.publishers.size() < kMaxPublishers)
+    found = joint.publishers.emplace(found, publisher);
+  return static_cast<std::uint16_t>(
+      std::min<std::size_t>(std::size_t(found - joint.publishers.begin()), joint.publishers.size() - 1));
+}
+
+}  // namespace
 
 std::optional<Error> too_much(const std::string& file, std::size_t beams, std::size_t joint_samples) {
   if (beams <= kMaxBeams && joint_samples <= kMaxJointSamples) return std::nullopt;
@@ -54,7 +69,8 @@ Result<std::span<const std::byte>> MessageCollector::unpacked(std::span<const st
 
 std::optional<Error> MessageCollector::add(std::size_t topic, std::int64_t receive_ns,
                                            std::span<const std::byte> message,
-                                           const std::function<std::string()>& place) {
+                                           const std::function<std::string()>& place,
+                                           std::string_view publisher) {
   Entry& entry = entries_[topic];
   RecordedTopic& counts = raw_.topics[topic];
   ++counts.messages;
@@ -67,7 +83,7 @@ std::optional<Error> MessageCollector::add(std::size_t topic, std::int64_t recei
     if (!plain) return plain.error();
     message = *plain;
   }
-  const bool whole = add_kind(entry, receive_ns, message);
+  const bool whole = add_kind(entry, receive_ns, message, publisher);
   if (!whole && counts.malformed++ == 0) entry.first_malformed = place();
   if (cloud_bytes_ > kMaxCloudBytes)
     return Error{ExitCode::kUnreadableInput,
@@ -77,11 +93,13 @@ std::optional<Error> MessageCollector::add(std::size_t topic, std::int64_t recei
   return too_much(raw_.file, beams_, joint_samples_);
 }
 
-bool MessageCollector::add_kind(Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message) {
+bool MessageCollector::add_kind(Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message,
+                                std::string_view publisher) {
   const MessageKind kind = *entry.reading.kind;
   if (is_scan(kind)) return add_scan(entry, receive_ns, message);
   if (is_cloud(kind)) return add_cloud(entry, receive_ns, message);
-  return is_motion(kind) ? add_motion(entry, receive_ns, message) : add_joints(entry, receive_ns, message);
+  return is_motion(kind) ? add_motion(entry, receive_ns, message)
+                         : add_joints(entry, receive_ns, message, publisher);
 }
 
 bool MessageCollector::add_scan(Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message) {
@@ -103,6 +121,9 @@ bool MessageCollector::add_scan(Entry& entry, std::int64_t receive_ns, std::span
   if (scan.beams + scan_beams_ > detail_.max_beams) leave_ranges_out();
   scan.first_range = ranges_left_out_ ? number : laser.ranges_m.size();
   if (laser.scans.empty()) laser.frame = decoded->frame;
+  if (decoded->frame != laser.frame && laser.other_frames.size() < kMaxOtherFrames &&
+      std::ranges::count(laser.other_frames, decoded->frame) == 0)
+    laser.other_frames.emplace_back(decoded->frame);
   laser.scans.push_back(scan);
   if (ranges_left_out_) return true;
   decoded->ranges_m.append_to(laser.ranges_m);
@@ -159,7 +180,8 @@ void MessageCollector::keep_cloud(const CloudMessage& decoded, std::int64_t rece
   cloud_bytes_ += cloud.data.size();
 }
 
-bool MessageCollector::add_joints(Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message) {
+bool MessageCollector::add_joints(Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message,
+                                  std::string_view publisher) {
   if (entry.reading.kind == MessageKind::kTransforms && !add_frames(entry, receive_ns, message)) return false;
   if (!entry.may_be_motor) return true;
   if (!entry.reading.joints.read(message, rig_.mount.axis, joints_)) return false;
@@ -169,6 +191,7 @@ bool MessageCollector::add_joints(Entry& entry, std::int64_t receive_ns, std::sp
     if (rig_.motor.joint && decoded.name != *rig_.motor.joint) continue;
     joint.stamps.push_back({decoded.header_ns, receive_ns});
     joint.positions.push_back(decoded.position);
+    if (!publisher.empty()) joint.publisher.push_back(number_of_publisher(joint, publisher));
     ++joint_samples_;
   }
   return true;

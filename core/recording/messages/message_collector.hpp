@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <vector>
 
@@ -45,9 +46,10 @@ class MessageCollector {
   /// The number of a topic, for add(): the same for the same name, type and encoding.
   std::size_t number_of(const Topic& topic);
   /// Takes a message, one of CDR also packed by zstd (rosbag2's compression mode MESSAGE). `place` gives its
-  /// position, and is called only if the message is malformed.
+  /// position, and is called only if the message is malformed. `publisher`: the node's name, empty if
+  /// unknown.
   std::optional<Error> add(std::size_t topic, std::int64_t receive_ns, std::span<const std::byte> message,
-                           const std::function<std::string()>& place);
+                           const std::function<std::string()>& place, std::string_view publisher = {});
   /// Call once, last: warns of what was malformed.
   void finish();
 
@@ -69,8 +71,10 @@ class MessageCollector {
   void leave_ranges_out();
   bool add_cloud(Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message);
   void keep_cloud(const CloudMessage& decoded, std::int64_t receive_ns, RawLaser& laser);
-  bool add_joints(Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message);
-  bool add_kind(Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message);
+  bool add_joints(Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message,
+                  std::string_view publisher);
+  bool add_kind(Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message,
+                std::string_view publisher);
   bool add_motion(const Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message);
   bool add_frames(const Entry& entry, std::int64_t receive_ns, std::span<const std::byte> message);
   RawJoint& joint_of(Entry& entry, std::string_view joint);
