@@ -44,28 +44,35 @@ class RigReader {
   std::vector<Eigen::Vector3d> axes_;
 };
 
-MapCloud every_nth(const MapCloud& cloud) {
-  const std::size_t stride = 1 + (cloud.size() - 1) / kSearchPoints;
-  MapCloud part;
-  // Leaving out whole runs of beams would leave out scan lines; single beams thin all lines equally.
-  for (std::size_t i = 0; i < cloud.size(); i += stride) part.points.push_back(cloud.points[i]);
-  part.width = static_cast<std::uint32_t>(part.points.size());
-  part.height = 1;
-  return part;
-}
-
 // A map thinned, and its surfaces.
 struct Surfaces {
   MapCloud cloud;
   std::vector<LocalSurface> surfaces;
-  double median_thickness_m = 0;
+  double median_thickness_m = std::numeric_limits<double>::infinity();
 };
 
-Surfaces surfaces_of(const MapCloud& cloud) {
-  Surfaces found{every_nth(cloud), {}, std::numeric_limits<double>::infinity()};
-  SurfaceThickness thickness = surface_thickness(found.cloud);
-  found.surfaces = std::move(thickness.surfaces);
-  if (thickness.map) found.median_thickness_m = thickness.map->median_m;
+// Whole runs of beams in turn would leave out scan lines; single beams thin all alike.
+template <typename Points>
+Points every_nth(const Points& points, std::size_t stride) {
+  Points part;
+  for (std::size_t i = 0; i < points.size(); i += stride) part.push_back(points[i]);
+  return part;
+}
+
+Surfaces surfaces_of(const MapOnPath& map) {
+  const std::size_t stride = 1 + (map.cloud->size() - 1) / kSearchPoints;
+  Surfaces found;
+  found.cloud = every_nth(*map.cloud, stride);
+  const auto take = [&](std::vector<LocalSurface> surfaces, const std::optional<MapThickness>& of_map) {
+    found.surfaces = std::move(surfaces);
+    if (of_map) found.median_thickness_m = of_map->median_m;
+  };
+  if (map.thickness != nullptr) {
+    take(every_nth(map.thickness->surfaces, stride), map.thickness->map);
+  } else {
+    SurfaceThickness measured = surface_thickness(found.cloud);
+    take(std::move(measured.surfaces), measured.map);
+  }
   return found;
 }
 
@@ -257,7 +264,7 @@ std::optional<FoundSection> best_section(std::span<const MapOnPath> maps, const 
     if (map.cloud->empty() || map.path.empty()) return std::nullopt;
   if (maps.empty()) return std::nullopt;
   std::vector<Surfaces> surfaces;
-  for (const MapOnPath& map : maps) surfaces.push_back(surfaces_of(*map.cloud));
+  for (const MapOnPath& map : maps) surfaces.push_back(surfaces_of(map));
   const auto sharpest =
       static_cast<std::size_t>(std::min_element(surfaces.begin(), surfaces.end(),
                                                 [](const Surfaces& a, const Surfaces& b) {

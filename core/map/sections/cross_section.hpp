@@ -8,6 +8,7 @@
 
 #include "core/geometry/map_cloud.hpp"
 #include "core/geometry/pose.hpp"
+#include "core/map/surfaces/surface_thickness.hpp"
 
 namespace sweepscope {
 
@@ -56,10 +57,11 @@ Profile profile_across(const MapCloud& cloud, const CrossSection& section);
 /// and lean: a rough section becomes exact on the sharpest map. Absent if the section holds too few points.
 std::optional<CrossSection> face_fitted(const MapCloud& cloud, const CrossSection& section);
 
-/// A map and the trajectory of its rig. Both must outlive it.
+/// A map, the trajectory of its rig, and its surfaces if they were measured. All must outlive it.
 struct MapOnPath {
   const MapCloud* cloud = nullptr;
-  std::span<const StampedPose> path;  // ascending in time; map_from_base
+  std::span<const StampedPose> path;            // ascending in time; map_from_base
+  const SurfaceThickness* thickness = nullptr;  // of the cloud; null: measured on a part of it
 };
 
 struct SectionSearch {
