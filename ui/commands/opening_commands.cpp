@@ -5,7 +5,7 @@
 
 #include "core/io/atomic_file.hpp"
 #include "core/results/estimate_json.hpp"
-#include "core/simulation/scene.hpp"
+#include "core/simulation/scenes/scene.hpp"
 #include "ui/commands/commands.hpp"
 #include "ui/explorer/explorer.hpp"
 #include "ui/state/session.hpp"

@@ -226,9 +226,8 @@ Copied what_to_copy(const Explorer& explorer) {
   const auto& shown = explorer.pane(Side::kB).request;
   const auto beam = loaded && shown ? beam_asked(settings, loaded->beams) : std::nullopt;
   if (beam) {
-    std::vector<std::array<float, 3>> places_m(1);
-    replace_points(loaded->beams, shown->placement.map->path, shown->placement.offset_s, std::array{*beam},
-                   places_m);
+    const auto places_m =
+        place_beams(loaded->beams, shown->placement.map->path, shown->placement.offset_s, std::array{*beam});
     return {fmt::format("{:.3f} {:.3f} {:.3f}", places_m[0][0], places_m[0][1], places_m[0][2]),
             "the place of the inspected point in map B, in metres"};
   }
