@@ -98,7 +98,7 @@ int run(int argc, char** argv) {
   declare_subcommands(app, exit_code);
   app::declare_manual(app);
   if (argc < 2) {
-    app::print("{}", app.help());
+    fmt::print("{}", app.help());  // lines end as they are
     return static_cast<int>(ExitCode::kDone);
   }
   if (const std::string unknown = unknown_subcommand(app, argc, argv); !unknown.empty()) {

@@ -46,7 +46,8 @@ Result<void> add_maps(ReportContent& content, const PreparedRecording& prepared,
     content.live = live_map(prepared, built->front().walk, content.maps, content.criteria, live_points, job);
     if (job.cancelled()) return failure(ExitCode::kInterrupted, "interrupted while measuring the map");
   }
-  for (const ComparedMap& map : content.maps) on_paths.push_back({map.cloud.get(), map.path, map.thickness.get()});
+  for (const ComparedMap& map : content.maps)
+    on_paths.push_back({map.cloud.get(), map.path, map.thickness.get()});
   SectionSearch search;
   search.motor_axis = recording.rig.mount.axis;
   const auto found = best_section(on_paths, search);

@@ -14,7 +14,7 @@ namespace {
 
 using test::contents_of;
 
-std::size_t lines_in(const std::string& text) {
+std::size_t line_count(const std::string& text) {
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
 }
 
@@ -47,7 +47,8 @@ TEST_F(Shards, MergeToTheBytesOfOneRun) {
   EXPECT_GT(file("one.json").size(), 1000U);
   EXPECT_EQ(file("merged.json"), file("one.json"));
   EXPECT_EQ(file("merged.csv"), file("one.csv"));
-  EXPECT_EQ(lines_in(file("room.1-of-3.candidates")), 1U + 7U) << "a line for itself, and 19 / 3 candidates";
+  EXPECT_EQ(line_count(file("room.1-of-3.candidates")), 1U + 7U)
+      << "a line for itself, and 19 / 3 candidates";
 }
 
 TEST_F(Shards, OfAWalkMergeToTheBytesOfOneRun) {
@@ -75,11 +76,11 @@ TEST_F(Shards, AKilledRunGoesOnWhereItWas) {
   expect_done("estimate " + search + "--no-timing --json one.json --threads 1");
   kill_at("estimate " + search + "--resume kept.candidates --json resumed.json --threads 1", 15);
   const std::string kept = file("kept.candidates");
-  ASSERT_LT(lines_in(kept), 1U + 81U);
+  ASSERT_LT(line_count(kept), 1U + 81U);
   EXPECT_FALSE(exists("resumed.json"));
   expect_done("estimate " + search + "--resume kept.candidates --no-timing --json resumed.json --threads 2");
   EXPECT_EQ(file("resumed.json"), file("one.json"));
-  EXPECT_EQ(lines_in(file("kept.candidates")), 1U + 81U) << "each candidate once";
+  EXPECT_EQ(line_count(file("kept.candidates")), 1U + 81U) << "each candidate once";
 }
 
 TEST_F(Shards, TheDefaultSearchResumesToo) {
@@ -119,7 +120,7 @@ TEST_F(Shards, CandidatesOfAnotherSearchOrRecordingAreRefused) {
   const std::string kept = file("kept.candidates");
   const Outcome other = run("estimate room.bag --method stationary --range 20:28:2 --resume kept.candidates");
   EXPECT_EQ(other.exit_code, 2);
-  EXPECT_NE(other.err.find("kept.candidates: it holds --method=stationary --range=20:28:1"),
+  EXPECT_NE(other.err.find("kept.candidates: it contains --method=stationary --range=20:28:1"),
             std::string::npos)
       << other.err;
   expect_done("simulate room-3 -o other.bag");

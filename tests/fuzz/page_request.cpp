@@ -16,8 +16,10 @@ int fuzz_page_request(const std::uint8_t* bytes, std::size_t size) {
   const Request request{lines[0], lines[1], lines[2], lines[3], lines[4], lines[5], lines[6] == "1"};
   const sweepscope::ui::Answer answer = answer_to(request, {false, {"robot.example"}}, "secret");
   const bool named = request.protocols.find("token.secret") != request.protocols.npos;
-  if (answer.kind == sweepscope::ui::Answer::Kind::kWebSocket && (!named || request.origin.empty())) __builtin_trap();
-  if (answer.kind == sweepscope::ui::Answer::Kind::kUpload && (request.method != "PUT" || request.origin.empty()))
+  if (answer.kind == sweepscope::ui::Answer::Kind::kWebSocket && (!named || request.origin.empty()))
+    __builtin_trap();
+  if (answer.kind == sweepscope::ui::Answer::Kind::kUpload &&
+      (request.method != "PUT" || request.origin.empty()))
     __builtin_trap();
   if (answer.status == 421 || answer.status == 403) return 0;
   if (security_policy(request.host).find_first_of("\r\n\"") != std::string::npos) __builtin_trap();

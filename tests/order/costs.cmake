@@ -4,7 +4,9 @@
 set(costs
     serve.browser 400 page.browser 390 ui.window 380 ui.journey.choices 370 ui.journey.keyboard 360 ui.journey.handle 350
     app.ros 340 serve.proxy 330 screenshot.prepare 320
-    core.JointWalk 60 core.OverTime 60 core.RigSolve 60 core.CloudOffset 60)
+    core.GivenPoses 132 ui.Headless 132 core.InterruptedWork 122 core.Estimate 105 app.OfEveryCommand/OutputsOntoInputs 98
+    ui.Played 86 python.numbers 79 core.InterruptedEstimate 73 package.installed 69 app.OfEveryCommand/Outputs 59
+    core.ScanSize 53 app.ReportCommand 45 app.Choices 43 python.wheel 42)
 while(costs)
   list(POP_FRONT costs test seconds)
   set_tests_properties(${test} PROPERTIES COST ${seconds})

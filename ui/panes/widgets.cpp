@@ -13,7 +13,7 @@ namespace {
 
 /// "heights" for a person: choices are words of the command, shown with a capital, and lists with spaces.
 std::string capital(std::string word) {
-  if (word == "sharp") return "Where blur shows";
+  if (word == "sharp") return "Blur shows";  // as much as the field is wide
   std::replace(word.begin(), word.end(), '-', ' ');
   for (std::size_t at = 0; (at = word.find(',', at)) != word.npos; at += 2) word.replace(at, 1, ", ");
   if (!word.empty() && word[0] >= 'a' && word[0] <= 'z') word[0] = static_cast<char>(word[0] - 'a' + 'A');

@@ -70,7 +70,7 @@ struct CommandWords {
   std::string name, title, help;
 };
 
-/// The line that parse_call (ui/explorer/commands.hpp) reads back.
+/// The line that parse_call (ui/commands/commands.hpp) reads back.
 std::string to_line(const Call& call);
 /// The settings after a field or an edit.
 Settings changed(Settings settings, const Call& call);

@@ -220,7 +220,7 @@ Commands fields_of_points() {
               "steps."},
              &Settings::table, names_of(colour_table_names())),
       choice({"heights", "Heights",
-              "Where blur shows: at least 0.8 m above or below the sensor's path, without the ceiling. "
+              "Blur shows: at least 0.8 m above or below the sensor's path, without the ceiling. "
               "All: everything. Slab: between two heights above the path."},
              &Settings::heights, {"sharp", "all", "slab"}),
       range({"slab", "Slab", "The visible range of heights above the sensor's path."}, &Settings::slab_from_m,

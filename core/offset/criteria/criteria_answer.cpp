@@ -23,12 +23,8 @@ CriterionOptimum named(const char* name, CriterionOptimum optimum) {
 void compare_criteria(Answer& answer, double n_offset_s, double e_offset_s, const SearchScale& scale) {
   const double apart_s = std::abs(n_offset_s - e_offset_s);
   if (apart_s <= scale.unit_s) return;
-  const Refusal refused =
-      refusal(kCriteriaDisagree, apart_s / scale.unit_s, n_offset_s * 1e3, e_offset_s * 1e3);
-  if (apart_s > kLimits.max_criteria_apart_units * scale.unit_s)
-    answer.refusals.push_back(refused);
-  else
-    answer.warnings.push_back(refused.text);
+  answer.limit_by(refusal(kCriteriaDisagree, apart_s / scale.unit_s, n_offset_s * 1e3, e_offset_s * 1e3),
+                  apart_s > kLimits.max_criteria_apart_units * scale.unit_s);
 }
 
 // A wrong offset must turn the sweeps against each other by twice the motor's speed times the error. If

@@ -58,11 +58,7 @@ Answer concluded(Answer answer, double offset_s, std::optional<double> sigma_s, 
 // Matches come and go, so that the last steps may go to and fro: by less than sigma they leave an answer.
 void judge_convergence(Answer& answer, bool converged, double last_step_s, double sigma_s) {
   if (converged) return;
-  const Refusal refused = refusal(kNotConverged, last_step_s * 1e3);
-  if (std::abs(last_step_s) < sigma_s)
-    answer.warnings.push_back(refused.text);
-  else
-    answer.refusals.push_back(refused);
+  answer.limit_by(refusal(kNotConverged, last_step_s * 1e3), !(std::abs(last_step_s) < sigma_s));
 }
 
 // What the motion of a rig that is treated as stationary leaves uncertain. From one sweep to the next it
@@ -206,6 +202,49 @@ MaybeRefusal hopeless_sweeps_refusal(const OffsetSearch& search, double part_s) 
   return long_sweeps_refusal(*problem.recording, problem.motor, unseen_s, unseen_s);
 }
 
+// The answer of a walk that was solved, with its uncertainty and what limits it. `given`: along a trajectory
+// that is the truth.
+Answer judged_walk(const OffsetSearch& search, const MovingDirect& solved, bool given, Answer answer) {
+  const OffsetProblem& problem = search.problem;
+  const JointWalk& walk = *solved.walk->joint;
+  answer.curve = united(std::move(answer.curve), solved.curve);
+  const double e_m = solved.curve[1].e_m.value_or(0);
+  answer.fit = FitEvidence{solved.converged, 0, walk.features, walk.matches, e_m, walk.lever_m, walk.reach_m};
+  judge_convergence(answer, solved.converged, walk.step_s, walk.sigma_s);
+  add(answer.refusals, lever_refusal(walk.lever_m, walk.reach_m));
+  if (!given) add(answer.warnings, sway_warning(solved.sway_rad));
+  const bool may_change = search.options.over_time_s.has_value();
+  const double encoder_s = unseen_sigma_s(*problem.recording, problem.motor, walk.offset_s),
+               sigma_of_walk_s = may_change ? sigma_of_parts(walk) : walk.sigma_s,
+               of_walk_s = std::hypot(walk.unseen_sigma_s, walk.sway_sigma_s);
+  const std::optional<double> sigma_s = std::hypot(sigma_of_walk_s, encoder_s);
+  const bool is_known = !sigma_refusal(sigma_s, search.scale);
+  // What warns of the uncertainty of an answer is the reason where it is too large for one.
+  answer.limit_by(long_sweeps_refusal(*problem.recording, problem.motor, walk.unseen_sigma_s, walk.sigma_s),
+                  !is_known);
+  answer.limit_by(smooth_motor_refusal(walk.sway_sigma_s, walk.sigma_s), !is_known);
+  answer.sigma_parts = {
+      {"statistical", std::sqrt(std::max(0.0, sigma_of_walk_s * sigma_of_walk_s - of_walk_s * of_walk_s))},
+      {"path", walk.unseen_sigma_s},
+      {"sway", walk.sway_sigma_s},
+      {"encoder", encoder_s}};
+  answer.rig_effects = rig_effects(problem.motor);
+  // Parts without information scatter as if the clocks drifted apart, and their mean is not where the map
+  // is sharpest.
+  if (is_known) add(answer.refusals, sharpest_refusal(solved.curve));
+  const auto drift = is_known ? drift_of(walk) : std::nullopt;
+  if (drift) {
+    answer.drift_ppm = drift->slope * 1e6;
+    if (!may_change) add(answer.refusals, drift_refusal(*drift, search.recorded_s(), walk.sigma_s));
+  }
+  const HalvesCheck halves =
+      may_change ? HalvesCheck{sigma_s, {}} : check_halves(sigma_s, offsets_of_parts(walk));
+  add(answer.warnings, halves.warning);
+  if (halves.warning) answer.sigma_parts.push_back({"halves", *halves.sigma_s});
+  add(answer.warnings, few_matches_warning(walk.matches, walk.features));
+  return concluded(std::move(answer), walk.offset_s, halves.sigma_s, e_m, search);
+}
+
 // Of a rig whose trajectory goes by `source`, as far as it is in `mapping`.
 Answer of_walk(const OffsetSearch& search, const MappingOptions& mapping,
                const std::optional<MotionSource>& source, Answer answer, const Job& job) {
@@ -233,48 +272,7 @@ Answer of_walk(const OffsetSearch& search, const MappingOptions& mapping,
   else if (source && mapping.given)
     answer.warnings.push_back(fmt::format(
         "{} is not used: the rig's deviation from it is less smooth than its motion.", source->name));
-  answer.curve = united(std::move(answer.curve), solved->curve);
-  const double e_m = solved->curve[1].e_m.value_or(0);
-  answer.fit =
-      FitEvidence{solved->converged, 0, walk.features, walk.matches, e_m, walk.lever_m, walk.reach_m};
-  judge_convergence(answer, solved->converged, walk.step_s, walk.sigma_s);
-  add(answer.refusals, lever_refusal(walk.lever_m, walk.reach_m));
-  if (!source || !source->motion.is_truth()) add(answer.warnings, sway_warning(solved->sway_rad));
-  const bool may_change = search.options.over_time_s.has_value();
-  const double encoder_s = unseen_sigma_s(*problem.recording, problem.motor, walk.offset_s),
-               sigma_of_walk_s = may_change ? sigma_of_parts(walk) : walk.sigma_s,
-               of_walk_s = std::hypot(walk.unseen_sigma_s, walk.sway_sigma_s);
-  const std::optional<double> sigma_s = std::hypot(sigma_of_walk_s, encoder_s);
-  const bool is_known = !sigma_refusal(sigma_s, scale);
-  // What warns of the uncertainty of an answer is the reason where it is too large for one.
-  for (const MaybeRefusal& limit :
-       {long_sweeps_refusal(*problem.recording, problem.motor, walk.unseen_sigma_s, walk.sigma_s),
-        smooth_motor_refusal(walk.sway_sigma_s, walk.sigma_s)}) {
-    if (limit && is_known)
-      answer.warnings.push_back(limit->text);
-    else
-      add(answer.refusals, limit);
-  }
-  answer.sigma_parts = {
-      {"statistical", std::sqrt(std::max(0.0, sigma_of_walk_s * sigma_of_walk_s - of_walk_s * of_walk_s))},
-      {"path", walk.unseen_sigma_s},
-      {"sway", walk.sway_sigma_s},
-      {"encoder", encoder_s}};
-  answer.rig_effects = rig_effects(problem.motor);
-  // Parts without information scatter as if the clocks drifted apart, and their mean is not where the map
-  // is sharpest.
-  if (is_known) add(answer.refusals, sharpest_refusal(solved->curve));
-  const auto drift = is_known ? drift_of(walk) : std::nullopt;
-  if (drift) {
-    answer.drift_ppm = drift->slope * 1e6;
-    if (!may_change) add(answer.refusals, drift_refusal(*drift, search.recorded_s(), walk.sigma_s));
-  }
-  const HalvesCheck halves =
-      may_change ? HalvesCheck{sigma_s, {}} : check_halves(sigma_s, offsets_of_parts(walk));
-  add(answer.warnings, halves.warning);
-  if (halves.warning) answer.sigma_parts.push_back({"halves", *halves.sigma_s});
-  add(answer.warnings, few_matches_warning(walk.matches, walk.features));
-  return concluded(std::move(answer), walk.offset_s, halves.sigma_s, e_m, search);
+  return judged_walk(search, *solved, source && source->motion.is_truth(), std::move(answer));
 }
 
 Result<Answer> of_moving(const OffsetSearch& search, Answer answer, const Job& job) {

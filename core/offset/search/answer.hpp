@@ -61,6 +61,14 @@ struct Answer {
   std::shared_ptr<const SolvedWalk> walk;
   std::vector<std::string> warnings;
   Refusals refusals;
+
+  /// What limits an answer: a refusal where there can be none, a warning otherwise.
+  void limit_by(const std::optional<Refusal>& limit, bool refuses) {
+    if (refuses)
+      add(refusals, limit);
+    else if (limit)
+      warnings.push_back(limit->text);
+  }
 };
 
 }  // namespace sweepscope

@@ -259,7 +259,7 @@ TEST_F(FoxgloveSource, AServerOfAnotherProtocolIsRefused) {
   const auto source = open_foxglove_source(server.url(), rig);
   ASSERT_FALSE(source);
   EXPECT_EQ(source.error().code, ExitCode::kUnreadableInput);
-  EXPECT_NE(source.error().message.find("the server speaks none of foxglove.sdk.v1"), std::string::npos)
+  EXPECT_NE(source.error().message.find("the server supports none of foxglove.sdk.v1"), std::string::npos)
       << source.error().message;
 }
 

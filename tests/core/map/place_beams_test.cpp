@@ -91,7 +91,7 @@ TEST(PlaceBeams, AtEveryOffsetTheyAreTheMapAlongPosesFromElsewhere) {
 
 TEST(PlaceBeams, NearAReversalAScanGoesOverToTheNextSweep) {
   const Recording& recording = *walk().prepared.recording;
-  const ScanPoses before(recording, walk().path, 19 * kMs), after(recording, walk().path, 24 * kMs);
+  const ScanPoses before(recording, walk().path, 0), after(recording, walk().path, 40 * kMs);
   std::size_t moved = 0;
   for (std::size_t i = 0; i < recording.scans.size(); ++i) {
     if (before.pose_of(i) == ScanPoses::kNone || after.pose_of(i) == ScanPoses::kNone) continue;

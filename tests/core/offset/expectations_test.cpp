@@ -29,7 +29,7 @@ TEST(Expectations, ExpectsARefusalOfSweepsThatSeeTheSameFewLines) {
   Recording recording = recording_of(track(5.2, 0.01, triangle_rad));
   EXPECT_EQ(expectations(recording).find("scan lines"), std::string::npos);
   for (LaserScan& scan : recording.scans) scan.first_beam_s *= 4;
-  EXPECT_NE(expectations(recording).find("Expect a refusal: all sweeps of a direction see the same 5 scan"),
+  EXPECT_NE(expectations(recording).find("Expect a refusal: all sweeps of a direction have the same 5 scan"),
             std::string::npos)
       << expectations(recording);
   EXPECT_EQ(expectations(recording).find("Expect an accuracy"), std::string::npos);

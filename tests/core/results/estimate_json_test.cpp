@@ -97,7 +97,19 @@ TEST(EstimateJson, ARefusalHasNoOffset) {
   estimate.refusals = {refusal(RefusalKind::kMotorDoesNotMove, 0.1, 0.1)};
   const std::string text = estimate_to_json(estimate);
   EXPECT_NE(text.find("\"offset_ms\": null,\n  \"sigma_ms\": null"), std::string::npos);
-  EXPECT_NE(text.find("\"The motor does not move.\""), std::string::npos);
+  EXPECT_NE(text.find("\"The motor does not move: its angle stays within 0.10 deg.\""), std::string::npos);
+  EXPECT_EQ(parse_estimate_json(text, "a.json").value().refusals.at(0).kind, RefusalKind::kMotorDoesNotMove);
+}
+
+TEST(EstimateJson, ReasonsOfAVersionWithoutCodesAreReadAsTheyAre) {
+  Estimate estimate = stationary_estimate();
+  estimate.refusals = {refusal(RefusalKind::kMotorDoesNotMove, 0.1, 0.1)};
+  std::string text = estimate_to_json(estimate);
+  const auto begin = text.find("  \"reason_codes\""), end = text.find("]", begin);
+  text.erase(begin, text.find('\n', end) + 1 - begin);
+  const Refusal read = parse_estimate_json(text, "a.json").value().refusals.at(0);
+  EXPECT_EQ(read.kind, RefusalKind::kUnknown);
+  EXPECT_EQ(read.text, estimate.refusals[0].text);
 }
 
 TEST(EstimateJson, ReadsBackWhatItWrote) {

@@ -19,7 +19,7 @@ using simulation::Scene;
 using simulation::Sensor;
 using simulation::Stand;
 
-SimulationOptions clean() {
+SimulationOptions clean_second() {
   SimulationOptions options;
   options.duration_s = 1.0;
   options.noise_m = 0;
@@ -86,7 +86,7 @@ void expect_angles_of_the_floor(SimulationOptions options, int min_compared) {
 class OffsetsSign : public testing::TestWithParam<double> {};
 
 TEST_P(OffsetsSign, TheEncoderShowsABeamsAngleOneOffsetAfterItsStamp) {
-  SimulationOptions options = clean();
+  SimulationOptions options = clean_second();
   options.offset_s = GetParam();
   expect_angles_of_the_floor(options, 8);
 }
@@ -94,7 +94,7 @@ TEST_P(OffsetsSign, TheEncoderShowsABeamsAngleOneOffsetAfterItsStamp) {
 INSTANTIATE_TEST_SUITE_P(BothSigns, OffsetsSign, testing::Values(0.024, -0.037));
 
 TEST(Simulate, TheMotorSwingsAboutTheMiddleAskedFor) {
-  SimulationOptions options = clean();
+  SimulationOptions options = clean_second();
   options.motor_middle_deg = 20;
   const auto& angles_rad = simulated(options).recording.motor.angle_rad;
   const auto [least, most] = std::ranges::minmax(angles_rad);
@@ -144,7 +144,7 @@ TEST(Simulate, AnotherSeedIsAnotherRecording) {
 }
 
 TEST(Simulate, RecordsAtTheRatesOfTheRig) {
-  SimulationOptions options = clean();
+  SimulationOptions options = clean_second();
   options.encoder_jitter_s = 0;
   const Recording recording = simulated(options).recording;
   ASSERT_EQ(recording.scans.size(), 40U);
@@ -177,7 +177,7 @@ TEST(Simulate, RangesAreWholeMillimetresAndAnglesWholeSteps) {
 }
 
 TEST(Simulate, TheSkyReturnsNothing) {
-  SimulationOptions options = clean();
+  SimulationOptions options = clean_second();
   options.scene = "cemetery";
   const Recording recording = simulated(options).recording;
   const auto none = std::count_if(recording.ranges_m.begin(), recording.ranges_m.end(),
@@ -187,7 +187,7 @@ TEST(Simulate, TheSkyReturnsNothing) {
 }
 
 TEST(Simulate, NoiseHasTheDeviationAskedFor) {
-  SimulationOptions options = clean();
+  SimulationOptions options = clean_second();
   const Recording exact = simulated(options).recording;
   options.noise_m = 0.02;
   const Recording noisy = simulated(options).recording;
@@ -201,7 +201,7 @@ TEST(Simulate, NoiseHasTheDeviationAskedFor) {
 }
 
 TEST(Simulate, DropoutsAreAsManyAsAskedFor) {
-  SimulationOptions options = clean();
+  SimulationOptions options = clean_second();
   options.dropout = 0.2;
   const Recording recording = simulated(options).recording;
   const auto none = std::count_if(recording.ranges_m.begin(), recording.ranges_m.end(),
@@ -229,16 +229,16 @@ TEST(Simulate, ARoomIsRecordedForFourSecondsAndAHalf) {
 }
 
 TEST(Simulate, FaultsDoWhatTheySay) {
-  const Recording exact = simulated(clean()).recording;
-  SimulationOptions grazing = clean();
+  const Recording exact = simulated(clean_second()).recording;
+  SimulationOptions grazing = clean_second();
   grazing.grazing_bias_m = 0.1;
   EXPECT_GT(mean_difference_m(simulated(grazing).recording, exact), 0.005);
 
-  SimulationOptions drifting = clean();
+  SimulationOptions drifting = clean_second();
   drifting.clock_drift_ppm = 1000;
   EXPECT_NEAR(simulated(drifting).recording.motor.time_s.back() - exact.motor.time_s.back(), 0.0013, 1e-4);
 
-  SimulationOptions jumping = clean();
+  SimulationOptions jumping = clean_second();
   jumping.jump_s = 0.005;
   jumping.jump_at_s = *jumping.duration_s / 2;
   const MotorTrack jumped = simulated(jumping).recording.motor;
@@ -246,26 +246,26 @@ TEST(Simulate, FaultsDoWhatTheySay) {
   EXPECT_NEAR(jumped.time_s.back() - exact.motor.time_s.back(), 0.005, 1e-8);
   EXPECT_EQ(jumped.angle_rad, exact.motor.angle_rad);
 
-  SimulationOptions jittering = clean();
+  SimulationOptions jittering = clean_second();
   jittering.stamp_jitter_s = 0.002;
   const Recording jittered = simulated(jittering).recording;
   EXPECT_NE(jittered.scans[5].first_beam_s, exact.scans[5].first_beam_s);
   EXPECT_EQ(mean_difference_m(jittered, exact), 0);
 
-  SimulationOptions nudged = clean();
+  SimulationOptions nudged = clean_second();
   nudged.nudge_m = 0.05;
   nudged.duration_s = 2.0;
   const Simulation nudge = simulated(nudged);
   EXPECT_NEAR((nudge.truth.back().position_m - nudge.truth.front().position_m).norm(), 0.05, 1e-12);
 
-  SimulationOptions slack = clean();
+  SimulationOptions slack = clean_second();
   slack.backlash_deg = 2;
   EXPECT_EQ(simulated(slack).recording.motor.angle_rad, exact.motor.angle_rad);
   EXPECT_NE(mean_difference_m(simulated(slack).recording, exact), 0);
 }
 
 TEST(Simulate, StampsThatOvertakeEachOtherAreAllKeptInOrder) {
-  SimulationOptions options = clean();
+  SimulationOptions options = clean_second();
   options.duration_s = 4;
   options.encoder_hz = 200;
   const MotorTrack straight = simulated(options).recording.motor;
@@ -280,7 +280,7 @@ TEST(Simulate, StampsThatOvertakeEachOtherAreAllKeptInOrder) {
 }
 
 TEST(Simulate, MixedPixelsLieBetweenBothSidesOfAnEdge) {
-  SimulationOptions options = clean();
+  SimulationOptions options = clean_second();
   const Recording exact = simulated(options).recording;
   options.mixed_pixels = 1;
   const Recording mixed = simulated(options).recording;
@@ -297,7 +297,7 @@ TEST(Simulate, MixedPixelsLieBetweenBothSidesOfAnEdge) {
 
 TEST(Simulate, WrongOptionsAreRefusedInOneSentence) {
   const auto refused = [](auto change) {
-    SimulationOptions options = clean();
+    SimulationOptions options = clean_second();
     change(options);
     const Job job;
     const auto result = simulate(options, job);
@@ -319,7 +319,7 @@ TEST(Simulate, WrongOptionsAreRefusedInOneSentence) {
 TEST(Simulate, ACancelledJobIsInterrupted) {
   Job job;
   job.cancel();
-  const auto result = simulate(clean(), job);
+  const auto result = simulate(clean_second(), job);
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().code, ExitCode::kInterrupted);
 }

@@ -12,7 +12,7 @@ namespace {
 using Eigen::Vector3d;
 
 // A body that walks, sways and turns, but not in step with sweeps of half a second.
-Pose pose_at(double t_s) {
+Pose bent_pose_at(double t_s) {
   const Vector3d turn_rad(0.05 * std::sin(2 * t_s), 0.04 * std::cos(4.1 * t_s), 0.5 * std::sin(0.3 * t_s));
   return {rotation_from_vector(turn_rad),
           {0.2 * std::sin(1.3 * t_s), std::sin(0.4 * t_s), 0.02 * std::cos(4.4 * t_s)}};
@@ -28,7 +28,7 @@ std::vector<SweepPose> walked(std::size_t count) {
     sweep.end_s = sweep.begin_s + 0.5;
     sweep.stretch = 1;
     sweep.knots.clear();
-    for (int i = 0; i <= 15; ++i) sweep.knots.push_back(pose_at(sweep.begin_s + i / 30.0));
+    for (int i = 0; i <= 15; ++i) sweep.knots.push_back(bent_pose_at(sweep.begin_s + i / 30.0));
   }
   return sweeps;
 }

@@ -224,7 +224,7 @@ TEST(DirectRefuses, AWalkWithASlowMotorThatSlowsDownAndSaysWhatWouldHelp) {
   options.motor = simulation::MotorKind::kSine;
   options.sweep_s = 1.1;
   const Estimate found = directly(made(options));
-  expect_refused(found, "Sweeps of 0.5 s would leave");
+  expect_refused(found, "With sweeps of 0.5 s it would be");
   expect_refused(found, "reverses at once does not have this limit");
   expect_refused(found, "There is too little information");
   EXPECT_EQ(found.reasons().size(), 3U) << testing::PrintToString(found.reasons());

@@ -7,6 +7,7 @@
 #include "core/recording/formats/read_recording.hpp"
 #include "core/recording/formats/recording_writer.hpp"
 #include "tests/core/cloud_bench.hpp"
+#include "tests/core/recording/cloud_bytes.hpp"
 #include "tests/core/recording/test_bag.hpp"
 #include "tests/core/recording/test_database.hpp"
 

@@ -166,9 +166,9 @@ TEST(ReadRecordingOfDamage, AnotherVersionOfAMessageIsNotUsed) {
 
 TEST(ReadRecordingOfDamage, RefusesWhatIsNoRecording) {
   EXPECT_EQ(refusal(""), "a.bag: is empty");
-  EXPECT_EQ(refusal("stamp, range\n0.1, 2\n").substr(0, 74),
+  EXPECT_EQ(refusal("stamp, range\n0.1, 2\n").substr(0, 83),
             "a.bag: its first bytes are not those of a known recording format; sweepscope reads ");
-  EXPECT_EQ(refusal("#").substr(0, 74),
+  EXPECT_EQ(refusal("#").substr(0, 83),
             "a.bag: its first bytes are not those of a known recording format; sweepscope reads ");
   EXPECT_EQ(refusal("#ROSBAG V1.2\n1234567890").substr(0, 82),
             "a.bag: is a ROS 1 bag of format 1; convert it with `rosbag fix`; sweepscope reads ");
