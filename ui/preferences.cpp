@@ -7,8 +7,8 @@
 #include <sstream>
 
 #include "core/io/atomic_file.hpp"
+#include "ui/commands/commands.hpp"
 #include "ui/recent.hpp"
-#include "ui/state/commands.hpp"
 
 namespace sweepscope::ui {
 namespace {
@@ -32,8 +32,8 @@ std::filesystem::path preferences_path() {
 
 Settings look_of(const Settings& settings) {
   Settings look;
-  for (const Command& command : commands())
-    if (command.is_field() && is_preference(command)) command.set(look, command.get(settings));
+  for (const Command& command : setting_commands())
+    if (command.is_field() && is_preference(command)) look = changed(look, {&command, command.get(settings)});
   return look;
 }
 

@@ -10,9 +10,11 @@
 
 #include "render/comparison/look_options.hpp"
 #include "render/gl/default_framebuffer.hpp"
+#include "ui/commands/commands.hpp"
+#include "ui/explorer/maps_picture.hpp"
+#include "ui/explorer/observables.hpp"
 #include "ui/host/imgui_host.hpp"
 #include "ui/host/input_queue.hpp"
-#include "ui/model/maps_picture.hpp"
 #include "ui/panes/file_dialog.hpp"
 #include "ui/panes/number_box.hpp"
 #include "ui/panes/pane_context.hpp"
@@ -29,9 +31,9 @@ bool marked(const Settings& s) {
 }
 
 /// Of a picture that is exported at a size of its own.
-Result<ComparisonOptions> size_of(const Call& call) {
+Result<ComparisonOptions> size_of(const std::string& size) {
   ComparisonOptions options;
-  return set_look(options, *find_look_option("size"), call.text(2))
+  return set_look(options, *find_look_option("size"), size)
       .and_then([&] { return check_size(options); })
       .map([&] { return options; });
 }
@@ -45,7 +47,7 @@ std::optional<Chord> chord_of_event(const InputEvent& event) {
 
 }  // namespace
 
-struct Ui::Parts {
+struct Ui::Parts final : Window {
   Parts(gl::Context& gl_context, Options with)
       : options(std::move(with)),
         context(gl_context),
@@ -57,10 +59,10 @@ struct Ui::Parts {
         close_up_b(gl_context) {
     transient.recent = read_recent(options.recent_list);
     explorer.begin_with(read_preferences(options.preferences).look);
-    explorer.at_window = [this](const Call& call) { return act(call); };
+    explorer.window = this;
   }
 
-  ~Parts() {
+  ~Parts() override {
     write_preferences(options.preferences,
                       {look_of(explorer.settings()), context.width_px(), context.height_px()});
   }
@@ -79,10 +81,23 @@ struct Ui::Parts {
     return ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
   }
 
-  Result<void> act(const Call& call);
-  void open_front(const std::string& name, const Call& call);
+  void quit() override { transient.quit = true; }
+  void toggle_palette() override { show_alone(&Transient::palette); }
+  void toggle_keys() override { show_alone(&Transient::help); }
+  void ask(const std::string& command, const std::string& what) override;
+  void dismiss() override;
+  void open_menu(const std::string& name) override { transient.opens_menu = name; }
+  void type_into_next_field(bool back) override { type_into_next_box(transient, back ? -1 : 1); }
+  void copy(const std::string& text) override { host.clipboard = text; }
+  std::string command_line() const override {
+    return ui::command_line(explorer, context.width_px(), context.height_px());
+  }
+  Result<void> export_picture(const std::string& file, const std::string& what,
+                              const std::string& size) override;
+
+  void clear_front();
+  void show_alone(bool Transient::*front);
   std::string first_text(const Transient::Asked& asked);
-  void dismiss();
   void perform(const std::string& line, const std::string& gesture);
   bool is_command_now(const Chord& chord) const;
   bool use_start_page(const Chord& chord);
@@ -95,9 +110,12 @@ struct Ui::Parts {
   void remember_opened();
   bool shows_all_points() const;
   bool picture_is_whole() const { return !maps_are_shown() || shows_all_points(); }
-  bool maps_are_shown() const { return explorer.loaded() != nullptr && explorer.choosing() == nullptr; }
+  bool maps_are_shown() const { return explorer.loaded() != nullptr && explorer.page.choosing() == nullptr; }
   void write_picture();
-  void export_maps(const Call& call);
+  struct AskedPicture {
+    std::string file, what, size;
+  };
+  void export_maps(const AskedPicture& asked);
 
   tbb::task_arena alone{1};
   Options options;
@@ -111,85 +129,76 @@ struct Ui::Parts {
   std::map<std::string, PixelRect> anchors;
   std::string remembered;  // the source that the recent list knows already
   PixelRect maps_place;    // as drawn last
-  std::optional<Call> picture_asked;
+  std::optional<AskedPicture> picture_asked;
   int frames_until_picture = 0;  // what asked for it, a dialog or the palette, is to be gone by then
 };
 
-Result<void> Ui::Parts::act(const Call& call) {
-  const std::string& name = call.command->name;
-  if (name == "quit") transient.quit = true;
-  if (name == "palette" || name == "help" || name == "ask") open_front(name, call);
-  if (name == "dismiss") dismiss();
-  if (name == "menu") transient.opens_menu = call.text(0);
-  if (name == "next-field") type_into_next_box(transient, call.values.empty() ? 1 : -1);
-  if (name == "copy") {
-    const Explorer::Copied copied = explorer.what_to_copy();
-    host.clipboard = copied.text;
-    explorer.say(Message::Kind::kNote, fmt::format("Copied {}: {}", copied.what, copied.text));
+Result<void> Ui::Parts::export_picture(const std::string& file, const std::string& what,
+                                       const std::string& size) {
+  if (!size.empty()) {
+    if (what != "maps") return not_now("Only the maps can have a size: export-picture FILE maps 3840x2400");
+    if (auto usable = size_of(size); !usable) return tl::unexpected(usable.error());
   }
-  if (name == "copy-command") {
-    host.clipboard = explorer.command_line(context.width_px(), context.height_px());
-    explorer.say(Message::Kind::kNote, "Copied: " + host.clipboard);
-  }
-  if (name == "export-picture" && !call.text(2).empty()) {
-    if (call.text(1) != "maps")
-      return failure(ExitCode::kWrongUsage,
-                     "Only the maps can have a size: export-picture FILE maps 3840x2400");
-    if (auto size = size_of(call); !size) return tl::unexpected(size.error());
-  }
-  if (name == "export-picture") {
-    picture_asked = call;
-    frames_until_picture = 2;
-  }
+  picture_asked = {file, what, size};
+  frames_until_picture = 2;
   return {};
 }
 
 /// At a size of its own: drawn in the background, with a context of its own.
-void Ui::Parts::export_maps(const Call& call) {
-  const ComparisonOptions size = *size_of(call);
+void Ui::Parts::export_maps(const AskedPicture& asked) {
+  const ComparisonOptions size = *size_of(asked.size);
   auto picture = maps_picture(explorer, size.width_px, size.height_px, picture_shape().aspect);
-  if (!picture) return explorer.say(Message::Kind::kError, picture.error().message);
-  const std::string path = call.text(0);
-  explorer.start_export({.title = "Writing " + path,
-                         .done = "The picture is saved in " + whole_path(path) + ".",
-                         .file = path,
-                         .write = [picture = std::move(*picture), path](const Job&) {
-                           return sweepscope::draw(picture).and_then(
-                               [&](const Image& image) { return write_png(image, path); });
-                         }});
+  if (!picture) return explorer.messages.error(picture.error());
+  const std::string& path = asked.file;
+  explorer.exports.start({.title = "Writing " + path,
+                          .done = "The picture is saved in " + whole_path(path) + ".",
+                          .file = path,
+                          .write = [picture = std::move(*picture), path](const Job&) {
+                            return sweepscope::draw(picture).and_then(
+                                [&](const Image& image) { return write_png(image, path); });
+                          }});
 }
 
-void Ui::Parts::open_front(const std::string& name, const Call& call) {
-  const bool palette_was = transient.palette, help_was = transient.help;
+/// For what comes in front in place of it.
+void Ui::Parts::clear_front() {
   transient.palette = transient.help = false;
   transient.asks_for.reset();
   transient.replaces.clear();
-  if (name == "palette") transient.palette = !palette_was;
-  if (name == "help") transient.help = !help_was;
-  if (name == "ask") transient.asks_for = Transient::Asked{call.text(0), call.text(1)};
   transient.palette_query.clear();
   transient.palette_choice = 0;
   transient.browsing = {};
-  transient.asked_text = transient.asks_for ? first_text(*transient.asks_for) : "";
+  transient.asked_text.clear();
   transient.just_opened = true;
+}
+
+void Ui::Parts::show_alone(bool Transient::*front) {
+  const bool was = transient.*front;
+  clear_front();
+  transient.*front = !was;
+}
+
+void Ui::Parts::ask(const std::string& command, const std::string& what) {
+  clear_front();
+  transient.asks_for = Transient::Asked{command, what};
+  transient.asked_text = first_text(*transient.asks_for);
 }
 
 /// What stands in the field of a dialog at first.
 std::string Ui::Parts::first_text(const Transient::Asked& asked) {
   if (asked.command == "open" || asked.command == "choose") return first_path(transient.recent);
-  if (!is_opening(asked.command)) return explorer.suggested_file(asked.command, asked.what);
+  if (!is_opening(asked.command)) return suggested_file(explorer, asked.command, asked.what);
   transient.browsing.all = true;
-  return explorer.choosing() != nullptr ? first_path({explorer.choosing()->choices.file}) : "";
+  return explorer.page.choosing() != nullptr ? first_path({explorer.page.choosing()->choices.file}) : "";
 }
 
 void Ui::Parts::dismiss() {
   if (something_in_front()) {
     transient.palette = transient.help = false;
     transient.asks_for.reset();
-  } else if (explorer.message()) {
-    explorer.dismiss_message();
-  } else if (explorer.choosing() != nullptr) {
-    explorer.stop_choosing();
+  } else if (explorer.messages.shown()) {
+    explorer.messages.dismiss();
+  } else if (explorer.page.choosing() != nullptr) {
+    explorer.page.close();
   } else if (explorer.settings().tool != Tool::kLook || marked(explorer.settings())) {
     transient.measure_from_m.reset();
     const std::string gesture = "dismiss " + std::to_string(++transient.gestures);
@@ -209,7 +218,7 @@ bool Ui::Parts::is_command_now(const Chord& chord) const {
   }
   if (menu_is_open()) return ctrl;
   // On the page of choices, arrows and Space go through its widgets, and letters mean maps that are not seen.
-  if (explorer.choosing() != nullptr && !ctrl)
+  if (explorer.page.choosing() != nullptr && !ctrl)
     return escape || chord.key == keys::kF1 || chord.key == keys::kF10;
   return ctrl || escape || chord.key == keys::kF1 || !something_in_front();
 }
@@ -217,8 +226,8 @@ bool Ui::Parts::is_command_now(const Chord& chord) const {
 /// The start page by keyboard: arrows and Tab choose, Enter does it. Whether the key was its own.
 bool Ui::Parts::use_start_page(const Chord& chord) {
   const auto count = static_cast<int>(transient.start_lines.size());
-  if (explorer.loaded() != nullptr || explorer.is_loading() || explorer.choosing() != nullptr ||
-      something_in_front() || menu_is_open() || count == 0)
+  if (explorer.loaded() != nullptr || explorer.recording.is_opening() ||
+      explorer.page.choosing() != nullptr || something_in_front() || menu_is_open() || count == 0)
     return false;
   const bool tab = chord.key == keys::kTab, back = tab && (chord.modifiers & kShift) != 0;
   int& choice = transient.start_choice;
@@ -234,8 +243,7 @@ bool Ui::Parts::use_start_page(const Chord& chord) {
 }
 
 void Ui::Parts::perform(const std::string& line, const std::string& gesture) {
-  if (const auto done = explorer.perform(line, gesture); !done)
-    explorer.say(Message::Kind::kError, done.error().message);
+  explorer.messages.show_failure(explorer.perform(line, gesture));
 }
 
 void Ui::Parts::use_keys(std::span<const InputEvent> events) {
@@ -262,7 +270,7 @@ void Ui::Parts::use_drops(std::span<const InputEvent> events) {
 
 void Ui::Parts::draw(const PaneContext& panes) {
   const double width = context.width_px(), height = context.height_px();
-  const bool choosing = explorer.choosing() != nullptr;
+  const bool choosing = explorer.page.choosing() != nullptr;
   const bool open = explorer.loaded() != nullptr && !choosing;
   const double message_px = message_height(panes, width);
   const Places places = lay_out(width, height, panes.scale, explorer.settings(), open, message_px);
@@ -279,13 +287,13 @@ void Ui::Parts::draw(const PaneContext& panes) {
     draw_cards(panes, places.maps);
     draw_playback(panes, places.playback);
     if (!something_in_front()) draw_splitters(panes, places, whole);
-  } else if (explorer.is_loading()) {
+  } else if (explorer.recording.is_opening()) {
     draw_loading_page(panes, places.maps);
   } else {
     draw_start_page(panes, places.maps);
   }
   transient.on_choices_page = choosing;
-  explorer.hold_message(false);
+  explorer.messages.hold(false);
   draw_message(panes, places.message);
   draw_status_bar(panes, places.status);
   draw_menu_bar(panes, places.menu);
@@ -297,13 +305,13 @@ void Ui::Parts::draw(const PaneContext& panes) {
   if (!ImGui::IsMouseDown(0)) transient.handle.reset();
   // A field that is typed into is active too, and changes nothing until it is left.
   const bool dragged = ImGui::IsAnyItemActive() && !ImGui::GetIO().WantTextInput;
-  explorer.hold_handle(transient.handle.has_value() || dragged);
+  explorer.maps.hold(transient.handle.has_value() || dragged);
 }
 
 /// Once what still worked on a closed recording has ended, its memory goes back to the system, small pieces
 /// too.
 void Ui::Parts::let_go() {
-  if (explorer.loaded() != nullptr || !holds_recording || !explorer.background().status().empty()) return;
+  if (explorer.loaded() != nullptr || !holds_recording || !explorer.background.status().empty()) return;
   for (LiveView* view : {&view_a, &view_b, &close_up_a, &close_up_b}) view->show(nullptr, nullptr);
   transient.profiles = {};
   malloc_trim(0);
@@ -334,19 +342,18 @@ void Ui::Parts::remember_opened() {
 }
 
 void Ui::Parts::write_picture() {
-  const Call asked = *picture_asked;
-  picture_asked.reset();
-  if (!asked.text(2).empty() && explorer.loaded() != nullptr) return export_maps(asked);
+  const AskedPicture asked = *std::exchange(picture_asked, std::nullopt);
+  if (!asked.size.empty() && explorer.loaded() != nullptr) return export_maps(asked);
   Image image = gl::read_default_framebuffer(context);
-  if (asked.text(1) == "maps" && maps_are_shown()) {
+  if (asked.what == "maps" && maps_are_shown()) {
     Image part(static_cast<int>(maps_place.width), static_cast<int>(maps_place.height));
     for (int y = 0; y < part.height_px; ++y)
       std::copy_n(image.pixel(static_cast<int>(maps_place.left), static_cast<int>(maps_place.top) + y),
                   Image::kChannels * static_cast<std::size_t>(part.width_px), part.pixel(0, y));
     image = std::move(part);
   }
-  const std::string path = asked.text(0);
-  explorer.start_export(
+  const std::string& path = asked.file;
+  explorer.exports.start(
       {.title = "Writing " + path,
        .done = "The picture is saved in " + whole_path(path) + ".",
        .file = path,
@@ -382,7 +389,7 @@ void Ui::Parts::frame(std::span<const InputEvent> all_events, double seconds_sin
   remember_opened();
   let_go();
   // The keyboard is ImGui's in its menus and on the page of choices: elsewhere arrows move the view.
-  host.navigate_by_keys(menu_is_open() || (explorer.choosing() != nullptr && !something_in_front()));
+  host.navigate_by_keys(menu_is_open() || (explorer.page.choosing() != nullptr && !something_in_front()));
   host.begin_frame(events, seconds_since_last);
   anchors.clear();
   begin_number_boxes(transient);
@@ -436,12 +443,12 @@ bool Ui::has_input() const {
 }
 
 bool Ui::is_exporting() const {
-  return parts_->picture_asked || parts_->explorer.is_exporting();
+  return parts_->picture_asked || parts_->explorer.exports.is_running();
 }
 
 bool Ui::animates() const {
   const Parts& p = *parts_;
-  return !pictures_done() || has_input() || p.transient.just_opened || p.explorer.waits_to_place() ||
+  return !pictures_done() || has_input() || p.transient.just_opened || p.explorer.maps.waits_to_place() ||
          p.explorer.is_playing();
 }
 

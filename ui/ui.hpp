@@ -9,8 +9,8 @@
 
 #include "render/gl/context.hpp"
 #include "render/images/image.hpp"
+#include "ui/explorer/explorer.hpp"
 #include "ui/host/input.hpp"
-#include "ui/model/explorer.hpp"
 
 namespace sweepscope::ui {
 

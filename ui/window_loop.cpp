@@ -132,10 +132,11 @@ void loop(gl::Window& window, Ui& ui, ScriptRecorder* recorder) {
   auto last = Clock::now(), last_event = last;
   int frames_due = kFramesAfterEvent;
   while ((!window.should_close() || ui.is_exporting()) && !ui.wants_quit()) {
-    const Background& background = ui.explorer().background();
+    const Background& background = ui.explorer().background;
     const bool moves =
         frames_due > 0 || ui.animates() || seconds_between(last_event, Clock::now()) < kTooltip_s;
-    const bool goes_on = background.busy() || ui.explorer().message();  // a message goes after its time
+    const bool goes_on =
+        background.busy() || ui.explorer().messages.shown();  // a message goes after its time
     const double interval_s = moves ? kFrame_s : goes_on ? kWorking_s : kIdle_s;
     const double waited_s = interval_s == kIdle_s ? 0 : seconds_between(last, Clock::now());
     window.wait(std::max(1e-3, interval_s - waited_s));
@@ -186,12 +187,9 @@ Result<void> run_explorer(gl::Window& window, Ui::Options options, const std::fi
   if (wanted_scale == 1) options.display_scale = window.scale();
   Ui ui(window, std::move(options));
   if (hooks.started) hooks.started(ui);
-  ui.explorer().background().on_progress(hooks.wake);
-  ui.explorer().background().come_after_the_interface();
-  if (!first_line.empty()) {
-    if (const auto done = ui.explorer().perform(first_line); !done)
-      ui.explorer().say(Message::Kind::kError, done.error().message);
-  }
+  ui.explorer().background.on_progress(hooks.wake);
+  ui.explorer().background.come_after_the_interface();
+  if (!first_line.empty()) ui.explorer().messages.show_failure(ui.explorer().perform(first_line));
   for (const Script& script : scripts) {
     if (auto done = run_script(ui, script); !done) return done;
   }
@@ -235,10 +233,10 @@ Result<void> run_headless(gl::Context& context, Ui::Options options, const std::
     if (auto done = ui.explorer().perform(first_line); !done) return done;
     const Script wait{"REC", {{1, {"wait", "loaded"}, "wait loaded"}}};
     if (auto done = run_script(ui, wait); !done) return done;
-    const auto& why = ui.explorer().load_failure();
-    if (why && !(ui.explorer().choosing() != nullptr && uses_page(scripts))) return tl::unexpected(*why);
-    if (!why && ui.explorer().loaded() == nullptr && ui.explorer().message())
-      return unreadable(ui.explorer().message()->text);
+    const auto& why = ui.explorer().recording.failure();
+    if (why && !(ui.explorer().page.choosing() != nullptr && uses_page(scripts))) return tl::unexpected(*why);
+    if (!why && ui.explorer().loaded() == nullptr && ui.explorer().messages.shown())
+      return unreadable(ui.explorer().messages.shown()->text);
   }
   for (const Script& script : scripts) {
     if (auto done = run_script(ui, script, kMaxWait_s, recorder ? &*recorder : nullptr); !done) return done;

@@ -76,7 +76,7 @@ void print_frames(const std::string& what, const Times& times) {
 class Person {
  public:
   explicit Person(gl::Context& context) : ui_(context, Ui::Options()) {
-    explorer().background().come_after_the_interface();  // as in a window
+    explorer().background.come_after_the_interface();  // as in a window
   }
 
   Explorer& explorer() { return ui_.explorer(); }
@@ -248,7 +248,7 @@ void measure_work(Person& person, const std::filesystem::path& folder) {
         "save-session " + (folder / "a.json").string(), "export-report " + (folder / "report").string()}) {
     person.perform(line);
     print_frames(line.substr(0, line.find(' ')), person.until_rest());
-    if (const auto why = explorer.take_export_failure()) give_up(why->message);
+    if (const auto why = explorer.exports.take_failure()) give_up(why->message);
   }
 }
 
@@ -267,7 +267,7 @@ void measure(const std::string& recording, const std::string& poses, gl::Context
   const double first_s = seconds_since(begin);
   print("from opening to the first picture", fmt::format("{:.2f} s", first_s), "1 s");
   print_frames("a recording is opened", loading);
-  person.explorer().hold_handle(false);
+  person.explorer().maps.hold(false);
   print_frames("all points of the first picture are drawn",
                person.until([&] { return person.ui().shows_all_points(); }));
   print("from the first picture to all of its points",

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "tests/fuzz/memory_file.hpp"
-#include "ui/serve/answer.hpp"
+#include "ui/serve/http/answer.hpp"
 
 int fuzz_page_request(const std::uint8_t* bytes, std::size_t size) {
   using namespace sweepscope::ui;

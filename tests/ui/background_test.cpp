@@ -4,7 +4,7 @@
 #include <chrono>
 #include <thread>
 
-#include "ui/model/background.hpp"
+#include "ui/jobs/background.hpp"
 
 namespace sweepscope::ui {
 namespace {

@@ -136,9 +136,9 @@ TEST_F(Charts, TheValueUnderTheMouseIsShownAtTheNearestCandidate) {
 }
 
 TEST_F(Charts, TheCurveOfTheDirectMethodIsItsCappedCostWithoutAFailure) {
-  EXPECT_EQ(ui_.explorer().charted(), ui_.explorer().estimate());
-  EXPECT_GT(ui_.explorer().estimate()->curve.size(), 30u);
-  const auto charts = curve_charts(*ui_.explorer().estimate(), {}, kDarkStyle);
+  EXPECT_EQ(ui_.explorer().estimating.charted(), ui_.explorer().estimating.found());
+  EXPECT_GT(ui_.explorer().estimating.found()->curve.size(), 30u);
+  const auto charts = curve_charts(*ui_.explorer().estimating.found(), {}, kDarkStyle);
   ASSERT_EQ(charts.size(), 1u);
   for (const auto& y : charts[0].series[0].y) EXPECT_TRUE(y);
 }

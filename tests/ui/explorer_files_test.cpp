@@ -7,6 +7,7 @@
 #include "core/simulation/simulate.hpp"
 #include "core/simulation/write_simulation.hpp"
 #include "tests/ui/explorer_fixtures.hpp"
+#include "ui/explorer/observables.hpp"
 
 namespace sweepscope::ui {
 namespace {
@@ -23,8 +24,8 @@ TEST_F(InARoom, ASessionBringsEverythingBack) {
   perform(other, "open " + path);
   rest(other);
   EXPECT_EQ(other.settings(), explorer_.settings());
-  EXPECT_EQ(other.session_json(), explorer_.session_json());
-  EXPECT_EQ(other.observe("recording"), "room-1");
+  EXPECT_EQ(session_to_json(session_of(other)), session_to_json(session_of(explorer_)));
+  EXPECT_EQ(observe(other, "recording"), "room-1");
   std::filesystem::remove(path);
 }
 
@@ -46,15 +47,15 @@ TEST(Failures, ABrokenFileGivesASentenceAndTheExplorerLivesOn) {
   Explorer explorer;
   perform(explorer, "open " + path);
   rest(explorer);
-  ASSERT_TRUE(explorer.message());
-  EXPECT_NE(explorer.message()->text.find("broken.bag"), std::string::npos);
+  ASSERT_TRUE(explorer.messages.shown());
+  EXPECT_NE(explorer.messages.shown()->text.find("broken.bag"), std::string::npos);
   perform(explorer, "sample room-2");
   rest(explorer);
   EXPECT_NE(explorer.loaded(), nullptr);
-  EXPECT_FALSE(explorer.message());
+  EXPECT_FALSE(explorer.messages.shown());
   perform(explorer, "open " + path);
   rest(explorer);
-  EXPECT_EQ(explorer.observe("recording"), "room-2") << "what was open stays open";
+  EXPECT_EQ(observe(explorer, "recording"), "room-2") << "what was open stays open";
   std::filesystem::remove(path);
 }
 
@@ -67,19 +68,19 @@ TEST_F(InARoom, AnEstimateFromAFileIsShownAsIfItHadBeenMadeHere) {
   estimate.offset_s = 0.0235;
   ASSERT_TRUE(write_estimate_json(path, estimate, Timing::kNull));
   perform(explorer_, "open " + path);
-  EXPECT_EQ(explorer_.observe("found-ms"), "23.5000");
+  EXPECT_EQ(observe(explorer_, "found-ms"), "23.5000");
   EXPECT_EQ(explorer_.settings().offset_b_ms, 23.5);
-  EXPECT_EQ(explorer_.observe("recording"), "room-1") << "the recording stays";
+  EXPECT_EQ(observe(explorer_, "recording"), "room-1") << "the recording stays";
   std::filesystem::remove(path);
 }
 
 TEST_F(InARoom, AnExportThatFailsSaysSoAndIsForgottenOnce) {
   perform(explorer_, "export-cloud a /dev/full");
   rest(explorer_);
-  ASSERT_TRUE(explorer_.message());
-  EXPECT_NE(explorer_.message()->text.find("/dev/full"), std::string::npos);
-  EXPECT_TRUE(explorer_.take_export_failure());
-  EXPECT_FALSE(explorer_.take_export_failure());
+  ASSERT_TRUE(explorer_.messages.shown());
+  EXPECT_NE(explorer_.messages.shown()->text.find("/dev/full"), std::string::npos);
+  EXPECT_TRUE(explorer_.exports.take_failure());
+  EXPECT_FALSE(explorer_.exports.take_failure());
 }
 
 TEST_F(InARoom, AnExportThatCannotBeginIsRefusedAtOnce) {
@@ -92,10 +93,10 @@ TEST_F(InARoom, WhatIsSolvedForIsFoundWithTheOffsetAndSavedAsARigFile) {
   perform(explorer_, "solve-for offset,mount");
   perform(explorer_, "estimate");
   rest(explorer_);
-  const std::string found = explorer_.observe("found-rig").value();
+  const std::string found = observe(explorer_, "found-rig").value();
   EXPECT_TRUE(found.starts_with("mount roll 0.00°, kept; mount pitch ")) << found;
   EXPECT_NE(found.find("±"), std::string::npos) << found;
-  EXPECT_NE(explorer_.command_line(800, 600).find("solve-for offset,mount"), std::string::npos);
+  EXPECT_NE(command_line(explorer_, 800, 600).find("solve-for offset,mount"), std::string::npos);
   const std::string path = scratch("found-rig.yaml").string();
   perform(explorer_, "export-rig " + path);
   const auto rig = read_rig(path);
@@ -129,22 +130,22 @@ TEST(TheRigFound, IsUsedForTheMaps) {
     perform(explorer, line);
     rest(explorer);
   }
-  EXPECT_NEAR(explorer.estimate()->rig->priors[kTurnU] * kDegPerRad, 10, 1e-9);
-  const std::string found = explorer.observe("found-rig").value();
+  EXPECT_NEAR(explorer.estimating.found()->rig->priors[kTurnU] * kDegPerRad, 10, 1e-9);
+  const std::string found = observe(explorer, "found-rig").value();
   perform(explorer, "use-rig " + rig);
   rest(explorer);
   ASSERT_TRUE(explorer.loaded());
   EXPECT_NEAR(explorer.loaded()->recording.rig.mount.laser_in_motor_rpy_deg.y(), 3, 0.05);
   EXPECT_EQ(explorer.loaded()->choices.rig_file, rig);
   EXPECT_EQ(explorer.settings().offset_a_ms, 19);
-  EXPECT_EQ(explorer.observe("found-rig"), found);
-  EXPECT_NE(explorer.command_line(800, 600).find("--rig " + rig), std::string::npos);
+  EXPECT_EQ(observe(explorer, "found-rig"), found);
+  EXPECT_NE(command_line(explorer, 800, 600).find("--rig " + rig), std::string::npos);
 }
 
 TEST_F(InARoom, ARigThatWasNotSolvedForIsNotExported) {
   perform(explorer_, "estimate");
   rest(explorer_);
-  EXPECT_EQ(explorer_.observe("found-rig"), "");
+  EXPECT_EQ(observe(explorer_, "found-rig"), "");
   const auto done = explorer_.perform("export-rig " + scratch("none.yaml").string());
   ASSERT_FALSE(done);
   EXPECT_NE(done.error().message.find("solve for"), std::string::npos) << done.error().message;
@@ -156,8 +157,9 @@ TEST(Failures, AFileThatIsNoSessionGivesAMessageAsARecordingDoes) {
   Explorer explorer;
   for (const std::string& file : {path, std::string("/nowhere/at-all.json")}) {
     perform(explorer, "open " + file);
-    ASSERT_TRUE(explorer.message()) << file;
-    EXPECT_NE(explorer.message()->text.find(file), std::string::npos) << explorer.message()->text;
+    ASSERT_TRUE(explorer.messages.shown()) << file;
+    EXPECT_NE(explorer.messages.shown()->text.find(file), std::string::npos)
+        << explorer.messages.shown()->text;
     perform(explorer, "theme light");
   }
   std::filesystem::remove(path);
@@ -169,12 +171,12 @@ TEST(Failures, ASessionOpensRecordingsAndDoesNothingElse) {
   for (const std::string& source :
        std::vector<std::string>{"save-session /tmp/x", "open " + path, "quit", "offset-a 19", "dance"}) {
     ASSERT_TRUE(write_file(path, R"({"schema": "sweepscope.session/1", "source": ")" + source + "\"}"));
-    explorer.dismiss_message();
+    explorer.messages.dismiss();
     perform(explorer, "open " + path);
-    ASSERT_TRUE(explorer.message()) << source;
-    EXPECT_NE(explorer.message()->text.find("does not open a recording"), std::string::npos)
-        << explorer.message()->text;
-    EXPECT_FALSE(explorer.is_loading());
+    ASSERT_TRUE(explorer.messages.shown()) << source;
+    EXPECT_NE(explorer.messages.shown()->text.find("does not open a recording"), std::string::npos)
+        << explorer.messages.shown()->text;
+    EXPECT_FALSE(explorer.recording.is_opening());
     EXPECT_EQ(explorer.settings(), Settings());
   }
   std::filesystem::remove(path);

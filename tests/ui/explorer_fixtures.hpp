@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "tests/scratch_folder.hpp"
-#include "ui/model/explorer.hpp"
+#include "ui/explorer/explorer.hpp"
 
 namespace sweepscope::test {
 
@@ -16,7 +16,7 @@ namespace sweepscope::test {
 inline void rest(ui::Explorer& explorer) {
   do {
     explorer.update(1.0 / 60);
-    if (explorer.background().busy()) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    if (explorer.background.busy()) std::this_thread::sleep_for(std::chrono::milliseconds(2));
   } while (!explorer.at_rest());
 }
 

@@ -8,6 +8,7 @@
 #include "core/simulation/simulate.hpp"
 #include "core/simulation/write_simulation.hpp"
 #include "tests/ui/explorer_fixtures.hpp"
+#include "ui/explorer/observables.hpp"
 #include "ui/model/picking.hpp"
 #include "ui/model/view_camera.hpp"
 #include "ui/model/wall_profile.hpp"
@@ -18,7 +19,7 @@ namespace {
 using test::InARoom, test::perform, test::rest, test::scratch;
 
 TEST_F(InARoom, BothMapsAreThereAtOnceSinceTheRigStoodStill) {
-  EXPECT_EQ(explorer_.observe("kind"), "stationary");
+  EXPECT_EQ(observe(explorer_, "kind"), "stationary");
   for (const Side side : kBothSides) {
     EXPECT_EQ(explorer_.pane(side).state, PaneState::kSolved);
     EXPECT_GT(explorer_.pane(side).full->points->size(), 20000u);
@@ -48,7 +49,7 @@ TEST_F(InARoom, TheEstimateSetsTheOffsetOfBUnlessAPersonDid) {
   perform(explorer_, "search-range 22 26 1");
   perform(explorer_, "estimate");
   rest(explorer_);
-  ASSERT_EQ(explorer_.observe("estimate"), "found");
+  ASSERT_EQ(observe(explorer_, "estimate"), "found");
   EXPECT_NEAR(explorer_.settings().offset_b_ms, 24, 0.51);
   EXPECT_EQ(explorer_.settings().offset_a_ms, 0);
   perform(explorer_, "offset-b 20");
@@ -105,7 +106,7 @@ TEST_F(InARoom, TheDifferenceIsNothingBetweenEqualOffsetsAndGrowsWithThem) {
   rest(explorer_);
   const auto& colours = explorer_.pane(Side::kB).full->points->rgb;
   EXPECT_GT(std::set(colours.begin(), colours.end()).size(), 50u);
-  EXPECT_GT(explorer_.shown_span().to, 20) << "19 ms at 390 deg/s turn a point at 1 m by 130 mm";
+  EXPECT_GT(explorer_.maps.shown_span().to, 20) << "19 ms at 390 deg/s turn a point at 1 m by 130 mm";
 }
 
 TEST_F(InARoom, ColouringByBlurGivesEveryPointAThicknessOrNone) {
@@ -141,15 +142,15 @@ TEST_F(InARoom, APointThatIsAskedNamesItsBeamAndBothItsPlaces) {
 TEST_F(InARoom, TheStatusLineSaysWhatIsShown) {
   perform(explorer_, "offset-a 19");
   explorer_.update(0.01);
-  EXPECT_NE(explorer_.status().find("A: 19.0 ms"), std::string::npos) << explorer_.status();
+  EXPECT_NE(status(explorer_).find("A: 19.0 ms"), std::string::npos) << status(explorer_);
   rest(explorer_);
-  EXPECT_NE(explorer_.status().find("A: 19.0 ms"), std::string::npos) << explorer_.status();
+  EXPECT_NE(status(explorer_).find("A: 19.0 ms"), std::string::npos) << status(explorer_);
 }
 
 TEST_F(InARoom, TheCopiedCommandLineHoldsAllThatDiffersFromTheDefaults) {
   perform(explorer_, "offset-a 19");
   perform(explorer_, "theme light");
-  const std::string line = explorer_.command_line(1200, 800);
+  const std::string line = command_line(explorer_, 1200, 800);
   for (const char* part :
        {"sweepscope view", "--size 1200x800", "sample room-1", "offset-a 19", "theme light"})
     EXPECT_NE(line.find(part), std::string::npos) << line;
@@ -161,7 +162,7 @@ TEST(OnAWalk, AMapIsPreviewedAndThenSolvedAndTheAnswerIsKept) {
   perform(explorer, "offset-a 23");
   perform(explorer, "offset-b 23");
   perform(explorer, "sample metro-station 6");
-  while (explorer.is_loading()) {
+  while (explorer.recording.is_opening()) {
     explorer.update(0.01);
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
@@ -169,12 +170,12 @@ TEST(OnAWalk, AMapIsPreviewedAndThenSolvedAndTheAnswerIsKept) {
   EXPECT_EQ(explorer.pane(Side::kA).state, PaneState::kProvisional);
   rest(explorer);
   EXPECT_EQ(explorer.pane(Side::kA).state, PaneState::kSolved);
-  explorer.hold_handle(true);
+  explorer.maps.hold(true);
   perform(explorer, "offset-a 24");
   for (int i = 0; i < 30; ++i) explorer.update(0.02);
   EXPECT_EQ(explorer.pane(Side::kA).state, PaneState::kPreview);
-  EXPECT_EQ(explorer.observe("jobs"), "0") << "nothing is solved while the handle is held";
-  explorer.hold_handle(false);
+  EXPECT_EQ(observe(explorer, "jobs"), "0") << "nothing is solved while the handle is held";
+  explorer.maps.hold(false);
   rest(explorer);
   EXPECT_EQ(explorer.pane(Side::kA).state, PaneState::kSolved);
   perform(explorer, "offset-a 23");
@@ -217,13 +218,13 @@ TEST(OverTime, AnEstimateInWindowsHasOneOffsetForEach) {
   perform(explorer, "search over-time");
   perform(explorer, "estimate");
   rest(explorer);
-  EXPECT_EQ(explorer.observe("estimate"), "found");
-  EXPECT_EQ(explorer.observe("found-windows"), "3");
-  EXPECT_NEAR(std::stod(explorer.observe("found-ms").value()), 24, 0.2);
+  EXPECT_EQ(observe(explorer, "estimate"), "found");
+  EXPECT_EQ(observe(explorer, "found-windows"), "3");
+  EXPECT_NEAR(std::stod(observe(explorer, "found-ms").value()), 24, 0.2);
   perform(explorer, "search-window 15");
   perform(explorer, "estimate");
   rest(explorer);
-  EXPECT_EQ(explorer.observe("found-windows"), "2");
+  EXPECT_EQ(observe(explorer, "found-windows"), "2");
 }
 
 TEST(WallProfile, ALineAcrossATownIsDrawnAsFarAsAWallReachesAndWithAChartsWorthOfPoints) {
@@ -249,7 +250,7 @@ TEST(WallProfile, ALineAcrossATownIsDrawnAsFarAsAWallReachesAndWithAChartsWorthO
 TEST(OnAWalk, WhatWasCancelledIsTakenUpWhenItIsAskedForOrTheOffsetMoves) {
   Explorer explorer;
   perform(explorer, "sample metro-station 5");
-  while (explorer.is_loading()) {
+  while (explorer.recording.is_opening()) {
     explorer.update(0.01);
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
@@ -258,7 +259,7 @@ TEST(OnAWalk, WhatWasCancelledIsTakenUpWhenItIsAskedForOrTheOffsetMoves) {
   perform(explorer, "cancel");
   for (int i = 0; i < 5; ++i) explorer.update(0.01);
   EXPECT_NE(explorer.pane(Side::kA).problem.find("Cancelled"), std::string::npos);
-  EXPECT_TRUE(explorer.background().keys("solve ").empty());
+  EXPECT_TRUE(explorer.background.keys("solve ").empty());
   perform(explorer, "solve");
   rest(explorer);
   EXPECT_EQ(explorer.pane(Side::kA).state, PaneState::kSolved);
@@ -277,7 +278,7 @@ TEST(OnAWalk, AlongPosesThatAreKnownEveryOffsetIsThereAtOnce) {
   Explorer explorer;
   perform(explorer, "open " + bag + " " + poses);
   rest(explorer);
-  ASSERT_NE(explorer.loaded(), nullptr) << explorer.message()->text;
+  ASSERT_NE(explorer.loaded(), nullptr) << explorer.messages.shown()->text;
   for (const char* line : {"offset-a 19", "offset-a 24"}) {
     perform(explorer, line);
     explorer.update(0.01);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/image_part.hpp"
+#include "ui/explorer/observables.hpp"
 #include "ui/panes/layout.hpp"
 #include "ui/script/script.hpp"
 
@@ -20,7 +21,7 @@ class PlacesToLook : public testing::Test {
     const auto done = run_script(ui_, *parse_script(lines, "test"), 300);
     ASSERT_TRUE(done) << done.error().message;
   }
-  std::string now(const std::string& name) { return *ui_.explorer().observe(name); }
+  std::string now(const std::string& name) { return *observe(ui_.explorer(), name); }
   const ViewPoint& camera() { return ui_.explorer().settings().camera_a; }
 
   std::unique_ptr<gl::Context> context_ = *gl::make_offscreen_context(1200, 800);
@@ -28,9 +29,9 @@ class PlacesToLook : public testing::Test {
 };
 
 TEST_F(PlacesToLook, TheFirstPictureShowsTheBestOneInACornerOfBothMaps) {
-  ASSERT_GT(ui_.explorer().places().size(), 1u);
+  ASSERT_GT(ui_.explorer().places.all().size(), 1u);
   const PlaceToLook& best = *ui_.explorer().place();
-  EXPECT_EQ(ui_.explorer().places().front().get(), &best);
+  EXPECT_EQ(ui_.explorer().places.all().front().get(), &best);
   EXPECT_EQ(best.found.most_blurred(), 0u) << "map A is 10 ms off";
   const auto a = ui_.anchor("close-up a"), b = ui_.anchor("close-up b");
   ASSERT_TRUE(a && b);

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "ui/explorer/observables.hpp"
 #include "ui/panes/layout.hpp"
 #include "ui/script/script.hpp"
 
@@ -20,7 +21,7 @@ class Played : public testing::Test {
     const auto done = run_script(ui_, *script, 120);
     ASSERT_TRUE(done) << done.error().message;
   }
-  double now(const std::string& name) { return std::stod(*ui_.explorer().observe(name)); }
+  double now(const std::string& name) { return std::stod(*observe(ui_.explorer(), name)); }
   std::unique_ptr<gl::Context> context_ = *gl::make_offscreen_context(1200, 800);
   Ui ui_{*context_, Ui::Options()};
 };
@@ -147,12 +148,12 @@ TEST_F(Played, TheClippingBoxShowsThePointsInsideAndTheViewFitsIt) {
 
 TEST_F(Played, TheColourRangeIsTheGivenOneInEveryColouring) {
   run("colour-range -0.5 1.5\nframes 2");
-  EXPECT_EQ(ui_.explorer().shown_span().from, -0.5);
-  EXPECT_EQ(ui_.explorer().shown_span().to, 1.5);
+  EXPECT_EQ(ui_.explorer().maps.shown_span().from, -0.5);
+  EXPECT_EQ(ui_.explorer().maps.shown_span().to, 1.5);
   run("layout difference\noffset-a 19\ncolour-range 0 40\nwait solved");
-  EXPECT_EQ(ui_.explorer().shown_span().to, 40);
+  EXPECT_EQ(ui_.explorer().maps.shown_span().to, 40);
   run("colour-range 0 0\nwait solved");
-  EXPECT_NE(ui_.explorer().shown_span().to, 40);
+  EXPECT_NE(ui_.explorer().maps.shown_span().to, 40);
 }
 
 TEST_F(Played, TheTooltipOfAChartLeavesItsTitleLegible) {

@@ -57,7 +57,7 @@ TEST_F(PreferencesTest, TheNextExplorerLooksAsTheLastOneDid) {
   Ui again(**context, options);
   EXPECT_EQ(again.explorer().settings().theme, Theme::kLight);
   EXPECT_FALSE(again.explorer().settings().criteria);
-  EXPECT_FALSE(again.explorer().can_undo());
+  EXPECT_FALSE(again.explorer().history().can_undo());
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include "core/io/atomic_file.hpp"
 #include "tests/folder_test.hpp"
+#include "ui/explorer/observables.hpp"
 #include "ui/script/script.hpp"
 
 namespace sweepscope::ui {
@@ -56,7 +57,7 @@ TEST_F(RecorderTest, AScriptIsWrittenWithItsPlacesInPixelsAndDoesTheSameOnceMore
     Ui ui(**context, Ui::Options());
     const auto done = run_script(ui, parse_script(lines, "test").value(), 120, recorder);
     EXPECT_TRUE(done) << done.error().message;
-    return ui.explorer().session_json();
+    return session_to_json(session_of(ui.explorer()));
   };
   auto recorder = ScriptRecorder::create(file);
   ASSERT_TRUE(recorder);

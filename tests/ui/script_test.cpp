@@ -9,6 +9,7 @@
 #include "core/io/atomic_file.hpp"
 #include "render/images/image_difference.hpp"
 #include "tests/program.hpp"
+#include "ui/explorer/observables.hpp"
 #include "ui/host/imgui_host.hpp"
 #include "ui/model/view_camera.hpp"
 #include "ui/window_loop.hpp"
@@ -28,7 +29,7 @@ class Headless : public testing::Test {
     const auto done = run(lines);
     EXPECT_TRUE(done) << done.error().message;
   }
-  std::string now(const std::string& name) { return *ui_.explorer().observe(name); }
+  std::string now(const std::string& name) { return *observe(ui_.explorer(), name); }
   std::unique_ptr<gl::Context> context_ = *make_context();
   Ui ui_{*context_, Ui::Options()};
 

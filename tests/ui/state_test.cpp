@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
-#include "ui/state/commands.hpp"
+#include "ui/commands/commands.hpp"
+#include "ui/explorer/explorer.hpp"
 #include "ui/state/history.hpp"
 #include "ui/state/session.hpp"
 
@@ -38,6 +40,53 @@ TEST(Commands, AreNamedOnceAndSayWhatTheyAreFor) {
     EXPECT_TRUE(names.insert(command.name).second) << command.name;
     EXPECT_FALSE(command.title.empty()) << command.name;
     EXPECT_TRUE(command.help.ends_with(".")) << command.name;
+  }
+}
+
+TEST(Commands, HaveExactlyOneHandlerEach) {
+  for (const Command& command : commands()) {
+    const auto* field = std::get_if<Field>(&command.handler);
+    const auto* edit = std::get_if<Edit>(&command.handler);
+    const auto* action = std::get_if<Action>(&command.handler);
+    const auto* in_window = std::get_if<WindowAction>(&command.handler);
+    const int handlers = (field && field->get && field->set ? 1 : 0) + (edit && edit->set ? 1 : 0) +
+                         (action && action->run ? 1 : 0) + (in_window && in_window->run ? 1 : 0);
+    EXPECT_EQ(handlers, 1) << command.name;
+    EXPECT_EQ(find_command(command.name), &command);
+  }
+}
+
+TEST(Commands, ANameThatIsUnknownCannotSucceed) {
+  Explorer explorer;
+  const Command unknown{"dance", "Dance", "Not in the table.", {}, WindowAction{}};
+  for (const auto& done : {explorer.perform("dance"), explorer.perform(Call{find_command("dance"), {}}),
+                           explorer.perform(Call{&unknown, {}})}) {
+    ASSERT_FALSE(done);
+    EXPECT_EQ(done.error().code, ExitCode::kWrongUsage);
+    EXPECT_FALSE(done.error().message.empty());
+  }
+}
+
+TEST(Commands, OfAWindowSayThatTheyNeedOne) {
+  Explorer explorer;
+  for (const Command& command : commands()) {
+    if (!std::holds_alternative<WindowAction>(command.handler) || !command.parameters.empty()) continue;
+    const auto done = explorer.perform(command.name);
+    ASSERT_FALSE(done) << command.name;
+    EXPECT_EQ(done.error().message, "\"" + command.name + "\" needs a window");
+  }
+}
+
+TEST(Commands, ThatNameAFileSayHowTheyUseIt) {
+  const auto asked = find_command("ask")->parameters[0].choices;
+  for (const Command& command : commands()) {
+    const bool names_file = std::ranges::any_of(command.parameters, [](const Parameter& p) {
+      return p.name == "FILE" || p.name == "FOLDER" || p.name == "POSES";
+    });
+    for (const Parameter& p : command.parameters)
+      EXPECT_EQ(p.name == "FILE" || p.name == "FOLDER" || p.name == "POSES", p.file != FileUse::kNone)
+          << command.name;
+    EXPECT_EQ(std::ranges::count(asked, command.name), names_file ? 1 : 0) << command.name;
   }
 }
 

@@ -1,4 +1,4 @@
-#include "ui/model/task_progress.hpp"
+#include "ui/jobs/task_progress.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,6 +5,7 @@
 
 #include "core/io/atomic_file.hpp"
 #include "tests/folder_test.hpp"
+#include "ui/explorer/observables.hpp"
 #include "ui/panes/number_box.hpp"
 #include "ui/script/script.hpp"
 
@@ -23,7 +24,7 @@ class Typing : public test::FolderTest {
     const auto done = run_script(ui_, *parse_script(lines, "test"), 120);
     EXPECT_TRUE(done) << done.error().message;
   }
-  std::string now(const std::string& name) { return *ui_.explorer().observe(name); }
+  std::string now(const std::string& name) { return *observe(ui_.explorer(), name); }
   /// All at once, as a window reports what is typed while a frame is drawn.
   void type_fast(const std::string& text) {
     std::vector<InputEvent> events;

@@ -44,7 +44,7 @@ class WholePictures : public testing::Test {
       const Image all = ui_.screenshot();
       strips.first.add(test::part_of(all, *ui_.anchor("map a")), frame);
       strips.second.add(test::part_of(all, *ui_.anchor("map b")), frame);
-      if (ui_.explorer().background().busy()) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+      if (ui_.explorer().background.busy()) std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
     return strips;
   }

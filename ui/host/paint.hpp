@@ -12,5 +12,9 @@ namespace sweepscope::ui {
 void paint(ImDrawList& list, const Drawing& drawing, const Fonts& fonts);
 
 void paint_text(ImDrawList& list, const TextMark& mark, const Fonts& fonts);
+inline void paint_text(ImDrawList& list, const Fonts& fonts, PixelPoint at, const std::string& text,
+                       double size_px, const Colour& colour, AlignX align_x, AlignY align_y) {
+  paint_text(list, {at, text, size_px, colour, align_x, align_y}, fonts);
+}
 
 }  // namespace sweepscope::ui

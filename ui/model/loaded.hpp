@@ -14,7 +14,7 @@
 #include "core/offset/walk/walk.hpp"
 #include "core/recording/formats/read_recording.hpp"
 #include "core/recording/inspect.hpp"
-#include "ui/model/reading_choices.hpp"
+#include "ui/state/reading_choices.hpp"
 
 namespace sweepscope::ui {
 

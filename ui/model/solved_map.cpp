@@ -56,9 +56,13 @@ void describe_points(const Loaded& loaded, SolvedMap& map) {
 
 }  // namespace
 
+bool was_stationary(const Loaded& loaded, std::optional<RigKind> assume) {
+  return assume ? *assume == RigKind::kStationary : !loaded.moving.value_or(false);
+}
+
 Result<SolvedMapPtr> solve_map(const Loaded& loaded, double offset_s, std::optional<RigKind> assume,
                                const Job& job) {
-  const bool standing = assume ? *assume == RigKind::kStationary : !loaded.moving.value_or(false);
+  const bool standing = was_stationary(loaded, assume);
   if (standing || !loaded.poses.empty()) return map_without_solving(loaded, standing, offset_s);
   MapOptions options;
   options.assume = assume;

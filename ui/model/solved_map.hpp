@@ -27,6 +27,9 @@ struct SolvedMap {
 };
 using SolvedMapPtr = std::shared_ptr<const SolvedMap>;
 
+/// Whether the rig was stationary, as far as it is known: `assume` goes before the motion test.
+bool was_stationary(const Loaded& loaded, std::optional<RigKind> assume);
+
 /// Odometry and mapping at an offset: seconds of work for a moving rig, none for a stationary one.
 Result<SolvedMapPtr> solve_map(const Loaded& loaded, double offset_s, std::optional<RigKind> assume,
                                const Job& job);

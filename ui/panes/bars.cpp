@@ -7,6 +7,7 @@
 
 #include "core/io/printable_text.hpp"
 #include "render/charts/curve_charts.hpp"
+#include "ui/explorer/observables.hpp"
 #include "ui/host/input.hpp"
 #include "ui/panes/widgets.hpp"
 
@@ -24,24 +25,16 @@ bool holds(const Settings& settings, const std::string& line) {
 
 bool makes_sense(const Explorer& explorer, const std::string& line) {
   static const std::vector<std::string> kAlways{"ask open", "sample", "quit", "palette", "help", "theme"};
-  if (line == "ask export-report") return explorer.loaded() != nullptr && !explorer.is_exporting();
-  if (line == "undo") return explorer.can_undo();
-  if (line == "redo") return explorer.can_redo();
-  if (line == "take-found") return explorer.estimate() != nullptr && explorer.estimate()->offset_s;
-  if (line == "ask export-rig" || line == "ask use-rig")
-    return explorer.estimate() != nullptr && explorer.estimate()->rig;
-  if (line == "ask export-curve") return explorer.estimate() != nullptr;
+  const Estimate* found = explorer.estimating.found();
+  if (line == "ask export-report") return explorer.loaded() != nullptr && !explorer.exports.is_running();
+  if (line == "undo") return explorer.history().can_undo();
+  if (line == "redo") return explorer.history().can_redo();
+  if (line == "take-found") return found != nullptr && found->offset_s;
+  if (line == "ask export-rig" || line == "ask use-rig") return found != nullptr && found->rig;
+  if (line == "ask export-curve") return found != nullptr;
   if (explorer.loaded() != nullptr) return true;
   return std::any_of(kAlways.begin(), kAlways.end(),
                      [&](const std::string& always) { return line.starts_with(always); });
-}
-
-std::vector<std::string> menu_names() {
-  std::vector<std::string> names;
-  for (const MenuItem& item : menu_items()) {
-    if (names.empty() || names.back() != item.menu) names.push_back(item.menu);
-  }
-  return names;
 }
 
 /// Left and right go from an open menu to its neighbours.
@@ -118,8 +111,7 @@ void title(const PaneContext& context, const PixelRect& place) {
   const ImVec2 size = ImGui::CalcTextSize(text.c_str());
   const double middle = place.left + (place.width - static_cast<double>(size.x)) / 2;
   ImGui::GetWindowDrawList()->AddText(
-      {static_cast<float>(std::max(middle, after_menus)),
-       static_cast<float>(place.top + (place.height - static_cast<double>(size.y)) / 2)},
+      vec(std::max(middle, after_menus), place.top + (place.height - static_cast<double>(size.y)) / 2),
       to_imgui(context.style.faint_text), text.c_str());
 }
 
@@ -166,11 +158,9 @@ double draw_task(const PaneContext& context, const JobStatus& job, const PixelRe
   list.AddText({static_cast<float>(begin), y}, to_imgui(context.style.text), title.c_str());
   list.AddText({static_cast<float>(right - left_width), y}, to_imgui(context.style.faint_text), left.c_str());
   const double bar_left = right - left_width - gap - bar;
-  ImGui::SetCursorScreenPos({static_cast<float>(bar_left), static_cast<float>(middle - context.px(2.5))});
+  ImGui::SetCursorScreenPos(vec(bar_left, middle - context.px(2.5)));
   progress_bar(context, job.running ? job.fraction : 0, bar);
-  ImGui::SetCursorScreenPos({static_cast<float>(begin), static_cast<float>(place.top)});
-  ImGui::InvisibleButton(("task " + job.key).c_str(),
-                         {static_cast<float>(right - begin), static_cast<float>(place.height)});
+  invisible_button("task " + job.key, {begin, place.top, right - begin, place.height});
   context.anchor_last("task " + job.key.substr(0, job.key.find(' ')));
   tooltip(context, fmt::format("{}: {:.0f} %{}", title, std::floor(100 * job.fraction),
                                job.phase.empty() ? "" : ", " + job.phase));
@@ -179,7 +169,7 @@ double draw_task(const PaneContext& context, const JobStatus& job, const PixelRe
 
 /// One bar for each task, from the right: those that run first. Returns where they begin.
 double draw_tasks(const PaneContext& context, const PixelRect& place, double right) {
-  std::vector<JobStatus> jobs = context.explorer.background().status();
+  std::vector<JobStatus> jobs = context.explorer.background.status();
   const bool on_page = context.explorer.loaded() == nullptr;  // the page that waits for it has its bar
   std::erase_if(jobs, [&](const JobStatus& job) {
     return job.key.starts_with("place") || (on_page && job.key == "load");  // "refining" stands for the first
@@ -197,21 +187,17 @@ double draw_tasks(const PaneContext& context, const PixelRect& place, double rig
 void draw_status_bar(const PaneContext& context, const PixelRect& place) {
   begin_panel(context, "status", place, false);
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  list.AddLine({static_cast<float>(place.left), static_cast<float>(place.top)},
-               {static_cast<float>(place.right()), static_cast<float>(place.top)},
-               to_imgui(context.style.frame));
+  list.AddLine(corner(place), vec(place.right(), place.top), to_imgui(context.style.frame));
   ImGui::PushFont(context.fonts.small);
   const std::string equation = "t_motor = t_laser + offset";
   const double equation_width = static_cast<double>(ImGui::CalcTextSize(equation.c_str()).x);
   const auto y =
       static_cast<float>(place.top + (place.height - static_cast<double>(ImGui::GetFontSize())) / 2);
-  const std::string status = context.explorer.status();
+  const std::string words = status(context.explorer);
   const double room = draw_tasks(context, place, place.right() - context.px(28) - equation_width) -
                       place.left - context.px(14);
-  list.PushClipRect(
-      {static_cast<float>(place.left), static_cast<float>(place.top)},
-      {static_cast<float>(place.left + context.px(14) + room), static_cast<float>(place.bottom())});
-  list.AddText({context.pxf(14), y}, to_imgui(context.style.text), status.c_str());
+  list.PushClipRect(corner(place), vec(place.left + context.px(14) + room, place.bottom()));
+  list.AddText({context.pxf(14), y}, to_imgui(context.style.text), words.c_str());
   list.PopClipRect();
   list.AddText({static_cast<float>(place.right() - context.px(14) - equation_width), y},
                to_imgui(context.style.faint_text), equation.c_str());

@@ -131,13 +131,10 @@ std::optional<AxisRange> zoomed_range(const AxisRange& shown, double factor, dou
 void use_chart_mouse(const PaneContext& context, const Chart& chart, const ChartLayout& layout,
                      const AxisRange& all, std::size_t number) {
   const double reach = context.px(12);
-  ImGui::SetCursorScreenPos(
-      {static_cast<float>(layout.plot.left - reach), static_cast<float>(layout.plot.top - reach)});
-  ImGui::InvisibleButton(
-      fmt::format("chart {}", number).c_str(),
-      {static_cast<float>(layout.plot.width + 2 * reach), static_cast<float>(layout.plot.height + 2 * reach)},
-      ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
-          ImGuiButtonFlags_MouseButtonMiddle);
+  invisible_button(fmt::format("chart {}", number),
+                   {layout.plot.left - reach, layout.plot.top - reach, layout.plot.width + 2 * reach,
+                    layout.plot.height + 2 * reach},
+                   kAnyButton);
   context.anchor(fmt::format("chart {}", number), layout.plot);
   Transient& transient = context.transient;
   const bool hovered = ImGui::IsItemHovered();

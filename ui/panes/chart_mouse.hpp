@@ -5,13 +5,6 @@
 
 namespace sweepscope::ui {
 
-inline Side other_side(Side side) {
-  return side == Side::kA ? Side::kB : Side::kA;
-}
-inline double offset_ms(const Settings& settings, Side side) {
-  return side == Side::kA ? settings.offset_a_ms : settings.offset_b_ms;
-}
-
 /// The grip at the foot of a handle's line.
 PixelRect grip_of(const ChartLayout& layout, double at_ms, double scale);
 

@@ -26,10 +26,7 @@ void note(const PaneContext& context, const std::string& words, bool problem = f
   if (words.empty()) return;
   ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMin().x + context.pxf(kTitles));
   ImGui::PushFont(context.fonts.small);
-  const Colour colour = problem ? colour_of_a(context.style) : context.style.faint_text;
-  ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(colour));
-  ImGui::TextWrapped("%s", printable_text(words).c_str());
-  ImGui::PopStyleColor();
+  wrapped_text(problem ? colour_of_a(context.style) : context.style.faint_text, printable_text(words));
   ImGui::PopFont();
 }
 
@@ -89,7 +86,7 @@ void motor_choice(const PaneContext& context, const RecordingSurvey& streams) {
   note(context, streams.joint_problem, true);
 }
 
-void stamps_choice(const PaneContext& context, const Explorer::Choosing& choosing) {
+void stamps_choice(const PaneContext& context, const ChoicesPage::Choosing& choosing) {
   begin_choice(context, *find_command("choose-stamps"));
   const auto& stamps = choosing.choices.stamps;
   const std::size_t chosen = !stamps ? 0 : *stamps == StampSource::kHeader ? 1 : 2;
@@ -214,7 +211,7 @@ class PartStrip {
   float width_ = 0;
 };
 
-void part_choice(const PaneContext& context, const Explorer::Choosing& choosing) {
+void part_choice(const PaneContext& context, const ChoicesPage::Choosing& choosing) {
   begin_choice(context, *find_command("choose-part"));
   const bool known = choosing.survey && choosing.survey->duration_s > 0;
   if (known) {
@@ -228,16 +225,12 @@ void part_choice(const PaneContext& context, const Explorer::Choosing& choosing)
                                    : "All of it. The strip appears when laser and motor are known.");
 }
 
-void beginning(const PaneContext& context, const Explorer::Choosing& choosing) {
-  ImGui::PushFont(context.fonts.heading);
-  ImGui::TextUnformatted(
-      printable_line("Open " + std::filesystem::path(choosing.choices.file).filename().string()).c_str());
-  ImGui::PopFont();
-  ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(context.style.faint_text));
-  ImGui::TextWrapped("%s", printable_line(choosing.choices.file).c_str());
-  ImGui::PopStyleColor();
+void beginning(const PaneContext& context, const ChoicesPage::Choosing& choosing) {
+  const std::filesystem::path file = choosing.choices.file;
+  text_in(context.fonts.heading, printable_line("Open " + file.filename().string()));
+  wrapped_text(context.style.faint_text, printable_line(file.string()));
   tooltip(context, whole_path(choosing.choices.file));
-  if (context.explorer.is_surveying() || !choosing.survey) {
+  if (context.explorer.page.is_surveying() || !choosing.survey) {
     ImGui::TextDisabled("Reading its streams …");
   } else if (const auto problems = problems_of(choosing); problems.empty()) {
     ImGui::TextDisabled("Ready to open.");
@@ -246,10 +239,8 @@ void beginning(const PaneContext& context, const Explorer::Choosing& choosing) {
     const bool nothing_to_choose = streams.lasers.empty() || streams.joints.empty();
     const std::string incomplete = nothing_to_choose ? "The marked items are missing in this recording."
                                                      : "Choose the marked items to continue.";
-    ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(colour_of_a(context.style)));
-    ImGui::TextWrapped(
-        "%s", !streams.complete() ? incomplete.c_str() : printable_message(problems.front()).c_str());
-    ImGui::PopStyleColor();
+    wrapped_text(colour_of_a(context.style),
+                 streams.complete() ? printable_message(problems.front()) : incomplete);
   }
 }
 
@@ -263,7 +254,8 @@ bool entered(const Transient& transient) {
 }  // namespace
 
 void draw_choices_page(const PaneContext& context, const PixelRect& place) {
-  const Explorer::Choosing choosing = *context.explorer.choosing();  // what is performed may replace it
+  const ChoicesPage::Choosing choosing =
+      *context.explorer.page.choosing();  // what is performed may replace it
   const double w = std::min(context.px(kWidth), place.width - context.px(24));
   const double h = std::min(context.px(kHeight), place.height - context.px(16));
   const PixelRect page{std::round(place.left + (place.width - w) / 2),

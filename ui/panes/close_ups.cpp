@@ -32,7 +32,7 @@ std::string difference_in_words(const PlaceToLook& place) {
 }
 
 std::size_t number_of(const Explorer& explorer) {
-  const auto& places = explorer.places();
+  const auto& places = explorer.places.all();
   return 1 +
          static_cast<std::size_t>(std::find(places.begin(), places.end(), explorer.place()) - places.begin());
 }
@@ -56,10 +56,7 @@ ImTextureID picture_of(const PaneContext& context, Side side, const PixelRect& p
 /// A square button with a sign of two strokes through the given points, which reach from -1 to 1.
 void sign_button(const PaneContext& context, const std::string& line, const PixelRect& place,
                  const std::array<ImVec2, 3>& stroke) {
-  ImGui::SetCursorScreenPos({static_cast<float>(place.left), static_cast<float>(place.top)});
-  if (ImGui::InvisibleButton(line.c_str(),
-                             {static_cast<float>(place.width), static_cast<float>(place.height)}))
-    context.perform(line);
+  if (invisible_button(line, place)) context.perform(line);
   context.anchor_last("button " + line);
   const bool hovered = ImGui::IsItemHovered();
   const Command& command = *find_command(line.substr(0, line.find(' ')));
@@ -80,7 +77,7 @@ void draw_bar(const PaneContext& context, Side side, const PixelRect& bar) {
   ImGui::PushID(side == Side::kA ? "A" : "B");
   sign_button(context, "next-place back", left, {{{0.5f, -1}, {-0.5f, 0}, {0.5f, 1}}});
   const std::string words =
-      fmt::format("{} of {}", number_of(context.explorer), context.explorer.places().size());
+      fmt::format("{} of {}", number_of(context.explorer), context.explorer.places.all().size());
   ImGui::PushFont(context.fonts.small);
   const ImVec2 size = ImGui::CalcTextSize(words.c_str());
   const float middle = static_cast<float>(bar.top + bar.height / 2);
@@ -102,8 +99,7 @@ void draw_close_up(const PaneContext& context, Side side, const PixelRect& pictu
   if (!shown || places.empty()) return;
   const PixelRect& place = layout == Layout::kSwipe && side == Side::kB ? places.back() : places.front();
   const char* name = side == Side::kA ? "close-up a" : "close-up b";
-  ImGui::SetCursorScreenPos({static_cast<float>(place.left), static_cast<float>(place.top)});
-  ImGui::InvisibleButton(name, {static_cast<float>(place.width), static_cast<float>(place.height)});
+  invisible_button(name, place);
   ImGui::SetItemAllowOverlap();
   context.anchor(name, place);
   if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0)) context.perform("look-at-place");
@@ -113,14 +109,12 @@ void draw_close_up(const PaneContext& context, Side side, const PixelRect& pictu
                   "surface fills more cells of 5 cm. N and Shift+N go to the other places, a double "
                   "click looks at this one.",
                   shown->width_m(), position_in_words(*shown), difference_in_words(*shown)));
-  const ImVec2 from{static_cast<float>(place.left), static_cast<float>(place.top)},
-      to{static_cast<float>(place.right()), static_cast<float>(place.bottom())};
+  const ImVec2 from = corner(place), to = far_corner(place);
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddImage(picture_of(context, side, place, *shown), from, to, {0, 1}, {1, 0});
   const PixelRect bar{place.left, place.top, place.width, context.px(20)};
   draw_bar(context, side, bar);
-  list.AddRect(from, to, to_imgui(side == Side::kA ? colour_of_a(context.style) : colour_of_b(context.style)),
-               0, 0, context.pxf(1.5));
+  list.AddRect(from, to, to_imgui(colour_of(context, side)), 0, 0, context.pxf(1.5));
 }
 
 void draw_place_mark(const PaneContext& context, const Projection& projection) {
@@ -132,7 +126,7 @@ void draw_place_mark(const PaneContext& context, const Projection& projection) {
     const auto at = projection(
         {centre_m.x() + x * shown->width_m() / 2, centre_m.y() + y * shown->height_m() / 2, shown->z_m});
     if (!at) return;
-    corners.push_back({static_cast<float>(at->x), static_cast<float>(at->y)});
+    corners.push_back(vec(at->x, at->y));
   }
   ImGui::GetWindowDrawList()->AddPolyline(corners.data(), static_cast<int>(corners.size()),
                                           to_imgui(ink_of(context), 0.75), ImDrawFlags_Closed,
@@ -140,7 +134,7 @@ void draw_place_mark(const PaneContext& context, const Projection& projection) {
 }
 
 void place_field(const PaneContext& context) {
-  const auto& places = context.explorer.places();
+  const auto& places = context.explorer.places.all();
   const Command& command = *find_command("place");
   begin_field(context, command);
   const bool any = context.explorer.place() != nullptr;

@@ -113,7 +113,7 @@ void scrubber(const PaneContext& context, const PixelRect& place) {
   const auto& scans = context.explorer.loaded()->recording.scans;
   const int last = static_cast<int>(scans.size()) - 1;
   int scan = std::clamp(static_cast<int>(context.settings().scan), 0, last);
-  ImGui::SetCursorScreenPos({static_cast<float>(place.left), static_cast<float>(place.top)});
+  ImGui::SetCursorScreenPos(corner(place));
   ImGui::SetNextItemWidth(static_cast<float>(place.width));
   const std::string format =
       fmt::format("scan %d of {}, {:.2f} s", scans.size(),
@@ -143,7 +143,7 @@ void draw_profile_chart(const PaneContext& context, const PixelRect& place) {
 }
 
 void draw_scan_view(const PaneContext& context, const PixelRect& place) {
-  const FeatureSet* features = context.explorer.features();
+  const FeatureSet* features = context.explorer.loaded()->prepared.features.get();
   if (features == nullptr) return hint(context, place, "Picking edge and plane points …");
   const Loaded& loaded = *context.explorer.loaded();
   const auto scan = static_cast<std::size_t>(

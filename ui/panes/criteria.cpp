@@ -17,10 +17,6 @@ namespace {
 
 constexpr Colour kUnseen{0, 0, 0, 0};
 
-Colour colour_of(const PaneContext& context, Side side) {
-  return side == Side::kA ? colour_of_a(context.style) : colour_of_b(context.style);
-}
-
 /// Before there is an estimate: what the handles can be moved over.
 Chart empty_chart(const PaneContext& context) {
   const double reach_ms =
@@ -56,7 +52,7 @@ std::optional<AxisRange> range_shown(const PaneContext& context) {
 }
 
 std::vector<Chart> charts_of(const PaneContext& context) {
-  const Estimate* estimate = context.explorer.charted();
+  const Estimate* estimate = context.explorer.estimating.charted();
   std::vector<Chart> charts;
   if (estimate != nullptr) charts = curve_charts(*estimate, marked_offsets(context), context.style);
   if (charts.empty()) charts.push_back(empty_chart(context));
@@ -119,18 +115,10 @@ void draw_hint(const PaneContext& context, const PixelRect& plot) {
   const PixelPoint middle{plot.left + plot.width / 2, plot.top + plot.height * 0.4};
   const PixelRect plate{middle.x - width / 2, middle.y - line_px - margin / 2, width, 2 * line_px + margin};
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  list.AddRectFilled({static_cast<float>(plate.left), static_cast<float>(plate.top)},
-                     {static_cast<float>(plate.right()), static_cast<float>(plate.bottom())},
-                     to_imgui(context.style.panel), context.pxf(3));
+  list.AddRectFilled(corner(plate), far_corner(plate), to_imgui(context.style.panel), context.pxf(3));
   for (std::size_t i = 0; i < lines.size(); ++i)
-    paint_text(list,
-               {{middle.x, middle.y + (static_cast<double>(i) - 0.5) * line_px},
-                lines[i],
-                size_px,
-                context.style.faint_text,
-                AlignX::kCentre,
-                AlignY::kMiddle},
-               context.fonts);
+    paint_text(list, context.fonts, {middle.x, middle.y + (static_cast<double>(i) - 0.5) * line_px}, lines[i],
+               size_px, context.style.faint_text, AlignX::kCentre, AlignY::kMiddle);
 }
 
 void draw_one(const PaneContext& context, Chart chart, const PixelRect& place, std::size_t number) {
@@ -141,12 +129,11 @@ void draw_one(const PaneContext& context, Chart chart, const PixelRect& place, s
   add_chart(drawing, place, chart, context.style, scale);
   paint(*ImGui::GetWindowDrawList(), drawing, context.fonts);
   const ChartLayout layout = lay_out_chart(chart, place, scale);
-  if (context.explorer.charted() == nullptr) draw_hint(context, layout.plot);
+  if (context.explorer.estimating.charted() == nullptr) draw_hint(context, layout.plot);
   use_chart_mouse(context, chart, layout, all, number);
   if (number == 0) draw_grips(context, layout);
-  ImGui::SetCursorScreenPos({static_cast<float>(place.left), static_cast<float>(place.top)});
-  ImGui::InvisibleButton(fmt::format("chart title {}", number).c_str(),
-                         {static_cast<float>(place.width * 0.6), context.pxf(18)});
+  invisible_button(fmt::format("chart title {}", number),
+                   {place.left, place.top, place.width * 0.6, context.px(18)});
   context.anchor_last(fmt::format("chart title {}", number));
   tooltip(context, meaning(chart.title), TooltipPlace::kBelow);
 }

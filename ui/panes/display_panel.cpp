@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "render/charts/ticks.hpp"
+#include "ui/explorer/observables.hpp"
 #include "ui/host/paint.hpp"
 #include "ui/panes/close_ups.hpp"
 #include "ui/panes/number_box.hpp"
@@ -58,21 +59,16 @@ void legend(const PaneContext& context) {
     list.AddRectFilled({x, from.y}, {next, from.y + height},
                        to_imgui(table[std::size_t{2} * static_cast<std::size_t>(i)]));
   }
-  const ColourSpan span = context.explorer.shown_span();
+  const ColourSpan span = context.explorer.maps.shown_span();
   const double size = context.px(11);
   if (context.settings().colouring == ColourBy::kDirection &&
       context.settings().layout != Layout::kDifference) {
     for (const auto& [text, part, align] :
          {std::tuple{"lesser angles", 0.0, AlignX::kLeft}, std::tuple{"greater angles", 1.0, AlignX::kRight}})
-      paint_text(list,
-                 {{static_cast<double>(from.x) + part * static_cast<double>(width),
-                   static_cast<double>(from.y + height) + context.px(4)},
-                  text,
-                  size,
-                  context.style.faint_text,
-                  align,
-                  AlignY::kTop},
-                 context.fonts);
+      paint_text(list, context.fonts,
+                 {static_cast<double>(from.x) + part * static_cast<double>(width),
+                  static_cast<double>(from.y + height) + context.px(4)},
+                 text, size, context.style.faint_text, align, AlignY::kTop);
   } else {
     const Ticks ticks = round_ticks(span.from, span.to, 5);
     for (std::size_t i = 0; i < ticks.values.size(); ++i) {
@@ -82,14 +78,8 @@ void legend(const PaneContext& context) {
       list.AddLine({static_cast<float>(x), from.y + height},
                    {static_cast<float>(x), from.y + height + context.pxf(3)},
                    to_imgui(context.style.faint_text));
-      paint_text(list,
-                 {{x, static_cast<double>(from.y + height) + context.px(5)},
-                  ticks.labels[i],
-                  size,
-                  context.style.faint_text,
-                  align,
-                  AlignY::kTop},
-                 context.fonts);
+      paint_text(list, context.fonts, {x, static_cast<double>(from.y + height) + context.px(5)},
+                 ticks.labels[i], size, context.style.faint_text, align, AlignY::kTop);
     }
   }
   ImGui::Dummy({width, height + context.pxf(20)});
@@ -98,11 +88,9 @@ void legend(const PaneContext& context) {
 /// How thick the surfaces of both maps are, while blur colours them.
 void map_thickness(const PaneContext& context) {
   for (const auto& [map, name] : {std::pair{"A", "thickness-a"}, std::pair{"B", "thickness-b"}}) {
-    const std::string words = context.explorer.observe(name).value_or("");
+    const std::string words = observe(context.explorer, name).value_or("");
     if (words.empty()) continue;
-    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-    ImGui::TextWrapped("%s: %s", map, words.c_str());
-    ImGui::PopStyleColor();
+    wrapped_text(context.style.faint_text, map + (": " + words));
   }
 }
 
@@ -171,15 +159,7 @@ void clipping_box(const PaneContext& context) {
     for (const std::size_t end : {axis, axis + 3}) {
       if (end != axis) ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
       ImGui::SetNextItemWidth(width);
-      number_box(context, {.id = fmt::format("box{}", end),
-                           .command = &command,
-                           .index = end,
-                           .least = command.parameters[end].least,
-                           .greatest = command.parameters[end].greatest,
-                           .step = 0.1,
-                           .per_px = 0.02,
-                           .slider = false,
-                           .format = "%.1f m"});
+      number_box(context, box_of(command, end));
       context.anchor_last(fmt::format("box {}", end));
     }
   }

@@ -76,7 +76,7 @@ void choose_typed(const PaneContext& context) {
   const std::string path = without_tilde(typed, home_folder());
   const fs::path whole = fs::path(path).lexically_normal();
   const fs::path folder = whole.has_filename() ? whole : whole.parent_path();
-  const bool readable = context.explorer.roots().can_read(path);
+  const bool readable = context.explorer.files.roots().can_read(path);
   const bool recording = readable && asks_for_recording(context.transient) && opens_as_recording(folder);
   if (readable && fs::is_directory(path, failed) && !recording)
     return go_to(context.transient, typed.ends_with('/') ? typed : typed + "/");
@@ -90,7 +90,7 @@ int edit_path(ImGuiInputTextCallbackData* data) {
   if (data->EventFlag == ImGuiInputTextFlags_CallbackCompletion) {
     const std::string typed(data->Buf, static_cast<std::size_t>(data->BufTextLen));
     transient.asked_text = typed;
-    const std::string longer = completed(typed, entries_now(transient, context.explorer.roots()));
+    const std::string longer = completed(typed, entries_now(transient, context.explorer.files.roots()));
     data->DeleteChars(0, data->BufTextLen);
     data->InsertChars(0, longer.c_str());
   } else if (transient.browsing.to_end) {
@@ -129,7 +129,7 @@ void place_button(const PaneContext& context, const std::string& title, const st
 /// Folders to go to, and recordings that were open before.
 void recent_places(const PaneContext& context) {
   ImGui::TextDisabled("Places");
-  const FileRoots& roots = context.explorer.roots();
+  const FileRoots& roots = context.explorer.files.roots();
   for (const fs::path& folder : roots.folders())
     place_button(context, folder.filename().empty() ? folder.string() : folder.filename().string(),
                  (folder / "").string());
@@ -174,7 +174,7 @@ void list(const PaneContext& context, const std::vector<FileEntry>& entries) {
     ImGui::TextDisabled("%s", what.c_str());
   }
   if (!entries.empty()) return;
-  const FileRoots& roots = context.explorer.roots();
+  const FileRoots& roots = context.explorer.files.roots();
   const bool readable = roots.can_read(folder.empty() ? "." : without_tilde(folder, home_folder()));
   ImGui::TextDisabled("%s", !readable ? "This folder is outside of the folders that this program may open."
                             : browsing.all ? "Nothing here begins like that."
@@ -196,14 +196,10 @@ void draw_open_dialog(const PaneContext& context, const PixelRect& whole) {
   Transient& transient = context.transient;
   const Command& command = *find_command(transient.asks_for->command);
   begin_front(context, "ask", whole, 760, 470, 0.14);
-  ImGui::PushFont(context.fonts.heading);
-  ImGui::TextUnformatted(command.name == "open" ? "Open" : command.title.c_str());
-  ImGui::PopFont();
-  ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(context.style.faint_text));
-  ImGui::TextWrapped("%s", command.help.c_str());
-  ImGui::PopStyleColor();
+  text_in(context.fonts.heading, command.name == "open" ? "Open" : command.title);
+  wrapped_text(context.style.faint_text, command.help);
   const bool entered = path_field(context);
-  const std::vector<FileEntry> entries = entries_now(transient, context.explorer.roots());
+  const std::vector<FileEntry> entries = entries_now(transient, context.explorer.files.roots());
   int& choice = transient.browsing.choice;
   const int last = static_cast<int>(entries.size()) - 1;
   if (ImGui::IsKeyPressed(keys::kDown)) ++choice;

@@ -15,10 +15,6 @@
 namespace sweepscope::ui {
 namespace {
 
-void end_front() {
-  ImGui::End();
-}
-
 /// What a shortcut does, for a person.
 std::string title_of(const Shortcut& shortcut) {
   if (!shortcut.title.empty()) return shortcut.title;
@@ -89,9 +85,9 @@ void run_entry(const PaneContext& context, const Entry& entry) {
 
 /// As typed, but what would replace a file asks first.
 void perform_or_ask(const PaneContext& context, const std::string& line) {
-  const std::string replaced = context.explorer.replaced_by(line);
-  if (replaced.empty()) return context.perform(line);
   const Call call = *parse_call(line);
+  const std::string replaced = context.explorer.files.replaced_by(call);
+  if (replaced.empty()) return context.perform(call);
   const std::string& command = call.command->name;
   const bool cloud = command == "export-cloud";
   Transient& transient = context.transient;
@@ -142,7 +138,7 @@ void begin_front(const PaneContext& context, const char* name, const PixelRect& 
   const double top =
       std::max(context.px(12), std::min(whole.height * from_top, whole.height - h - context.px(12)));
   ImGui::SetNextWindowPos({0, 0});
-  ImGui::SetNextWindowSize({static_cast<float>(whole.width), static_cast<float>(whole.height)});
+  ImGui::SetNextWindowSize(extent(whole));
   ImGui::PushStyleColor(ImGuiCol_WindowBg, IM_COL32(0, 0, 0, 110));
   ImGui::Begin((std::string(name) + " veil").c_str(), nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
@@ -150,9 +146,8 @@ void begin_front(const PaneContext& context, const char* name, const PixelRect& 
   if (ImGui::IsWindowHovered() && ImGui::IsMouseClicked(0)) context.perform("dismiss");
   ImGui::End();
   ImGui::PopStyleColor();
-  ImGui::SetNextWindowPos(
-      {static_cast<float>(std::round((whole.width - w) / 2)), static_cast<float>(std::round(top))});
-  ImGui::SetNextWindowSize({static_cast<float>(w), static_cast<float>(h)});
+  ImGui::SetNextWindowPos(vec(std::round((whole.width - w) / 2), std::round(top)));
+  ImGui::SetNextWindowSize(vec(w, h));
   ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyleColorVec4(ImGuiCol_PopupBg));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(context.pxf(18), context.pxf(16)));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
@@ -184,7 +179,7 @@ void draw_palette(const PaneContext& context, const PixelRect& whole) {
   if (transient.palette_query != before) transient.palette_choice = 0;
   ImGui::Dummy({0, context.pxf(2)});
   palette_list(context, found);
-  end_front();
+  ImGui::End();
   if (!entered || run_typed(context)) return;
   if (!found.empty())
     run_entry(context, found[static_cast<std::size_t>(transient.palette_choice)]);
@@ -195,9 +190,7 @@ void draw_palette(const PaneContext& context, const PixelRect& whole) {
 void draw_help(const PaneContext& context, const PixelRect& whole) {
   if (!context.transient.help) return;
   begin_front(context, "keys", whole, 940, 510, 0.1);
-  ImGui::PushFont(context.fonts.heading);
-  ImGui::TextUnformatted("Keys");
-  ImGui::PopFont();
+  text_in(context.fonts.heading, "Keys");
   ImGui::TextDisabled(
       "Drag to turn, drag with the right button or Shift to move, wheel to zoom. Every command: Ctrl+P.");
   ImGui::Dummy({0, context.pxf(4)});
@@ -222,7 +215,7 @@ void draw_help(const PaneContext& context, const PixelRect& whole) {
     ImGui::EndTable();
   }
   ImGui::PopFont();
-  end_front();
+  ImGui::End();
 }
 
 namespace {
@@ -250,13 +243,10 @@ bool ask_for_file(const PaneContext& context, const Transient::Asked& asked) {
   context.anchor_last("ask file");
   if (transient.asked_text != before) transient.replaces.clear();
   if (!transient.asked_text.empty()) {
-    ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(transient.replaces.empty() ? context.style.faint_text
-                                                                             : colour_of_a(context.style)));
-    const std::string says = transient.replaces.empty()
-                                 ? whole_path(without_tilde(transient.asked_text, home_folder()))
-                                 : transient.replaces + " already exists. Press Enter to replace it.";
-    ImGui::TextWrapped("%s", printable_line(says).c_str());
-    ImGui::PopStyleColor();
+    const bool is_new = transient.replaces.empty();
+    const std::string says = is_new ? whole_path(without_tilde(transient.asked_text, home_folder()))
+                                    : transient.replaces + " already exists. Press Enter to replace it.";
+    wrapped_text(is_new ? context.style.faint_text : colour_of_a(context.style), printable_line(says));
   }
   ImGui::Dummy({0, context.pxf(2)});
   const bool confirmed =
@@ -273,22 +263,19 @@ void draw_ask(const PaneContext& context, const PixelRect& whole) {
   const Transient::Asked asked = *transient.asks_for;
   if (is_opening(asked.command)) return draw_open_dialog(context, whole);
   begin_front(context, "ask", whole, 560, 206, 0.22);
-  ImGui::PushFont(context.fonts.heading);
-  ImGui::TextUnformatted(title_of_asking(asked).c_str());
-  ImGui::PopFont();
-  ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(context.style.faint_text));
-  ImGui::TextWrapped("%s", find_command(asked.command)->help.c_str());
-  ImGui::PopStyleColor();
+  text_in(context.fonts.heading, title_of_asking(asked));
+  wrapped_text(context.style.faint_text, find_command(asked.command)->help);
   const bool confirmed = ask_for_file(context, asked);
   ImGui::SameLine();
   const bool dismissed = ImGui::Button("Cancel", {context.pxf(100), 0});
   context.anchor_last("button cancel-asking");
-  end_front();
+  ImGui::End();
   if (dismissed) return context.perform("dismiss");
   if (!confirmed || transient.asked_text.empty() || !transient.asks_for) return;
   const std::string line = line_of_asking(asked, transient.asked_text);
-  if (transient.replaces.empty()) {
-    transient.replaces = context.explorer.replaced_by(line);
+  const auto call = parse_call(line);
+  if (call && transient.replaces.empty()) {
+    transient.replaces = context.explorer.files.replaced_by(*call);
     transient.just_opened = !transient.replaces.empty();  // Enter left the field
     if (transient.just_opened) return;
   }
@@ -311,7 +298,7 @@ std::string message_text(const Message& message) {
 }  // namespace
 
 double message_height(const PaneContext& context, double width_px) {
-  const auto& message = context.explorer.message();
+  const auto& message = context.explorer.messages.shown();
   if (!message) return 0;
   ImGui::PushFont(context.fonts.body);
   const auto text = static_cast<double>(
@@ -321,7 +308,7 @@ double message_height(const PaneContext& context, double width_px) {
 }
 
 void draw_message(const PaneContext& context, const PixelRect& place) {
-  const auto& message = context.explorer.message();
+  const auto& message = context.explorer.messages.shown();
   if (!message) return;
   const bool error = message->kind == Message::Kind::kError;
   ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyleColorVec4(ImGuiCol_PopupBg));
@@ -342,9 +329,9 @@ void draw_message(const PaneContext& context, const PixelRect& place) {
   const bool dismissed = ImGui::SmallButton("Dismiss");
   context.anchor_last("button dismiss");
   context.anchor("message", place);
-  context.explorer.hold_message(ImGui::IsWindowHovered());
+  context.explorer.messages.hold(ImGui::IsWindowHovered());
   end_panel();
-  if (dismissed) context.explorer.dismiss_message();  // not "dismiss": that is for what is in front of it
+  if (dismissed) context.explorer.messages.dismiss();  // not "dismiss": that is for what is in front of it
 }
 
 }  // namespace sweepscope::ui

@@ -133,7 +133,7 @@ void outlined(ImDrawList& list, const std::vector<ImVec2>& points, ImU32 colour,
 std::optional<ImVec2> to_screen(const Projection& projection, const Eigen::Vector3d& p_m) {
   const auto at = projection(p_m);
   if (!at) return std::nullopt;
-  return ImVec2{static_cast<float>(at->x), static_cast<float>(at->y)};
+  return vec(at->x, at->y);
 }
 
 void draw_path(const PaneContext& context, Side side, const Projection& projection) {
@@ -164,10 +164,9 @@ void draw_scale_bar(const PaneContext& context, const PixelRect& picture, const 
       metres < 0.995 ? fmt::format("{:g} cm", metres * 100) : fmt::format("{:g} m", metres);
   const double text_px = text_width_px(label, context.px(11));
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  list.AddRectFilled(
-      {static_cast<float>(x - context.px(8)), static_cast<float>(y - context.px(11))},
-      {static_cast<float>(x + length_px + text_px + context.px(18)), static_cast<float>(y + context.px(11))},
-      IM_COL32(10, 12, 15, 170), context.pxf(3));
+  list.AddRectFilled(vec(x - context.px(8), y - context.px(11)),
+                     vec(x + length_px + text_px + context.px(18), y + context.px(11)),
+                     IM_COL32(10, 12, 15, 170), context.pxf(3));
   Drawing bar;
   const Colour white{255, 255, 255};
   bar.line({x, y}, {x + length_px, y}, context.px(1.5), white);
@@ -285,8 +284,7 @@ void draw_ground(const PaneContext& context, Side side, const PixelRect& picture
   grid.lines.alpha = 40;
   grid.text.alpha = 150;
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  const ImVec2 from{static_cast<float>(picture.left), static_cast<float>(picture.top)},
-      to{static_cast<float>(picture.right()), static_cast<float>(picture.bottom())};
+  const ImVec2 from = corner(picture), to = far_corner(picture);
   list.PushClipRect(from, to, true);
   list.AddRectFilled(from, to, to_imgui(backdrop_of(context)));
   paint(list, grid_marks(grid, camera, projection), context.fonts);
@@ -295,8 +293,7 @@ void draw_ground(const PaneContext& context, Side side, const PixelRect& picture
 
 void draw_overlays(const PaneContext& context, Side side, const PixelRect& picture) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  list.PushClipRect({static_cast<float>(picture.left), static_cast<float>(picture.top)},
-                    {static_cast<float>(picture.right()), static_cast<float>(picture.bottom())}, true);
+  list.PushClipRect(corner(picture), far_corner(picture), true);
   const Projection projection = projection_of(context.settings(), side, picture);
   draw_path(context, side, projection);
   draw_played_scan(context, side, projection);

@@ -14,10 +14,6 @@ namespace {
 
 constexpr double kMoving_s = 0.2;  // after the last move of a camera, thinned points alone are drawn
 
-ImVec2 far_corner(const PixelRect& rect) {
-  return {static_cast<float>(rect.right()), static_cast<float>(rect.bottom())};
-}
-
 /// Draws the map, as far as the frame's time allows.
 void render(const PaneContext& context, Side side, const PixelRect& picture) {
   LiveView& view = *context.views[static_cast<std::size_t>(side)];
@@ -67,7 +63,7 @@ void show_texture(const PaneContext& context, Side side, const PixelRect& pictur
 /// How far the map is; the picture's own progress is not part of it.
 std::string state_of_map(const PaneContext& context, Side side) {
   const Pane& pane = context.explorer.pane(side);
-  for (const JobStatus& job : context.explorer.background().status()) {
+  for (const JobStatus& job : context.explorer.background.status()) {
     const auto& request = pane.request;
     if (!request || pane.state == PaneState::kSolved) break;
     const auto ns = std::llround(request->placement.offset_s * 1e9);
@@ -124,7 +120,7 @@ void draw_link(const PaneContext& context, Side side, double left, float middle)
 void draw_header(const PaneContext& context, Side side, const PixelRect& place) {
   if (place.width <= 0) return;
   const bool a = side == Side::kA;
-  const Colour colour = a ? colour_of_a(context.style) : colour_of_b(context.style);
+  const Colour colour = colour_of(context, side);
   const char* command = a ? "offset-a" : "offset-b";
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const auto middle = static_cast<float>(place.top + place.height / 2);
@@ -139,19 +135,14 @@ void draw_header(const PaneContext& context, Side side, const PixelRect& place) 
   ImGui::PopFont();
   ImGui::SameLine(0, context.pxf(10));
   ImGui::SetCursorScreenPos({ImGui::GetCursorScreenPos().x, middle - ImGui::GetFrameHeight() / 2});
-  const double offset_ms = a ? context.settings().offset_a_ms : context.settings().offset_b_ms;
+  const double shown_ms = offset_ms(context.settings(), side);
   ImGui::SetNextItemWidth(context.pxf(place.width < context.px(300) ? 84 : 104));
-  const int decimals = std::abs(offset_ms * 10 - std::round(offset_ms * 10)) < 1e-6 ? 1 : 3;
-  const auto [from_ms, to_ms] = context.explorer.offset_window_ms();
-  number_box(context, {.id = std::string(command) + "0",
-                       .command = find_command(command),
-                       .index = 0,
-                       .least = from_ms,
-                       .greatest = to_ms,
-                       .step = 1e-3,
-                       .per_px = 0.02,
-                       .slider = false,
-                       .format = fmt::format("%.{}f ms", decimals)});
+  const int decimals = std::abs(shown_ms * 10 - std::round(shown_ms * 10)) < 1e-6 ? 1 : 3;
+  NumberBox box = box_of(*find_command(command), 0);
+  std::tie(box.least, box.greatest) = context.explorer.offset_window_ms();
+  box.step = 1e-3;
+  box.format = fmt::format("%.{}f ms", decimals);
+  number_box(context, box);
   context.anchor_last(command);
   tooltip(context, find_command(command)->help + "  Drag, or click to type.");
   if (context.settings().layout == Layout::kSideBySide || context.settings().layout == Layout::kStacked)
@@ -172,10 +163,7 @@ void draw_frame(const PaneContext& context, const PixelRect& picture) {
 
 /// A widget that takes the mouse over all of a picture.
 void cover(const PaneContext& context, const char* name, const PixelRect& picture) {
-  ImGui::SetCursorScreenPos(corner(picture));
-  ImGui::InvisibleButton(name, {static_cast<float>(picture.width), static_cast<float>(picture.height)},
-                         ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
-                             ImGuiButtonFlags_MouseButtonMiddle);
+  invisible_button(name, picture, kAnyButton);
   ImGui::SetItemAllowOverlap();
   context.anchor(name, picture);
 }
@@ -196,8 +184,7 @@ void draw_map(const PaneContext& context, Side side, const PixelRect& picture) {
 
 void divider(const PaneContext& context, const PixelRect& picture) {
   const double x = picture.left + context.settings().divider * picture.width, reach = context.px(8);
-  ImGui::SetCursorScreenPos({static_cast<float>(x - reach), static_cast<float>(picture.top)});
-  ImGui::InvisibleButton("divider", {static_cast<float>(2 * reach), static_cast<float>(picture.height)});
+  invisible_button("divider", {x - reach, picture.top, 2 * reach, picture.height});
   context.anchor_last("divider");
   if (ImGui::IsItemActivated()) context.begin_gesture();
   if (ImGui::IsItemHovered() || ImGui::IsItemActive()) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
@@ -257,12 +244,6 @@ Colour backdrop_of(const PaneContext& context) {
 Colour ink_of(const PaneContext& context) {
   const bool dark = backdrop_of(context).green < 128;
   return dark ? Colour{255, 255, 255} : Colour{20, 23, 28};
-}
-
-std::vector<Side> sides_of(Layout layout) {
-  if (layout == Layout::kOnlyA) return {Side::kA};
-  if (layout == Layout::kOnlyB || layout == Layout::kDifference) return {Side::kB};
-  return {Side::kA, Side::kB};
 }
 
 void draw_maps(const PaneContext& context, const PixelRect& place) {

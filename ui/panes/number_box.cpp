@@ -13,6 +13,14 @@
 namespace sweepscope::ui {
 namespace {
 
+/// As many decimals as the step needs.
+int decimals_for(double step) {
+  if (step <= 0) return 2;
+  int decimals = 0;
+  while (decimals < 4 && std::abs(step - std::round(step)) > 1e-9) step *= 10, ++decimals;
+  return decimals;
+}
+
 /// As near to what was typed as the parameter's step allows a drag to set it.
 double rounded(double number, const NumberBox& box) {
   const double step = box.step > 0 ? box.step : 1e-3;
@@ -32,7 +40,7 @@ double number_now(const PaneContext& context, const NumberBox& box) {
 void set_typed(const PaneContext& context, const NumberBox& box, const std::string& text) {
   const Parameter& parameter = box.command->parameters[box.index];
   const auto number = parse_typed_number(parameter, text);
-  if (!number) return context.explorer.say(Message::Kind::kError, number.error().message);
+  if (!number) return context.explorer.messages.error(number.error());
   if (*number != number_now(context, box)) context.perform(call_with(context, box, *number));
 }
 
@@ -92,6 +100,19 @@ Result<double> parse_typed_number(const Parameter& parameter, std::string_view t
   return failure(ExitCode::kWrongUsage,
                  fmt::format("\"{}\" is {}. Type {}.", text, is_number ? "out of range" : "not a number",
                              describe(parameter)));
+}
+
+NumberBox box_of(const Command& command, std::size_t index) {
+  const Parameter& parameter = command.parameters[index];
+  const std::string unit = parameter.unit == "%" ? " %%" : parameter.unit.empty() ? "" : " " + parameter.unit;
+  return {.id = fmt::format("{}{}", command.name, index),
+          .command = &command,
+          .index = index,
+          .least = parameter.least,
+          .greatest = parameter.greatest,
+          .step = parameter.step,
+          .per_px = std::max(parameter.step, 1e-3) * 0.2,
+          .format = fmt::format("%.{}f{}", decimals_for(parameter.step), unit)};
 }
 
 void number_box(const PaneContext& context, const NumberBox& box) {

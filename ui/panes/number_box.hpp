@@ -18,6 +18,8 @@ struct NumberBox {
   bool slider = false;
   std::string format;  // for ImGui: "%.1f ms"
 };
+/// To drag between the parameter's limits, in its unit and with its step.
+NumberBox box_of(const Command& command, std::size_t index);
 /// The last widget is the box.
 void number_box(const PaneContext& context, const NumberBox& box);
 

@@ -37,21 +37,19 @@ void show_window(const PaneContext& context, const OffsetOverTime& over_time, co
 }  // namespace
 
 bool has_windows(const PaneContext& context) {
-  const Estimate* estimate = context.explorer.charted();
+  const Estimate* estimate = context.explorer.estimating.charted();
   return estimate != nullptr && estimate->over_time && !estimate->over_time->windows.empty();
 }
 
 void draw_over_time_strip(const PaneContext& context, const PixelRect& place) {
-  const Estimate& estimate = *context.explorer.charted();
+  const Estimate& estimate = *context.explorer.estimating.charted();
   const double scale = context.scale * 0.86;
   const Chart chart = over_time_chart(estimate, context.style).value();
   Drawing drawing;
   add_chart(drawing, place, chart, context.style, scale);
   paint(*ImGui::GetWindowDrawList(), drawing, context.fonts);
   const ChartLayout layout = lay_out_chart(chart, place, scale);
-  ImGui::SetCursorScreenPos({static_cast<float>(layout.plot.left), static_cast<float>(layout.plot.top)});
-  ImGui::InvisibleButton("over time",
-                         {static_cast<float>(layout.plot.width), static_cast<float>(layout.plot.height)});
+  invisible_button("over time", layout.plot);
   context.anchor("over time", layout.plot);
   if (ImGui::IsItemHovered()) show_window(context, *estimate.over_time, layout);
 }

@@ -10,8 +10,9 @@
 
 #include "core/map/sections/cross_section.hpp"
 #include "render/pictures/live_view.hpp"
+#include "ui/commands/commands.hpp"
+#include "ui/explorer/explorer.hpp"
 #include "ui/host/theme.hpp"
-#include "ui/model/explorer.hpp"
 #include "ui/model/file_list.hpp"
 #include "ui/panes/layout.hpp"
 
@@ -106,9 +107,6 @@ struct PaneContext {
 Colour backdrop_of(const PaneContext& context);
 /// Of lines and letters over it.
 Colour ink_of(const PaneContext& context);
-
-/// The maps whose pictures the layout shows.
-std::vector<Side> sides_of(Layout layout);
 
 /// Each pane is drawn into its part of the interface, once per frame.
 void draw_menu_bar(const PaneContext& context, const PixelRect& place);

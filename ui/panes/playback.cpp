@@ -25,9 +25,7 @@ void draw_sign(const PaneContext& context, const ImVec2& middle, bool playing) {
 }
 
 void play_button(const PaneContext& context, const PixelRect& place) {
-  const auto size = static_cast<float>(place.height);
-  ImGui::SetCursorScreenPos({static_cast<float>(place.left), static_cast<float>(place.top)});
-  if (ImGui::InvisibleButton("play", {size, size})) context.perform("play");
+  if (invisible_button("play", place)) context.perform("play");
   context.anchor_last("button play");
   tooltip(context, find_command("play")->help + "  [" + chord_of("play") + "]");
   const ImVec2 from = ImGui::GetItemRectMin(), to = ImGui::GetItemRectMax();
@@ -39,8 +37,7 @@ void play_button(const PaneContext& context, const PixelRect& place) {
 
 void slider(const PaneContext& context, const PixelRect& place) {
   const double duration_s = std::max(context.explorer.loaded()->duration_s(), 1e-3);
-  ImGui::SetCursorScreenPos({static_cast<float>(place.left), static_cast<float>(place.top)});
-  ImGui::InvisibleButton("time", {static_cast<float>(place.width), static_cast<float>(place.height)});
+  invisible_button("time", place);
   context.anchor_last("time");
   tooltip(context, find_command("time")->help);
   if (ImGui::IsItemActivated()) context.begin_gesture();
@@ -83,15 +80,10 @@ void draw_playback(const PaneContext& context, const PixelRect& place) {
   ImGui::SetCursorScreenPos({static_cast<float>(place.right() - gap - close_px - gap - speed_px), y});
   ImGui::SetNextItemWidth(static_cast<float>(speed_px));
   const Command& speed = *find_command("play-speed");
-  number_box(context, {.id = "play-speed0",
-                       .command = &speed,
-                       .index = 0,
-                       .least = speed.parameters[0].least,
-                       .greatest = speed.parameters[0].greatest,
-                       .step = speed.parameters[0].step,
-                       .per_px = 0.02,
-                       .slider = false,
-                       .format = "%.2f×"});
+  NumberBox box = box_of(speed, 0);
+  box.per_px = 0.02;
+  box.format = "%.2f×";
+  number_box(context, box);
   context.anchor_last("play-speed");
   tooltip(context, speed.help);
   ImGui::SetCursorScreenPos({static_cast<float>(place.right() - gap - close_px), y});
@@ -116,7 +108,7 @@ void draw_played_scan(const PaneContext& context, Side side, const Projection& p
   }
   const auto at = played.sensor_m ? projection(*played.sensor_m) : std::nullopt;
   if (!at) return;
-  const ImVec2 sensor{static_cast<float>(at->x), static_cast<float>(at->y)};
+  const ImVec2 sensor = vec(at->x, at->y);
   list.AddCircleFilled(sensor, context.pxf(5), colour);
   list.AddCircle(sensor, context.pxf(5), to_imgui(ink_of(context)), 0, context.pxf(1.5));
 }

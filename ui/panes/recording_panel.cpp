@@ -52,11 +52,7 @@ void notes(const PaneContext& context, const Loaded& loaded) {
   }
   if (all.empty()) return;
   heading(context, "Notes");
-  ImGui::PushFont(context.fonts.small);
-  ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(context.style.faint_text));
-  for (const std::string& note : all) ImGui::TextWrapped("%s", without_options(printable_line(note)).c_str());
-  ImGui::PopStyleColor();
-  ImGui::PopFont();
+  for (const std::string& note : all) small_print(context, without_options(printable_line(note)));
 }
 
 /// Whether an estimate is one of the paper's: only these are fitted, and only the direct method solves for
@@ -80,10 +76,10 @@ void search(const PaneContext& context) {
   if (solves_for("mount")) field(context, "mount-prior");
   if (solves_for("play") || solves_for("encoder")) field(context, "gear-prior");
   ImGui::Dummy({0, context.pxf(2)});
-  if (context.explorer.background().has("estimate"))
+  if (context.explorer.estimating.is_running())
     button(context, "Cancel", "cancel");
   else
-    button(context, "Estimate the offset", "estimate", 0, context.explorer.estimate() == nullptr);
+    button(context, "Estimate the offset", "estimate", 0, context.explorer.estimating.found() == nullptr);
 }
 
 /// An optimum in plain words: what it is the least or the most of, its value with its unit, and what that
@@ -201,13 +197,8 @@ void rig_rows(const PaneContext& context, const SolvedRig& solved) {
   row(context, solved.along_walk ? "matches" : "surfaces",
       fmt::format("{:.1f} mm {}, {:.1f} mm with the rig file", solved.residual_after_m * 1e3,
                   solved.along_walk ? "apart" : "thick", solved.residual_before_m * 1e3));
-  ImGui::PushFont(context.fonts.small);
-  ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(context.style.faint_text));
   const bool drawn = is_drawn_with(solved, context.explorer.loaded()->recording.rig);
-  ImGui::TextUnformatted(drawn ? "The maps are drawn with this rig."
-                               : "The maps are drawn with the rig file.");
-  ImGui::PopStyleColor();
-  ImGui::PopFont();
+  small_print(context, drawn ? "The maps are drawn with this rig." : "The maps are drawn with the rig file.");
   if (!drawn) button(context, "Use the rig found …", "ask use-rig");
   button(context, "Export the rig found …", "ask export-rig");
 }
@@ -217,9 +208,7 @@ void answer(const PaneContext& context, const Estimate& estimate) {
   if (estimate.identifiable && estimate.offset_s) {
     std::string text = fmt::format("{:.2f}", *estimate.offset_s * 1e3);
     if (estimate.sigma_s) text += fmt::format(" ± {:.2f}", *estimate.sigma_s * 1e3);
-    ImGui::PushFont(context.fonts.title);
-    ImGui::TextUnformatted(text.c_str());
-    ImGui::PopFont();
+    text_in(context.fonts.title, text);
     context.anchor_last("answer");
     tooltip(context, meaning_of(estimate));
     ImGui::SameLine(0, context.pxf(6));
@@ -232,18 +221,12 @@ void answer(const PaneContext& context, const Estimate& estimate) {
     ImGui::Dummy({0, context.pxf(2)});
     button(context, "Show in map B", "take-found");
   } else {
-    ImGui::PushFont(context.fonts.heading);
-    ImGui::TextUnformatted("Not determined");
-    ImGui::PopFont();
+    text_in(context.fonts.heading, "Not determined");
     for (const std::string& reason : estimate.reasons())
       ImGui::TextWrapped("%s", without_options(printable_line(reason)).c_str());
   }
-  ImGui::PushFont(context.fonts.small);
-  ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(context.style.faint_text));
   for (const std::string& warning : estimate.warnings)
-    ImGui::TextWrapped("%s", without_options(printable_line(warning)).c_str());
-  ImGui::PopStyleColor();
-  ImGui::PopFont();
+    small_print(context, without_options(printable_line(warning)));
 }
 
 }  // namespace
@@ -253,7 +236,7 @@ void draw_recording_panel(const PaneContext& context, const PixelRect& place) {
   begin_panel(context, "recording", place);
   recording_rows(context, *context.explorer.loaded());
   search(context);
-  if (const Estimate* estimate = context.explorer.estimate()) answer(context, *estimate);
+  if (const Estimate* estimate = context.explorer.estimating.found()) answer(context, *estimate);
   notes(context, *context.explorer.loaded());
   end_panel();
 }

@@ -29,8 +29,7 @@ double value_at(const PaneContext& context, const Splitter& splitter, const Plac
 void use(const PaneContext& context, const Splitter& splitter, const Places& places, const PixelRect& whole) {
   ImGui::SetNextWindowBgAlpha(0);
   begin_panel(context, splitter.name, splitter.edge, false, true);
-  ImGui::InvisibleButton("edge",
-                         {static_cast<float>(splitter.edge.width), static_cast<float>(splitter.edge.height)});
+  ImGui::InvisibleButton("edge", extent(splitter.edge));
   context.anchor(splitter.name, splitter.edge);
   const bool held = ImGui::IsItemActive();
   if (ImGui::IsItemActivated()) context.begin_gesture();

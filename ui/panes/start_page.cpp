@@ -58,9 +58,7 @@ void recent_files(const PaneContext& context) {
 void draw_start_page(const PaneContext& context, const PixelRect& place) {
   context.transient.start_lines.clear();
   centred_window(context, "start", place, 620, 430);
-  ImGui::PushFont(context.fonts.title);
-  ImGui::TextUnformatted("sweepscope");
-  ImGui::PopFont();
+  text_in(context.fonts.title, "sweepscope");
   ImGui::PushTextWrapPos(0);
   ImGui::TextDisabled(
       "Change the time offset between a laser scanner and its motor, and see the map come into focus.");
@@ -80,11 +78,9 @@ void draw_start_page(const PaneContext& context, const PixelRect& place) {
 
 void draw_loading_page(const PaneContext& context, const PixelRect& place) {
   centred_window(context, "loading", place, 420, 150);
-  for (const JobStatus& job : context.explorer.background().status()) {
+  for (const JobStatus& job : context.explorer.background.status()) {
     if (job.key != "load") continue;
-    ImGui::PushFont(context.fonts.heading);
-    ImGui::TextUnformatted(job.title.c_str());
-    ImGui::PopFont();
+    text_in(context.fonts.heading, job.title);
     ImGui::Dummy({0, context.pxf(4)});
     progress_bar(context, job.fraction);
     const std::string left = time_left(job.seconds_left);

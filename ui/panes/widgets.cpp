@@ -11,26 +11,13 @@
 namespace sweepscope::ui {
 namespace {
 
-/// As many decimals as the step needs.
-int decimals_for(double step) {
-  if (step <= 0) return 2;
-  int decimals = 0;
-  while (decimals < 4 && std::abs(step - std::round(step)) > 1e-9) step *= 10, ++decimals;
-  return decimals;
-}
-
-/// A choice as it is shown: the words of the command with a capital, and lists with spaces.
+/// "heights" for a person: choices are words of the command, shown with a capital, and lists with spaces.
 std::string capital(std::string word) {
   if (word == "sharp") return "Blur shows";  // as much as the field is wide
   std::replace(word.begin(), word.end(), '-', ' ');
   for (std::size_t at = 0; (at = word.find(',', at)) != word.npos; at += 2) word.replace(at, 1, ", ");
   if (!word.empty() && word[0] >= 'a' && word[0] <= 'z') word[0] = static_cast<char>(word[0] - 'a' + 'A');
   return word;
-}
-
-std::string format_of(const Parameter& parameter) {
-  const std::string unit = parameter.unit == "%" ? " %%" : parameter.unit.empty() ? "" : " " + parameter.unit;
-  return fmt::format("%.{}f{}", decimals_for(parameter.step), unit);
 }
 
 void choice_field(const PaneContext& context, const Command& command) {
@@ -64,24 +51,13 @@ void number_field(const PaneContext& context, const Command& command) {
     const Parameter& parameter = command.parameters[i];
     if (i > 0) ImGui::SameLine(0, gap);
     ImGui::SetNextItemWidth(width);
-    const bool narrow = parameter.greatest - parameter.least < 100;
-    number_box(context, {.id = fmt::format("{}{}", command.name, i),
-                         .command = &command,
-                         .index = i,
-                         .least = parameter.least,
-                         .greatest = parameter.greatest,
-                         .step = parameter.step,
-                         .per_px = std::max(parameter.step, 1e-3) * 0.2,
-                         .slider = narrow && values.size() == 1,
-                         .format = format_of(parameter)});
+    NumberBox box = box_of(command, i);
+    box.slider = values.size() == 1 && parameter.greatest - parameter.least < 100;
+    number_box(context, box);
   }
 }
 
 }  // namespace
-
-ImVec2 corner(const PixelRect& rect) {
-  return {static_cast<float>(rect.left), static_cast<float>(rect.top)};
-}
 
 PixelPoint mouse() {
   const ImVec2 at = ImGui::GetIO().MousePos;
@@ -89,13 +65,11 @@ PixelPoint mouse() {
 }
 
 void PaneContext::perform(const std::string& line, const std::string& gesture) const {
-  if (const auto done = explorer.perform(line, gesture); !done)
-    explorer.say(Message::Kind::kError, done.error().message);
+  if (const auto done = explorer.perform(line, gesture); !done) explorer.messages.error(done.error());
 }
 
 void PaneContext::perform(const Call& call, const std::string& gesture) const {
-  if (const auto done = explorer.perform(call, gesture); !done)
-    explorer.say(Message::Kind::kError, done.error().message);
+  if (const auto done = explorer.perform(call, gesture); !done) explorer.messages.error(done.error());
 }
 
 std::string PaneContext::begin_gesture() const {
@@ -111,7 +85,7 @@ void PaneContext::anchor_last(const std::string& name) const {
 void begin_panel(const PaneContext& context, const char* name, const PixelRect& place, bool padded,
                  bool above, bool by_keys) {
   ImGui::SetNextWindowPos(corner(place));
-  ImGui::SetNextWindowSize({static_cast<float>(place.width), static_cast<float>(place.height)});
+  ImGui::SetNextWindowSize(extent(place));
   const float margin = padded ? context.pxf(14) : 0;
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(margin, padded ? context.pxf(10) : 0));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
@@ -129,6 +103,29 @@ void end_panel() {
   ImGui::End();
 }
 
+bool invisible_button(const std::string& name, const PixelRect& place, ImGuiButtonFlags flags) {
+  ImGui::SetCursorScreenPos(corner(place));
+  return ImGui::InvisibleButton(name.c_str(), extent(place), flags);
+}
+
+void text_in(ImFont* font, const std::string& text) {
+  ImGui::PushFont(font);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopFont();
+}
+
+void wrapped_text(const Colour& colour, const std::string& text) {
+  ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(colour));
+  ImGui::TextWrapped("%s", text.c_str());
+  ImGui::PopStyleColor();
+}
+
+void small_print(const PaneContext& context, const std::string& text) {
+  ImGui::PushFont(context.fonts.small);
+  wrapped_text(context.style.faint_text, text);
+  ImGui::PopFont();
+}
+
 void heading(const PaneContext& context, const char* text, bool first) {
   if (!first) {
     ImGui::Dummy({0, context.pxf(5)});
@@ -137,9 +134,7 @@ void heading(const PaneContext& context, const char* text, bool first) {
                                         to_imgui(context.style.frame));
     ImGui::Dummy({0, context.pxf(6)});
   }
-  ImGui::PushFont(context.fonts.bold);
-  ImGui::TextUnformatted(text);
-  ImGui::PopFont();
+  text_in(context.fonts.bold, text);
 }
 
 void row(const PaneContext& context, const char* name, const std::string& value) {

@@ -6,8 +6,24 @@
 
 namespace sweepscope::ui {
 
-/// The top left corner.
-ImVec2 corner(const PixelRect& rect);
+/// ImGui's numbers.
+inline ImVec2 vec(double x, double y) {
+  return {static_cast<float>(x), static_cast<float>(y)};
+}
+inline ImVec2 corner(const PixelRect& rect) {
+  return vec(rect.left, rect.top);
+}
+inline ImVec2 far_corner(const PixelRect& rect) {
+  return vec(rect.right(), rect.bottom());
+}
+inline ImVec2 extent(const PixelRect& rect) {
+  return vec(rect.width, rect.height);
+}
+
+/// That stands for a map everywhere.
+inline Colour colour_of(const PaneContext& context, Side side) {
+  return side == Side::kA ? colour_of_a(context.style) : colour_of_b(context.style);
+}
 
 /// Where the mouse is.
 PixelPoint mouse();
@@ -18,6 +34,18 @@ PixelPoint mouse();
 void begin_panel(const PaneContext& context, const char* name, const PixelRect& place, bool padded = true,
                  bool above = false, bool by_keys = false);
 void end_panel();
+
+inline constexpr ImGuiButtonFlags kAnyButton =
+    ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle;
+/// A widget without a look that takes the mouse over a rectangle; whether it was clicked.
+bool invisible_button(const std::string& name, const PixelRect& place, ImGuiButtonFlags flags = 0);
+
+/// A line of text in another font.
+void text_in(ImFont* font, const std::string& text);
+/// Text of another colour that wraps at the panel's edge.
+void wrapped_text(const Colour& colour, const std::string& text);
+/// The same, small and faint.
+void small_print(const PaneContext& context, const std::string& text);
 
 /// A panel's heading with a rule above it (not above the first).
 void heading(const PaneContext& context, const char* text, bool first = false);

@@ -11,6 +11,8 @@
 #include <thread>
 
 #include "render/images/image_difference.hpp"
+#include "ui/commands/commands.hpp"
+#include "ui/explorer/observables.hpp"
 #include "ui/host/imgui_host.hpp"
 
 namespace sweepscope::ui {
@@ -118,7 +120,7 @@ class Runner {
     settle();
     if (!done) return done;
     done = wait_until([&] { return !ui_.is_exporting(); }, "the file", max_s_);
-    if (auto why = ui_.explorer().take_export_failure()) return tl::unexpected(*why);
+    if (auto why = ui_.explorer().exports.take_failure()) return tl::unexpected(*why);
     return done;
   }
 
@@ -129,16 +131,17 @@ class Runner {
     if (!call || call->command->needs == Need::kNothing) return {};
     const Explorer& explorer = ui_.explorer();
     const Need need = call->command->needs;
-    if (explorer.is_loading())
-      if (auto there = wait_until([&] { return !explorer.is_loading(); }, "the recording", max_s_); !there)
+    if (explorer.recording.is_opening())
+      if (auto there = wait_until([&] { return !explorer.recording.is_opening(); }, "the recording", max_s_);
+          !there)
         return there;
-    if (const auto& why = explorer.load_failure()) return tl::unexpected(*why);
-    if (need == Need::kEstimate && explorer.background().has("estimate"))
-      return wait_until([&] { return !explorer.background().has("estimate"); }, "the estimate", max_s_);
+    if (const auto& why = explorer.recording.failure()) return tl::unexpected(*why);
+    if (need == Need::kEstimate && explorer.estimating.is_running())
+      return wait_until([&] { return !explorer.estimating.is_running(); }, "the estimate", max_s_);
     if (need == Need::kPlaces && explorer.loaded() != nullptr)
       return wait_until([&] { return explorer.at_rest(); }, "both maps", max_s_);
     if (need == Need::kPoints && explorer.loaded() != nullptr)
-      return wait_until([&] { return explorer.has_all_points(); }, "all points of the maps", max_s_);
+      return wait_until([&] { return explorer.maps.has_all_points(); }, "all points of the maps", max_s_);
     return {};
   }
 
@@ -306,7 +309,7 @@ class Runner {
     for (int i = 0; i < static_cast<int>(*actions); ++i) wander_once(random);
     // The window has reported a file that could not be written, as to a person: not a fault of the script.
     auto done = wait_until([&] { return !ui_.is_exporting(); }, "the file", max_s_);
-    (void)ui_.explorer().take_export_failure();
+    (void)ui_.explorer().exports.take_failure();
     return done;
   }
 
@@ -356,7 +359,7 @@ class Runner {
       frame({}, kFrame_s);
       if (std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() > max_s)
         return unmet(fmt::format("{} was not reached within {} s", what, max_s));
-      if (ui_.explorer().background().busy())
+      if (ui_.explorer().background.busy())
         std::this_thread::sleep_for(std::chrono::milliseconds(25));  // the work comes first
     }
     settle();
@@ -368,9 +371,10 @@ class Runner {
     const std::string what = words.take();
     const double max_s = words.any() ? number(words.take()).value_or(max_s_) : max_s_;
     if (what == "loaded")
-      return wait_until([&] { return !explorer.is_loading() && !explorer.is_surveying(); }, what, max_s);
+      return wait_until([&] { return !explorer.recording.is_opening() && !explorer.page.is_surveying(); },
+                        what, max_s);
     if (what == "estimated")
-      return wait_until([&] { return !explorer.background().has("estimate"); }, what, max_s);
+      return wait_until([&] { return !explorer.estimating.is_running(); }, what, max_s);
     if (what != "solved") return wrong("wait loaded, wait estimated or wait solved");
     frame({}, kFrame_s);
     return wait_until([&] { return explorer.at_rest() && ui_.pictures_done(); }, what, max_s);
@@ -385,13 +389,13 @@ class Runner {
 
   Result<void> screenshot(Words& words) {
     const std::string path = words.take();
-    return ui_.explorer().check_outputs({path}).and_then([&] { return write_png(picture(), path); });
+    return ui_.explorer().files.check_outputs({path}).and_then([&] { return write_png(picture(), path); });
   }
 
   Result<void> expect(Words& words) {
     const std::string name = words.take();
     if (name == "picture") return expect_picture(words.take());
-    const auto now = ui_.explorer().observe(name);
+    const auto now = observe(ui_.explorer(), name);
     if (!now) return wrong(fmt::format("\"{}\" cannot be observed; see view --help", name));
     const std::string relation = words.take();
     if (relation == "is" || relation == "contains") {

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 
+#include "ui/commands/commands.hpp"
+#include "ui/explorer/observables.hpp"
+
 namespace sweepscope::ui {
 
 Result<Script> parse_script(std::string_view text, std::string_view name, bool semicolons) {
@@ -42,18 +45,14 @@ std::string script_help() {
       "sets;\n"
       "                                                    exports go to the working folder\n"
       "What can be expected:\n";
-  for (const auto& [name, meaning] : Explorer::observables())
-    text += fmt::format("  {:<20} {}\n", name, meaning);
+  for (const auto& [name, meaning] : observables()) text += fmt::format("  {:<20} {}\n", name, meaning);
   text += "Commands (without an argument, a setting toggles or takes its next value):\n";
   for (const Command& command : commands()) {
-    std::string usage = command.name;
-    for (const Parameter& parameter : command.parameters)
-      usage += parameter.optional ? " [" + parameter.name + "]" : " " + parameter.name;
     std::string words;
     for (const Parameter& parameter : command.parameters) {
       if (parameter.kind == Kind::kChoice) words += " " + parameter.name + ": " + describe(parameter) + ".";
     }
-    text += fmt::format("  {:<34} {}{}\n", usage, command.help, words);
+    text += fmt::format("  {:<34} {}{}\n", usage_of(command), command.help, words);
   }
   return text;
 }

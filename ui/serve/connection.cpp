@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "ui/serve/response.hpp"
+#include "ui/serve/http/response.hpp"
 #include "ui/serve/upload_connection.hpp"
 #include "ui/serve/viewer_connection.hpp"
 

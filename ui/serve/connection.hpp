@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "ui/serve/access.hpp"
+#include "ui/serve/http/access.hpp"
 #include "ui/serve/hub.hpp"
 
 namespace sweepscope::ui {

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "ui/serve/access.hpp"
+#include "ui/serve/http/access.hpp"
 
 namespace sweepscope::ui {
 namespace {

@@ -10,7 +10,7 @@
 namespace sweepscope::ui {
 namespace {
 
-using Json = nlohmann::json;
+using PageJson = nlohmann::json;
 
 constexpr std::size_t kMaxEvents = 64, kMaxTyped_bytes = 256, kMaxPasted_bytes = std::size_t{32} * 1024;
 
@@ -18,20 +18,20 @@ tl::unexpected<Error> wrong(const std::string& what) {
   return unreadable("a page's message: " + what);
 }
 
-std::optional<double> number_in(const Json& value, double least, double greatest) {
+std::optional<double> number_in(const PageJson& value, double least, double greatest) {
   if (!value.is_number()) return std::nullopt;
   const double number = value.get<double>();
   if (!std::isfinite(number)) return std::nullopt;
   return std::clamp(number, least, greatest);
 }
 
-std::uint32_t counted(const Json& message, const char* key) {
+std::uint32_t counted(const PageJson& message, const char* key) {
   const auto found = message.find(key);
   const auto number = found == message.end() ? std::nullopt : number_in(*found, 0, 4294967295.0);
   return static_cast<std::uint32_t>(number.value_or(0));
 }
 
-const std::string* text_in(const Json& value, std::size_t max_bytes) {
+const std::string* text_in(const PageJson& value, std::size_t max_bytes) {
   const auto* text = value.get_ptr<const std::string*>();
   return text != nullptr && text->size() <= max_bytes ? text : nullptr;
 }
@@ -47,16 +47,16 @@ std::string without_controls(const std::string& text, bool lines) {
   return out;
 }
 
-std::optional<bool> flag_in(const Json& value) {
+std::optional<bool> flag_in(const PageJson& value) {
   return value.is_boolean() ? std::optional(value.get<bool>()) : std::nullopt;
 }
 
-std::optional<unsigned> modifiers_in(const Json& value) {
+std::optional<unsigned> modifiers_in(const PageJson& value) {
   const auto number = number_in(value, 0, 7);
   return number ? std::optional(static_cast<unsigned>(*number)) : std::nullopt;
 }
 
-std::optional<InputEvent> move(const Json& event) {
+std::optional<InputEvent> move(const PageJson& event) {
   constexpr double kFar_px = 16384;
   if (event.size() != 3) return std::nullopt;
   const auto x = number_in(event[1], -kFar_px, kFar_px), y = number_in(event[2], -kFar_px, kFar_px);
@@ -64,7 +64,7 @@ std::optional<InputEvent> move(const Json& event) {
   return InputEvent::move(*x, *y);
 }
 
-std::optional<InputEvent> press(const Json& event) {
+std::optional<InputEvent> press(const PageJson& event) {
   if (event.size() != 4) return std::nullopt;
   const auto button = number_in(event[1], 0, 2);
   const auto down = flag_in(event[2]);
@@ -73,12 +73,12 @@ std::optional<InputEvent> press(const Json& event) {
   return InputEvent::press(static_cast<int>(*button), *down, *modifiers);
 }
 
-std::optional<InputEvent> wheel(const Json& event) {
+std::optional<InputEvent> wheel(const PageJson& event) {
   const auto clicks = event.size() == 2 ? number_in(event[1], -50, 50) : std::nullopt;
   return clicks ? std::optional(InputEvent::scroll(*clicks)) : std::nullopt;
 }
 
-std::optional<InputEvent> key(const Json& event) {
+std::optional<InputEvent> key(const PageJson& event) {
   if (event.size() != 4) return std::nullopt;
   const std::string* name = text_in(event[1], 16);
   const auto down = flag_in(event[2]);
@@ -88,12 +88,12 @@ std::optional<InputEvent> key(const Json& event) {
   return InputEvent::stroke(chord->key, *down, *modifiers);
 }
 
-std::optional<InputEvent> typed(const Json& event) {
+std::optional<InputEvent> typed(const PageJson& event) {
   const std::string* text = event.size() == 2 ? text_in(event[1], kMaxTyped_bytes) : nullptr;
   return text != nullptr ? std::optional(InputEvent::words(without_controls(*text, false))) : std::nullopt;
 }
 
-std::optional<InputEvent> event_of(const Json& event) {
+std::optional<InputEvent> event_of(const PageJson& event) {
   const std::string* what = event.is_array() && !event.empty() ? text_in(event[0], 16) : nullptr;
   if (what == nullptr) return std::nullopt;
   if (*what == "move") return move(event);
@@ -104,12 +104,12 @@ std::optional<InputEvent> event_of(const Json& event) {
   return std::nullopt;
 }
 
-Result<PageMessage> input(const Json& message) {
+Result<PageMessage> input(const PageJson& message) {
   const auto events = message.find("events");
   if (events == message.end() || !events->is_array() || events->size() > kMaxEvents)
     return wrong("input needs at most 64 events");
   InputMessage input{counted(message, "number"), {}};
-  for (const Json& event : *events) {
+  for (const PageJson& event : *events) {
     auto read = event_of(event);
     if (!read) return wrong("an event that is not known");
     input.events.push_back(std::move(*read));
@@ -117,7 +117,7 @@ Result<PageMessage> input(const Json& message) {
   return input;
 }
 
-Result<PageMessage> size(const Json& message) {
+Result<PageMessage> size(const PageJson& message) {
   const auto part = [&](const char* key, double least, double greatest) {
     const auto found = message.find(key);
     return found == message.end() ? std::nullopt : number_in(*found, least, greatest);
@@ -129,14 +129,14 @@ Result<PageMessage> size(const Json& message) {
   return SizeMessage{static_cast<int>(*width), static_cast<int>(*height), *scale};
 }
 
-Result<PageMessage> paste(const Json& message) {
+Result<PageMessage> paste(const PageJson& message) {
   const auto found = message.find("text");
   const std::string* text = found == message.end() ? nullptr : text_in(*found, kMaxPasted_bytes);
   if (text == nullptr) return wrong("paste needs a text");
   return PasteMessage{without_controls(*text, true)};
 }
 
-Result<PageMessage> control(const Json& message) {
+Result<PageMessage> control(const PageJson& message) {
   const auto found = message.find("what");
   const std::string* what = found == message.end() ? nullptr : text_in(*found, 16);
   if (what != nullptr && *what == "ask") return ControlMessage{Control::kAsk};
@@ -145,7 +145,7 @@ Result<PageMessage> control(const Json& message) {
   return wrong("control needs ask, give or keep");
 }
 
-Result<PageMessage> upload(const Json& message) {
+Result<PageMessage> upload(const PageJson& message) {
   constexpr std::size_t kMaxName_bytes = 1024;
   constexpr double kMaxFile_bytes = 1e15;
   const auto name = message.find("name"), size = message.find("size_bytes");
@@ -163,7 +163,7 @@ void put(std::string& out, std::uint32_t value, int bytes) {
 
 Result<PageMessage> parse_page_message(std::string_view text) {
   if (text.size() > kMaxPageMessage_bytes) return wrong("it is too long");
-  const Json message = Json::parse(text, nullptr, false);
+  const PageJson message = PageJson::parse(text, nullptr, false);
   const auto found = message.is_object() ? message.find("type") : message.end();
   const std::string* type = message.is_object() && found != message.end() ? text_in(*found, 16) : nullptr;
   if (type == nullptr) return wrong("it is no JSON object with a type");

@@ -6,8 +6,8 @@
 #include <memory>
 #include <string>
 
-#include "ui/serve/access.hpp"
-#include "ui/serve/address.hpp"
+#include "ui/serve/http/access.hpp"
+#include "ui/serve/http/address.hpp"
 #include "ui/serve/hub.hpp"
 #include "ui/serve/mailbox.hpp"
 

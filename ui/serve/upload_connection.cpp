@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/io/atomic_file.hpp"
-#include "ui/serve/response.hpp"
+#include "ui/serve/http/response.hpp"
 
 namespace sweepscope::ui {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "core/io/atomic_file.hpp"
 #include "core/io/printable_text.hpp"
-#include "ui/serve/access.hpp"
+#include "ui/serve/http/access.hpp"
 
 namespace sweepscope::ui {
 namespace {

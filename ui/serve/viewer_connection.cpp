@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "ui/serve/answer.hpp"
+#include "ui/serve/http/answer.hpp"
 
 namespace sweepscope::ui {
 namespace {

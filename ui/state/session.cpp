@@ -6,7 +6,7 @@
 
 #include "core/io/printable_text.hpp"
 #include "core/results/estimate_json.hpp"
-#include "ui/state/commands.hpp"
+#include "ui/state/command.hpp"
 
 namespace sweepscope::ui {
 namespace {
@@ -43,7 +43,7 @@ Result<void> read_field(const Command& command, const Json& json, Settings& sett
 
 std::string session_to_json(const Session& session) {
   Json settings = Json::object();
-  for (const Command& command : commands()) {
+  for (const Command& command : setting_commands()) {
     if (!command.is_field()) continue;
     const auto values = command.get(session.settings);
     Json& field = settings[command.name];
@@ -75,7 +75,7 @@ Result<Session> parse_session(std::string_view text, std::string_view name) {
   }
   const Json settings = json.value("settings", Json::object());
   if (!settings.is_object()) return unreadable(fmt::format("{}: settings: not a JSON object", name));
-  for (const Command& command : commands()) {
+  for (const Command& command : setting_commands()) {
     if (!command.is_field() || !settings.contains(command.name)) continue;
     const auto read = read_field(command, settings[command.name], session.settings);
     if (!read)

@@ -6,7 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/offset/estimate.hpp"
-#include "ui/model/reading_choices.hpp"
+#include "ui/state/reading_choices.hpp"
 #include "ui/state/settings.hpp"
 
 namespace sweepscope::ui {

@@ -14,6 +14,10 @@ using Value = std::variant<double, bool, std::string>;
 
 enum class Kind { kNumber, kSwitch, kChoice, kText };
 
+/// What happens to the file or folder that a text names. The session that is open may be saved again, and a
+/// report is several files in a folder.
+enum class FileUse { kNone, kRead, kWritten, kSession, kReport };
+
 /// A parameter of a command, declared once: parsing, help, sliders and menus follow from it.
 struct Parameter {
   std::string name;
@@ -22,6 +26,8 @@ struct Parameter {
   double least = -1e9, greatest = 1e9, step = 0;  // of a number; step: what a slider or key moves by
   std::vector<std::string> choices = {};
   bool optional = false;
+  FileUse file = FileUse::kNone;
+  std::string ending = {};  // of a name that is suggested for a file that is written
 };
 
 /// The value of a word. An invalid word is ExitCode::kWrongUsage; the message says what is valid.

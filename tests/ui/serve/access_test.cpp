@@ -1,10 +1,10 @@
 // Who may see a served explorer.
-#include "ui/serve/access.hpp"
+#include "ui/serve/http/access.hpp"
 
 #include <gtest/gtest.h>
 
-#include "ui/serve/address.hpp"
-#include "ui/serve/answer.hpp"
+#include "ui/serve/http/address.hpp"
+#include "ui/serve/http/answer.hpp"
 #include "ui/serve/serve.hpp"
 
 namespace sweepscope::ui {

@@ -6,7 +6,9 @@
 #include <fstream>
 
 #include "tests/folder_test.hpp"
-#include "ui/model/explorer.hpp"
+#include "ui/commands/commands.hpp"
+#include "ui/explorer/explorer.hpp"
+#include "ui/explorer/observables.hpp"
 
 namespace sweepscope::ui {
 namespace {
@@ -107,7 +109,9 @@ TEST_F(Roots, EveryCommandWithAFileIsConfined) {
     }
   }
   EXPECT_FALSE(fs::exists(folder_ / "out/new.json"));
-  EXPECT_EQ(explorer.replaced_by("save-session " + quoted((folder_ / "out/secret.bag").string())), "");
+  EXPECT_EQ(explorer.files.replaced_by(
+                *parse_call("save-session " + quoted((folder_ / "out/secret.bag").string()))),
+            "");
 }
 
 TEST_F(Roots, NoRigFileOrTrajectoryIsChosenElsewhere) {
@@ -126,15 +130,15 @@ TEST_F(Roots, ASessionOpensNoRecordingElsewhere) {
        {(folder_ / "out/secret.bag").string(), std::string("../out/secret.bag")}) {
     Explorer explorer(confined());
     Explorer free;
-    std::string text = free.session_json();
+    std::string text = session_to_json(session_of(free));
     const std::size_t at = text.find("\"source\": \"");
     ASSERT_NE(at, text.npos) << text;
     text.insert(at + 11, "open " + source);
     std::ofstream(session) << text;
     ASSERT_TRUE(explorer.perform("open " + quoted(session.string())));
-    EXPECT_FALSE(explorer.is_loading());
-    ASSERT_TRUE(explorer.load_failure()) << source;
-    EXPECT_NE(explorer.load_failure()->message.find("--root"), std::string::npos);
+    EXPECT_FALSE(explorer.recording.is_opening());
+    ASSERT_TRUE(explorer.recording.failure()) << source;
+    EXPECT_NE(explorer.recording.failure()->message.find("--root"), std::string::npos);
   }
 }
 
@@ -144,8 +148,8 @@ TEST_F(Roots, AFolderOfLinksIsNoWayOut) {
   fs::create_symlink(folder_ / "out/scans.csv", folder_ / "in/tables/scans.csv");
   Explorer explorer(confined());
   ASSERT_TRUE(explorer.perform("open " + quoted((folder_ / "in/tables").string())));
-  EXPECT_FALSE(explorer.is_loading());
-  EXPECT_TRUE(explorer.load_failure());
+  EXPECT_FALSE(explorer.recording.is_opening());
+  EXPECT_TRUE(explorer.recording.failure());
 }
 
 }  // namespace

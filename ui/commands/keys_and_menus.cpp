@@ -1,0 +1,179 @@
+#include <algorithm>
+
+#include "ui/commands/commands.hpp"
+
+namespace sweepscope::ui {
+namespace {
+
+const std::vector<Shortcut> kShortcuts{
+    {"Ctrl+O", "ask open"},
+    {"Ctrl+Shift+O", "choose"},
+    {"Ctrl+S", "ask save-session"},
+    {"Ctrl+E", "ask export-picture"},
+    {"Ctrl+R", "ask export-report"},
+    {"Ctrl+C", "copy"},
+    {"Ctrl+Shift+C", "copy-command"},
+    {"Ctrl+Z", "undo"},
+    {"Ctrl+Shift+Z", "redo"},
+    {"Ctrl+Y", "redo"},
+    {"Ctrl+P", "palette"},
+    {"Ctrl+Q", "quit"},
+    {"H", "help"},
+    {"F1", "help"},
+    {"?", "help"},
+    {"F10", "menu file", "Open the menus"},
+    {"Tab", "next-field", "Next field"},
+    {"Shift+Tab", "next-field back", "Previous field"},
+    {"Escape", "dismiss"},
+    {"E", "estimate"},
+    {"X", "cancel"},
+    {"G", "take-found"},
+    {"1", "look front"},
+    {"3", "look right"},
+    {"7", "look top"},
+    {"9", "look isometric"},
+    {"0", "fit-view"},
+    {"Plus", "zoom 1.25", "Zoom in"},
+    {"Minus", "zoom 0.8", "Zoom out"},
+    {"Left", "pan -0.1 0", "Pan left"},
+    {"Right", "pan 0.1 0", "Pan right"},
+    {"Up", "pan 0 0.1", "Pan up"},
+    {"Down", "pan 0 -0.1", "Pan down"},
+    {"Shift+Left", "turn -15 0", "Turn left"},
+    {"Shift+Right", "turn 15 0", "Turn right"},
+    {"Shift+Up", "turn 0 15", "Turn up"},
+    {"Shift+Down", "turn 0 -15", "Turn down"},
+    {"Comma", "nudge a -0.1", "Map A: 0.1 ms less"},
+    {"Period", "nudge a 0.1", "Map A: 0.1 ms more"},
+    {"Shift+Comma", "nudge a -1", "Map A: 1 ms less"},
+    {"Shift+Period", "nudge a 1", "Map A: 1 ms more"},
+    {"K", "nudge b -0.1", "Map B: 0.1 ms less"},
+    {"L", "nudge b 0.1", "Map B: 0.1 ms more"},
+    {"Shift+K", "nudge b -1", "Map B: 1 ms less"},
+    {"Shift+L", "nudge b 1", "Map B: 1 ms more"},
+    {"Space", "flip"},
+    {"B", "layout side-by-side"},
+    {"Shift+B", "layout stacked"},
+    {"S", "layout swipe"},
+    {"D", "layout difference"},
+    {"U", "linked"},
+    {"Q", "perspective"},
+    {"N", "next-place", "Next place that differs"},
+    {"Shift+N", "next-place back", "Previous place"},
+    {"Y", "close-up"},
+    {"Shift+Y", "look-at-place"},
+    {"C", "colouring", "Next colouring"},
+    {"V", "table", "Next colour table"},
+    {"Z", "heights", "Next heights"},
+    {"T", "theme"},
+    {"F", "scan-view"},
+    {"I", "tool pick"},
+    {"M", "tool measure"},
+    {"P", "tool profile"},
+    {"W", "panels"},
+    {"Shift+W", "criteria"},
+    {"J", "trajectory"},
+    {"R", "play"},
+    {"Shift+R", "time -1", "Stop playing"},
+    {"Shift+C", "box-here"},
+    {"Ctrl+0", "box 0 0 0 0 0 0", "No clipping box"},
+    {"A", "lighting", "Next lighting"},
+};
+
+const std::vector<MenuItem> kMenuItems{
+    {"File", "ask open", "Open …"},
+    {"File", "choose", "Open with other choices …"},
+    {"File", "sample room-1", "Sample: a room, stationary"},
+    {"File", "sample metro-station 20", "Sample: a metro station, 20 s of walking"},
+    {"File", "ask save-session", "Save the session …"},
+    {"File", ""},
+    {"File", "ask export-picture", "Export the picture …"},
+    {"File", "ask export-picture maps", "Export the maps' picture alone …"},
+    {"File", "ask export-cloud a", "Export the points of map A …"},
+    {"File", "ask export-cloud b", "Export the points of map B …"},
+    {"File", "ask export-curve", "Export the criteria …"},
+    {"File", "ask export-rig", "Export the rig found …"},
+    {"File", "ask export-report", "Export a report …"},
+    {"File", ""},
+    {"File", "close"},
+    {"File", "quit"},
+    {"Edit", "undo"},
+    {"Edit", "redo"},
+    {"Edit", ""},
+    {"Edit", "copy"},
+    {"Edit", "copy-command"},
+    {"Edit", ""},
+    {"Edit", "palette", "All commands …"},
+    {"Offset", "estimate", "Estimate"},
+    {"Offset", "take-found", "Use the found offset for B"},
+    {"Offset", "swap"},
+    {"Offset", "cancel", "Cancel running jobs"},
+    {"Offset", "solve"},
+    {"View", "layout side-by-side", "Side by side"},
+    {"View", "layout stacked", "Stacked"},
+    {"View", "layout swipe", "Swipe"},
+    {"View", "flip"},
+    {"View", "layout difference", "Difference"},
+    {"View", ""},
+    {"View", "look front", "From the front"},
+    {"View", "look right", "From the right"},
+    {"View", "look top", "From above"},
+    {"View", "look isometric", "Isometric"},
+    {"View", "fit-view"},
+    {"View", "perspective"},
+    {"View", "linked", "Linked cameras"},
+    {"View", ""},
+    {"View", "play"},
+    {"View", "box-here"},
+    {"View", "box 0 0 0 0 0 0", "No clipping box"},
+    {"View", ""},
+    {"View", "lighting", "Lighting: auto, on, off"},
+    {"View", "splats", "Splats: auto, on, off"},
+    {"View", "grid", "Ground grid: auto, on, off"},
+    {"View", "scanner", "Scanner: auto, on, off"},
+    {"View", ""},
+    {"View", "panels"},
+    {"View", "criteria"},
+    {"View", "theme", "Dark or light"},
+    {"Tools", "tool look", "Turn the view"},
+    {"Tools", "tool pick", "Inspect a point"},
+    {"Tools", "tool measure", "Measure a distance"},
+    {"Tools", "tool profile", "Profile across a wall"},
+    {"Tools", ""},
+    {"Tools", "close-up", "Close-up where the maps differ"},
+    {"Tools", "next-place", "Next place that differs"},
+    {"Tools", "look-at-place"},
+    {"Tools", ""},
+    {"Tools", "scan-view"},
+    {"Help", "help"},
+};
+
+}  // namespace
+
+std::span<const Shortcut> shortcuts() {
+  return kShortcuts;
+}
+
+std::string chord_of(std::string_view line) {
+  const auto found = std::ranges::find(kShortcuts, line, &Shortcut::line);
+  return found == kShortcuts.end() ? "" : found->chord;
+}
+
+std::span<const MenuItem> menu_items() {
+  static const std::vector<MenuItem> all = [] {
+    std::vector<MenuItem> items = kMenuItems;
+    for (MenuItem& item : items)
+      if (item.title.empty() && !item.line.empty()) item.title = find_command(item.line)->title;
+    return items;
+  }();
+  return all;
+}
+
+std::vector<std::string> menu_names() {
+  std::vector<std::string> names;
+  for (const MenuItem& item : kMenuItems)
+    if (names.empty() || names.back() != item.menu) names.push_back(item.menu);
+  return names;
+}
+
+}  // namespace sweepscope::ui

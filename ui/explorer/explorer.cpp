@@ -1,0 +1,221 @@
+#include "ui/explorer/explorer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/offset/prepared/search_window.hpp"
+
+namespace sweepscope::ui {
+
+Explorer::Explorer(Options options)
+    : options_(std::move(options)),
+      files(options_.roots, options_.reading, options_.input_files),
+      recording(background, options_.assume, [this](const Opened& opened) { take(opened); }),
+      page(background, messages),
+      estimating(background, messages,
+                 [this] {
+                   if (!b_was_set_) use_found_offset();
+                 }),
+      maps(background),
+      places(background, [this](std::vector<PlacePtr> found) { take(std::move(found)); }),
+      exports(background, messages) {}
+
+Result<void> Explorer::perform(const Call& call, const std::string& gesture) {
+  if (call.command == nullptr) return not_now("There is no command of that name.");
+  if (auto allowed = files.check(call); !allowed) return allowed;
+  if (const auto* action = std::get_if<Action>(&call.command->handler)) return action->run(*this, call);
+  if (const auto* action = std::get_if<WindowAction>(&call.command->handler))
+    return window != nullptr ? action->run(*this, *window, call)
+                             : not_now(fmt::format("\"{}\" needs a window", call.command->name));
+  return set(call, gesture);
+}
+
+Result<void> Explorer::set(const Call& call, const std::string& gesture) {
+  Settings next = changed(settings_, call);
+  if (auto allowed = check_offsets(next); !allowed) return allowed;
+  if (call.command->name == "offset-b") b_was_set_ = true;
+  if (call.command->moves_view) view.moved_by_person = true;
+  if (next.offset_a_ms != settings_.offset_a_ms) changed_side_ = Side::kA;
+  if (next.offset_b_ms != settings_.offset_b_ms) changed_side_ = Side::kB;
+  const bool clipped = next.box_from_m != settings_.box_from_m || next.box_to_m != settings_.box_to_m;
+  change(std::move(next), gesture);
+  if (clipped) refit_view();
+  return {};
+}
+
+void Explorer::change(Settings next, const std::string& gesture) {
+  if (next.linked && next.camera_a != settings_.camera_a)
+    next.camera_b = next.camera_a;
+  else if (next.linked)
+    next.camera_a = next.camera_b;
+  if (next == settings_) return;
+  if (next.offset_a_ms != settings_.offset_a_ms || next.offset_b_ms != settings_.offset_b_ms)
+    maps.solved.forget_cancelled();
+  history_.record(settings_, gesture);
+  settings_ = std::move(next);
+}
+
+std::pair<double, double> Explorer::offset_window_ms() const {
+  const Parameter& any = find_in(setting_commands(), "offset-a")->parameters[0];
+  const double reach_ms = loaded() ? 1e3 * search_scale(loaded()->prepared.motor).max_half_width_s : 0;
+  if (!(reach_ms > 0)) return {any.least, any.greatest};
+  double from_ms = -reach_ms, to_ms = reach_ms;
+  const auto reach_about = [&](double first_ms, double last_ms) {
+    from_ms = std::min(from_ms, first_ms - reach_ms);
+    to_ms = std::max(to_ms, last_ms + reach_ms);
+  };
+  if (settings_.search == Search::kRange) reach_about(settings_.search_from_ms, settings_.search_to_ms);
+  const Estimate* found = estimating.found();
+  if (found && found->offset_s) reach_about(*found->offset_s * 1e3, *found->offset_s * 1e3);
+  return {std::max(from_ms, any.least), std::min(to_ms, any.greatest)};
+}
+
+Result<void> Explorer::check_offsets(const Settings& next) const {
+  const auto [from_ms, to_ms] = offset_window_ms();
+  for (const auto& [now_ms, before_ms] : {std::pair{next.offset_a_ms, settings_.offset_a_ms},
+                                          std::pair{next.offset_b_ms, settings_.offset_b_ms}}) {
+    if (now_ms == before_ms || (now_ms >= from_ms && now_ms <= to_ms)) continue;
+    return not_now(fmt::format(
+        "An offset of {} ms is outside the search window of this recording, {:.0f} to {:.0f} ms: "
+        "beyond a quarter of the motor's period a mirror image of the map fits as well. To search "
+        "elsewhere, set the candidates of the search.",
+        now_ms, std::ceil(from_ms), std::floor(to_ms)));
+  }
+  return {};
+}
+
+/// By value: the page's choices end with the page.
+void Explorer::load(ReadingChoices choices,
+                    std::optional<Restored> restored) {  // NOLINT(performance-unnecessary-value-param)
+  if (const auto inside = files.check_reading(choices); !inside) {
+    recording.fail(inside.error());
+    return messages.error(inside.error());
+  }
+  files.add_inputs(choices);
+  page.close();
+  messages.dismiss();
+  recording.read(choices, std::move(restored));
+}
+
+void Explorer::load_sample(const std::string& scene, double seconds, std::optional<Restored> restored) {
+  page.close();
+  messages.dismiss();
+  recording.simulate(scene, seconds, std::move(restored));
+}
+
+void Explorer::take(const Opened& opened) {
+  // Where there is something to choose from, the page says what is missing; else a message does.
+  if (opened.survey) return page.show(opened.choices, *opened.survey, opened.loaded.error().message);
+  if (!opened.loaded) return messages.error(opened.loaded.error());
+  close();
+  recording.keep(*opened.loaded);
+  maps.open(*opened.loaded, opened.first_map, options_.assume);
+  if (opened.restored) {
+    change(opened.restored->settings);
+    b_was_set_ = view.moved_by_person = true;
+    estimating.restore(opened.restored->estimate);
+    return;
+  }
+  Settings next = settings_;  // what was asked of the recording before means nothing here
+  next.asked_scan = next.asked_beam = -1;
+  next.time_s = -1;
+  next.box_from_m = next.box_to_m = {0, 0, 0};
+  next.colour_from = next.colour_to = 0;
+  next.profile_from_m = next.profile_to_m = {0, 0};
+  next.measure_from_m = next.measure_to_m = {0, 0, 0};
+  change(next);
+  change(with_fitted_view());
+}
+
+void Explorer::close() {
+  background.cancel_all("");
+  recording.close();
+  estimating.restore({});
+  messages.dismiss();
+  maps.close();
+  places.close();
+  b_was_set_ = false;
+  view.moved_by_person = false;
+  playing_ = false;
+}
+
+void Explorer::cancel() {
+  background.cancel_all("");
+  maps.cancel(settings_);
+}
+
+void Explorer::use_found_offset() {
+  const Estimate* found = estimating.found();
+  if (found == nullptr || !found->offset_s) return;
+  Settings next = settings_;
+  next.offset_b_ms = std::round(*found->offset_s * 1e6) / 1e3;
+  change(std::move(next));
+}
+
+Result<void> Explorer::fit_view() {
+  if (loaded() == nullptr) return not_now("There is no recording to fit the view to.");
+  view.moved_by_person = false;
+  change(with_fitted_view());
+  return {};
+}
+
+Settings Explorer::with_fitted_view() const {
+  const SolvedMapPtr map = maps.map_in_view();
+  return map ? view.fitted(settings_, *map, place() != nullptr) : settings_;
+}
+
+void Explorer::refit_view() {
+  if (loaded() != nullptr && !view.moved_by_person)
+    settings_ = with_fitted_view();  // nothing that undo would take back
+}
+
+void Explorer::set_picture_shape(const PictureShape& shape) {
+  if (view.reshape(shape)) refit_view();
+}
+
+void Explorer::update(double seconds_since_last) {
+  messages.update(seconds_since_last);
+  background.take_finished();
+  estimating.update();
+  if (loaded() == nullptr) return;
+  maps.update(settings_, seconds_since_last);
+  if (maps.solved.take_first_solved()) refit_view();  // its extent is known now
+  update_places();
+  update_playback(seconds_since_last);
+}
+
+/// Once both maps are there in full.
+void Explorer::update_places() {
+  if (settings_.close_up && maps.is_complete() && !maps.is_held())
+    places.compare(pane(Side::kA).request->placement, pane(Side::kB).request->placement);
+  maps.show_close_ups(place());
+  if (std::exchange(fitted_beside_, place() != nullptr) != (place() != nullptr)) refit_view();
+}
+
+/// The best place is shown, or, where a person went to another one, the one nearest to it.
+void Explorer::take(std::vector<PlacePtr> found) {
+  const PlacePtr before = place();
+  places.keep(std::move(found));
+  if (before && settings_.place > 1 && !places.all().empty()) settings_.place = places.nearest_to(*before);
+}
+
+Result<void> Explorer::play(bool on) {
+  if (loaded() == nullptr) return not_now("There is no recording to play.");
+  playing_ = on;
+  const bool from_start = settings_.time_s < 0 || settings_.time_s >= loaded()->duration_s();
+  if (playing_ && from_start) settings_.time_s = 0;
+  return {};
+}
+
+void Explorer::update_playback(double seconds_since_last) {
+  if (settings_.time_s < 0) playing_ = false;
+  if (!playing_) return;
+  settings_.time_s += seconds_since_last * settings_.play_speed;  // nothing that undo would take back
+  if (settings_.time_s < loaded()->duration_s()) return;
+  settings_.time_s = loaded()->duration_s();
+  playing_ = false;
+}
+
+}  // namespace sweepscope::ui
