@@ -111,6 +111,9 @@ std::vector<BeamReading> possible_readings(const Recording& recording) {
                of_period_s = period_s / median_beams(recording);
   const double in_array = recording.report.fired_backwards ? -1 : 1;  // from the order of time
   std::vector<BeamReading> readings;
+  // A negative increment in the messages states the order of their beams.
+  if (recording.report.fired_backwards && !recording.rig.laser.time_increment_s)
+    return {{BeamReadingKind::kRecorded, -increment_s, {}, {}, false}};
   for (const auto& [kind, time_increment_s] : {std::pair{BeamReadingKind::kRecorded, increment_s},
                                                {BeamReadingKind::kReversed, -increment_s},
                                                {BeamReadingKind::kAtOnce, 0.0},
@@ -206,7 +209,8 @@ RankedReadings rank_readings(const Recording& recording, const Job& job) {
   }
   if (best == nullptr || job.cancelled()) return ranked;
   const auto width_m = [&](const Recording& about) {
-    return flat_width_m(read_as(about, best->time_increment_s), *best->offset_s, job);
+    const bool recorded = best->kind == BeamReadingKind::kRecorded;
+    return flat_width_m(recorded ? about : read_as(about, best->time_increment_s), *best->offset_s, job);
   };
   if (width_m(about_y) < kClearlyWider * width_m(first)) return ranked;
   ranked.beams = of_y.empty() ? rank_beams(about_y, job) : std::move(of_y);

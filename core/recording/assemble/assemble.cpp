@@ -92,7 +92,7 @@ void ScanAssembler::turn_round(RawScan& scan) {
   const bool recorded = scan.time_increment_s < 0;
   scan.time_increment_s = std::abs(scan.time_increment_s);
   // Where only the message says so, its stamp is that of its first beam, the last one fired.
-  const bool of_message = recorded && !recording_.rig.laser.time_increment_s;
+  const bool of_message = recorded && !(recording_.rig.laser.time_increment_s.value_or(0) < 0);
   if (of_message && recording_.rig.laser.stamp_at == StampAt::kFirstBeam)
     scan.first_beam_after_stamp_s = -(scan.beams - 1.0) * double{scan.time_increment_s};
 }

@@ -55,7 +55,7 @@ bool usable_increment(double increment_s) {
 }
 
 bool fired_backwards(const RawScan& scan, std::optional<double> rig_increment_s) {
-  return rig_increment_s ? *rig_increment_s < 0 : usable_increment(-double{scan.time_increment_s});
+  return (rig_increment_s && *rig_increment_s < 0) || usable_increment(-double{scan.time_increment_s});
 }
 
 double BeamTimes::doubt_s(double beams) const {

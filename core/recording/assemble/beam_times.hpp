@@ -25,8 +25,8 @@ enum class IncrementFinding { kSound, kMissing, kSkipsOrTooShort, kWholePeriodOr
 /// Whether a time_increment is given, and shorter than one second.
 bool usable_increment(double increment_s);
 
-/// Whether the last beam of the scan's array was fired first: by the sign of the rig's increment, otherwise
-/// by that of the recorded one.
+/// Whether the last beam of the scan's array was fired first: if the rig's or the recorded increment is
+/// negative.
 bool fired_backwards(const RawScan& scan, std::optional<double> rig_increment_s);
 
 struct BeamTimes {

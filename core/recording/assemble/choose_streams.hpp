@@ -5,8 +5,8 @@
 
 namespace sweepscope {
 
-/// Which of RawRecording::lasers is the scanner: the one that the rig names, or the only one of scans, else of
-/// scans with several echoes, else of clouds. Otherwise an error that lists the choices.
+/// Which of RawRecording::lasers is the scanner: the one that the rig names, or the only one of scans, else
+/// of scans with several echoes, else of clouds. Otherwise an error that lists the choices.
 Result<std::size_t> choose_laser(const RawRecording& raw, const Rig& rig);
 
 /// Which of RawRecording::joints is the motor: the one that the rig names, the only one that moves (by more

@@ -43,6 +43,12 @@ TEST(Rig, ReadsEveryKey) {
 }
 
 TEST(Rig, LeavesOutWhatIsToBeDetected) {
+  for (const auto& [unit, rad] :
+       {std::pair{"rad", 1.0}, {"deg", std::numbers::pi / 180}, {"turns", 2 * std::numbers::pi}})
+    EXPECT_NEAR(read_text(fmt::format("motor: {{scale: 2, unit: {}}}\n", unit))->motor.rad_per_value(), 2 * rad, 1e-12);
+  for (const double increment_s : {0.0, -1.736e-5})
+    EXPECT_EQ(read_text(fmt::format("laser: {{time_increment_s: {}}}\n", increment_s))->laser.time_increment_s,
+              increment_s);
   const auto rig = read_text("motor: {scale: 2}\n");
   ASSERT_TRUE(rig);
   EXPECT_FALSE(rig->laser.topic);
@@ -53,7 +59,7 @@ TEST(Rig, LeavesOutWhatIsToBeDetected) {
 
 TEST(Rig, RefusesUnknownKeysWithTheirPlace) {
   EXPECT_EQ(refusal("laser: {topic: /scan}\nmotor: {joint: a, sclae: 2}\n"),
-            "2:19: unknown key \"sclae\" in motor; known are: joint, scale, stamp, topic, zero_deg");
+            "2:19: unknown key \"sclae\" in motor; known are: field, joint, scale, stamp, topic, unit, zero_deg");
   EXPECT_EQ(refusal("lidar: {}\n"),
             "1:1: unknown key \"lidar\" in the rig file; known are: encoder, imu, laser, motor, "
             "mount, odometry, play_deg");
@@ -67,7 +73,7 @@ TEST(Rig, RefusesImpossibleValuesWithTheirPlace) {
   EXPECT_EQ(refusal("laser: {stamp_at: middle}"),
             "1:19: laser.stamp_at must be one of: arrival, first_beam, last_beam");
   EXPECT_EQ(refusal("laser: {time_increment_s: -1}"),
-            "1:27: laser.time_increment_s must be more than 0 and less than 1 s");
+            "1:27: laser.time_increment_s must be more than -1 and less than 1 s");
   EXPECT_EQ(refusal("laser: {topic: [a]}"), "1:16: laser.topic must be a name");
   EXPECT_EQ(refusal("mount:\n  axis: [0, 0, 0]\n"), "2:9: mount.axis must have a direction");
   EXPECT_EQ(refusal("mount: {axis: [1, 0]}"), "1:15: mount.axis must be three numbers");

@@ -54,6 +54,27 @@ TEST(CoarseSearch, ComputesEverySecondUnitAndThoseBesideTheBest) {
     })) << beside_ms;
 }
 
+SearchedWindow searched_by_default(double truth_s) {
+  const auto prepared = prepare(test::room(truth_s), FeatureOptions(), Job());
+  return search_by_default(*prepared, search_scale(prepared->motor), Job());
+}
+
+TEST(CoarseSearch, ByDefaultTheWindowIsAbout0WhereTheOffsetIsThere) {
+  const SearchedWindow found = searched_by_default(0.024);
+  EXPECT_NEAR(found.from_s, -60 * kMs, 1e-9);
+  EXPECT_NEAR(found.to_s, 60 * kMs, 1e-9);
+  EXPECT_EQ(found.coarse.curve.size(), 61U + 2U);
+}
+
+TEST(CoarseSearch, ByDefaultAnOffsetFarFrom0IsFoundToo) {
+  for (const double truth_s : {0.061, 0.12, -0.2}) {
+    const SearchedWindow found = searched_by_default(truth_s);
+    ASSERT_TRUE(found.coarse.best) << truth_s;
+    EXPECT_NEAR(found.coarse.offset_s(), truth_s, 1.5 * kMs);
+    EXPECT_NEAR((found.from_s + found.to_s) / 2, truth_s, 4 * kMs);
+  }
+}
+
 TEST(CoarseSearch, SaysEachCandidateOnceWhenItIsFinished) {
   const OffsetProblem problem = test::problem_of(test::room(0.024));
   std::mutex mutex;

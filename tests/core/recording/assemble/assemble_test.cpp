@@ -291,17 +291,20 @@ TEST(Assemble, AMissingTimeIncrementIsTheRigsElseFromTheScanTime) {
   EXPECT_TRUE(given.report.warnings.empty());
 }
 
-TEST(Assemble, ScansThatNeverSayHowLongTheyTakeAreRefused) {
+TEST(Assemble, ScansThatNeverSayHowLongTheyTakeAreInDoubt) {
   RawRecording raw = sample();
   for (RawScan& scan : raw.lasers[0].scans) scan.time_increment_s = scan.scan_time_s = 0;
-  const auto recording = assemble(raw, {}, {});
-  ASSERT_FALSE(recording);
-  EXPECT_EQ(recording.error().code, ExitCode::kUnreadableInput);
-  EXPECT_NE(
-      recording.error().message.find(
-          "none of the 40 scans on /scan can be used: 40 have neither a time_increment nor a scan_time"),
-      std::string::npos)
-      << recording.error().message;
+  const Recording recording = assembled(raw);
+  EXPECT_EQ(recording.scans[0].time_increment_s, 0);
+  EXPECT_GT(recording.report.beam_time_doubt_s, 0);
+  EXPECT_TRUE(warns(recording, "40 scans on /scan have neither a time_increment nor a scan_time"));
+  // Without a period nothing is known of them.
+  raw.lasers[0].scans.resize(4);
+  const auto few = assemble(raw, {}, {});
+  ASSERT_FALSE(few);
+  EXPECT_EQ(few.error().code, ExitCode::kUnreadableInput);
+  EXPECT_NE(few.error().message.find("4 have neither a time_increment nor a scan_time"), std::string::npos)
+      << few.error().message;
 }
 
 TEST(Assemble, ATimeIncrementLongerThanTheScansSpacingWarns) {
@@ -354,6 +357,30 @@ TEST(Assemble, BeamsFiredFromTheLastToTheFirstArePutInTheOrderOfTime) {
     EXPECT_EQ(recording.intensities[4], 9);
     EXPECT_FALSE(warns(recording, "time_increment"));
   }
+}
+
+TEST(Assemble, ARigFileMaySayThatTheLastBeamWasFiredFirst) {
+  for (const StampAt stamp_at : {StampAt::kFirstBeam, StampAt::kLastBeam}) {
+    Rig rig;
+    rig.laser.stamp_at = stamp_at;
+    rig.laser.time_increment_s = -0.001;
+    const Recording recording = assembled(sample(), rig);
+    const LaserScan& scan = recording.scans[0];
+    // The stamp is that of the first beam fired, or of the last.
+    EXPECT_NEAR(scan.first_beam_s, stamp_at == StampAt::kFirstBeam ? 0.25 : 0.246, 1e-7);
+    EXPECT_NEAR(scan.beam_angle_rad(0), 0.5, 1e-6);
+    EXPECT_EQ(recording.ranges(scan)[0], 5);
+    EXPECT_EQ(recording.ranges(scan)[4], 1);
+    EXPECT_TRUE(recording.report.fired_backwards);
+  }
+}
+
+TEST(Assemble, ARigFileMaySayThatAllBeamsWereFiredAtOnce) {
+  Rig rig;
+  rig.laser.time_increment_s = 0;
+  const Recording recording = assembled(sample(), rig);
+  EXPECT_EQ(recording.scans[0].first_beam_s, recording.scans[0].last_beam_s());
+  EXPECT_EQ(recording.report.beam_time_doubt_s, 0);
 }
 
 TEST(Assemble, ScansWithoutBeamsOrDirectionsAreDropped) {

@@ -34,7 +34,7 @@ TEST(BeamTimes, AnIncrementNearThatOfASteadyMirrorIsTakenAsItIs) {
       const RawScan scan = scan_of(factor * kOfMirror_s, scan_time_s);
       const BeamTimes times = judge_beam_times(scan, kPeriod_s, std::nullopt);
       EXPECT_EQ(times.finding, IncrementFinding::kSound);
-      EXPECT_EQ(times.time_increment_s, double{scan.time_increment_s});
+      EXPECT_EQ(times.time_increment_s.value(), double{scan.time_increment_s});
       EXPECT_EQ(times.doubt_s(721), 0);
     }
   }
@@ -46,7 +46,7 @@ TEST(BeamTimes, ADriverThatLeavesOutScansIsBelievedWhereItsScanTimeSaysSo) {
   for (const double scan_time_s : {0.0, kPeriod_s}) {
     const BeamTimes times = judge_beam_times(scan_of(kOfMirror_s / 2, scan_time_s), kPeriod_s, std::nullopt);
     EXPECT_EQ(times.finding, IncrementFinding::kSkipsOrTooShort);
-    EXPECT_NEAR(times.time_increment_s, kOfMirror_s / 2, 1e-10);
+    EXPECT_NEAR(times.time_increment_s.value(), kOfMirror_s / 2, 1e-10);
     EXPECT_NEAR(times.doubt_s(721), kPeriod_s / 4, 1e-5);
   }
 }
@@ -60,7 +60,7 @@ TEST(BeamTimes, AScanThatTakesItsWholePeriodIsInDoubtExceptOfAWholeTurn) {
   EXPECT_EQ(judge_beam_times(whole, kPeriod_s, std::nullopt).finding, IncrementFinding::kSound);
   whole.time_increment_s = 0;
   const BeamTimes guessed = judge_beam_times(whole, kPeriod_s, std::nullopt);
-  EXPECT_NEAR(guessed.time_increment_s, kOfMirror_s, 1e-9);
+  EXPECT_NEAR(guessed.time_increment_s.value(), kOfMirror_s, 1e-9);
   EXPECT_EQ(guessed.doubt_s(1440), 0);
 }
 
@@ -68,16 +68,30 @@ TEST(BeamTimes, WhatCannotBeRightIsTheRigsElseFromAScanTimeThatCanBe) {
   for (const double increment_s : {1e-12, 1e-6, 8e-5, 0.5, 7.0, std::nan("")}) {
     const RawScan scan = scan_of(increment_s);
     const BeamTimes of_scan_time = judge_beam_times(scan, kPeriod_s, std::nullopt);
-    EXPECT_NEAR(of_scan_time.time_increment_s, kPeriod_s / 721, 1e-9) << increment_s;
+    EXPECT_NEAR(of_scan_time.time_increment_s.value(), kPeriod_s / 721, 1e-9) << increment_s;
     EXPECT_NEAR(of_scan_time.doubt_s(721), kPeriod_s / 2, 1e-4);
     const BeamTimes of_rig = judge_beam_times(scan, kPeriod_s, 2e-5);
-    EXPECT_EQ(of_rig.time_increment_s, 2e-5);
+    EXPECT_EQ(of_rig.time_increment_s.value(), 2e-5);
     EXPECT_TRUE(of_rig.of_rig);
     EXPECT_EQ(of_rig.doubt_s(721), 0);
-    for (const double scan_time_s : {0.0, 1e-12, 5.0})
-      EXPECT_EQ(judge_beam_times(scan_of(increment_s, scan_time_s), kPeriod_s, std::nullopt).time_increment_s,
-                0);
+    for (const double scan_time_s : {0.0, 1e-12, 5.0}) {  // all at once, or at the mirror's pace
+      const BeamTimes unknown = judge_beam_times(scan_of(increment_s, scan_time_s), kPeriod_s, std::nullopt);
+      EXPECT_EQ(unknown.time_increment_s.value(), 0);
+      EXPECT_NEAR(unknown.doubt_s(721), kPeriod_s / 2, 1e-4);
+    }
   }
+}
+
+TEST(BeamTimes, ARigFileThatSaysOtherwiseIsFollowed) {
+  const RawScan scan = scan_of(kOfMirror_s);
+  for (const double increment_s : {0.0, kOfMirror_s / 2, 2 * kOfMirror_s}) {
+    const BeamTimes times = judge_beam_times(scan, kPeriod_s, increment_s);
+    EXPECT_EQ(times.time_increment_s.value(), increment_s);
+    EXPECT_TRUE(times.of_rig);
+  }
+  const BeamTimes alike = judge_beam_times(scan, kPeriod_s, 1.1 * kOfMirror_s);
+  EXPECT_EQ(alike.time_increment_s.value(), double{scan.time_increment_s});
+  EXPECT_FALSE(alike.of_rig);
 }
 
 TEST(BeamTimes, WithoutAPeriodIncrementsAreNotJudged) {

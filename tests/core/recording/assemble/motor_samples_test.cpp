@@ -3,6 +3,5 @@
 #include <gtest/gtest.h>
 
 namespace sweepscope {
-namespace {
-}  // namespace
+namespace {}  // namespace
 }  // namespace sweepscope

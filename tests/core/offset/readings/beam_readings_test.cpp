@@ -1,0 +1,125 @@
+#include "core/offset/readings/beam_readings.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "core/offset/estimator.hpp"
+#include "core/recording/assemble/assemble.hpp"
+#include "core/simulation/write_simulation.hpp"
+#include "tests/core/engine_fixtures.hpp"
+
+namespace sweepscope {
+namespace {
+
+using test::kMs;
+using Times = simulation::BeamTimes;
+
+constexpr double kTruth_s = 0.017;
+
+SimulationOptions room(Times times) {
+  SimulationOptions options;
+  options.scene = "room-3";
+  options.offset_s = kTruth_s;
+  options.duration_s = 4;
+  options.sweep_s = 0.513;
+  options.beam_times = times;
+  return options;
+}
+
+// As its messages are read if a rig file says nothing but this.
+Recording read(const SimulationOptions& options, const Rig& rig = {}) {
+  return assemble(messages_of(simulate(options, Job()).value()), rig, std::nullopt).value();
+}
+
+const BeamReading* chosen(const RankedReadings& ranked) {
+  const auto found = std::ranges::find_if(ranked.beams, &BeamReading::chosen);
+  return found == ranked.beams.end() ? nullptr : &*found;
+}
+
+TEST(BeamReadings, WhatIsRecordedIsChosenAloneWhereItFits) {
+  const RankedReadings ranked = rank_readings(read(room(Times::kSpread)), Job());
+  ASSERT_EQ(ranked.beams.size(), 1U);
+  EXPECT_TRUE(ranked.beams[0].chosen);
+  EXPECT_EQ(ranked.beams[0].kind, BeamReadingKind::kRecorded);
+  EXPECT_NEAR(ranked.beams[0].offset_s.value(), kTruth_s, 0.1 * kMs);
+  EXPECT_FALSE(ranked.axis_is_found);
+}
+
+TEST(BeamReadings, BeamsStoredAgainstTheOrderOfTimeAreFound) {
+  const Recording recording = read(room(Times::kReversed));
+  const RankedReadings ranked = rank_readings(recording, Job());
+  ASSERT_NE(chosen(ranked), nullptr);
+  EXPECT_EQ(chosen(ranked)->kind, BeamReadingKind::kReversed);
+  EXPECT_LT(chosen(ranked)->time_increment_s, 0);
+  EXPECT_NEAR(chosen(ranked)->offset_s.value(), kTruth_s, 0.1 * kMs);
+  EXPECT_LT(*chosen(ranked)->residual_m, kClearlyBetter * ranked.beams.front().residual_m.value_or(1));
+  // The rig file's way of stating it leads to the same answer.
+  Rig rig;
+  rig.laser.time_increment_s = chosen(ranked)->time_increment_s;
+  const auto found = estimate(read(room(Times::kReversed), rig), {}, Job());
+  ASSERT_TRUE(found && found->offset_s);
+  EXPECT_NEAR(*found->offset_s, kTruth_s, 0.1 * kMs);
+}
+
+TEST(BeamReadings, BeamsFiredAllAtOnceAreFound) {
+  const RankedReadings ranked = rank_readings(read(room(Times::kInstant)), Job());
+  ASSERT_NE(chosen(ranked), nullptr);
+  EXPECT_EQ(chosen(ranked)->time_increment_s, 0);
+  EXPECT_NEAR(chosen(ranked)->offset_s.value(), kTruth_s, 0.1 * kMs);
+}
+
+TEST(BeamReadings, AMotorThatTiltsIsFound) {
+  SimulationOptions options = room(Times::kSpread);
+  options.axis = simulation::MotorAxis::kY;
+  const RankedReadings ranked = rank_readings(read(options), Job());
+  EXPECT_TRUE(ranked.axis_is_found);
+  EXPECT_EQ(ranked.axis, Eigen::Vector3d::UnitY());
+}
+
+TEST(BeamReadings, AStatedMountIsNotOverruled) {
+  SimulationOptions options = room(Times::kSpread);
+  options.axis = simulation::MotorAxis::kY;
+  Rig rig;
+  rig.mount.laser_in_motor_rpy_deg = {1, 0, 0};
+  const RankedReadings ranked = rank_readings(read(options, rig), Job());
+  EXPECT_FALSE(ranked.axis_is_found);
+  EXPECT_EQ(ranked.axis, Eigen::Vector3d::UnitX());
+}
+
+TEST(BeamReadings, OfAMovingRigNothingIsDecided) {
+  const Recording& walk = test::simulated("cemetery", 0.024, 8).recording;
+  const RankedReadings ranked = rank_readings(walk, Job());
+  EXPECT_TRUE(chosen(ranked) == nullptr || chosen(ranked)->kind == BeamReadingKind::kRecorded);
+  EXPECT_FALSE(ranked.axis_is_found);
+}
+
+TEST(BeamReadings, ReadingTwiceInTheOppositeOrderIsReadingAsBefore) {
+  const Recording recording = read(room(Times::kSpread));
+  const double increment_s = recording.scans.front().time_increment_s;
+  const Recording reversed = read_as(recording, -increment_s);
+  const LaserScan &scan = recording.scans.front(), &turned = reversed.scans.front();
+  EXPECT_EQ(turned.first_beam_s, scan.first_beam_s);
+  EXPECT_NEAR(turned.beam_angle_rad(0), scan.beam_angle_rad(scan.beams - 1.0), 1e-12);
+  for (std::uint32_t i = 0; i < scan.beams; i += 50) {
+    const float before_m = recording.ranges(scan)[i], after_m = reversed.ranges(turned)[scan.beams - 1 - i];
+    EXPECT_TRUE(before_m == after_m || (std::isnan(before_m) && std::isnan(after_m))) << i;
+  }
+}
+
+TEST(BeamReadings, AWrongStatedReadingIsWarnedOfWithTheKeyToWrite) {
+  // A tenth of the scan's time: the answer still has matches, and the surfaces show what is missing.
+  const Recording recording = read(room(Times::kSpread));
+  Rig rig;
+  rig.laser.time_increment_s = 0;
+  const auto found = estimate(read(room(Times::kSpread), rig), {}, Job());
+  ASSERT_TRUE(found);
+  const bool warned = std::ranges::any_of(found->warnings, [](const std::string& warning) {
+    return warning.find("The surfaces fit better if") != std::string::npos &&
+           warning.find("time_increment_s: 1.736e-05") != std::string::npos;
+  });
+  EXPECT_TRUE(warned || !found->offset_s) << "answered " << found->offset_s.value_or(0) << " without a word";
+}
+
+}  // namespace
+}  // namespace sweepscope
