@@ -11,6 +11,7 @@
 #include "core/recording/assemble/beam_times.hpp"
 #include "core/recording/assemble/choose_streams.hpp"
 #include "core/recording/assemble/motor_samples.hpp"
+#include "core/recording/assemble/mount_from_frames.hpp"
 #include "core/recording/assemble/turns.hpp"
 #include "core/recording/stream_stamps.hpp"
 
@@ -366,6 +367,20 @@ void choose_both_stamps(RawLaser& laser, RawJoint& joint, std::optional<StampSou
   rig.motor.stamp = report.motor_stamps.used;
 }
 
+/// The mount that the recording's transforms state, where the rig states none.
+void take_mount_of_frames(const RawRecording& raw, const RawLaser& laser, const RawJoint& joint,
+                          Recording& recording) {
+  if (!recording.rig.has_default_mount() || joint.source == JointSource::kTransform) return;
+  const auto found = mount_from_frames(raw.frames, laser.frame);
+  const auto mount = found ? fitted_mount(*found, recording) : std::nullopt;
+  if (!mount) return;
+  recording.rig.mount = *mount;
+  recording.report.warnings.push_back(fmt::format(
+      "the laser's mount is that of the recording's transforms: {} turns in {} about [{:.3g}, {:.3g}, {:.3g}]; give "
+      "mount in a rig file to state another",
+      found->chain.back(), found->parent, mount->axis.x(), mount->axis.y(), mount->axis.z()));
+}
+
 }  // namespace
 
 Result<Recording> assemble(RawRecording raw, const Rig& rig, std::optional<StampSource> stamps) {
@@ -394,6 +409,7 @@ Result<Recording> assemble(RawRecording raw, const Rig& rig, std::optional<Stamp
     return unreadable(fmt::format("{}: joint {} on {} has {} usable samples; at least two are needed",
                                   raw.file, raw_joint.joint, raw_joint.topic, recording.motor.time_s.size()));
   }
+  take_mount_of_frames(raw, raw_laser, raw_joint, recording);
   compare_streams(recording);
   assemble_motion(raw, recording);
   return recording;

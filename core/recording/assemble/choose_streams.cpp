@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "core/numbers.hpp"
+#include "core/recording/assemble/mount_from_frames.hpp"
 #include "core/recording/messages/messages.hpp"
 
 namespace sweepscope {
@@ -141,6 +143,14 @@ Result<std::size_t> choose_laser(const RawRecording& raw, const Rig& rig) {
   int first = 2;
   for (const std::size_t i : usable) first = std::min(first, rank(i));
   std::erase_if(usable, [&](std::size_t i) { return rank(i) != first; });
+  if (usable.size() > 1) {
+    std::vector<std::size_t> on_motor;
+    std::ranges::copy_if(usable, std::back_inserter(on_motor), [&](std::size_t i) {
+      const auto mount = mount_from_frames(raw.frames, raw.lasers[i].frame);
+      return mount && mount->turning;
+    });
+    if (on_motor.size() == 1) return on_motor.front();
+  }
   if (usable.size() == 1) return usable.front();
   if (usable.size() > 1) {
     return unreadable(fmt::format(

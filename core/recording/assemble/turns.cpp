@@ -9,11 +9,11 @@
 namespace sweepscope {
 namespace {
 
-constexpr double kTurn_rad = 2 * std::numbers::pi;
+constexpr double kFullCircle_rad = 2 * std::numbers::pi;
 constexpr double kSameDirection = 1.5;  // increments
 
 bool same_direction(double a_rad, double b_rad, double increment_rad) {
-  return std::abs(std::remainder(a_rad - b_rad, kTurn_rad)) < kSameDirection * std::abs(increment_rad);
+  return std::abs(std::remainder(a_rad - b_rad, kFullCircle_rad)) < kSameDirection * std::abs(increment_rad);
 }
 
 bool continues(const LaserScan& scan, const LaserScan& next) {
@@ -37,8 +37,9 @@ std::vector<BeamOfRun> beginnings(std::span<const LaserScan> run, double directi
   for (std::size_t i = 0; i < run.size(); ++i) {
     const LaserScan& scan = run[i];
     // Beams from the first one to the direction, a turn or less ahead.
-    const double turn_beams = kTurn_rad / std::abs(scan.angle_increment_rad);
-    double ahead = std::remainder(direction_rad - scan.angle_min_rad, kTurn_rad) / scan.angle_increment_rad;
+    const double turn_beams = kFullCircle_rad / std::abs(scan.angle_increment_rad);
+    double ahead =
+        std::remainder(direction_rad - scan.angle_min_rad, kFullCircle_rad) / scan.angle_increment_rad;
     if (ahead < -0.5) ahead += turn_beams;
     for (double beam = std::max(0.0, std::round(ahead)); beam < scan.beams; beam += turn_beams)
       if (i > 0 || beam >= 0.5) found.push_back({i, std::uint32_t(beam)});
@@ -74,7 +75,7 @@ double turns_per_message(const std::vector<RawScan>& messages) {
                  span_rad = messages[i].beams * increment_rad;
     if (same_direction(begin_rad + span_rad, next_rad, increment_rad) &&
         !same_direction(begin_rad, next_rad, increment_rad))
-      turned.push_back(std::abs(span_rad) / kTurn_rad);
+      turned.push_back(std::abs(span_rad) / kFullCircle_rad);
   }
   return 2 * turned.size() > messages.size() ? median(turned) : 1;
 }

@@ -7,9 +7,9 @@
 
 #include "core/recording/assemble/assemble.hpp"
 #include "core/recording/assemble/choose_streams.hpp"
+#include "core/recording/assemble/mount_from_frames.hpp"
 #include "core/recording/formats/read_raw_recording.hpp"
 #include "core/recording/inspect.hpp"
-#include "core/recording/rig/mount_from_frames.hpp"
 
 namespace sweepscope {
 namespace {
@@ -84,18 +84,6 @@ void note_motor(const RawJoint& joint, const MotorSummary& motor, DetectedRig& d
       min, max);
 }
 
-/// The motor's angle, continued in a straight line for `beyond_s` at both ends: a transform may be stamped a
-/// little before the first sample.
-std::optional<double> angle_near(const MotorTrack& motor, double t_s, double beyond_s) {
-  const auto& times_s = motor.time_s;
-  const double inside_s = std::clamp(t_s, times_s.front(), times_s.back());
-  if (std::abs(t_s - inside_s) > beyond_s) return std::nullopt;
-  if (t_s == inside_s) return motor.angle_at(t_s);
-  const std::size_t i = t_s < inside_s ? 1 : times_s.size() - 1;
-  const double slope = (motor.angle_rad[i] - motor.angle_rad[i - 1]) / (times_s[i] - times_s[i - 1]);
-  return motor.angle_at(inside_s) + slope * (t_s - inside_s);
-}
-
 /// Completes the mount by the transforms, where the motor's angle is known when the first was stamped.
 void take_mount(const FrameMount& found, const Recording& recording, DetectedRig& detected) {
   if (!found.turning) {
@@ -105,19 +93,13 @@ void take_mount(const FrameMount& found, const Recording& recording, DetectedRig
                                       found.chain.front(), found.chain.back(), kAxes);
     return;
   }
-  const auto angle_rad = [&](const RawFrame::Pose& pose) -> std::optional<double> {
-    const std::int64_t ns =
-        recording.rig.motor.stamp == StampSource::kReceive ? pose.stamps.receive_ns : pose.stamps.header_ns;
-    return angle_near(recording.motor, static_cast<double>(ns - recording.epoch_ns) * 1e-9,
-                      2 * recording.report.motor_stamps.median_period_s);
-  };
-  const auto first_rad = angle_rad(found.turning->first), far_rad = angle_rad(found.turning->farthest);
-  if (!first_rad || !far_rad || std::abs(*far_rad - *first_rad) < 0.25 * found.turning->turned_rad) {
+  const auto mount = fitted_mount(found, recording);
+  if (!mount) {
     detected.mount_note = fmt::format("the transforms of {} do not fit the motor's angles: not used; {}",
                                       found.turning->child, kAxes);
     return;
   }
-  detected.rig.mount = rig_mount(found, *first_rad, *far_rad > *first_rad ? 1 : -1);
+  detected.rig.mount = *mount;
   detected.mount_found = true;
   detected.mount_note = fmt::format("by transforms: {} turns in {}, which is the base frame; {}",
                                     found.chain.back(), found.parent, kAxes);

@@ -8,7 +8,7 @@
 
 #include "core/numbers.hpp"
 #include "core/recording/assemble/choose_streams.hpp"
-#include "core/recording/rig/mount_from_frames.hpp"
+#include "core/recording/assemble/mount_from_frames.hpp"
 
 namespace sweepscope {
 namespace {

@@ -30,4 +30,8 @@ std::optional<FrameMount> mount_from_frames(const std::vector<RawFrame>& frames,
 /// `sign`: -1 where the motor's angle grows as the frame turns the other way about `found.axis`.
 Rig::Mount rig_mount(const FrameMount& found, double first_rad, double sign);
 
+/// The mount by a frame that turns with the motor, at the motor's angles when its transforms were stamped.
+/// Absent if no frame turns, or if the transforms do not fit these angles.
+std::optional<Rig::Mount> fitted_mount(const FrameMount& found, const Recording& recording);
+
 }  // namespace sweepscope

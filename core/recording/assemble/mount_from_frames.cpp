@@ -1,5 +1,6 @@
-#include "core/recording/rig/mount_from_frames.hpp"
+#include "core/recording/assemble/mount_from_frames.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/numbers.hpp"
@@ -29,6 +30,18 @@ double rounded(double value, double steps_a_unit) {
 Eigen::Vector3d rpy_deg(const Eigen::Matrix3d& r) {
   const double pitch = std::atan2(-r(2, 0), std::hypot(r(0, 0), r(1, 0)));
   return Eigen::Vector3d(std::atan2(r(2, 1), r(2, 2)), pitch, std::atan2(r(1, 0), r(0, 0))) / kRadPerDeg;
+}
+
+/// The motor's angle, continued in a straight line for `beyond_s` at both ends: a transform may be stamped a
+/// little before the first sample.
+std::optional<double> angle_near(const MotorTrack& motor, double t_s, double beyond_s) {
+  const auto& times_s = motor.time_s;
+  const double inside_s = std::clamp(t_s, times_s.front(), times_s.back());
+  if (std::abs(t_s - inside_s) > beyond_s) return std::nullopt;
+  if (t_s == inside_s) return motor.angle_at(t_s);
+  const std::size_t i = t_s < inside_s ? 1 : times_s.size() - 1;
+  const double slope = (motor.angle_rad[i] - motor.angle_rad[i - 1]) / (times_s[i] - times_s[i - 1]);
+  return motor.angle_at(inside_s) + slope * (t_s - inside_s);
 }
 
 }  // namespace
@@ -70,6 +83,20 @@ Rig::Mount rig_mount(const FrameMount& found, double first_rad, double sign) {
   for (double& part : mount.laser_in_motor_xyz_m) part = rounded(part, 1e5);
   for (double& part : mount.laser_in_motor_rpy_deg) part = rounded(part, 1e4);
   return mount;
+}
+
+std::optional<Rig::Mount> fitted_mount(const FrameMount& found, const Recording& recording) {
+  if (!found.turning) return std::nullopt;
+  const auto angle_rad = [&](const RawFrame::Pose& pose) -> std::optional<double> {
+    const std::int64_t ns =
+        recording.rig.motor.stamp == StampSource::kReceive ? pose.stamps.receive_ns : pose.stamps.header_ns;
+    return angle_near(recording.motor, static_cast<double>(ns - recording.epoch_ns) * 1e-9,
+                      2 * recording.report.motor_stamps.median_period_s);
+  };
+  const auto first_rad = angle_rad(found.turning->first), far_rad = angle_rad(found.turning->farthest);
+  if (!first_rad || !far_rad || std::abs(*far_rad - *first_rad) < 0.25 * found.turning->turned_rad)
+    return std::nullopt;
+  return rig_mount(found, *first_rad, *far_rad > *first_rad ? 1 : -1);
 }
 
 }  // namespace sweepscope
