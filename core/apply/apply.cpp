@@ -12,11 +12,13 @@
 #include "core/apply/clock_shift.hpp"
 #include "core/apply/copier.hpp"
 #include "core/apply/survey.hpp"
+#include "core/io/abandoned_parts.hpp"
 #include "core/io/atomic_file.hpp"
 #include "core/io/atomic_folder.hpp"
 #include "core/offset/readings/fitting_recording.hpp"
 #include "core/recording/formats/recording_file.hpp"
 #include "core/recording/streams/message_sink.hpp"
+#include "core/recording/sweeps.hpp"
 
 namespace sweepscope {
 namespace {
@@ -56,6 +58,7 @@ class Application {
 
  private:
   Result<void> prepare();
+  Result<void> check_period() const;
   Result<void> prepare_added();
   Result<Recording> recording_to_add() const;
   Result<std::unique_ptr<MessageSink>> create_sink(const OutputFile& file, const fs::path& path) const;
@@ -77,6 +80,17 @@ class Application {
   std::vector<WrittenFile> written_;
 };
 
+/// No motor swings so fast that it is necessary to read the recording for a small offset.
+Result<void> Application::check_period() const {
+  constexpr double kShortestPeriod_s = 0.1;
+  if (options_.far || std::abs(options_.offset.offset_s) <= kShortestPeriod_s) return {};
+  ReadOptions options;
+  options.rig = options_.rig;
+  options.stamps = options_.stamps;
+  const auto outline = read_outline(recording_.path, options, 0, job_);
+  return outline ? check_within_period(*outline, options_) : Result<void>();
+}
+
 Result<void> Application::prepare() {
   auto kind = output_kind(recording_, output_);
   if (!kind) return tl::unexpected(kind.error());
@@ -90,6 +104,7 @@ Result<void> Application::prepare() {
       std::ranges::find(survey_.topics, kAppliedTopic, &StreamTopic::name) != survey_.topics.end();
   if (!options_.again)
     if (auto checked = check_not_applied(recording_, has_record); !checked) return checked;
+  if (auto checked = check_period(); !checked) return checked;
   auto move = find_move(survey_, options_);
   if (!move) return tl::unexpected(move.error());
   move_ = std::move(*move);
@@ -213,6 +228,7 @@ Result<void> Application::write_folder() {
 
 Result<Applied> Application::run() {
   if (const auto prepared = prepare(); !prepared) return tl::unexpected(prepared.error());
+  remove_abandoned_parts(output_);
   const auto written = kind_.is_folder ? write_folder()
                                        : write_file(output_files(recording_, kind_, output_).front(),
                                                     output_.parent_path(), true);
@@ -228,6 +244,17 @@ Result<Applied> Application::run() {
 }
 
 }  // namespace
+
+Result<void> check_within_period(const Recording& recording, const ApplyOptions& options) {
+  const double period_s = 2 * find_sweeps(recording.motor).median_sweep_s;
+  const double offset_s = std::abs(options.offset.offset_s);
+  if (options.far || !(period_s > 0) || offset_s <= period_s) return {};
+  return failure(
+      ExitCode::kWrongUsage,
+      fmt::format("{}: the offset, {:.6g} ms, is longer than the motor's period, {:.4g} s. Offsets are "
+                  "in milliseconds. Apply it all the same with --far",
+                  recording.name, options.offset.offset_s * 1e3, period_s));
+}
 
 Result<Applied> apply_offset(const fs::path& recording, const fs::path& output, const ApplyOptions& options,
                              const Job& job) {

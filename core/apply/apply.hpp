@@ -21,6 +21,7 @@ struct ApplyOptions {
   Rig rig;
   std::optional<StampSource> stamps;  // of both streams, overrides the rig
   bool again = false;                 // also if an offset was applied before
+  bool far = false;                   // also if the offset is longer than the motor's period
   AddOptions add;                     // topics to add
 };
 
@@ -32,8 +33,9 @@ struct Applied {
 
 /// Writes a copy of a recording with the stamps of one stream moved onto the clock of the other: the stamps
 /// in the messages' headers, or the receive times. All other bytes of the messages, their order and the
-/// descriptions of their topics are unchanged; the index is rebuilt. Applying an offset twice is refused
-/// (ExitCode::kWrongUsage).
+/// descriptions of their topics are unchanged; the index is rebuilt. Applying an offset twice, or one that is
+/// longer than the motor's period, is refused (ExitCode::kWrongUsage) unless the options ask for it. What a
+/// killed run left beside the output is removed.
 ///
 /// The output's format follows from its name: .bag, .mcap, .db3; without an extension a ROS 2 bag folder with
 /// metadata.yaml and one file per input file. Messages are not converted between ROS 1 and ROS 2; an MCAP
@@ -46,5 +48,9 @@ struct Applied {
 /// of the size of the recording.
 Result<Applied> apply_offset(const std::filesystem::path& recording, const std::filesystem::path& output,
                              const ApplyOptions& options, const Job& job);
+
+/// Refuses an offset that is longer than the motor's period, which is hardly meant (a wrong unit, or a wrong
+/// estimate), unless options.far. Nothing is refused where the motor's period is not known.
+Result<void> check_within_period(const Recording& recording, const ApplyOptions& options);
 
 }  // namespace sweepscope

@@ -7,6 +7,7 @@
 
 #include "core/apply/added_topics.hpp"
 #include "core/apply/applied_records.hpp"
+#include "core/io/abandoned_parts.hpp"
 #include "core/io/atomic_folder.hpp"
 #include "core/io/cloud_file.hpp"
 #include "core/io/trajectory_file.hpp"
@@ -37,6 +38,7 @@ Result<WrittenSweeps> write_sweeps(Recording recording, const AppliedOffset& off
   if (!prepared) return tl::unexpected(prepared.error());
   const auto clouds = SweepClouds::create(*prepared, 0, *map, job);
   if (!clouds) return tl::unexpected(clouds.error());
+  remove_abandoned_parts(folder);
   auto output = AtomicFolder::create(folder);
   if (!output) return tl::unexpected(output.error());
   WrittenSweeps written{clouds->size(), clouds->moving(), {}};
@@ -71,6 +73,8 @@ Result<WrittenSweeps> write_applied_sweeps(const std::filesystem::path& path, co
     if (const auto checked = check_not_applied(*stream, has_record); !checked)
       return tl::unexpected(checked.error());
   }
+  if (const auto checked = check_within_period(*recording, options); !checked)
+    return tl::unexpected(checked.error());
   return write_sweeps(std::move(*recording), options.offset, options.add, folder, extension, job);
 }
 

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <sys/random.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -80,6 +81,7 @@ Part create_part(const fs::path& target) {
   for (int i = 0; i < kTries; ++i) {
     const fs::path part = name_beside(target);
     const int descriptor = create_unfinished(part);
+    if (descriptor >= 0) flock(descriptor, LOCK_EX | LOCK_NB);  // see remove_abandoned_parts
     if (descriptor >= 0) hand_on_permissions(target, descriptor);
     if (descriptor >= 0 || errno != EEXIST) return {part, descriptor};
   }

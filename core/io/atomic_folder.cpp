@@ -1,6 +1,8 @@
 #include "core/io/atomic_folder.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -52,13 +54,18 @@ Result<AtomicFolder> AtomicFolder::create(const fs::path& path) {
     return static_cast<fs::perms>(mask);
   }();
   fs::permissions(pattern, all & ~umasked, ignored);  // mkdtemp gives them to the owner alone
-  return AtomicFolder(without_slash(path), pattern);
+  const int lock = open(pattern.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (lock >= 0) flock(lock, LOCK_EX | LOCK_NB);
+  return AtomicFolder(without_slash(path), pattern, lock);
 }
 
 AtomicFolder::AtomicFolder(AtomicFolder&& other) noexcept
-    : path_(std::move(other.path_)), part_path_(std::exchange(other.part_path_, {})) {}
+    : path_(std::move(other.path_)),
+      part_path_(std::exchange(other.part_path_, {})),
+      lock_(std::exchange(other.lock_, -1)) {}
 
 AtomicFolder::~AtomicFolder() {
+  if (lock_ >= 0) close(lock_);
   if (part_path_.empty()) return;
   std::error_code ignored;
   fs::remove_all(part_path_, ignored);

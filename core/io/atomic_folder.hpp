@@ -25,10 +25,11 @@ class AtomicFolder {
   Result<void> commit();
 
  private:
-  AtomicFolder(std::filesystem::path path, std::filesystem::path part)
-      : path_(std::move(path)), part_path_(std::move(part)) {}
+  AtomicFolder(std::filesystem::path path, std::filesystem::path part, int lock)
+      : path_(std::move(path)), part_path_(std::move(part)), lock_(lock) {}
 
   std::filesystem::path path_, part_path_;
+  int lock_ = -1;  // the part, open and locked: see remove_abandoned_parts
 };
 
 }  // namespace sweepscope

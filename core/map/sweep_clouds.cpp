@@ -1,5 +1,7 @@
 #include "core/map/sweep_clouds.hpp"
 
+#include "core/numbers.hpp"
+
 namespace sweepscope {
 
 Result<SweepClouds> SweepClouds::create(const PreparedRecording& prepared, double offset_s,
@@ -18,6 +20,27 @@ SweepClouds::SweepClouds(const Recording& recording, MapPath path, double offset
     if (poses_.poses()[pose].sweep != sweep) sweeps_.push_back({{i, i}, pose});
     sweeps_.back().scans.end = i + 1;
     sweep = poses_.poses()[pose].sweep;
+  }
+  join_remnants();
+}
+
+/// A recording hardly ever ends at a reversal: a few scans at an end are no sweep, and join their neighbour.
+void SweepClouds::join_remnants() {
+  constexpr double kMinPart = 0.2;  // of the median sweep
+  const auto scans_of = [](const ScannedSweep& sweep) {
+    return static_cast<double>(sweep.scans.end - sweep.scans.first);
+  };
+  std::vector<double> scans;
+  for (const ScannedSweep& sweep : sweeps_) scans.push_back(scans_of(sweep));
+  const double min = kMinPart * median(scans);
+  const auto is_remnant = [&](const ScannedSweep& sweep) { return scans_of(sweep) < min; };
+  if (sweeps_.size() > 2 && is_remnant(sweeps_.back())) {
+    sweeps_[sweeps_.size() - 2].scans.end = sweeps_.back().scans.end;
+    sweeps_.pop_back();
+  }
+  if (sweeps_.size() > 2 && is_remnant(sweeps_.front())) {
+    sweeps_[1] = {{sweeps_.front().scans.first, sweeps_[1].scans.end}, sweeps_.front().pose};
+    sweeps_.erase(sweeps_.begin());
   }
 }
 

@@ -22,8 +22,8 @@ struct SweepCloud {
   MapCloud points;
 };
 
-/// The sweeps of a recording as clouds, each made when it is asked for, so that they take no memory. Beams
-/// are placed as in a map: see build_maps.
+/// The sweeps of a recording as clouds; a few scans at either end belong to the neighbouring cloud. Each is
+/// made when it is asked for, so that they take no memory. Beams are placed as in a map: see build_maps.
 class SweepClouds {
  public:
   /// The recording that was prepared must outlive it. For the errors see build_maps.
@@ -46,10 +46,11 @@ class SweepClouds {
 
  private:
   struct ScannedSweep {
-    ScanRange scans;         // those that are placed are all of this sweep
+    ScanRange scans;         // those that are placed are of this sweep, or of a remnant that joined it
     std::uint32_t pose = 0;  // of the first of them
   };
   SweepClouds(const Recording& recording, MapPath path, double offset_s);
+  void join_remnants();
 
   const Recording* recording_;
   MapPath path_;

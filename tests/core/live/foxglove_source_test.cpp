@@ -274,8 +274,9 @@ TEST(FoxgloveAddress, IsReadWithItsDefaults) {
   EXPECT_EQ(bare->host, "::1");
   EXPECT_EQ(bare->port, "8765");
   EXPECT_EQ(bare->path, "/");
-  for (const char* wrong : {"", "localhost:8765", "http://localhost", "wss://localhost", "ws://",
-                            "ws://:8765", "ws://host:port", "ws://[::1", "ws://a b:1"})
+  for (const char* wrong :
+       {"", "localhost:8765", "http://localhost", "wss://localhost", "ws://", "ws://:8765", "ws://host:port",
+        "ws://host:65536", "ws://host:99999", "ws://host:0", "ws://[::1", "ws://a b:1"})
     EXPECT_FALSE(parse_foxglove_address(wrong)) << wrong;
 }
 
