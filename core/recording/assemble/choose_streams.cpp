@@ -126,6 +126,23 @@ void keep_best_source(const RawRecording& raw, std::vector<std::size_t>& joints)
   std::erase_if(joints, [&](std::size_t i) { return raw.joints[i].source != best; });
 }
 
+/// Of several joints that move, the one that turns as far as the frame that turns the scanner, if only one
+/// does.
+void keep_turning_frame(const RawRecording& raw, const Rig& rig, std::vector<std::size_t>& moving) {
+  constexpr double kNearly =
+      1.1;  // the frame's turn is the farthest from its first pose, at most the joint's range
+  const auto laser = choose_laser(raw, rig);
+  const auto mount = laser ? mount_from_frames(raw.frames, raw.lasers[*laser].frame) : std::nullopt;
+  if (!mount || !mount->turning) return;
+  const double frame_deg = mount->turning->turned_rad * kDegPerRad;
+  std::vector<std::size_t> alike;
+  std::ranges::copy_if(moving, std::back_inserter(alike), [&](std::size_t i) {
+    const double joint_deg = turn_deg(raw.joints[i], rig);
+    return joint_deg * kNearly > frame_deg && joint_deg < 2 * kNearly * frame_deg;
+  });
+  if (alike.size() == 1) moving = alike;
+}
+
 }  // namespace
 
 Result<std::size_t> choose_laser(const RawRecording& raw, const Rig& rig) {
@@ -183,6 +200,7 @@ Result<std::size_t> choose_joint(const RawRecording& raw, const Rig& rig) {
   if (!rig.motor.topic) keep_best_source(raw, usable);
   for (const std::size_t i : usable)
     if (turn_deg(raw.joints[i], rig) > kMinMotion_deg) moving.push_back(i);
+  if (moving.size() > 1) keep_turning_frame(raw, rig, moving);
   if (moving.size() == 1) return moving.front();
   if (moving.empty() && usable.size() == 1) return usable.front();
   if (!usable.empty()) {
