@@ -96,7 +96,8 @@ bool repeats_while_moving(const MotorTrack& motor, const Run& before, const Run&
   };
   const double first = speed_rad_s(before, run), second = speed_rad_s(run, after);
   if (first * second <= 0) return false;
-  const auto [slow, fast] = std::minmax(std::abs(first), std::abs(second));
+  const double slow = std::min(std::abs(first), std::abs(second)),
+               fast = std::max(std::abs(first), std::abs(second));
   const double spacing_s = (motor.time_s[run.last] - motor.time_s[run.first]) / double(run.last - run.first);
   return fast < kMaxSpeedRatio * slow && slow * spacing_s > kMinSteps * step_rad;
 }
@@ -125,11 +126,30 @@ std::vector<char> runs_sent_again(const MotorTrack& motor, const std::vector<Run
   return again;
 }
 
+/// Without samples that repeat the angle before the last one while the motor turns on: a node that sends the
+/// last angle it knows was overtaken by the next one.
+MotorTrack without_overtaken(const MotorTrack& motor) {
+  constexpr double kMinSteps = 2;
+  const double min_rad = kMinSteps * encoder_step_rad(motor);
+  const std::vector<double>& angles_rad = motor.angle_rad;
+  MotorTrack kept;
+  for (std::size_t i = 0; i < angles_rad.size(); ++i) {
+    if (i >= 2 && i + 1 < angles_rad.size() && angles_rad[i] == angles_rad[i - 2]) {
+      const double back_rad = angles_rad[i - 1] - angles_rad[i],
+                   on_rad = angles_rad[i + 1] - angles_rad[i - 1];
+      if (std::abs(back_rad) > min_rad && back_rad * on_rad >= 0) continue;
+    }
+    kept.time_s.push_back(motor.time_s[i]);
+    kept.angle_rad.push_back(angles_rad[i]);
+  }
+  return kept;
+}
+
 /// Leaves out samples that repeat the one before although the motor moves: they say where it was earlier.
 void leave_out_repeats(const RawJoint& raw, Recording& recording) {
-  MotorTrack& motor = recording.motor;
+  const std::size_t samples = recording.motor.time_s.size();
+  const MotorTrack motor = without_overtaken(recording.motor);
   const std::vector<Run> runs = runs_of(motor);
-  if (runs.size() == motor.time_s.size()) return;
   const std::vector<char> again = runs_sent_again(motor, runs, recording.report.laser_stamps.median_period_s);
   MotorTrack kept;
   for (std::size_t i = 0; i < runs.size(); ++i) {
@@ -140,13 +160,13 @@ void leave_out_repeats(const RawJoint& raw, Recording& recording) {
     }
   }
   std::size_t& repeated = recording.report.motor_repeated;
-  repeated = motor.time_s.size() - kept.time_s.size();
+  repeated = samples - kept.time_s.size();
   if (repeated == 0) return;
   recording.report.warnings.push_back(fmt::format(
       "{} of {} samples of joint {} on {} repeat the angle before although the motor moves: old angles sent "
       "again under new stamps. They are left out",
-      repeated, motor.time_s.size(), raw.joint, raw.topic));
-  motor = std::move(kept);
+      repeated, samples, raw.joint, raw.topic));
+  recording.motor = std::move(kept);
 }
 
 /// What speaks against the angles as they were recorded.

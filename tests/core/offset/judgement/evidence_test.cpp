@@ -94,9 +94,9 @@ TEST(Evidence, ResidualsAboveTheRangeNoiseWidenSigmaOrRefuse) {
   evidence.lever_m_s = 5;
   evidence.residual_m = 0.009;
   EXPECT_EQ(judge_constant(evidence, 0.02 * kMs).sigma_s, 0.02 * kMs);
-  evidence.residual_m = 0.020;
+  evidence.residual_m = 0.050;
   const Verdict wider = judge_constant(evidence, 0.02 * kMs);
-  EXPECT_NEAR(*wider.sigma_s, std::hypot(0.016 / 5, 0.02 * kMs), 1e-9);
+  EXPECT_NEAR(*wider.sigma_s, std::hypot(0.040 / 5, 0.02 * kMs), 1e-9);
   EXPECT_EQ(wider.warnings.size(), 1U);
   evidence.residual_m = 0.099;
   EXPECT_EQ(kind_of(judge_constant(evidence, 0.02 * kMs)), RefusalKind::kLargeResiduals);

@@ -85,6 +85,12 @@ TEST(MotorSamples, ASampleSentTwiceWhileTheMotorMovesIsLeftOut) {
   EXPECT_EQ(std::ranges::count(recording.motor.time_s, 0.5), 0);
 }
 
+TEST(MotorSamples, AnOldAngleThatTheNextOvertookIsLeftOut) {
+  RawJoint joint = sampled(triangle_rad);
+  for (const std::size_t i : {50U, 90U, 300U}) joint.positions[i] = joint.positions[i - 2];
+  EXPECT_EQ(assembled(joint).report.motor_repeated, 3U);
+}
+
 TEST(MotorSamples, AMotorThatTurnsRoundKeepsEqualAngles) {
   const auto sine_rad = [](double time_s) { return std::sin(3 * time_s); };
   const auto held_rad = [](double time_s) { return std::clamp(triangle_rad(time_s), -1.2, 1.2); };
@@ -134,7 +140,7 @@ TEST(MotorSamples, OfTwoPublishersTheOneThatMovesIsUsed) {
     const Recording recording = assembled(joint);
     EXPECT_EQ(recording.report.motor_of_others, 120U) << named;
     EXPECT_EQ(recording.motor.time_s.size(), 600U) << named;
-    EXPECT_TRUE(warns_of(recording, named ? "/driver (600 samples over 180.0 deg) and /joint_state_publisher"
+    EXPECT_TRUE(warns_of(recording, named ? "/driver (600 samples over 179.1 deg) and /joint_state_publisher"
                                           : "publishes a constant"))
         << testing::PrintToString(recording.report.warnings);
     EXPECT_FALSE(motor_faults_refusal(recording.report));
@@ -182,7 +188,7 @@ TEST(MotorSamples, TwoSourcesThatMoveDifferentlyAreRefused) {
     ASSERT_TRUE(refused) << named;
     EXPECT_EQ(refused->kind, RefusalKind::kTwoMotorSources);
     EXPECT_NE(
-        refused->text.find(named ? "/driver (600 samples over 180.0 deg) and /commands" : "jump to and fro"),
+        refused->text.find(named ? "/driver (600 samples over 179.1 deg) and /commands" : "jump to and fro"),
         std::string::npos)
         << refused->text;
   }
