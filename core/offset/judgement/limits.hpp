@@ -31,10 +31,10 @@ struct Limits {
   std::size_t min_walk_sweeps = 12;  // besides those in which tracking settles
   double max_motion_sigma_units = 1;
   // The least squares.
-  std::size_t min_matches = 100;       // four for each of the 24 views that are resampled at most
-  double usual_residual_noises = 1.2;  // beyond, sigma covers what the noise does not explain
-  double max_residual_noises = 5;      // 0.3 to 0.9 of simulated rooms, stamps that jitter included
-  double min_lever = 0.05;             // of the reach; 0.38 to 0.61 of simulated rooms and walks (thresholds)
+  std::size_t min_matches = 100;     // four for each of the 24 views that are resampled at most
+  double usual_residual_noises = 3;  // beyond, sigma covers what the noise does not explain
+  double max_residual_noises = 5;    // 0.3 to 0.9 of simulated rooms, stamps that jitter included
+  double min_lever = 0.05;           // of the reach; 0.38 to 0.61 of simulated rooms and walks (thresholds)
   // A walk.
   std::size_t min_tracked_sweeps = 20;
   double max_hopeless_units = 5;   // of what bends of the path leave, before it is solved for

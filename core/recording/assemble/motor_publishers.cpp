@@ -136,7 +136,7 @@ void keep_one_publisher(const RawJoint& raw, JointSamples samples, ReadReport& r
 
 void leave_out_constant(const RawJoint& raw, MotorTrack& motor, ReadReport& report) {
   constexpr std::size_t kMin = 5;
-  constexpr double kMinPart = 0.02, kMinAside = 0.6, kFar = 2, kUsual = 0.75;
+  constexpr double kMinPart = 0.02, kMinAside = 0.6, kFar = 2;
   if (raw.publishers.size() > 1) return;
   const std::vector<double>& angles_rad = motor.angle_rad;
   struct Seen {
@@ -146,7 +146,7 @@ void leave_out_constant(const RawJoint& raw, MotorTrack& motor, ReadReport& repo
   std::vector<double> turns_rad;
   for (std::size_t i = 1; i + 1 < angles_rad.size(); ++i)
     turns_rad.push_back(std::abs(angles_rad[i + 1] - angles_rad[i - 1]));
-  const double far_rad = turns_rad.empty() ? 0 : std::max(kMinMotion_rad, kFar * quantile(turns_rad, kUsual));
+  const double far_rad = std::max(kMinMotion_rad, kFar * median(std::move(turns_rad)));
   std::map<double, Seen> seen;
   for (std::size_t i = 1; i + 1 < angles_rad.size(); ++i) {
     const double before_rad = angles_rad[i - 1] - angles_rad[i],

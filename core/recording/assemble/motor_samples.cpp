@@ -47,23 +47,37 @@ std::vector<Run> runs_of(const MotorTrack& motor) {
   return runs;
 }
 
-/// The encoder's step: a small quantile of the distances between neighbouring angles, so that single odd
-/// values do not make it fine.
+/// The encoder's step: the smallest distance between angles, or between such distances, that occurs more than
+/// once; where the encoder is so fine that none does, a small quantile of the distances.
 double encoder_step_rad(const MotorTrack& motor) {
   constexpr double kSame_rad = 1e-7, kQuantile = 0.05;
   std::vector<double> angles_rad = motor.angle_rad;
   std::ranges::sort(angles_rad);
-  std::vector<double> steps_rad = spacings(angles_rad);
-  std::erase_if(steps_rad, [](double step_rad) { return step_rad < kSame_rad; });
-  return steps_rad.empty() ? 0 : quantile(steps_rad, kQuantile);
+  std::vector<double> gaps_rad = spacings(angles_rad);
+  std::erase_if(gaps_rad, [](double gap_rad) { return gap_rad < kSame_rad; });
+  if (gaps_rad.empty()) return 0;
+  std::ranges::sort(gaps_rad);
+  double step_rad = gaps_rad.back(), last_rad = 0;
+  bool repeated = false;
+  for (std::size_t i = 1; i < gaps_rad.size(); ++i) {
+    if (gaps_rad[i] - gaps_rad[i - 1] > kSame_rad) continue;
+    if (gaps_rad[i] - last_rad > kSame_rad) step_rad = std::min(step_rad, gaps_rad[i] - last_rad);
+    last_rad = gaps_rad[i];
+    repeated = true;
+  }
+  return repeated ? step_rad : quantile(gaps_rad, kQuantile);
 }
 
-/// Whether all angles lie on a grid of the median step, as those of a motor do that goes from stop to stop.
-bool stops_on_grid(const MotorTrack& motor, const std::vector<Run>& runs) {
+/// Whether all angles lie on a grid of the median step and last a scan at least, as those of a motor do that
+/// goes from stop to stop to be scanned there.
+bool stops_on_grid(const MotorTrack& motor, const std::vector<Run>& runs, double scan_period_s) {
   constexpr double kOnGrid = 0.9;  // of 1, where all angles have one phase
-  std::vector<double> steps_rad;
-  for (std::size_t i = 1; i < runs.size(); ++i)
+  std::vector<double> steps_rad, last_s;
+  for (std::size_t i = 1; i < runs.size(); ++i) {
     steps_rad.push_back(std::abs(motor.angle_rad[runs[i].first] - motor.angle_rad[runs[i - 1].first]));
+    last_s.push_back(motor.time_s[runs[i].first] - motor.time_s[runs[i - 1].first]);
+  }
+  if (median(std::move(last_s)) < scan_period_s) return false;
   const double step_rad = median(std::move(steps_rad));
   if (!(step_rad > 0)) return true;
   std::complex<double> sum;
@@ -82,17 +96,19 @@ bool repeats_while_moving(const MotorTrack& motor, const Run& before, const Run&
   };
   const double first = speed_rad_s(before, run), second = speed_rad_s(run, after);
   if (first * second <= 0) return false;
-  const auto [slow, fast] = std::minmax(std::abs(first), std::abs(second));
+  const double slow = std::min(std::abs(first), std::abs(second)),
+               fast = std::max(std::abs(first), std::abs(second));
   const double spacing_s = (motor.time_s[run.last] - motor.time_s[run.first]) / double(run.last - run.first);
   return fast < kMaxSpeedRatio * slow && slow * spacing_s > kMinSteps * step_rad;
 }
 
 /// The runs whose repeats are old angles sent again. Where many are, those at the reversals are, too: but not
 /// those that last longer, at which the motor stood.
-std::vector<char> runs_sent_again(const MotorTrack& motor, const std::vector<Run>& runs) {
+std::vector<char> runs_sent_again(const MotorTrack& motor, const std::vector<Run>& runs,
+                                  double scan_period_s) {
   constexpr double kMany = 0.2, kLonger = 1.05;
   std::vector<char> again(runs.size(), 0);
-  if (runs.size() < 3 || stops_on_grid(motor, runs)) return again;
+  if (runs.size() < 3 || stops_on_grid(motor, runs, scan_period_s)) return again;
   const double step_rad = encoder_step_rad(motor);
   double longest_s = 0;
   std::size_t repeats = 0;
@@ -110,12 +126,31 @@ std::vector<char> runs_sent_again(const MotorTrack& motor, const std::vector<Run
   return again;
 }
 
+/// Without samples that repeat the angle before the last one while the motor turns on: a node that sends the
+/// last angle it knows was overtaken by the next one.
+MotorTrack without_overtaken(const MotorTrack& motor) {
+  constexpr double kMinSteps = 2;
+  const double min_rad = kMinSteps * encoder_step_rad(motor);
+  const std::vector<double>& angles_rad = motor.angle_rad;
+  MotorTrack kept;
+  for (std::size_t i = 0; i < angles_rad.size(); ++i) {
+    if (i >= 2 && i + 1 < angles_rad.size() && angles_rad[i] == angles_rad[i - 2]) {
+      const double back_rad = angles_rad[i - 1] - angles_rad[i],
+                   on_rad = angles_rad[i + 1] - angles_rad[i - 1];
+      if (std::abs(back_rad) > min_rad && back_rad * on_rad >= 0) continue;
+    }
+    kept.time_s.push_back(motor.time_s[i]);
+    kept.angle_rad.push_back(angles_rad[i]);
+  }
+  return kept;
+}
+
 /// Leaves out samples that repeat the one before although the motor moves: they say where it was earlier.
 void leave_out_repeats(const RawJoint& raw, Recording& recording) {
-  MotorTrack& motor = recording.motor;
+  const std::size_t samples = recording.motor.time_s.size();
+  const MotorTrack motor = without_overtaken(recording.motor);
   const std::vector<Run> runs = runs_of(motor);
-  if (runs.size() == motor.time_s.size()) return;
-  const std::vector<char> again = runs_sent_again(motor, runs);
+  const std::vector<char> again = runs_sent_again(motor, runs, recording.report.laser_stamps.median_period_s);
   MotorTrack kept;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const std::size_t last = again[i] ? runs[i].first : runs[i].last;
@@ -125,13 +160,13 @@ void leave_out_repeats(const RawJoint& raw, Recording& recording) {
     }
   }
   std::size_t& repeated = recording.report.motor_repeated;
-  repeated = motor.time_s.size() - kept.time_s.size();
+  repeated = samples - kept.time_s.size();
   if (repeated == 0) return;
   recording.report.warnings.push_back(fmt::format(
       "{} of {} samples of joint {} on {} repeat the angle before although the motor moves: old angles sent "
       "again under new stamps. They are left out",
-      repeated, motor.time_s.size(), raw.joint, raw.topic));
-  motor = std::move(kept);
+      repeated, samples, raw.joint, raw.topic));
+  recording.motor = std::move(kept);
 }
 
 /// What speaks against the angles as they were recorded.

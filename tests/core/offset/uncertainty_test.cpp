@@ -42,6 +42,18 @@ TEST(Jackknife, KnowsThatPartsAreOfUnequalSize) {
   EXPECT_NEAR(*jackknife_sigma(mean, without), student_factor(2) * std::sqrt(variance / 9), 0.25);
 }
 
+// Parts with next to no share are skipped, and must take no part of the estimate along.
+TEST(Jackknife, IsTheSameWhereASecondIsAddedToEveryValue) {
+  const auto sigma = [](double added) {
+    std::vector<WithoutPart> without;
+    for (int i = 0; i < 7; ++i) without.push_back({added + 0.01 * (i * 3 % 7 - 3), 1});
+    for (int i = 0; i < 3; ++i) without.push_back({added + 0.01, 0.005});
+    return *jackknife_sigma(added, without);
+  };
+  EXPECT_NEAR(sigma(1), sigma(0), 1e-9);
+  EXPECT_NEAR(sigma(200), sigma(0), 1e-9);
+}
+
 TEST(BlockSigma, SeesThatNeighboursErrTogether) {
   std::vector<double> alone, together;
   for (int i = 0; i < 200; ++i) {

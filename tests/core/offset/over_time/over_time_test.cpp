@@ -104,6 +104,39 @@ TEST(OffsetCourse, ItsSigmasAreTheScatterOfItsAnswers) {
   }
 }
 
+std::vector<OffsetWindow> windows_at(const std::vector<double>& offsets_ms, double sigma_ms = 0.01) {
+  std::vector<OffsetWindow> windows;
+  for (const double offset_ms : offsets_ms) {
+    const double begin_s = 10.0 * double(windows.size());
+    windows.push_back({begin_s, begin_s + 10, begin_s + 5, offset_ms * kMs, sigma_ms * kMs, {}});
+  }
+  return windows;
+}
+
+TEST(OffsetCourse, HasAJumpWithTwoWindowsOnASide) {
+  for (const std::vector<double>& offsets_ms :
+       {std::vector<double>{24.0, 24.1, 28.0, 28.0, 28.0}, {28, 28, 28.01, 24, 24.02, 24.01}}) {
+    const OffsetCourse found = course(windows_at(offsets_ms));
+    ASSERT_EQ(found.jumps.size(), 1U);
+    EXPECT_NEAR(std::abs(found.jumps[0].size_s), 4 * kMs, 0.1 * kMs);
+    EXPECT_EQ(found.rate, 0);
+  }
+}
+
+TEST(OffsetCourse, AStepIsNoRate) {
+  const OffsetCourse found = course(windows_at({23.995, 24.005, 28.999, 29.007}));
+  ASSERT_EQ(found.jumps.size(), 1U);
+  EXPECT_NEAR(found.jumps[0].size_s, 5 * kMs, 0.02 * kMs);
+  EXPECT_EQ(found.rate_sigma, 0);
+}
+
+TEST(OffsetCourse, AJumpLiesAboutAWindowBetweenItsLevels) {
+  const OffsetCourse found = course(windows_at({24, 24.01, 24, 26.2, 28, 28.01, 28}));
+  ASSERT_EQ(found.jumps.size(), 1U);
+  EXPECT_EQ(found.jumps[0].begin_s, 25);
+  EXPECT_EQ(found.jumps[0].end_s, 45);
+}
+
 TEST(OffsetCourse, TakesOneWindowThatErrsForNoJump) {
   std::vector<OffsetWindow> windows = windows_about([](double) { return 24 * kMs; }, 60);
   *windows[30].offset_s += 3 * kMs;
@@ -212,6 +245,38 @@ TEST(OverTime, FindsAJumpToOneWindow) {
   EXPECT_NEAR((course.jumps[0].begin_s + course.jumps[0].end_s) / 2, 52, 8);
   EXPECT_NEAR(course.jumps[0].size_s, 5 * kMs, 0.2 * kMs);
   EXPECT_NEAR(*found.offset_s, 24 * kMs, std::max(3 * *found.sigma_s, 0.05 * kMs)) << "before the jump";
+}
+
+Recording changing_room(double duration_s, double jump_ms, double jump_at_s, double drift_ppm = 0) {
+  SimulationOptions options;
+  options.scene = "room-1";
+  options.duration_s = duration_s;
+  options.jump_s = jump_ms * kMs;
+  options.jump_at_s = jump_at_s;
+  options.clock_drift_ppm = drift_ppm;
+  return simulate(options, Job()).value().recording;
+}
+
+TEST(OverTime, ShortensItsWindowsUntilACourseDescribesThem) {
+  const Estimate drifted = over_time(changing_room(40, 0, 0, 150));
+  ASSERT_TRUE(drifted.offset_s) << testing::PrintToString(drifted.reasons());
+  EXPECT_NEAR(drifted.over_time->course->rate, 150e-6, 3e-6);
+  const Estimate jumped = over_time(changing_room(30, 4, 9));
+  ASSERT_TRUE(jumped.offset_s) << testing::PrintToString(jumped.reasons());
+  ASSERT_EQ(jumped.over_time->course->jumps.size(), 1U);
+  EXPECT_NEAR(jumped.over_time->course->jumps[0].size_s, 4 * kMs, 0.1 * kMs);
+  EXPECT_NEAR(*jumped.offset_s, 28 * kMs, 0.1 * kMs);
+}
+
+TEST(OverTime, AJumpThatIsRefusedWithoutItIsFoundOrNotPointedTo) {
+  const Estimate short_one = estimate(changing_room(4.5, 5, 2), {}, Job()).value();
+  ASSERT_FALSE(short_one.refusals.empty());
+  EXPECT_EQ(short_one.refusals[0].kind, RefusalKind::kOffsetJumps) << short_one.refusals[0].text;
+  EXPECT_FALSE(says(short_one.reasons(), "--over-time"));
+  EXPECT_FALSE(estimate(changing_room(2, 3, 1), {}, Job()).value().offset_s);
+  const Recording longer = changing_room(24, 3, 12);
+  EXPECT_TRUE(says(estimate(longer, {}, Job()).value().reasons(), "--over-time"));
+  EXPECT_EQ(over_time(longer).over_time->course->jumps.size(), 1U);
 }
 
 TEST(OverTime, GivesTheSameBytesForOneThreadAndForMany) {
