@@ -22,17 +22,21 @@ std::string refusal(const std::string& text) {
 
 TEST(Rig, ReadsEveryKey) {
   const auto rig = read_text(
-      "laser: {topic: /scan, stamp: receive, stamp_at: last_beam, time_increment_s: 1.736e-5}\n"
-      "motor: {topic: /joints, joint: roll, stamp: header, scale: -0.5, zero_deg: 3}\n"
+      "laser: {topic: /scan, field: scan, echo: strongest, stamp: receive, stamp_at: last_beam, "
+      "time_increment_s: 1.736e-5}\n"
+      "motor: {topic: /joints, field: \"position[2]\", joint: roll, stamp: header, scale: -0.5, zero_deg: 3}\n"
       "mount:\n"
       "  axis: [0, 0, 2]\n"
       "  laser_in_motor: {xyz_m: [1, 2, 3], rpy_deg: [4, 5, 6]}\n");
   ASSERT_TRUE(rig) << rig.error().message;
   EXPECT_EQ(rig->laser.topic, "/scan");
+  EXPECT_EQ(rig->laser.field, "scan");
+  EXPECT_EQ(rig->laser.echo, Echo::kStrongest);
   EXPECT_EQ(rig->laser.stamp, StampSource::kReceive);
   EXPECT_EQ(rig->laser.stamp_at, StampAt::kLastBeam);
   EXPECT_EQ(rig->laser.time_increment_s, 1.736e-5);
   EXPECT_EQ(rig->motor.topic, "/joints");
+  EXPECT_EQ(rig->motor.field, "position[2]");
   EXPECT_EQ(rig->motor.joint, "roll");
   EXPECT_EQ(rig->motor.stamp, StampSource::kHeader);
   EXPECT_EQ(rig->motor.scale, -0.5);
@@ -53,7 +57,7 @@ TEST(Rig, LeavesOutWhatIsToBeDetected) {
 
 TEST(Rig, RefusesUnknownKeysWithTheirPlace) {
   EXPECT_EQ(refusal("laser: {topic: /scan}\nmotor: {joint: a, sclae: 2}\n"),
-            "2:19: unknown key \"sclae\" in motor; known are: joint, scale, stamp, topic, zero_deg");
+            "2:19: unknown key \"sclae\" in motor; known are: field, joint, scale, stamp, topic, zero_deg");
   EXPECT_EQ(refusal("lidar: {}\n"),
             "1:1: unknown key \"lidar\" in the rig file; known are: encoder, imu, laser, motor, "
             "mount, odometry, play_deg");
@@ -64,6 +68,7 @@ TEST(Rig, RefusesImpossibleValuesWithTheirPlace) {
   EXPECT_EQ(refusal("motor: {zero_deg: .nan}"), "1:19: motor.zero_deg must be a finite number");
   EXPECT_EQ(refusal("motor: {scale: two}"), "1:16: motor.scale must be a finite number");
   EXPECT_EQ(refusal("laser: {stamp: haeder}"), "1:16: laser.stamp must be one of: header, receive");
+  EXPECT_EQ(refusal("laser: {echo: second}"), "1:15: laser.echo must be one of: first, last, strongest");
   EXPECT_EQ(refusal("laser: {stamp_at: middle}"),
             "1:19: laser.stamp_at must be one of: arrival, first_beam, last_beam");
   EXPECT_EQ(refusal("laser: {time_increment_s: -1}"),
