@@ -64,9 +64,11 @@ std::string first_warning(const RawRecording& raw) {
 }
 
 /// How to name a topic of a type that is only read where it is named.
-std::string advice(const RawRecording& raw, std::string_view stream, std::string_view what) {
-  const auto other = std::ranges::find_if(raw.topics, [](const RecordedTopic& topic) {
-    return find_message_type(topic.type) == nullptr && !topic.type.starts_with("csv/");
+std::string advice(const RawRecording& raw, std::string_view stream, std::string_view what,
+                   const std::optional<std::string>& of_other_stream) {
+  const auto other = std::ranges::find_if(raw.topics, [&](const RecordedTopic& topic) {
+    return topic.name != of_other_stream && find_message_type(topic.type) == nullptr &&
+           !topic.type.starts_with("csv/");
   });
   if (other == raw.topics.end()) return "";
   return fmt::format(
@@ -110,7 +112,7 @@ std::string no_joint(const RawRecording& raw, const Rig& rig) {
                        *rig.motor.topic, list_of_topics(raw)) +
            first_warning(raw);
   return nothing_usable(raw, "sensor_msgs/JointState", "/JointState",
-                        advice(raw, "motor", "the motor's angle"));
+                        advice(raw, "motor", "the motor's angle", rig.laser.topic));
 }
 
 bool wanted(const RawJoint& joint, const Rig& rig) {
@@ -187,8 +189,8 @@ Result<std::size_t> choose_laser(const RawRecording& raw, const Rig& rig) {
     return unreadable(fmt::format("{}: no cloud on {} has a line of points with positions and times",
                                   raw.file, laser.topic));
   }
-  return unreadable(
-      nothing_usable(raw, "sensor_msgs/LaserScan", "LaserScan", advice(raw, "laser", "the scans")));
+  return unreadable(nothing_usable(raw, "sensor_msgs/LaserScan", "LaserScan",
+                                   advice(raw, "laser", "the scans", rig.motor.topic)));
 }
 
 Result<std::size_t> choose_joint(const RawRecording& raw, const Rig& rig) {

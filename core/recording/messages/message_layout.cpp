@@ -13,7 +13,7 @@ namespace sweepscope {
 namespace {
 
 constexpr std::size_t kMaxTypes = 500, kMaxVisited = 1000;
-constexpr std::string_view kHeader = "std_msgs/Header", kSpaces = " \t\r";
+constexpr std::string_view kHeader = "std_msgs/Header", kSpaces = " \t\r\n";
 
 struct NumberType {
   std::string_view name;
@@ -118,7 +118,8 @@ Result<std::size_t> MessageLayout::Parser::add(const std::string& name) {
   const auto described = texts_.find(number == 0 ? "" : name);
   const bool found = described != texts_.end() && !trimmed(described->second).empty();
   const std::string own = found ? "" : members_of(name, encoding_);
-  if (!found && own.empty() && (described == texts_.end() || described->second.empty()))
+  // A type that others use may have no members.
+  if (!found && own.empty() && (number == 0 || described == texts_.end()))
     return unreadable(
         fmt::format("the recording does not hold the definition of {}; convert it to MCAP with `ros2 bag "
                     "convert` on a computer that has the package of this message",

@@ -46,6 +46,14 @@ TEST(ChooseLaser, TakesTheOnlyOneOrTheOneThatTheRigNames) {
   EXPECT_EQ(choose_laser(with_lasers({"/a", "/b"}), rig), 1U);
 }
 
+TEST(ChooseLaser, ScansOfOneEchoComeBeforeThoseOfSeveral) {
+  RawRecording raw = with_lasers({"/echoes", "/scan"});
+  raw.lasers[0].of_echoes = true;
+  EXPECT_EQ(choose_laser(raw, {}), 1U);
+  raw.lasers.pop_back();
+  EXPECT_EQ(choose_laser(raw, {}), 0U);
+}
+
 TEST(ChooseLaser, RefusesSeveralAndListsThem) {
   EXPECT_EQ(refusal(choose_laser(with_lasers({"/a", "/b"}), {})),
             "a.bag: 2 topics of scans, and it is ambiguous which to use; name one in a rig file (laser: "
@@ -141,6 +149,13 @@ TEST(ChooseJoint, JointStatesComeBeforeNumbersAndThoseBeforeTransforms) {
   EXPECT_EQ(choose_joint(raw, Rig()).value(), 1U);
   raw.joints.pop_back();
   EXPECT_EQ(choose_joint(raw, Rig()).value(), 0U);
+}
+
+TEST(ChooseJoint, AControllersStateComesBeforeANumberThatMayBeItsCommand) {
+  RawRecording raw = with_joints({{"data", 1}, {"process_value", 1}});
+  raw.joints[0].source = JointSource::kNumber;
+  raw.joints[1].source = JointSource::kController;
+  EXPECT_EQ(choose_joint(raw, Rig()).value(), 1U);
 }
 
 TEST(ChooseJoint, AMotorThatStandsIsNotReplacedByATransformThatMoves) {
