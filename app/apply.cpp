@@ -24,7 +24,7 @@ struct ApplyArguments {
   std::optional<double> offset_ms;
   std::optional<StampSource> stamps;
   std::string shift = "motor";
-  bool again = false;
+  bool again = false, far = false;
   std::string clouds_topic, base_frame = "base_link", clouds_format = "pcd";
   std::optional<fs::path> clouds_only, poses;
   std::optional<std::string> assume;
@@ -47,6 +47,7 @@ Result<ApplyOptions> apply_options(const ApplyArguments& options) {
   if (options.estimate) result.estimate = options.estimate->filename().string();
   result.shifted = options.shift == "laser" ? ShiftedStream::kLaser : ShiftedStream::kMotor;
   result.again = options.again;
+  result.far = options.far;
   result.stamps = options.stamps;
   const auto rig = options.rig.rig_given();
   if (!rig) return tl::unexpected(rig.error());
@@ -188,6 +189,7 @@ void add_apply(CLI::App& app, ExitCode& exit_code) {
       *command, "Rig file that names the laser, the motor and their stamps, if they are ambiguous");
   declare_stamps(*command, options->stamps);
   command->add_flag("--again", options->again, "Apply it even if an offset was applied before");
+  command->add_flag("--far", options->far, "Apply it even if it is longer than the motor's period");
   declare_clouds(*command, *options);
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }

@@ -54,6 +54,7 @@ ApplyOptions options_of(const py::dict& given) {
   ApplyOptions options;
   options.shifted = text("shift") == "laser" ? ShiftedStream::kLaser : ShiftedStream::kMotor;
   options.again = given["again"].cast<bool>();
+  options.far = given["far"].cast<bool>();
   if (has("stamps")) options.stamps = stamp_source(text("stamps"));
   if (has("rig")) options.rig = value_of(read_rig(given["rig"].cast<Path>()));
   if (has("clouds")) options.add.clouds_topic = text("clouds");

@@ -52,6 +52,13 @@ void raise(const char* kind, const char* sentence) {
   PyErr_SetString(type.ptr(), sentence);
 }
 
+/// A sentence of wrong usage: options of the command line are named as Python's keywords.
+void raise_wrong_usage(const char* sentence) {
+  const py::object in_python = py::module_::import("sweepscope._errors").attr("in_python");
+  const auto text = in_python(sentence).cast<std::string>();
+  PyErr_SetString(PyExc_ValueError, text.c_str());
+}
+
 void raise_failure(const Failed& failed) {
   switch (failed.code) {
     case ExitCode::kUnreadableInput:
@@ -61,7 +68,7 @@ void raise_failure(const Failed& failed) {
     case ExitCode::kInterrupted:
       return PyErr_SetString(PyExc_KeyboardInterrupt, failed.what());
     default:
-      return PyErr_SetString(PyExc_ValueError, failed.what());
+      return raise_wrong_usage(failed.what());
   }
 }
 

@@ -33,7 +33,8 @@ EstimateOptions search_of(const Texts& given) {
     const EstimateOption* option = find_estimate_option(name);
     if (option == nullptr) throw py::type_error("there is no option " + name);
     if (const auto done = option->set(options, text); !done)
-      throw py::value_error(fmt::format("{} {}, and got {}", name, done.error().message, text));
+      throw Failed(
+          Error{ExitCode::kWrongUsage, fmt::format("--{} {}, and got {}", name, done.error().message, text)});
   }
   return options;
 }
@@ -94,6 +95,9 @@ void add_estimates(py::module_& module) {
       .def("curve", &curve);
   module.def("read_estimate",
              [](const Path& path) { return std::make_shared<Found>(value_of(read_estimate_json(path))); });
+  module.def("parse_estimate", [](const std::string& json, const std::string& name) {
+    return std::make_shared<Found>(value_of(parse_estimate_json(json, name)));
+  });
   module.def("estimate", &find);
   module.def("estimate_options", &declared_options);
 }

@@ -71,6 +71,37 @@ void save_trajectory(const BuiltPtr& built, const Path& path) {
   }));
 }
 
+template <typename Scalar>
+using Numbers = py::array_t<Scalar, py::array::c_style | py::array::forcecast>;
+
+/// A map of the arrays that the properties below give; its files are not known any more.
+BuiltPtr rebuilt(const Numbers<float>& xyz_m, const Numbers<float>& intensity, const Numbers<double>& time_s,
+                 const Numbers<std::uint32_t>& sweep, const py::dict& path) {
+  auto built = std::make_shared<Built>();
+  built->epoch_ns = path["epoch_ns"].cast<std::int64_t>();
+  built->map.moving = path["moving"].cast<bool>();
+  built->map.lost = path["lost"].cast<bool>();
+  auto cloud = std::make_shared<MapCloud>();
+  for (py::ssize_t i = 0; i < xyz_m.shape(0); ++i) {
+    MapPoint point;
+    point.x = xyz_m.at(i, 0), point.y = xyz_m.at(i, 1), point.z = xyz_m.at(i, 2);
+    point.intensity = intensity.at(i);
+    point.time_s = time_s.at(i);
+    point.sweep = sweep.at(i);
+    cloud->push_back(point);
+  }
+  built->map.cloud = std::move(cloud);
+  const auto times = path["pose_time_s"].cast<Numbers<double>>(),
+             at = path["position_m"].cast<Numbers<double>>(),
+             turned = path["orientation_xyzw"].cast<Numbers<double>>();
+  for (py::ssize_t i = 0; i < times.shape(0); ++i)
+    built->map.trajectory.push_back(
+        {times.at(i),
+         {at.at(i, 0), at.at(i, 1), at.at(i, 2)},
+         Eigen::Quaterniond(turned.at(i, 3), turned.at(i, 0), turned.at(i, 1), turned.at(i, 2))});
+  return built;
+}
+
 template <typename Scalar, typename Member>
 auto points(const Member& first_of, py::ssize_t count = 1) {
   return [first_of, count](const BuiltPtr& built) {
@@ -108,6 +139,7 @@ void add_maps(py::module_& module) {
       .def("save", &save)
       .def("save_trajectory", &save_trajectory);
   module.def("map", &map);
+  module.def("rebuilt_map", &rebuilt);
 }
 
 }  // namespace sweepscope::python

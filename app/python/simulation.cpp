@@ -19,7 +19,8 @@ void set(const SimulationOption& option, const py::handle& value) {
         try {
           *member = value.cast<std::remove_pointer_t<decltype(member)>>();
         } catch (const py::cast_error&) {
-          throw py::value_error(option.name + " does not take " + py::repr(value).cast<std::string>());
+          throw Failed(Error{ExitCode::kWrongUsage,
+                             "--" + option.name + " does not take " + py::repr(value).cast<std::string>()});
         }
       },
       option.value);
@@ -33,7 +34,7 @@ SimulationOptions options_of(const std::optional<std::string>& scene, const py::
     const auto option = std::ranges::find(declared, key.cast<std::string>(), &SimulationOption::name);
     if (option == declared.end()) throw py::type_error("there is no option " + key.cast<std::string>());
     if (!option->needs.empty() && !given.contains(option->needs))
-      throw py::value_error(option->name + " needs " + option->needs);
+      throw Failed(Error{ExitCode::kWrongUsage, "--" + option->name + " needs --" + option->needs});
     set(*option, value);
   }
   if (!typed.scene.empty() && given.contains("mesh"))

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "render/charts/ticks.hpp"
+#include "render/drawing/plus_minus.hpp"
 
 namespace sweepscope {
 namespace {
@@ -287,6 +288,7 @@ void add_no_curve(Drawing& drawing, const PixelRect& place, const Estimate& esti
   constexpr std::size_t kMaxReasons = 4;
   std::vector<std::string> lines = estimate.reasons();
   lines.resize(std::min(kMaxReasons, lines.size()));
+  for (std::string& line : lines) line = with_plus_minus_sign(line);
   if (lines.empty()) lines.push_back("The estimate holds no criterion at any offset.");
   add_words(drawing, place, "No curve over the offset", lines, style, scale);
 }

@@ -11,6 +11,7 @@
 #include "render/charts/curve_charts.hpp"
 #include "render/charts/over_time_chart.hpp"
 #include "render/comparison/comparison.hpp"
+#include "render/drawing/plus_minus.hpp"
 #include "render/figures/figure_pictures.hpp"
 #include "render/figures/residual_picture.hpp"
 #include "render/page/html.hpp"
@@ -42,7 +43,8 @@ std::string method_text(const Estimate& estimate) {
 std::string answer(const Estimate& estimate) {
   if (!estimate.identifiable || !estimate.offset_s) {
     std::string reasons;
-    for (const std::string& reason : estimate.reasons()) reasons += html::element("li", html::escape(reason));
+    for (const std::string& reason : estimate.reasons())
+      reasons += html::element("li", html::escape(with_plus_minus_sign(reason)));
     return "<div class=\"answer refused\"><div><b>The offset cannot be determined from this "
            "recording.</b></div>" +
            html::element("ul", reasons) + "</div>\n";
@@ -131,7 +133,8 @@ std::string recorded(const RecordingSummary& summary) {
 std::string warnings_list(const ReportContent& content) {
   std::string items;
   for (const auto* list : {&content.recording.warnings, &content.estimate.warnings}) {
-    for (const std::string& warning : *list) items += html::element("li", html::escape(warning));
+    for (const std::string& warning : *list)
+      items += html::element("li", html::escape(with_plus_minus_sign(warning)));
   }
   if (items.empty()) return "<p>None.</p>\n";
   return "<ul class=\"warnings\">" + items + "</ul>\n";
@@ -193,7 +196,8 @@ std::string rig_table(const SolvedRig& solved) {
       "class=\"number-cell\">prior</th></tr>\n";
   for (const RigParameter& parameter : rig_parameters(solved)) rows += parameter_row(parameter);
   std::string reasons;
-  for (const std::string& reason : reasons_of(solved)) reasons += html::element("li", html::escape(reason));
+  for (const std::string& reason : reasons_of(solved))
+    reasons += html::element("li", html::escape(with_plus_minus_sign(reason)));
   if (!reasons.empty()) reasons = "<ul>" + reasons + "</ul>\n";
   return in_table(rows) + reasons +
          fmt::format(

@@ -1,5 +1,8 @@
 """What goes wrong is an exception, with the program's sentence."""
 
+import copy
+import multiprocessing
+import pickle
 import unittest
 
 import sweepscope
@@ -91,8 +94,40 @@ class Errors(unittest.TestCase):
         with self.assertRaises(ValueError) as raised:
             sweepscope.apply(FOLDER / "once.bag", FOLDER / "twice.bag", offset_ms=24)
         said = sentence("apply", FOLDER / "once.bag", "-o", "twice.bag", "--offset-ms", "24", exit_code=2)
-        self.assertEqual(str(raised.exception), said)
+        self.assertEqual(str(raised.exception), said.replace("--again", "again=True"))
         self.assertFalse((FOLDER / "twice.bag").exists())
+
+    def test_wrong_usage_names_keywords_and_not_options_of_the_command_line(self):
+        for call, words in (
+            (lambda: sweepscope.estimate(room(), weight_c=-1), "^weight_c needs a number"),
+            (lambda: sweepscope.simulate("room-1", FOLDER / "no.bag", imu_shift_ms=3), "^imu_shift_ms needs imu=True"),
+            (lambda: sweepscope.simulate("room-1", FOLDER / "no.bag", beam_times="back"), "^beam_times needs one of"),
+            (lambda: sweepscope.apply(room(), FOLDER / "no.bag", offset_ms=24000), "with far=True$"),
+        ):
+            with self.assertRaisesRegex(ValueError, words) as raised:
+                call()
+            self.assertNotIn("--", str(raised.exception))
+
+    def test_an_offset_beyond_the_motors_period_is_applied_if_asked_for(self):
+        done = sweepscope.apply(room(), FOLDER / "far.bag", offset_ms=24000, far=True)
+        self.assertEqual(done["record"]["offset_ms"], 24000)
+
+    def test_errors_are_pickled_with_their_reasons(self):
+        try:
+            sweepscope.estimate(stuck())
+        except sweepscope.CannotAnswer as error:
+            for other in (pickle.loads(pickle.dumps(error)), copy.copy(error), copy.deepcopy(error)):
+                self.assertEqual(str(other), str(error))
+                self.assertEqual(other.reasons, error.reasons)
+                self.assertEqual(dict(other.estimate), dict(error.estimate))
+
+    def test_a_pool_of_processes_gives_the_reasons(self):
+        with multiprocessing.get_context("spawn").Pool(1) as pool:
+            self.assertEqual(pool.map(sweepscope.estimate, [room()])[0].method, "direct")
+            with self.assertRaises(sweepscope.CannotAnswer) as raised:
+                pool.map(sweepscope.estimate, [stuck()])
+        self.assertGreater(len(raised.exception.reasons), 0)
+        self.assertIsNone(raised.exception.estimate.offset_ms)
 
     def test_every_expected_failure_is_a_sweepscope_error(self):
         self.assertTrue(issubclass(sweepscope.InputError, sweepscope.Error))

@@ -1,6 +1,7 @@
 """The stubs and the help of the package are in step with what it does."""
 
 import ast
+import builtins
 import inspect
 import subprocess
 import sys
@@ -45,8 +46,12 @@ def parameters_of(function):
 
 class Stubs(unittest.TestCase):
     def test_they_name_all_that_the_package_exports_and_nothing_else(self):
-        self.assertEqual(sorted(sweepscope.__all__), sorted(stubbed()))
+        self.assertEqual(sorted([*sweepscope.__all__, "map", "open"]), sorted(stubbed()))
         self.assertTrue(STUB.with_name("py.typed").exists())
+
+    def test_a_star_import_hides_no_builtin(self):
+        self.assertEqual(set(sweepscope.__all__) & set(dir(builtins)), set())
+        self.assertEqual(sweepscope.open.__module__, "sweepscope._recording")
 
     def test_functions_have_the_same_parameters_and_defaults(self):
         for name, node in stubbed().items():

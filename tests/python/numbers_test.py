@@ -1,6 +1,8 @@
 """Python's numbers are the command line's, to the last digit."""
 
+import copy
 import json
+import pickle
 import unittest
 
 import numpy as np
@@ -118,6 +120,36 @@ class Arrays(unittest.TestCase):
             np.testing.assert_array_equal(map.xyz_m[:, i], body[axis])
         for name, column in (("intensity", "intensity"), ("time_s", "time"), ("sweep", "sweep")):
             np.testing.assert_array_equal(getattr(map, name), body[column], head)
+
+    def test_results_can_be_copied_and_pickled(self):
+        found = sweepscope.estimate(room())
+        built = sweepscope.map(room(), 24)
+        for again in (pickle.loads(pickle.dumps(found)), copy.deepcopy(found)):
+            self.assertEqual(again.to_json(), found.to_json())
+            np.testing.assert_array_equal(sweepscope.curve(again)["offset_ms"], sweepscope.curve(found)["offset_ms"])
+        for again in (pickle.loads(pickle.dumps(built)), copy.copy(built)):
+            for name in ("xyz_m", "intensity", "time_s", "sweep", "pose_time_s", "position_m", "orientation_xyzw"):
+                np.testing.assert_array_equal(getattr(again, name), getattr(built, name))
+            self.assertEqual((again.offset_ms, again.moving, again.lost), (24, False, False))
+            built.save(FOLDER / "built.pcd")
+            again.save(FOLDER / "again.pcd")
+            self.assertEqual((FOLDER / "built.pcd").read_bytes(), (FOLDER / "again.pcd").read_bytes())
+        curve = sweepscope.curve(found)
+        np.testing.assert_array_equal(pickle.loads(pickle.dumps(curve)).offset_ms, curve.offset_ms)
+        picture = sweepscope.Picture(b"png", {"a": 1})
+        self.assertEqual(pickle.loads(pickle.dumps(picture)).facts, {"a": 1})
+
+    def test_a_map_as_an_array_is_its_points(self):
+        built = sweepscope.map(room(), 24)
+        self.assertTrue(np.shares_memory(np.asarray(built), built.xyz_m))
+        self.assertEqual(np.asarray(built, dtype=np.float64).dtype, np.float64)
+        self.assertTrue(np.array(built).flags.writeable)
+
+    def test_an_estimate_is_applied_as_a_result_or_as_a_dict(self):
+        found = sweepscope.estimate(room())
+        done = [sweepscope.apply(room(), FOLDER / f"as-{i}.bag", estimate=one)["record"]["offset_ms"]
+                for i, one in enumerate((found, dict(found)))]
+        self.assertEqual(done[0], done[1])
 
     def test_they_are_views_of_one_buffer_without_copies(self):
         map = sweepscope.map(room(), 24)

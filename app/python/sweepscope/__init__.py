@@ -41,6 +41,7 @@ from ._recording import (
 )
 from ._results import Curve, Estimate, Map, Picture
 
+# Without map and open: `from sweepscope import *` hides no builtin.
 __all__ = [
     "CannotAnswer",
     "Curve",
@@ -56,8 +57,6 @@ __all__ = [
     "estimate",
     "figures",
     "info",
-    "map",
-    "open",
     "read_estimate",
     "scenes",
     "simulate",

@@ -60,6 +60,7 @@ class Map:
     lost: bool
     epoch_ns: int
     def __len__(self) -> int: ...
+    def __array__(self, dtype: npt.DTypeLike = None, copy: Optional[bool] = None) -> npt.NDArray[Any]: ...
     def save(self, path: _Path) -> None: ...
     def save_trajectory(self, path: _Path) -> None: ...
 
@@ -166,6 +167,7 @@ class Recording:
         assume: Optional[_Kind] = None,
         base_frame: str = "base_link",
         again: bool = False,
+        far: bool = False,
         threads: int = 0,
         progress: Optional[_Progress] = None,
     ) -> dict[str, Any]: ...
@@ -325,6 +327,7 @@ def apply(
     assume: Optional[_Kind] = None,
     base_frame: str = "base_link",
     again: bool = False,
+    far: bool = False,
     threads: int = 0,
     progress: Optional[_Progress] = None,
 ) -> dict[str, Any]: ...

@@ -1,5 +1,19 @@
 """Errors as exceptions. Wrong usage is a ValueError or, for a keyword that does not exist, a TypeError."""
 
+import re
+
+_FLAGS = ("again", "far", "imu", "laser_upside_down", "speed_ramp", "tf", "trajectory_upright")
+
+
+def in_python(sentence):
+    """The sentence with keywords for the options of the command line: weight_c for --weight-c, again=True for --again."""
+
+    def keyword(option):
+        name = option[1].replace("-", "_")
+        return name + "=True" if name in _FLAGS else name
+
+    return re.sub(r"(?<![\w-])--([a-z][a-z0-9]*(?:-[a-z0-9]+)*)", keyword, sentence)
+
 
 class Error(Exception):
     """An expected failure; its text is the sentence that the program `sweepscope` prints."""

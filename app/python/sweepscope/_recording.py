@@ -4,6 +4,7 @@ import json
 import os
 import tempfile
 import warnings
+from collections.abc import Mapping
 from pathlib import Path
 
 from . import _engine, _options
@@ -197,6 +198,8 @@ def _estimate_to_apply(estimate):
         return None
     if isinstance(estimate, Estimate):
         return "", estimate.to_json()
+    if isinstance(estimate, Mapping):
+        return "", json.dumps(estimate)
     return os.fspath(estimate), _engine.read_text(estimate)
 
 
@@ -233,20 +236,21 @@ def apply(
     assume=None,
     base_frame="base_link",
     again=False,
+    far=False,
     threads=0,
     progress=None,
 ):
     """Writes the recording with the offset applied to the stamps; all other messages stay byte for byte.
 
     output: OUT.bag, OUT.mcap, OUT.db3, or a folder for a ROS 2 bag.
-    estimate: an Estimate or its JSON file, whose offset is applied; or offset_ms, in milliseconds.
+    estimate: an Estimate, its JSON file or the same as a dict, whose offset is applied; or offset_ms, in milliseconds.
     shift: "motor" moves its stamps onto the laser's clock, "laser" the other way.
     rig, stamps: as for open(); those of an opened recording are known.
     clouds: a topic, on which each sweep is added as a sensor_msgs/PointCloud2 in the base frame of its first beam,
         with the motion of the motor and of the rig removed. tf: the laser's pose in the base frame is added to /tf.
     clouds_only: a new folder, into which each sweep is written as a file (clouds_format: "pcd" or "ply") with its pose.
     poses, assume: as for map(), for the rig's motion. base_frame: the clouds' frame.
-    again: also where an offset was applied before.
+    again: also where an offset was applied before. far: also if the offset is longer than the motor's period.
 
     Gives a dict: "record" (what was written into the recording about this), "moved" (messages), "sweeps" (files), and
     "warnings".
@@ -265,6 +269,7 @@ def apply(
         "assume": assume,
         "base_frame": base_frame,
         "again": again,
+        "far": far,
     }
     record, moved, sweeps, warned = _engine.apply(
         opened.path if opened else recording,
@@ -280,7 +285,7 @@ def apply(
 
 def read_estimate(path):
     """An Estimate from the JSON file that `sweepscope estimate --json` or Estimate.save() wrote."""
-    return Estimate(_engine.read_estimate(path), json.loads(_engine.read_text(path)))
+    return Estimate(_engine.read_estimate(path), _engine.read_text(path))
 
 
 class Recording:

@@ -14,9 +14,17 @@ class Estimate(Mapping):
     standard deviation, None where the method has none), method, warnings, criteria, curve, sweeps, scans, fit ...
     """
 
-    def __init__(self, engine, values=None):
+    def __init__(self, engine, text=None):
         self._engine = engine
-        self._values = json.loads(engine.json()) if values is None else values
+        self._text = engine.json() if text is None else text
+        self._values = json.loads(self._text)
+
+    @classmethod
+    def _of_text(cls, text):
+        return cls(_engine.parse_estimate(text, "the estimate"), text)
+
+    def __reduce__(self):
+        return Estimate._of_text, (self._text,)
 
     def __getitem__(self, key):
         return self._values[key]
@@ -43,7 +51,7 @@ class Estimate(Mapping):
 
     def to_json(self):
         """The text that `sweepscope estimate --json` writes."""
-        return self._engine.json()
+        return self._text
 
     def save(self, path):
         """Writes that text to a file, whole or not at all."""
@@ -81,6 +89,7 @@ class Map:
     pose_time_s, position_m, orientation_xyzw: the trajectory, map_from_base: (poses,), (poses, 3) in metres, and
         (poses, 4) unit quaternions.
     moving: whether the rig moved. lost: tracking was lost, do not trust the map.
+    numpy.asarray(map) is xyz_m.
     """
 
     def __init__(self, engine, offset_ms):
@@ -88,6 +97,20 @@ class Map:
         self.offset_ms = offset_ms
         for name in _MAP_MEMBERS:
             setattr(self, name, getattr(engine, name))
+
+    @classmethod
+    def _of_members(cls, offset_ms, members):
+        points = [members[name] for name in _MAP_MEMBERS[:4]]
+        return cls(_engine.rebuilt_map(*points, members), offset_ms)
+
+    def __reduce__(self):
+        return Map._of_members, (self.offset_ms, {name: getattr(self, name) for name in _MAP_MEMBERS})
+
+    def __array__(self, dtype=None, copy=None):
+        if copy is False and dtype not in (None, self.xyz_m.dtype):
+            raise ValueError("another dtype needs a copy")
+        points = self.xyz_m if dtype is None else self.xyz_m.astype(dtype, copy=False)
+        return points.copy() if copy else points
 
     def __len__(self):
         return len(self.xyz_m)

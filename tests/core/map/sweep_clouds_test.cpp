@@ -43,6 +43,29 @@ TEST(SweepClouds, OfAStationaryRigAreTheMapInPieces) {
   expect_the_map(bench.record(), {}, 8);
 }
 
+// A recording that ends one scan after a reversal, or begins one scan before it.
+TEST(SweepClouds, AFewScansAtAnEndBelongToTheNeighbour) {
+  test::Bench bench;
+  bench.mesh = test::hall();
+  bench.offset_s = kCloudsTruth_s;
+  const Recording whole = bench.record();
+  const std::vector<Sweep> sweeps = find_sweeps(whole.motor).sweeps;
+  const std::vector<std::size_t> of_scan = assign_sweeps(whole.scans, sweeps, kCloudsTruth_s);
+  std::vector<std::size_t> begins;  // scans that begin a sweep
+  for (std::size_t i = 1; i < of_scan.size(); ++i)
+    if (of_scan[i] != of_scan[i - 1]) begins.push_back(i);
+  ASSERT_GT(begins.size(), 5U);
+  const double first_s = whole.scans.front().first_beam_s;
+  const Recording cut = window(whole, whole.scans[begins[0] - 1].first_beam_s - first_s - 1e-4,
+                               whole.scans[begins.back()].first_beam_s - first_s + 1e-4);
+  ASSERT_EQ(cut.scans.size(), begins.back() - begins[0] + 2);
+  const auto prepared = prepare(cut, {}, Job()).value();
+  const auto clouds = SweepClouds::create(prepared, kCloudsTruth_s, {}, Job()).value();
+  EXPECT_EQ(clouds.size(), begins.size() - 1);
+  for (std::size_t i = 0; i < clouds.size(); ++i) EXPECT_GT(clouds.end_s(i) - clouds.begin_s(i), 0.3) << i;
+  expect_the_map(cut, {}, begins.size() - 1);
+}
+
 TEST(SweepClouds, OfAMovingRigLieInTheBaseFrameOfTheirFirstBeam) {
   expect_the_map(test::simulated("metro-station", kCloudsTruth_s, 12).recording, {}, 22);
 }
