@@ -85,8 +85,8 @@ struct RawJoint {
   std::size_t left_out = 0;       // samples that were counted and not kept
   /// Who published each sample: an index of `publishers`, names of nodes. Both empty where that is not
   /// recorded.
-  std::vector<std::uint16_t> publisher;
-  std::vector<std::string> publishers;
+  std::vector<std::uint16_t> publisher = {};
+  std::vector<std::string> publishers = {};
 };
 
 /// The largest minus the smallest finite position; 0 without any.
