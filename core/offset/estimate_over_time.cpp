@@ -111,7 +111,7 @@ OffsetOverTime followed_in(const Recording& recording, const std::vector<Recordi
 
 // Whether a course leaves windows far off it, or has so few that it could not be told from another one.
 bool is_described(const OffsetOverTime& over_time) {
-  constexpr std::size_t kMinWindows = 4;
+  constexpr std::size_t kMinWindows = 3;
   return over_time.course && over_time.course->windows >= kMinWindows &&
          std::ranges::none_of(parts_of_course(over_time), is_off_course);
 }
