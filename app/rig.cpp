@@ -12,6 +12,7 @@
 #include "app/recording_options.hpp"
 #include "core/apply/rig_snippet.hpp"
 #include "core/io/atomic_file.hpp"
+#include "core/offset/readings/fitting_recording.hpp"
 #include "core/recording/formats/read_raw_recording.hpp"
 #include "core/recording/rig/detect_rig.hpp"
 #include "core/results/found_rig.hpp"
@@ -48,7 +49,20 @@ Result<DetectedRig> detect(const RigArguments& options) {
   if (!given) return tl::unexpected(given.error());
   reading.rig = std::move(*given);
   const Progress progress;
-  return detect_rig(options.recording, reading, progress.job());
+  const auto found = find_reading(options.recording, reading, progress.job());
+  if (!found) return tl::unexpected(found.error());
+  if (found->time_increment_s) {
+    reading.rig = reading.rig.value_or(Rig{});
+    reading.rig->laser.time_increment_s = found->time_increment_s;
+    reading.rig->laser.increment_is_found = true;
+  }
+  return detect_rig(options.recording, reading, progress.job()).map([&](DetectedRig&& detected) {
+    if (found->axis && !detected.mount_found) {
+      detected.rig.mount.axis = *found->axis;
+      detected.mount_note = "as the surfaces show: x rolls, y tilts, z yaws";
+    }
+    return std::move(detected);
+  });
 }
 
 /// The rig with what the estimate found of it, if one is given.

@@ -20,60 +20,82 @@ bool is_stated(const ReadOptions& options) {
   return options.rig && options.rig->laser.time_increment_s;
 }
 
-// How to read the recording where it has to be read again, otherwise nothing.
-std::optional<ReadOptions> other_options(ReadOptions options, const Recording& read,
-                                         const RankedReadings& ranked) {
+FoundReading found_by(const RankedReadings& ranked) {
+  FoundReading found;
   const BeamReading* chosen = chosen_of(ranked.beams);
-  const bool beams_differ = chosen != nullptr && chosen->kind != BeamReadingKind::kRecorded;
-  if (!beams_differ && !ranked.axis_is_found) return std::nullopt;
+  if (chosen != nullptr && chosen->kind != BeamReadingKind::kRecorded)
+    found.time_increment_s = chosen->time_increment_s;
+  if (ranked.axis_is_found) found.axis = ranked.axis;
+  return found;
+}
+
+// By the beginning of a recording.
+Result<RankedReadings> ranked_of(const RecordingFile& file, const Job& job) {
+  constexpr double kFirst_s = 60;
+  return file.parts({{0, kFirst_s}}, job).map([&](const Recording& first) {
+    return rank_readings(first, job);
+  });
+}
+
+// How to read a recording where it has to be read again, otherwise nothing.
+std::optional<ReadOptions> other_options(ReadOptions options, const std::string& topic,
+                                         const FoundReading& found) {
+  if (!found.time_increment_s && !found.axis) return std::nullopt;
   options.rig = options.rig.value_or(Rig{});
-  options.rig->laser.topic = read.rig.laser.topic;
-  options.rig->mount.axis = ranked.axis;
-  if (!beams_differ) return options;
-  options.rig->laser.time_increment_s = chosen->time_increment_s;
+  options.rig->laser.topic = topic;
+  if (found.axis) options.rig->mount.axis = *found.axis;
+  if (!found.time_increment_s) return options;
+  options.rig->laser.time_increment_s = found.time_increment_s;
   options.rig->laser.increment_is_found = true;
   return options;
 }
 
-std::string axis_warning(const RankedReadings& ranked) {
+std::string axis_warning(const Eigen::Vector3d& axis) {
   return fmt::format(
-      "The motor turns the laser about its y axis, as the surfaces show: walls are flat then, and bent about x. Set "
-      "mount: {{axis: [{:g}, {:g}, {:g}]}} in a rig file to state it.",
-      ranked.axis.x(), ranked.axis.y(), ranked.axis.z());
+      "The motor turns the laser about its y axis, as the surfaces show: walls are flat then, and bent about "
+      "x. Set mount: {{axis: [{:g}, {:g}, {:g}]}} in a rig file to state it.",
+      axis.x(), axis.y(), axis.z());
 }
 
-std::string warning_of(const std::vector<BeamReading>& readings, const BeamReading& chosen,
-                       const Recording& read) {
+std::string beams_warning(const std::vector<BeamReading>& readings, const BeamReading& chosen,
+                          const std::string& topic) {
   const auto residual = [](const BeamReading& reading) {
     return reading.residual_m ? fmt::format("{:.1f} mm", *reading.residual_m * 1e3) : "no match";
   };
   return fmt::format(
       "{}: {}, as the surfaces show (sweeps of opposite directions are {} apart, {} as recorded). Set laser: "
       "{{time_increment_s: {:.6g}}} in a rig file to state it.",
-      *read.rig.laser.topic, description_of(chosen.kind), residual(chosen), residual(readings.front()),
+      topic, description_of(chosen.kind), residual(chosen), residual(readings.front()),
       chosen.time_increment_s);
 }
 
-// What is known of the beams' times after the readings were ranked.
-void add_readings(const RankedReadings& ranked, const Recording& read, ReadReport& report) {
-  const std::vector<BeamReading>& readings = report.readings = ranked.beams;
-  if (ranked.axis_is_found) report.warnings.push_back(axis_warning(ranked));
-  if (const BeamReading* chosen = chosen_of(readings)) {
-    report.beam_time_doubt_s = 0;
-    if (chosen != &readings.front()) report.warnings.push_back(warning_of(readings, *chosen, read));
-    return;
-  }
+// The most that the offsets of readings that fit alike differ by.
+double doubt_of_offset_s(const std::vector<BeamReading>& readings) {
   const auto residual_m = [](const BeamReading& reading) { return reading.residual_m.value_or(0); };
   double best_m = std::numeric_limits<double>::infinity();
   for (const BeamReading& reading : readings)
     if (reading.offset_s) best_m = std::min(best_m, residual_m(reading));
-  std::vector<const BeamReading*> alike;
+  std::vector<double> alike_s;
   for (const BeamReading& reading : readings)
-    if (reading.offset_s && best_m > kClearlyBetter * residual_m(reading)) alike.push_back(&reading);
-  for (const BeamReading* one : alike)
-    for (const BeamReading* other : alike)
-      report.beam_time_doubt_s =
-          std::max(report.beam_time_doubt_s, 2 * std::abs(*one->offset_s - *other->offset_s));
+    if (reading.offset_s && best_m > kClearlyBetter * residual_m(reading))
+      alike_s.push_back(*reading.offset_s);
+  if (alike_s.empty()) return 0;
+  const auto [min, max] = std::ranges::minmax(alike_s);
+  return max - min;
+}
+
+// What is known of the beams' times after the readings were ranked.
+void add_readings(const RankedReadings& ranked, const std::string& topic, ReadReport& report) {
+  report.readings = ranked.beams;
+  if (ranked.axis_is_found) report.warnings.push_back(axis_warning(ranked.axis));
+  const BeamReading* chosen = chosen_of(report.readings);
+  if (chosen == nullptr) {
+    report.beam_time_doubt_s = std::max(report.beam_time_doubt_s, 2 * doubt_of_offset_s(report.readings));
+    return;
+  }
+  report.beam_time_doubt_s = 0;
+  if (chosen->kind != BeamReadingKind::kRecorded)
+    report.warnings.push_back(beams_warning(report.readings, *chosen, topic));
 }
 
 }  // namespace
@@ -103,9 +125,10 @@ Result<Recording> read_fitting(const std::filesystem::path& path, const ReadOpti
   auto recording = read_recording(path, options, job);
   if (!recording || is_stated(options)) return recording;
   const RankedReadings ranked = rank_readings(*recording, job);
-  if (const auto other = other_options(options, *recording, ranked))
+  const std::string topic = recording->rig.laser.topic.value_or("");
+  if (const auto other = other_options(options, topic, found_by(ranked)))
     recording = read_recording(path, *other, job);
-  if (recording) add_readings(ranked, *recording, recording->report);
+  if (recording) add_readings(ranked, topic, recording->report);
   return recording;
 }
 
@@ -113,14 +136,21 @@ Result<RecordingFile> open_fitting(const std::filesystem::path& path, const Read
                                    const Job& job) {
   auto file = RecordingFile::open(path, options, job);
   if (!file || is_stated(options)) return file;
-  constexpr double kFirst_s = 60;
-  const auto first = file->parts({{0, kFirst_s}}, job);
-  if (!first) return tl::unexpected(first.error());
-  const RankedReadings ranked = rank_readings(*first, job);
-  if (const auto other = other_options(options, *first, ranked))
+  const auto ranked = ranked_of(*file, job);
+  if (!ranked) return tl::unexpected(ranked.error());
+  const std::string topic = file->outline().rig.laser.topic.value_or("");
+  if (const auto other = other_options(options, topic, found_by(*ranked)))
     file = RecordingFile::open(path, *other, job);
-  if (file) add_readings(ranked, *first, file->report());
+  if (file) add_readings(*ranked, topic, file->report());
   return file;
+}
+
+Result<FoundReading> find_reading(const std::filesystem::path& path, const ReadOptions& options,
+                                  const Job& job) {
+  if (is_stated(options)) return FoundReading();
+  return RecordingFile::open(path, options, job)
+      .and_then([&](const RecordingFile& file) { return ranked_of(file, job); })
+      .map(found_by);
 }
 
 }  // namespace sweepscope

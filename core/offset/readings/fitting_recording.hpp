@@ -12,6 +12,14 @@ Result<Recording> read_fitting(const std::filesystem::path& path, const ReadOpti
 Result<RecordingFile> open_fitting(const std::filesystem::path& path, const ReadOptions& options,
                                    const Job& job);
 
+/// What of a recording's reading is found by the geometry; absent where the recorded or stated one is used.
+struct FoundReading {
+  std::optional<double> time_increment_s;  // as Rig::Laser::time_increment_s
+  std::optional<Eigen::Vector3d> axis;     // that the motor turns about
+};
+Result<FoundReading> find_reading(const std::filesystem::path& path, const ReadOptions& options,
+                                  const Job& job);
+
 /// In words: "the last beam of a message was fired first".
 std::string description_of(BeamReadingKind kind);
 
