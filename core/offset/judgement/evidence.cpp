@@ -106,12 +106,15 @@ Refusal jump_refusal(const OffsetEvidence& evidence, const OffsetStep& step) {
                  advice_on_change(evidence, middle_s));
 }
 
-/// A step of more than 1 ms that the parts show far beyond their own scatter.
-bool is_clear(const OffsetStep& step, const std::vector<double>& offsets_s, double sigma_s) {
+/// A step of more than 1 ms that the parts show far beyond their own scatter: two on either side, since a
+/// single one at an end may be badly determined.
+bool is_clear(const OffsetStep& step, const Series& series, double sigma_s) {
+  const std::vector<double>&offsets_s = series.offsets_s, &times_s = series.times_s;
   constexpr std::size_t kMinParts = 4;
   constexpr double kMinRatio = 25;  // of the variances: five sigma of the scatter about the step
   const double n = double(offsets_s.size());
-  if (offsets_s.size() < kMinParts || std::abs(step.size_s()) < kLimits.max_change_s ||
+  if (offsets_s.size() < kMinParts || step.begin_s < times_s[1] || step.end_s > times_s[times_s.size() - 2] ||
+      std::abs(step.size_s()) < kLimits.max_change_s ||
       std::abs(step.size_s()) < kLimits.min_change_sigmas * sigma_s)
     return false;
   const double constant_s2 =
@@ -130,7 +133,7 @@ MaybeRefusal change_of(const OffsetEvidence& evidence, const Series& series, dou
   const double slope = evidence.trend ? evidence.trend->slope : 0;
   const bool steps_more = step->squares_s2 < squares_about_line(series.times_s, series.offsets_s, slope);
   if (drift) return steps_more ? jump_refusal(evidence, *step) : *drift;
-  if (steps_more && is_clear(*step, series.offsets_s, sigma_s)) return jump_refusal(evidence, *step);
+  if (steps_more && is_clear(*step, series, sigma_s)) return jump_refusal(evidence, *step);
   return std::nullopt;
 }
 
