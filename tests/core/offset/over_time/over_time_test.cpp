@@ -303,12 +303,15 @@ TEST(OverTime, SaysWhyAWindowTellsNothing) {
   recording.motor = track;
   const Estimate found = over_time(recording);
   ASSERT_TRUE(found.offset_s) << testing::PrintToString(found.reasons());
-  ASSERT_EQ(found.over_time->windows.size(), 4U);
-  for (std::size_t i = 0; i < 4; ++i) {
-    const OffsetWindow& window = found.over_time->windows[i];
-    EXPECT_EQ(bool(window.offset_s), i != 1) << i << ": " << window.reason;
-    EXPECT_EQ(window.reason.empty(), i != 1);
+  std::size_t without = 0;
+  for (const OffsetWindow& window : found.over_time->windows) {
+    EXPECT_EQ(bool(window.offset_s), window.reason.empty()) << window.reason;
+    const bool in_gap = window.begin_s < 21 && window.end_s > 9;
+    EXPECT_TRUE(window.offset_s || in_gap) << window.begin_s << " to " << window.end_s;
+    without += window.offset_s ? 0 : 1;
   }
+  EXPECT_GE(without, 1U);
+  EXPECT_LT(without, found.over_time->windows.size() / 2 + 1);
 }
 
 TEST(OverTime, IsInterruptedAtOnce) {
