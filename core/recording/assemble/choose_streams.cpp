@@ -189,6 +189,12 @@ Result<std::size_t> choose_laser(const RawRecording& raw, const Rig& rig) {
     return unreadable(fmt::format("{}: no cloud on {} has a line of points with positions and times",
                                   raw.file, laser.topic));
   }
+  const auto clouds = std::ranges::find_if(raw.topics, [](const RecordedTopic& topic) {
+    const MessageType* const type = find_message_type(topic.type);
+    return type != nullptr && is_cloud(type->kind) && topic.messages > 0 && topic.malformed == topic.messages;
+  });
+  if (clouds != raw.topics.end() && !raw.warnings.empty())
+    return unreadable(fmt::format("{}: no usable scans: {}", raw.file, raw.warnings.front()));
   return unreadable(nothing_usable(raw, "sensor_msgs/LaserScan", "LaserScan",
                                    advice(raw, "laser", "the scans", rig.motor.topic)));
 }
