@@ -182,28 +182,29 @@ std::vector<EstimateOption> method_options() {
 
 // Where the offset is searched for.
 std::vector<EstimateOption> range_options() {
-  return {{"search",
-           "FROM:TO",
-           "Where the offset is searched for, in milliseconds, such as 100:300 (default: about 0, and if it is "
-           "not there, a quarter of the motor's period to either side)",
-           {},
-           false,
-           false,
-           set_search},
-          {"range",
-           "FROM:TO:STEP",
-           "Candidates in milliseconds, such as 19:29:1; repeatable (default: coarse to fine about 0)",
-           {},
-           true,
-           false,
-           set_range},
-          {"around",
-           "INITIAL:ACCURACY:STEPS",
-           "The paper's search in milliseconds: 24:0.1:40 tries 24 and 20 steps of 0.1 to either side",
-           {},
-           false,
-           false,
-           set_around}};
+  return {
+      {"search",
+       "FROM:TO",
+       "Where the offset is searched for, in milliseconds, such as 100:300 (default: about 0, and if it is "
+       "not there, a quarter of the motor's period to either side)",
+       {},
+       false,
+       false,
+       set_search},
+      {"range",
+       "FROM:TO:STEP",
+       "Candidates in milliseconds, such as 19:29:1; repeatable (default: coarse to fine about 0)",
+       {},
+       true,
+       false,
+       set_range},
+      {"around",
+       "INITIAL:ACCURACY:STEPS",
+       "The paper's search in milliseconds: 24:0.1:40 tries 24 and 20 steps of 0.1 to either side",
+       {},
+       false,
+       false,
+       set_around}};
 }
 
 // What is found beside one constant offset.

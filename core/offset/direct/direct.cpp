@@ -41,7 +41,7 @@ Answer concluded(Answer answer, double offset_s, std::optional<double> sigma_s, 
   const auto& window = search.coarse.curve;
   if (offset_s < window.front().offset_s || offset_s > window.back().offset_s)
     answer.refusals.push_back(refusal(kBeyondSearch, offset_s * 1e3, offset_s * 1e3));
-  if (answer.refusals.empty()) add(answer.refusals, sigma_refusal(sigma_s, search.scale));
+  add(answer.refusals, sigma_refusal(sigma_s, search.scale));
   if (!answer.refusals.empty()) return answer;
   answer.offset_s = offset_s;
   answer.sigma_s = sigma_s;

@@ -90,7 +90,8 @@ TEST(StampShift, WhatCannotBeMovedStaysAndSaysWhy) {
   EXPECT_EQ(moved(MessageKind::kJointState, Encoding::kCdr, "roll", "short", StampShift::kMalformed),
             "short");
   const std::string number(8, '\1');
-  EXPECT_EQ(moved(MessageKind::kFieldsWithoutHeader, Encoding::kRos1, "data", number, StampShift::kNone), number);
+  EXPECT_EQ(moved(MessageKind::kFieldsWithoutHeader, Encoding::kRos1, "data", number, StampShift::kNone),
+            number);
 }
 
 TEST(AppliedOffset, IsReadFromAnEstimateWithItsCourse) {

@@ -45,10 +45,12 @@ TEST(Rig, ReadsEveryKey) {
 TEST(Rig, LeavesOutWhatIsToBeDetected) {
   for (const auto& [unit, rad] :
        {std::pair{"rad", 1.0}, {"deg", std::numbers::pi / 180}, {"turns", 2 * std::numbers::pi}})
-    EXPECT_NEAR(read_text(fmt::format("motor: {{scale: 2, unit: {}}}\n", unit))->motor.rad_per_value(), 2 * rad, 1e-12);
+    EXPECT_NEAR(read_text(fmt::format("motor: {{scale: 2, unit: {}}}\n", unit))->motor.rad_per_value(),
+                2 * rad, 1e-12);
   for (const double increment_s : {0.0, -1.736e-5})
-    EXPECT_EQ(read_text(fmt::format("laser: {{time_increment_s: {}}}\n", increment_s))->laser.time_increment_s,
-              increment_s);
+    EXPECT_EQ(
+        read_text(fmt::format("laser: {{time_increment_s: {}}}\n", increment_s))->laser.time_increment_s,
+        increment_s);
   const auto rig = read_text("motor: {scale: 2}\n");
   ASSERT_TRUE(rig);
   EXPECT_FALSE(rig->laser.topic);
@@ -58,8 +60,9 @@ TEST(Rig, LeavesOutWhatIsToBeDetected) {
 }
 
 TEST(Rig, RefusesUnknownKeysWithTheirPlace) {
-  EXPECT_EQ(refusal("laser: {topic: /scan}\nmotor: {joint: a, sclae: 2}\n"),
-            "2:19: unknown key \"sclae\" in motor; known are: field, joint, scale, stamp, topic, unit, zero_deg");
+  EXPECT_EQ(
+      refusal("laser: {topic: /scan}\nmotor: {joint: a, sclae: 2}\n"),
+      "2:19: unknown key \"sclae\" in motor; known are: field, joint, scale, stamp, topic, unit, zero_deg");
   EXPECT_EQ(refusal("lidar: {}\n"),
             "1:1: unknown key \"lidar\" in the rig file; known are: encoder, imu, laser, motor, "
             "mount, odometry, play_deg");

@@ -251,7 +251,8 @@ TEST_F(DriverMessages, RepeatedMotorAnglesHaveNewStampsUntilTheNextAngle) {
     EXPECT_EQ(joint.stamps[5 * i].header_ns, once.stamps[i].header_ns);
     for (std::size_t repeat = 0; repeat < 5; ++repeat) {
       EXPECT_EQ(joint.positions[5 * i + repeat], once.positions[i]);
-      EXPECT_NEAR(double(joint.stamps[5 * i + repeat].header_ns - once.stamps[i].header_ns), 1e7 * double(repeat), 5);
+      EXPECT_NEAR(double(joint.stamps[5 * i + repeat].header_ns - once.stamps[i].header_ns),
+                  1e7 * double(repeat), 5);
     }
   }
 }

@@ -87,7 +87,8 @@ TEST_F(LidarServo, WithoutARigItIsReadWithTheServosDegreesInDoubt) {
   EXPECT_EQ(recording.report.motor_stamps.used, StampSource::kReceive);
   std::string warnings;
   for (const std::string& warning : recording.report.warnings) warnings += warning + "\n";
-  EXPECT_NE(warnings.find("multiplied by 1 (the rig's motor.scale and motor.unit) to give rad"), std::string::npos)
+  EXPECT_NE(warnings.find("multiplied by 1 (the rig's motor.scale and motor.unit) to give rad"),
+            std::string::npos)
       << warnings;
   EXPECT_NE(warnings.find("the laser uses header stamps and the motor receive times"), std::string::npos)
       << warnings;
