@@ -34,7 +34,7 @@ TEST_F(LidarServo, HoldsWhatItIsKnownToHoldAsFolderAndAsFile) {
     ASSERT_EQ(recording.scans.size(), 295U);
     EXPECT_EQ(recording.report.scans_dropped, 3U);  // these have no beams
     EXPECT_EQ(recording.motor.time_s.size() + recording.report.motor_repeated, 1372U);
-  EXPECT_LT(recording.report.motor_repeated, 20U) << "old angles that later ones overtook";
+    EXPECT_LT(recording.report.motor_repeated, 20U) << "old angles that later ones overtook";
     EXPECT_EQ(recording.name, path.filename());
     EXPECT_EQ(recording.report.topics.at(0).type, "std_msgs/msg/Int32");
     EXPECT_EQ(recording.report.topics.at(1).type, "sensor_msgs/msg/LaserScan");
