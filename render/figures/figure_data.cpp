@@ -53,6 +53,7 @@ std::string in_one_line(const EstimateOptions& o) {
   if (o.edge_gate_m) text += fmt::format(" edge {}", *o.edge_gate_m);
   if (o.plane_gate_m) text += fmt::format(" plane {}", *o.plane_gate_m);
   if (o.over_time_s) text += fmt::format(" over-time {}", *o.over_time_s);
+  if (o.search) text += fmt::format(" search {}:{}", o.search->from_s, o.search->to_s);
   if (o.around)
     text += fmt::format(" around {}:{}:{}", o.around->initial_s, o.around->accuracy_s, o.around->steps);
   for (const OffsetRange& range : o.ranges)

@@ -47,6 +47,7 @@ TEST(EstimateJson, HasTheDocumentedKeysInTheDocumentedOrder) {
   "warnings": [],
   "reasons": [],
   "reason_codes": [],
+  "readings": [],
   "criteria": {
     "d": {
       "offset_ms": 23.9,

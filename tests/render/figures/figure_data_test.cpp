@@ -17,6 +17,7 @@ TEST(FigureData, EveryOptionOfAnEstimateMakesAnotherOneOfIt) {
       {"weight-c", {"1", "2"}},
       {"edge-gate-m", {"0.2", "0.3"}},
       {"plane-gate-m", {"0.2", "0.3"}},
+      {"search", {"0:100", "100:300"}},
       {"range", {"19:29:1", "19:29:2"}},
       {"around", {"24:0.1:40", "24:0.1:20"}},
       {"solve", {"offset,mount", "offset,play", "offset,encoder", "offset,mount,play"}},

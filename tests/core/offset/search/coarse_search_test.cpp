@@ -71,7 +71,8 @@ TEST(CoarseSearch, ByDefaultAnOffsetFarFrom0IsFoundToo) {
     const SearchedWindow found = searched_by_default(truth_s);
     ASSERT_TRUE(found.coarse.best) << truth_s;
     EXPECT_NEAR(found.coarse.offset_s(), truth_s, 1.5 * kMs);
-    EXPECT_NEAR((found.from_s + found.to_s) / 2, truth_s, 4 * kMs);
+    EXPECT_LT(found.from_s, truth_s - 40 * kMs);
+    EXPECT_GT(found.to_s, truth_s + 40 * kMs);
   }
 }
 
