@@ -76,11 +76,14 @@ double flat_width_m(const Recording& recording, double offset_s, const Job& job)
   return some_m.empty() ? 0 : sum_m / double(some_m.size());
 }
 
-// Whether no other reading lies nearer to what the surfaces say of the time from the first to the last beam.
-bool is_nearest(const StationaryDirect& found, const std::vector<BeamReading>& readings, double beams) {
-  const double recorded_s = scan_time_s(readings.front(), beams);
-  return std::ranges::all_of(readings.begin() + 1, readings.end(), [&](const BeamReading& other) {
-    return std::abs(found.scan_time_error_s) < std::abs(scan_time_s(other, beams) - recorded_s) / 4;
+// Whether no other reading lies nearer to what the surfaces say of the time from the first to the last beam
+// than the one that they were placed by.
+bool is_nearest(const StationaryDirect& found, const std::vector<BeamReading>& readings,
+                std::size_t placed_by, double beams) {
+  const double own_s = scan_time_s(readings[placed_by], beams);
+  return std::ranges::all_of(readings, [&](const BeamReading& other) {
+    return &other == &readings[placed_by] ||
+           std::abs(found.scan_time_error_s) < std::abs(scan_time_s(other, beams) - own_s) / 4;
   });
 }
 
@@ -164,7 +167,7 @@ std::vector<BeamReading> rank_beams(const Recording& first, const Job& job) {
     const ReadingFit& fit = fits.back();
     if (fit.direct.matches > 0) reading.residual_m = fit.direct.residual_m;
     if (fit.fits) reading.offset_s = fit.direct.offset_s;
-    const bool explains = fit.fits && is_nearest(fit.direct, readings, beams);
+    const bool explains = fit.fits && is_nearest(fit.direct, readings, fits.size() - 1, beams);
     if (!recorded || !explains || fit.direct.residual_m > kSmallResidual_m) continue;
     readings.front().chosen = true;
     readings.resize(1);
@@ -179,12 +182,20 @@ std::vector<BeamReading> rank_beams(const Recording& first, const Job& job) {
   for (std::size_t i = 0; i < fits.size(); ++i)
     if (i != best && (next == best || residual_m(i) < residual_m(next))) next = i;
   if (!fits[best].fits) return {};
-  // What is recorded holds unless another reading is clearly better.
-  if (fits.front().fits && is_nearest(fits.front().direct, readings, beams) &&
-      residual_m(best) > kClearlyBetter * residual_m(0))
-    best = 0;
-  else if (residual_m(best) > kClearlyBetter * residual_m(next))
-    return readings;
+  const auto agrees = [&](std::size_t i) {
+    return fits[i].fits && is_nearest(fits[i].direct, readings, i, beams);
+  };
+  const auto as_good = [&](std::size_t i) { return residual_m(best) > kClearlyBetter * residual_m(i); };
+  // Of readings that fit about as well, one alone may agree with what its own distances say of the scan's
+  // time; otherwise what is recorded holds if it does.
+  std::size_t agreeing = 0;
+  for (std::size_t i = 0; i < fits.size(); ++i) agreeing += as_good(i) && agrees(i) ? 1 : 0;
+  if (!agrees(best) || agreeing > 1) {
+    if (agrees(0) && as_good(0))
+      best = 0;
+    else if (as_good(next))
+      return readings;
+  }
   readings[best].chosen = true;
   return readings;
 }
@@ -192,7 +203,7 @@ std::vector<BeamReading> rank_beams(const Recording& first, const Job& job) {
 }  // namespace
 
 RankedReadings rank_readings(const Recording& recording, const Job& job) {
-  constexpr double kClearlyWider = 1.15;
+  constexpr double kClearlyWider = 1.15, kNearer = 0.7;
   RankedReadings ranked;
   ranked.axis = recording.rig.mount.axis;
   if (!recording.directions.empty() || recording.scans.empty() || recording.ranges_m.empty()) return ranked;
@@ -212,8 +223,14 @@ RankedReadings rank_readings(const Recording& recording, const Job& job) {
     const bool recorded = best->kind == BeamReadingKind::kRecorded;
     return flat_width_m(recorded ? about : read_as(about, best->time_increment_s), *best->offset_s, job);
   };
-  if (width_m(about_y) < kClearlyWider * width_m(first)) return ranked;
-  ranked.beams = of_y.empty() ? rank_beams(about_y, job) : std::move(of_y);
+  const double of_x_m = width_m(first), of_y_m = width_m(about_y);
+  if (of_y_m < of_x_m) return ranked;
+  if (of_y.empty()) of_y = rank_beams(about_y, job);
+  const BeamReading *best_x = best_of(ranked.beams), *best_y = best_of(of_y);
+  const bool nearer =
+      best_y != nullptr && (best_x == nullptr || *best_y->residual_m < kNearer * *best_x->residual_m);
+  if (!nearer && of_y_m < kClearlyWider * of_x_m) return ranked;
+  ranked.beams = std::move(of_y);
   ranked.axis = about_y.rig.mount.axis;
   ranked.axis_is_found = true;
   return ranked;
