@@ -132,13 +132,15 @@ bool ScanAssembler::place(const RawScan& raw, LaserScan& scan) {
 
 bool ScanAssembler::assemble() {
   set_epoch();
-  if (!raw_.of_clouds) turns_ = turns_per_message(raw_.scans);
+  const MessageTurns turns = raw_.of_clouds ? MessageTurns() : turns_of_messages(raw_.scans);
+  turns_ = turns.per_message;
   period_s_ = scan_period_s(raw_.scans, report_.laser_stamps.used) / turns_;
   std::vector<LaserScan> placed;
   std::vector<double> times_s;
   for (RawScan& raw : raw_.scans) {
     LaserScan scan;
-    const bool backwards = !raw_.of_clouds && fired_backwards(raw, recording_.rig.laser.time_increment_s);
+    const std::optional<double>& of_rig = recording_.rig.laser.time_increment_s;
+    const bool backwards = !raw_.of_clouds && (fired_backwards(raw, of_rig) || (turns.backwards && !of_rig));
     if (backwards) turn_round(raw);
     report_.fired_backwards = report_.fired_backwards || backwards;
     if (!place(raw, scan)) {
@@ -161,7 +163,10 @@ bool ScanAssembler::assemble() {
     for (const std::size_t i : order.kept) recording_.scans.push_back(placed[i]);
   }
   if (!without_ranges()) take_ranges();
-  if (turns_ != 1 && !recording_.ranges_m.empty()) put_together();
+  // Without increments the beams of each part may be of one instant.
+  const bool timed = recording_.rig.laser.time_increment_s ||
+                     usable_increment(std::abs(double{raw_.scans.front().time_increment_s}));
+  if (turns_ != 1 && timed && !recording_.ranges_m.empty()) put_together();
   warn_of_drops();
   warn_of_overlap();
   return true;

@@ -37,7 +37,7 @@ struct BeamTimes {
   double doubt_s(double beams) const;      // of the last beam's instant: between the two readings
 };
 
-/// `period_s` is that of a turn of the mirror (scan_period_s, turns_per_message), or 0 if it is not known:
+/// `period_s` is that of a turn of the mirror (scan_period_s, turns_of_messages), or 0 if it is not known:
 /// increments are then not checked. The scan's beams and the rig's increment are in the order of time (see
 /// fired_backwards). `turns`: that the mirror makes from message to message.
 BeamTimes judge_beam_times(const RawScan& scan, double period_s, std::optional<double> rig_increment_s,

@@ -66,18 +66,23 @@ void append_turns(std::span<const LaserScan> run, double direction_rad, std::vec
 
 }  // namespace
 
-double turns_per_message(const std::vector<RawScan>& messages) {
-  std::vector<double> turned;
+MessageTurns turns_of_messages(const std::vector<RawScan>& messages) {
+  std::vector<double> onwards, back;
   for (std::size_t i = 0; i + 1 < messages.size(); ++i) {
-    const double begin_rad = double{messages[i].angle_min_rad},
-                 next_rad = double{messages[i + 1].angle_min_rad},
-                 increment_rad = double{messages[i].angle_increment_rad},
-                 span_rad = messages[i].beams * increment_rad;
-    if (same_direction(begin_rad + span_rad, next_rad, increment_rad) &&
-        !same_direction(begin_rad, next_rad, increment_rad))
-      turned.push_back(std::abs(span_rad) / kFullCircle_rad);
+    const RawScan &message = messages[i], &next = messages[i + 1];
+    const double begin_rad = double{message.angle_min_rad}, next_rad = double{next.angle_min_rad},
+                 increment_rad = double{message.angle_increment_rad},
+                 span_rad = message.beams * increment_rad;
+    if (same_direction(begin_rad, next_rad, increment_rad)) continue;
+    const double turned = std::abs(span_rad) / kFullCircle_rad;
+    if (same_direction(begin_rad + span_rad, next_rad, increment_rad)) onwards.push_back(turned);
+    if (same_direction(next_rad + next.beams * increment_rad, begin_rad, increment_rad))
+      back.push_back(turned);
   }
-  return 2 * turned.size() > messages.size() ? median(turned) : 1;
+  // Halves of a turn follow each other both ways.
+  if (2 * onwards.size() > messages.size()) return {median(onwards), false};
+  if (2 * back.size() > messages.size()) return {median(back), true};
+  return {};
 }
 
 std::vector<LaserScan> whole_turns(const std::vector<LaserScan>& scans) {

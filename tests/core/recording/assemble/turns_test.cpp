@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -42,12 +43,16 @@ std::vector<LaserScan> parts(std::size_t count, double first_rad, std::size_t le
 TEST(Turns, MessagesThatCoverPartsOfATurnAreCounted) {
   std::vector<RawScan> messages;
   for (int i = 0; i < 36; ++i) messages.push_back(message(-3 + i * kTurn_rad / 12, kBeams));
-  EXPECT_NEAR(turns_per_message(messages), 1.0 / 12, 1e-6);
+  EXPECT_NEAR(turns_of_messages(messages).per_message, 1.0 / 12, 1e-6);
+  EXPECT_FALSE(turns_of_messages(messages).backwards);
+  std::ranges::reverse(messages);
+  EXPECT_NEAR(turns_of_messages(messages).per_message, 1.0 / 12, 1e-6);
+  EXPECT_TRUE(turns_of_messages(messages).backwards);
 }
 
 TEST(Turns, MessagesThatBeginInOneDirectionAreATurnEach) {
   for (const std::uint32_t beams : {200U, 540U, 720U})
-    EXPECT_EQ(turns_per_message(std::vector<RawScan>(20, message(-2, beams))), 1) << beams;
+    EXPECT_EQ(turns_of_messages(std::vector<RawScan>(20, message(-2, beams))).per_message, 1) << beams;
 }
 
 TEST(Turns, PartsArePutTogetherToWholeTurns) {
