@@ -7,7 +7,7 @@
 #include "app/recording_options.hpp"
 #include "app/say.hpp"
 #include "core/io/printable_text.hpp"
-#include "core/offset/readings/fitting_recording.hpp"
+#include "core/offset/readings/beam_readings.hpp"
 #include "core/offset/summary.hpp"
 #include "core/recording/inspect.hpp"
 #include "core/recording/rig.hpp"
@@ -56,13 +56,13 @@ std::string stream_text(const StreamSummary& stream, const std::string& where = 
 
 // The reading in use, and how well the others fit.
 std::string readings_text(const LaserSummary& laser) {
-  const auto chosen = std::ranges::find_if(laser.readings, &BeamReading::chosen);
-  if (chosen == laser.readings.end() || !chosen->residual_m) return "";
+  const BeamReading* chosen = chosen_of(laser.readings);
+  if (chosen == nullptr || !chosen->residual_m) return "";
   std::string others;
   for (const BeamReading& reading : laser.readings)
     if (!reading.chosen && reading.residual_m)
       others += fmt::format("{} {:.1f} mm", others.empty() ? "; others" : ",", *reading.residual_m * 1e3);
-  return row("reading", fmt::format("{}: surfaces fit to {:.1f} mm{}", description_of(chosen->kind),
+  return row("reading", fmt::format("{}: surfaces fit to {:.1f} mm{}", entry_of(chosen->kind).description,
                                     *chosen->residual_m * 1e3, others));
 }
 

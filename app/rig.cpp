@@ -51,11 +51,8 @@ Result<DetectedRig> detect(const RigArguments& options) {
   const Progress progress;
   const auto found = find_reading(options.recording, reading, progress.job());
   if (!found) return tl::unexpected(found.error());
-  if (found->time_increment_s) {
-    reading.rig = reading.rig.value_or(Rig{});
-    reading.rig->laser.time_increment_s = found->time_increment_s;
-    reading.rig->laser.increment_is_found = true;
-  }
+  if (found->time_increment_s)
+    reading.rig = with_found(reading.rig.value_or(Rig{}), {found->time_increment_s, std::nullopt});
   return detect_rig(options.recording, reading, progress.job()).map([&](DetectedRig&& detected) {
     if (found->axis && !detected.mount_found) {
       detected.rig.mount.axis = *found->axis;

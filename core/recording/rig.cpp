@@ -132,7 +132,11 @@ Rig read_document(const YAML::Node& document) {
   read_members(document, "the rig file",
                {{"laser", [&](const YAML::Node& node) { read_laser(node, rig.laser); }},
                 {"motor", [&](const YAML::Node& node) { read_motor(node, rig.motor); }},
-                {"mount", [&](const YAML::Node& node) { read_mount(node, rig.mount); }},
+                {"mount",
+                 [&](const YAML::Node& node) {
+                   read_mount(node, rig.mount);
+                   rig.mount_in_file = true;
+                 }},
                 {"play_deg", [&](const YAML::Node& node) { read_gear(node, "play_deg", rig.gear.play_deg); }},
                 {"encoder", [&](const YAML::Node& node) { read_encoder(node, rig.gear); }},
                 {"imu", [&](const YAML::Node& node) { read_imu(node, rig.imu); }},
@@ -147,10 +151,11 @@ double Rig::Motor::rad_per_value() const {
   return scale * (unit == AngleUnit::kDeg ? kRadPerDeg : 2 * std::numbers::pi);
 }
 
-bool Rig::has_default_mount() const {
+bool Rig::states_mount() const {
   const Mount none;
-  return mount.axis == none.axis && mount.laser_in_motor_xyz_m == none.laser_in_motor_xyz_m &&
-         mount.laser_in_motor_rpy_deg == none.laser_in_motor_rpy_deg;
+  return mount_in_file || mount.axis != none.axis ||
+         mount.laser_in_motor_xyz_m != none.laser_in_motor_xyz_m ||
+         mount.laser_in_motor_rpy_deg != none.laser_in_motor_rpy_deg;
 }
 
 Gear Rig::Gear::angles() const {

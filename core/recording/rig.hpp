@@ -62,8 +62,9 @@ struct Rig {
     double rad_per_value() const;  // angle_rad = rad_per_value * value - zero_deg * pi / 180
   };
   using Mount = sweepscope::Mount;
-  /// Whether the mount is the one that is used where none is stated: the motor rolls the laser about x.
-  bool has_default_mount() const;
+  bool mount_in_file = false;  // the rig file has the key
+  /// Whether the mount is stated: by a rig file, or another one than that used without, which rolls about x.
+  bool states_mount() const;
   /// An IMU (sensor_msgs/Imu) on the base, whose gyroscope is a prior of a moving rig's rotation.
   struct Imu {
     std::optional<std::string> topic;  // none: no IMU is used

@@ -13,7 +13,7 @@
 #include "core/offset/judgement/unseen_sigma.hpp"
 #include "core/offset/judgement/warnings.hpp"
 #include "core/offset/readings/beam_readings.hpp"
-#include "core/offset/readings/fitting_recording.hpp"
+
 #include "core/offset/stationary/direct_stationary.hpp"
 #include "core/offset/walk/motion_source.hpp"
 #include "core/rig_solve/rig_check.hpp"
@@ -93,9 +93,10 @@ Remark reading_warning(const Recording& recording, const StationaryDirect& found
   const auto better = better_reading(recording, found);
   if (!better) return std::nullopt;
   return fmt::format(
-      "The surfaces fit better if {}: from the first to the last beam of a scan they show {:.1f} ms more than the {}. "
-      "Set laser: {{time_increment_s: {:.6g}}} in the rig file.",
-      description_of(better->kind), found.scan_time_error_s * 1e3,
+      "The surfaces fit better if {}: from its first to its last beam a scan takes {:.1f} ms {} than the {} says. "
+      "Set laser: {{time_increment_s: {:.6g}}} in a rig file.",
+      entry_of(better->kind).description, std::abs(found.scan_time_error_s) * 1e3,
+      found.scan_time_error_s > 0 ? "more" : "less",
       recording.rig.laser.time_increment_s ? "rig file" : "recording", better->time_increment_s);
 }
 

@@ -1,7 +1,9 @@
 #include "core/offset/readings/beam_readings.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <memory>
 #include <numbers>
 
 #include "core/numbers.hpp"
@@ -57,12 +59,13 @@ ReadingFit fit_by(const Recording& recording, const Job& job) {
   return fit;
 }
 
-// The mean width of flat surfaces: what bends walls makes them narrow.
-double flat_width_m(const Recording& recording, double offset_s, const Job& job) {
+// The mean width of flat surfaces if the motor turns about an axis: what bends walls makes them narrow.
+double flat_width_m(PreparedRecording prepared, const Eigen::Vector3d& axis, double offset_s) {
   constexpr std::size_t kMaxPoints = 20'000;
-  const auto prepared = prepare(recording, FeatureOptions{}, job);
-  if (!prepared) return 0;
-  const OffsetProblem problem = problem_for(*prepared, offset_s, offset_s);
+  Recording about = *prepared.recording;
+  about.rig.mount.axis = axis;
+  prepared.recording = borrowed(about);
+  const OffsetProblem problem = problem_for(prepared, offset_s, offset_s);
   const StationaryPoints points =
       place_stationary(stationary_grid(problem), offset_s, StationaryDetail::kPoints);
   std::vector<Eigen::Vector3d> placed_m, some_m;
@@ -98,12 +101,33 @@ Recording first_sweeps(const Recording& recording) {
   return recording;
 }
 
-const BeamReading* best_of(const std::vector<BeamReading>& readings) {
+}  // namespace
+
+std::span<const BeamReadingEntry> beam_reading_entries() {
+  using enum BeamReadingKind;
+  static constexpr std::array kEntries{
+      BeamReadingEntry{kRecorded, "recorded", "the beams are timed as recorded"},
+      BeamReadingEntry{kReversed, "reversed", "the last beam of a message was fired first"},
+      BeamReadingEntry{kAtOnce, "at_once", "all beams of a message were fired at once"},
+      BeamReadingEntry{kMirror, "mirror", "the mirror turns once from scan to scan"},
+      BeamReadingEntry{
+          kMirrorReversed, "mirror_reversed",
+          "the mirror turns once from scan to scan, and the last beam of a message was fired first"},
+      BeamReadingEntry{kPeriod, "period", "a scan takes all of the time from scan to scan"},
+      BeamReadingEntry{
+          kPeriodReversed, "period_reversed",
+          "a scan takes all of the time from scan to scan, and the last beam of a message was fired first"}};
+  return kEntries;
+}
+
+const BeamReadingEntry& entry_of(BeamReadingKind kind) {
+  return beam_reading_entries()[static_cast<std::size_t>(kind)];
+}
+
+const BeamReading* chosen_of(const std::vector<BeamReading>& readings) {
   const auto found = std::ranges::find_if(readings, &BeamReading::chosen);
   return found == readings.end() ? nullptr : &*found;
 }
-
-}  // namespace
 
 std::vector<BeamReading> possible_readings(const Recording& recording) {
   constexpr double kAlike = 0.1;  // of the longer of two
@@ -158,6 +182,7 @@ namespace {
 // By one axis, of the first sweeps of a recording.
 std::vector<BeamReading> rank_beams(const Recording& first, const Job& job) {
   std::vector<BeamReading> readings = possible_readings(first);
+  if (first.rig.laser.time_increment_s) readings.resize(1);  // stated, and not overruled
   const double beams = median_beams(first);
   std::vector<ReadingFit> fits;
   for (BeamReading& reading : readings) {
@@ -209,24 +234,26 @@ RankedReadings rank_readings(const Recording& recording, const Job& job) {
   if (!recording.directions.empty() || recording.scans.empty() || recording.ranges_m.empty()) return ranked;
   const Recording first = first_sweeps(recording);
   ranked.beams = rank_beams(first, job);
-  if (!recording.rig.has_default_mount() || job.cancelled()) return ranked;
+  if (recording.rig.states_mount() || job.cancelled()) return ranked;
   Recording about_y = first;
   about_y.rig.mount.axis = Eigen::Vector3d::UnitY();
-  const BeamReading* best = best_of(ranked.beams);
+  const BeamReading* best = chosen_of(ranked.beams);
   std::vector<BeamReading> of_y;
   if (best == nullptr) {
     of_y = rank_beams(about_y, job);
-    best = best_of(of_y);
+    best = chosen_of(of_y);
   }
   if (best == nullptr || job.cancelled()) return ranked;
-  const auto width_m = [&](const Recording& about) {
-    const bool recorded = best->kind == BeamReadingKind::kRecorded;
-    return flat_width_m(recorded ? about : read_as(about, best->time_increment_s), *best->offset_s, job);
-  };
-  const double of_x_m = width_m(first), of_y_m = width_m(about_y);
+  const bool recorded = best->kind == BeamReadingKind::kRecorded;
+  const auto prepared =
+      prepare(std::make_shared<const Recording>(recorded ? first : read_as(first, best->time_increment_s)),
+              FeatureOptions(), job);
+  if (!prepared) return ranked;
+  const double of_x_m = flat_width_m(*prepared, first.rig.mount.axis, *best->offset_s),
+               of_y_m = flat_width_m(*prepared, about_y.rig.mount.axis, *best->offset_s);
   if (of_y_m < of_x_m) return ranked;
   if (of_y.empty()) of_y = rank_beams(about_y, job);
-  const BeamReading *best_x = best_of(ranked.beams), *best_y = best_of(of_y);
+  const BeamReading *best_x = chosen_of(ranked.beams), *best_y = chosen_of(of_y);
   const bool nearer =
       best_y != nullptr && (best_x == nullptr || *best_y->residual_m < kNearer * *best_x->residual_m);
   if (!nearer && of_y_m < kClearlyWider * of_x_m) return ranked;

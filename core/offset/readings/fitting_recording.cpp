@@ -11,13 +11,9 @@
 namespace sweepscope {
 namespace {
 
-const BeamReading* chosen_of(const std::vector<BeamReading>& readings) {
-  const auto found = std::ranges::find_if(readings, &BeamReading::chosen);
-  return found == readings.end() ? nullptr : &*found;
-}
-
+// Nothing is left to be found.
 bool is_stated(const ReadOptions& options) {
-  return options.rig && options.rig->laser.time_increment_s;
+  return options.rig && options.rig->laser.time_increment_s && options.rig->states_mount();
 }
 
 FoundReading found_by(const RankedReadings& ranked) {
@@ -41,12 +37,8 @@ Result<RankedReadings> ranked_of(const RecordingFile& file, const Job& job) {
 std::optional<ReadOptions> other_options(ReadOptions options, const std::string& topic,
                                          const FoundReading& found) {
   if (!found.time_increment_s && !found.axis) return std::nullopt;
-  options.rig = options.rig.value_or(Rig{});
+  options.rig = with_found(options.rig.value_or(Rig{}), found);
   options.rig->laser.topic = topic;
-  if (found.axis) options.rig->mount.axis = *found.axis;
-  if (!found.time_increment_s) return options;
-  options.rig->laser.time_increment_s = found.time_increment_s;
-  options.rig->laser.increment_is_found = true;
   return options;
 }
 
@@ -65,7 +57,7 @@ std::string beams_warning(const std::vector<BeamReading>& readings, const BeamRe
   return fmt::format(
       "{}: {}, as the surfaces show (sweeps of opposite directions are {} apart, {} as recorded). Set laser: "
       "{{time_increment_s: {:.6g}}} in a rig file to state it.",
-      topic, description_of(chosen.kind), residual(chosen), residual(readings.front()),
+      topic, entry_of(chosen.kind).description, residual(chosen), residual(readings.front()),
       chosen.time_increment_s);
 }
 
@@ -100,24 +92,12 @@ void add_readings(const RankedReadings& ranked, const std::string& topic, ReadRe
 
 }  // namespace
 
-std::string description_of(BeamReadingKind kind) {
-  switch (kind) {
-    case BeamReadingKind::kRecorded:
-      return "the beams are timed as recorded";
-    case BeamReadingKind::kReversed:
-      return "the last beam of a message was fired first";
-    case BeamReadingKind::kAtOnce:
-      return "all beams of a message were fired at once";
-    case BeamReadingKind::kMirror:
-      return "the mirror turns once from scan to scan";
-    case BeamReadingKind::kMirrorReversed:
-      return "the mirror turns once from scan to scan, and the last beam of a message was fired first";
-    case BeamReadingKind::kPeriod:
-      return "a scan takes all of the time from scan to scan";
-    case BeamReadingKind::kPeriodReversed:
-      return "a scan takes all of the time from scan to scan, and the last beam of a message was fired first";
-  }
-  return "";
+Rig with_found(Rig rig, const FoundReading& found) {
+  if (found.axis) rig.mount.axis = *found.axis;
+  if (!found.time_increment_s) return rig;
+  rig.laser.time_increment_s = found.time_increment_s;
+  rig.laser.increment_is_found = true;
+  return rig;
 }
 
 Result<Recording> read_fitting(const std::filesystem::path& path, const ReadOptions& options,

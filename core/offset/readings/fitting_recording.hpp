@@ -20,7 +20,7 @@ struct FoundReading {
 Result<FoundReading> find_reading(const std::filesystem::path& path, const ReadOptions& options,
                                   const Job& job);
 
-/// In words: "the last beam of a message was fired first".
-std::string description_of(BeamReadingKind kind);
+/// The rig with what was found.
+Rig with_found(Rig rig, const FoundReading& found);
 
 }  // namespace sweepscope

@@ -375,7 +375,7 @@ void choose_both_stamps(RawLaser& laser, RawJoint& joint, std::optional<StampSou
 /// The mount that the recording's transforms state, where the rig states none.
 void take_mount_of_frames(const RawRecording& raw, const RawLaser& laser, const RawJoint& joint,
                           Recording& recording) {
-  if (!recording.rig.has_default_mount() || joint.source == JointSource::kTransform) return;
+  if (recording.rig.states_mount() || joint.source == JointSource::kTransform) return;
   const auto found = mount_from_frames(raw.frames, laser.frame);
   const auto mount = found ? fitted_mount(*found, recording) : std::nullopt;
   if (!mount) return;

@@ -134,7 +134,7 @@ Result<DetectedRig> detect_rig(const std::filesystem::path& path, const ReadOpti
   if (!raw) return tl::unexpected(raw.error());
   auto evidence = evidence_of(*raw, rig);
   if (!evidence) return tl::unexpected(evidence.error());
-  const bool mount_given = options.rig && !options.rig->has_default_mount();
+  const bool mount_given = options.rig && options.rig->states_mount();
   if (evidence->mount && !mount_given) {
     name_turning_frame(*raw, *evidence->mount, rig);
     // The angle of a turning frame is that about its axis, which was not known before.

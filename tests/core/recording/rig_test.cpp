@@ -59,6 +59,12 @@ TEST(Rig, LeavesOutWhatIsToBeDetected) {
   EXPECT_EQ(rig->mount.axis, Eigen::Vector3d::UnitX());
 }
 
+TEST(Rig, KnowsWhetherItStatesAMount) {
+  EXPECT_FALSE(read_text("motor: {scale: 2}\n")->states_mount());
+  EXPECT_TRUE(read_text("mount: {axis: [1, 0, 0]}\n")->states_mount());
+  EXPECT_TRUE(read_text("mount: {axis: [0, 1, 0]}\n")->states_mount());
+}
+
 TEST(Rig, RefusesUnknownKeysWithTheirPlace) {
   EXPECT_EQ(
       refusal("laser: {topic: /scan}\nmotor: {joint: a, sclae: 2}\n"),

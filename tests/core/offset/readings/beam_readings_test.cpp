@@ -87,6 +87,24 @@ TEST(BeamReadings, AStatedMountIsNotOverruled) {
   EXPECT_EQ(ranked.axis, Eigen::Vector3d::UnitX());
 }
 
+TEST(BeamReadings, NorIsOneThatARigFileStatesToBeAsWithoutIt) {
+  SimulationOptions options = room(Times::kSpread);
+  options.axis = simulation::MotorAxis::kY;
+  Rig rig;
+  rig.mount_in_file = true;
+  EXPECT_FALSE(rank_readings(read(options, rig), Job()).axis_is_found);
+}
+
+TEST(BeamReadings, StatedTimesOfBeamsAreNotOverruledAndLeaveTheAxisToBeFound) {
+  SimulationOptions options = room(Times::kReversed);
+  options.axis = simulation::MotorAxis::kY;
+  Rig rig;
+  rig.laser.time_increment_s = -1.736e-5;
+  const RankedReadings ranked = rank_readings(read(options, rig), Job());
+  ASSERT_EQ(ranked.beams.size(), 1U);
+  EXPECT_TRUE(ranked.axis_is_found);
+}
+
 TEST(BeamReadings, OfAMovingRigNothingIsDecided) {
   const Recording& walk = test::simulated("cemetery", 0.024, 8).recording;
   const RankedReadings ranked = rank_readings(walk, Job());
