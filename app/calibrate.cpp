@@ -208,6 +208,7 @@ void add_calibrate(CLI::App& app, ExitCode& exit_code) {
           "direct (default) or stationary, as in estimate")
       ->type_name("M")
       ->check(CLI::IsMember({"direct", "stationary"}));
+  declare_estimate_options(*command, options->calibration.estimate, {"search"}, "Options");
   command->add_option("--threads", options->recording.threads, "Number of threads (default: all processors)")
       ->type_name("N")
       ->check(CLI::Range(1, 1024));
