@@ -1,10 +1,14 @@
 #include "core/loam/mapping.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <functional>
 #include <optional>
+#include <span>
 
+#include "core/loam/path/agreement.hpp"
 #include "core/loam/path/given_motion.hpp"
+#include "core/loam/path/least_squares.hpp"
 #include "core/loam/tracker.hpp"
 
 namespace sweepscope {
@@ -21,16 +25,43 @@ struct Range {
   std::size_t size() const { return end - first; }
 };
 
-// How far a sweep's features lie from where the last sweep saw them, were the rig at rest or moved as given.
-double cost_at_rest_m(const PlacedSweep& from, const PlacedSweep& to, const MappingOptions& options) {
+// How two sweeps in a row fit each other, were the rig at rest or moved as given.
+struct FitAtRest {
+  double cost_m;      // how far the later one's features lie from where the earlier one saw them
+  double determined;  // by its matches, of the direction of motion that they determine least
+};
+
+// Turns count by how far they move a feature at the mean range.
+double determined_by(const RigidEquations& matches, const MatchCount& count, double range_sum_m) {
+  Vector6d scale = Vector6d::Ones();
+  scale.head<3>().setConstant(double(count.features) / range_sum_m);
+  const Matrix6d scaled = scale.asDiagonal() * matches.matrix * scale.asDiagonal();
+  return Eigen::SelfAdjointEigenSolver<Matrix6d>(scaled, Eigen::EigenvaluesOnly).eigenvalues()[0] /
+         double(count.features);
+}
+
+FitAtRest fit_at_rest(const PlacedSweep& from, const PlacedSweep& to, const MappingOptions& options) {
   SweepMaps maps;
-  const SearchRule rule = search_rule(options, false, SweepFilter::kAny);
   const auto pose = [&](const PlacedSweep& sweep) {
     const bool given = options.given && options.given->covers(from.begin_s, to.end_s);
     return given ? along(*options.given, pose_of(sweep), Pose{}, from.begin_s, options.knot_s) : SweepPose{};
   };
   maps.insert(from, pose(from));
-  return count_sweep(maps, to, pose(to), rule, options, Eigen::Vector3d::Zero()).capped_cost_m();
+  PatchSearch search{maps.edges, maps.planes, search_rule(options, false, SweepFilter::kAny)};
+  const SweepMotion motion = pose(to).motion();
+  MatchCount count;
+  RigidEquations matches;
+  double range_sum_m = 0;
+  const auto place = [&](const PlacedFeature& feature) { return motion(feature.p_in_base_m, feature.u); };
+  match_features(to, place, search,
+                 [&](MatchedKind kind, const PlacedFeature& feature, const Eigen::Vector3d& p_m,
+                     const std::optional<MatchResidual>& residual) {
+                   count.add(residual, gate_m(kind, options), options.cost_cap_m);
+                   range_sum_m += feature.range_m;
+                   if (residual && residual->has_normal) matches.add(p_m, residual->normal, 0, 1);
+                 });
+  if (count.features == 0) return {0, 0};
+  return {count.capped_cost_m(), determined_by(matches, count, range_sum_m)};
 }
 
 // A recording mostly begins within a sweep. What is left of that one may see too little to be matched to.
@@ -51,14 +82,16 @@ class Walk {
     for (const std::size_t start : starts(range)) {
       tried.push_back(follow(start, range));
       if (job_.cancelled()) return false;
+      compare_latest(tried);
       std::ranges::stable_sort(tried, better);
-      if (tried.front().range.size() == range.size() && tried.front().well) break;
+      if (confirmed(tried.front(), range)) break;
     }
     if (job_.cancelled()) return false;
     if (tried.empty()) return true;
     Stretch& best = tried.front();
     if (++stretches_ == 1) {
       for (const Stretch& stretch : tried) starts_.push_back(stretch.start);
+      for (const Stretch& stretch : tried) if (getenv("DBG")) fprintf(stderr, "start %zu agreed %zu of %zu part %.3f alt %d\n", stretch.start, stretch.agreed_sweeps(), stretch.range.size(), stretch.count.matched_part(), int(stretch.alternates)), [&] { for (char c : stretch.agreed) fputc(c ? '+' : '.', stderr); fputc(10, stderr); }();
       well_ = best.well && best.range.size() == source_.count;
     }
     for (SweepPose& pose : best.poses) pose.stretch = stretches_;
@@ -82,51 +115,96 @@ class Walk {
     std::vector<SweepPose> poses;
     MatchCount count;
     bool alternates = false, well = false;
+    std::vector<char> agreed;  // of each sweep, whether another track found the same motion
+
+    std::size_t agreed_sweeps() const { return std::size_t(std::ranges::count(agreed, 1)); }
   };
   static bool better(const Stretch& a, const Stretch& b) {
-    return a.alternates != b.alternates ? b.alternates : a.count.matches > b.count.matches;
+    if (a.alternates != b.alternates) return b.alternates;
+    if (a.agreed_sweeps() != b.agreed_sweeps()) return a.agreed_sweeps() > b.agreed_sweeps();
+    return a.count.matches > b.count.matches;
+  }
+
+  static void compare_latest(std::vector<Stretch>& tried) {
+    Stretch& latest = tried.back();
+    for (Stretch& other : std::span(tried).first(tried.size() - 1)) {
+      const std::size_t first = std::max(latest.range.first, other.range.first);
+      const std::size_t end = std::min(latest.range.end, other.range.end);
+      if (first >= end) continue;
+      const auto part = [&](const Stretch& of) {
+        return std::span(of.poses).subspan(first - of.range.first, end - first);
+      };
+      const std::vector<char> agreed = agreeing(part(latest), part(other));
+      for (Stretch* of : {&latest, &other})
+        for (std::size_t i = first; i < end; ++i) of->agreed[i - of->range.first] |= agreed[i - first];
+    }
+  }
+  // Whether two tracks found the same.
+  bool confirmed(const Stretch& best, Range range) const {
+    if (options_.starts.size() == 1) return best.range.size() == range.size() && best.well;
+    constexpr std::size_t kEnds = 2;  // the first sweep and the last one are not whole
+    return best.range.size() == range.size() && !best.alternates && double(best.agreed_sweeps() + kEnds) >= 0.9 * double(range.size());
   }
   struct Start {
     std::size_t sweep;
-    double cost_m;
+    double cost_m, determined;  // of the worst of its pairs of sweeps
   };
 
   std::vector<std::size_t> starts(Range range) const {
-    if (options_.starts.empty() || range.size() != source_.count) return calm_starts(range);
+    if (options_.starts.empty() || range.size() != source_.count) return good_starts(range);
     std::vector<std::size_t> wanted = options_.starts;
     for (std::size_t& start : wanted) start = std::min(start, range.end - 1);
     return wanted;
   }
 
-  // Sweeps from which on the rig moved little, over as many as a first pose is found from; the calmest first,
-  // and the first one of all before those that are hardly better. None where the job was cancelled.
-  std::vector<std::size_t> calm_starts(Range range) const {
+  // Sweeps to begin with, the best first, over as many as a first pose is found from: those from which on the
+  // matches determine the motion, and of these those where the rig moved little; the first one of all before
+  // those that are hardly better. Places that show little of the motion look calm. None where the job was
+  // cancelled.
+  std::vector<std::size_t> good_starts(Range range) const {
     constexpr double kHardlyBetter = 0.8;  // tuned with MappingOptions
-    const std::size_t pairs = min_sweeps() - 1;
-    std::vector<double> costs_m;
+    const auto pairs = std::ptrdiff_t(min_sweeps() - 1);
+    std::vector<double> costs_m, determined;
     std::vector<Start> starts;
     PlacedSweep last = source_.place(range.first);
     for (std::size_t i = range.first; i + 1 < range.end; ++i) {
       if (job_.cancelled()) return {};
       PlacedSweep next = source_.place(i + 1);
-      costs_m.push_back(is_whole(last, next) ? cost_at_rest_m(last, next, options_) : options_.cost_cap_m);
+      const FitAtRest fit =
+          is_whole(last, next) ? fit_at_rest(last, next, options_) : FitAtRest{options_.cost_cap_m, 0};
+      costs_m.push_back(fit.cost_m);
+      determined.push_back(fit.determined);
       last = std::move(next);
-      if (costs_m.size() < pairs) continue;
-      const double cost_m = *std::max_element(costs_m.end() - std::ptrdiff_t(pairs), costs_m.end());
-      starts.push_back({i + 1 - pairs, cost_m * (starts.empty() ? kHardlyBetter : 1)});
+      if (std::ssize(costs_m) < pairs) continue;
+      starts.push_back({i + 1 - std::size_t(pairs), *std::max_element(costs_m.end() - pairs, costs_m.end()),
+                        *std::min_element(determined.end() - pairs, determined.end())});
     }
-    std::ranges::stable_sort(starts, {}, &Start::cost_m);
-    return apart(starts);
+    if (starts.empty()) return {};
+    starts.front().cost_m *= kHardlyBetter;
+    return apart(ranked(std::move(starts)));
+  }
+
+  std::vector<Start> ranked(std::vector<Start> starts) const {
+    std::vector<double> determined;
+    for (const Start& start : starts) determined.push_back(start.determined);
+    const auto middle = determined.begin() + std::ptrdiff_t(determined.size() / 2);
+    std::nth_element(determined.begin(), middle, determined.end());
+    const double enough = std::min(options_.well_determined, *middle);
+    std::ranges::stable_sort(starts, [&](const Start& a, const Start& b) {
+      const bool a_enough = a.determined >= enough, b_enough = b.determined >= enough;
+      return a_enough != b_enough ? a_enough : a.cost_m < b.cost_m;
+    });
+    return starts;
   }
 
   // A few of them that lie apart.
   std::vector<std::size_t> apart(const std::vector<Start>& starts) const {
-    constexpr std::size_t kApart =
-        3;  // nearer ones share most of the sweeps of a first pose, see first_sweeps
+    // Nearer than 3 they share most of the sweeps of a first pose, see first_sweeps; near ones also err alike.
+    const std::size_t min_distance = std::max<std::size_t>(3, starts.size() / 8);
     std::vector<std::size_t> chosen;
     for (const Start& start : starts) {
       const bool is_apart = std::ranges::all_of(chosen, [&](std::size_t other) {
-        return start.sweep + kApart <= other || other + kApart <= start.sweep;
+        return start.sweep + min_distance <= other || other + min_distance <= start.sweep;
       });
       if (is_apart && chosen.size() < std::size_t(options_.max_starts)) chosen.push_back(start.sweep);
     }
@@ -168,6 +246,7 @@ class Walk {
     found.poses.insert(found.poses.begin(), before.rbegin() + std::ptrdiff_t(lost_at_first), before.rend());
     found.poses.resize(found.poses.size() - lost_at_end);
     found.range = {first + lost_at_first, end - lost_at_end};
+    found.agreed.assign(found.range.size(), 0);
     judge(found);
     return found;
   }

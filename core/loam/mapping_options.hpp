@@ -44,6 +44,7 @@ struct MappingOptions {
   double well_followed = 0.5;  // ... of their features matches
   std::vector<std::size_t>
       starts;                 // sweeps to begin with, by their place among those that have scans; else ...
+  double well_determined = 0.01;  // where more than half of the sweeps are
   int max_starts = 6;         // ... sweeps to begin with that are tried, as long as less than this part ...
   double well_tracked = 0.8;  // ... of all features matches, or the sweeps alternate by more than this:
   double max_alternation_rad = 0.07;  // sweeps of one direction lie beside those of the other, on a map each
