@@ -84,15 +84,14 @@ class Walk {
       if (job_.cancelled()) return false;
       compare_latest(tried);
       std::ranges::stable_sort(tried, better);
-      if (confirmed(tried.front(), range)) break;
+      if (confirmed(tried.front(), range) || hopeless(tried)) break;
     }
     if (job_.cancelled()) return false;
     if (tried.empty()) return true;
     Stretch& best = tried.front();
     if (++stretches_ == 1) {
       for (const Stretch& stretch : tried) starts_.push_back(stretch.start);
-      for (const Stretch& stretch : tried) if (getenv("DBG")) fprintf(stderr, "start %zu agreed %zu of %zu part %.3f alt %d\n", stretch.start, stretch.agreed_sweeps(), stretch.range.size(), stretch.count.matched_part(), int(stretch.alternates)), [&] { for (char c : stretch.agreed) fputc(c ? '+' : '.', stderr); fputc(10, stderr); }();
-      well_ = best.well && best.range.size() == source_.count;
+      well_ = range.size() == source_.count && confirmed(best, range);
     }
     for (SweepPose& pose : best.poses) pose.stretch = stretches_;
     std::ranges::move(best.poses, poses_.begin() + std::ptrdiff_t(best.range.first));
@@ -114,7 +113,7 @@ class Walk {
     std::size_t start = 0;
     std::vector<SweepPose> poses;
     MatchCount count;
-    bool alternates = false, well = false;
+    bool alternates = false;
     std::vector<char> agreed;  // of each sweep, whether another track found the same motion
 
     std::size_t agreed_sweeps() const { return std::size_t(std::ranges::count(agreed, 1)); }
@@ -139,11 +138,18 @@ class Walk {
         for (std::size_t i = first; i < end; ++i) of->agreed[i - of->range.first] |= agreed[i - first];
     }
   }
-  // Whether two tracks found the same.
+  // Whether a second track found nearly the same; of a single start, whether most features match.
   bool confirmed(const Stretch& best, Range range) const {
-    if (options_.starts.size() == 1) return best.range.size() == range.size() && best.well;
-    constexpr std::size_t kEnds = 2;  // the first sweep and the last one are not whole
-    return best.range.size() == range.size() && !best.alternates && double(best.agreed_sweeps() + kEnds) >= 0.9 * double(range.size());
+    if (best.range.size() != range.size() || best.alternates) return false;
+    constexpr double kMostSweeps = 0.9;
+    if (options_.starts.size() == 1) return best.count.matched_part() >= options_.well_tracked;
+    return double(best.agreed_sweeps()) >= kMostSweeps * double(range.size());
+  }
+  // Whether hardly anything matches, wherever it begins.
+  bool hopeless(const std::vector<Stretch>& tried) const {
+    return tried.size() > 1 && std::ranges::all_of(tried, [&](const Stretch& stretch) {
+             return stretch.count.matched_part() < options_.well_followed;
+           });
   }
   struct Start {
     std::size_t sweep;
@@ -199,7 +205,8 @@ class Walk {
 
   // A few of them that lie apart.
   std::vector<std::size_t> apart(const std::vector<Start>& starts) const {
-    // Nearer than 3 they share most of the sweeps of a first pose, see first_sweeps; near ones also err alike.
+    // Nearer than 3 they share most of the sweeps of a first pose, see first_sweeps; near ones also err
+    // alike.
     const std::size_t min_distance = std::max<std::size_t>(3, starts.size() / 8);
     std::vector<std::size_t> chosen;
     for (const Start& start : starts) {
@@ -247,14 +254,13 @@ class Walk {
     found.poses.resize(found.poses.size() - lost_at_end);
     found.range = {first + lost_at_first, end - lost_at_end};
     found.agreed.assign(found.range.size(), 0);
-    judge(found);
+    found.alternates = alternates(found);
     return found;
   }
 
-  void judge(Stretch& found) const {
-    const Eigen::Vector3d motor_axis = source_.place(found.start).turned_rad.normalized();
-    found.alternates = alternating_sway_rad(found.poses, motor_axis) > options_.max_alternation_rad;
-    found.well = found.count.matched_part() >= options_.well_tracked && !found.alternates;
+  bool alternates(const Stretch& stretch) const {
+    const Eigen::Vector3d motor_axis = source_.place(stretch.start).turned_rad.normalized();
+    return alternating_sway_rad(stretch.poses, motor_axis) > options_.max_alternation_rad;
   }
 
   // Each stretch goes on from where the one before it ended, at its velocity; so do sweeps that were not

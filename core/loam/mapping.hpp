@@ -17,17 +17,18 @@ namespace sweepscope {
 struct TrackedWalk {
   std::vector<SweepPose> sweeps;    // of every sweep, in the order of time
   std::vector<std::size_t> starts;  // where it began, see MappingOptions, and others that were tried after it
-  bool well = false;                // one stretch, on which most features match and that does not alternate
-  MatchCount count;                 // at LOAM's own converged pose of each sweep, before it enters the map
+  bool well = false;  // one stretch that does not alternate and that a second track confirms, or ...
+                      // with a single start, on which most features match
+  MatchCount count;   // at LOAM's own converged pose of each sweep, before it enters the map
 
   /// Sweeps that are not lost.
   std::size_t tracked() const;
 };
 
-/// Tracks the sweeps on the map that they build (LOAM's odometry and mapping in one). It begins where the rig
-/// moved least, continues to the end, and then, on the same map, goes back to the beginning. Where the sweeps
-/// no longer match the map, it starts a new map, called a stretch; stretches are joined by the velocity
-/// before the gap.
+/// Tracks the sweeps on the map that they build (LOAM's odometry and mapping in one). It begins where the
+/// matches determine the motion and the rig moved least, continues to the end, and then, on the same map,
+/// goes back to the beginning. Then it begins elsewhere, until two tracks agree. Where the sweeps no longer
+/// match the map, it starts a new map, called a stretch; stretches are joined by the velocity before the gap.
 Result<TrackedWalk> track(const OffsetProblem& problem, double offset_s, const MappingOptions& options,
                           const Job& job);
 /// The same for sweeps that are already placed.

@@ -42,12 +42,14 @@ struct MappingOptions {
   int velocity_rounds = 6;     // ... by velocities that are tried in turn ...
   int first_pose_rounds = 3;   // ... and by matching them to each other, as long as less than this part ...
   double well_followed = 0.5;  // ... of their features matches
-  std::vector<std::size_t>
-      starts;                 // sweeps to begin with, by their place among those that have scans; else ...
-  double well_determined = 0.01;  // where more than half of the sweeps are
-  int max_starts = 6;         // ... sweeps to begin with that are tried, as long as less than this part ...
-  double well_tracked = 0.8;  // ... of all features matches, or the sweeps alternate by more than this:
-  double max_alternation_rad = 0.07;  // sweeps of one direction lie beside those of the other, on a map each
+  // Sweeps to begin with, by their place among those that have scans. Empty: up to `max_starts` where the
+  // matches of consecutive sweeps determine every direction of motion at least so well (of a feature; or
+  // better than in half of the sweeps), until two tracks agree.
+  std::vector<std::size_t> starts;
+  double well_determined = 0.01;
+  int max_starts = 6;
+  double well_tracked = 0.8;          // part of the features that match on a walk with a single start
+  double max_alternation_rad = 0.07;  // beyond, sweeps of one direction lie beside those of the other
 
   // Instead of the above, for criteria that are counted at LOAM's own poses.
   double loam_knot_s = 0.25, loam_acceleration = 0.6, loam_tie_sigma = 0.005;

@@ -224,7 +224,7 @@ void Tracker::judge(const MatchCount& count) {
   const double part = count.matched_part();
   if (grown()) usual_part_ += 0.1 * (part - usual_part_);
   const double lost_below = after_gap_ ? options_.doubtful_below : options_.lost_below;
-  const bool lost = grown() && part < lost_below * usual_part_;
+  const bool lost = (grown() || after_gap_) && part < lost_below * usual_part_;
   lost_in_a_row_ = lost ? lost_in_a_row_ + 1 : 0;
   after_gap_ = after_gap_ && lost;
 }

@@ -231,5 +231,39 @@ TEST(Track, ACancelledJobIsInterrupted) {
   EXPECT_EQ(result.error().code, ExitCode::kInterrupted);
 }
 
+// Ground with posts: many where the walk begins, few where it ends. There the ground looks the same at any
+// speed, and the rig as if it stood.
+TEST(FieldWalk, BeginsWhereTheMotionCanBeSeen) {
+  test::Bench bench;
+  bench.mesh = simulation::box({-40, -40, -1.6}, {60, 40, -1.5});
+  for (double x_m = -6; x_m < 12; x_m += 2.5) {
+    bench.mesh.add_box({x_m, 2.5, -1.5}, {x_m + 0.3, 2.8, 2});
+    bench.mesh.add_box({x_m + 1.2, -3.3, -1.5}, {x_m + 1.5, -3, 2});
+  }
+  for (double x_m = 14; x_m < 40; x_m += 5)
+    bench.mesh.add_box({x_m, 4, -1.5}, {x_m + 0.4, 4.4, 2})
+        .add_box({x_m + 2, -5, -1.5}, {x_m + 2.4, -4.6, 2});
+  bench.duration_s = 16;
+  bench.noise_m = 0.01;
+  bench.world_from_base = [](double t_s) {
+    return Eigen::Isometry3d(Eigen::Translation3d(1.3 * t_s, 0.02 * std::sin(6 * t_s), 0));
+  };
+  const Recording recording = bench.record();
+  const OffsetProblem problem = test::problem_of(recording);
+  const auto way_m = [](const TrackedWalk& walk) {
+    return (walk.sweeps.front().begin().inverse() * walk.sweeps.back().end()).translation_m.norm();
+  };
+  const TrackedWalk walk = track(problem, 0, MappingOptions(), Job()).value();
+  const double truth_m = 1.3 * (walk.sweeps.back().end_s - walk.sweeps.front().begin_s);
+  EXPECT_LT(walk.starts.front(), walk.sweeps.size() / 2);
+  EXPECT_NEAR(way_m(walk), truth_m, 1);
+  MappingOptions calm;
+  calm.well_determined = 0;
+  calm.max_starts = 1;
+  const TrackedWalk misled = track(problem, 0, calm, Job()).value();
+  EXPECT_GT(misled.starts.front(), walk.sweeps.size() / 2);
+  EXPECT_GT(std::abs(way_m(misled) - truth_m), 3);
+}
+
 }  // namespace
 }  // namespace sweepscope
