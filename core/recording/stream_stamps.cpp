@@ -148,6 +148,37 @@ TimeOrder order_by_time(std::span<const double> times_s) {
   return order;
 }
 
+ClockPart part_of_one_clock(std::span<const double> times_s) {
+  constexpr double kMin_s = 0.05, kMinSpacings = 10;  // messages that are late now and then are less
+  constexpr std::size_t kStays = 5, kMaxSets = 3;     // messages; more is no clock that is set
+  constexpr double kClearlyLonger = 1.2;              // so that two streams are cut at the same side
+  ClockPart part{0, times_s.size(), 0};
+  const double spacing_s = median(spacings(times_s)), min_s = std::max(kMin_s, kMinSpacings * spacing_s);
+  std::vector<std::size_t> begins{0};
+  for (std::size_t i = 1; i + kStays <= times_s.size(); ++i) {
+    const auto after = times_s.subspan(i, kStays);
+    const bool stays = times_s[i - 1] - *std::ranges::max_element(after) > min_s - kStays * spacing_s &&
+                       std::ranges::is_sorted(after);
+    if (times_s[i - 1] - times_s[i] < min_s || !stays) continue;
+    if (part.set_back_s == 0) part.set_back_s = times_s[i - 1] - times_s[i];
+    begins.push_back(i);
+  }
+  if (begins.size() == 1 || begins.size() > kMaxSets + 1) return {0, times_s.size(), 0};
+  begins.push_back(times_s.size());
+  part.end = begins[1];
+  for (std::size_t i = 1; i + 1 < begins.size(); ++i)
+    if (double(begins[i + 1] - begins[i]) > kClearlyLonger * double(part.end - part.begin))
+      part.begin = begins[i], part.end = begins[i + 1];
+  return part;
+}
+
+std::string set_back_warning(const ClockPart& part, std::size_t messages, const std::string& topic) {
+  return fmt::format(
+      "the stamps on {} go back by {:.3f} s and go on from there, so a clock was set: only messages {} to {} of "
+      "{} are used, and the others may have another offset",
+      topic, part.set_back_s, part.begin + 1, part.end, messages);
+}
+
 double unevenness_s(std::span<const double> times_s) {
   std::vector<double> left_s = spacings(times_s);
   const double period_s = median(left_s);

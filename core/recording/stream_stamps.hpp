@@ -37,6 +37,16 @@ struct TimeOrder {
 };
 TimeOrder order_by_time(std::span<const double> times_s);
 
+/// The part of a stream in which no clock was set back: where the stamps go back and go on from there, the
+/// longer side. Stamps of before and after would overlap in time, with another offset each.
+struct ClockPart {
+  std::size_t begin = 0, end = 0;  // messages
+  double set_back_s = 0;           // by how much, the first time; 0: it was not
+};
+ClockPart part_of_one_clock(std::span<const double> times_s);
+/// A sentence, for a part that is not all of the stream's messages.
+std::string set_back_warning(const ClockPart& part, std::size_t messages, const std::string& topic);
+
 /// How uneven periodic times are: the deviation of their spacings from whole periods, nine times in ten; at
 /// most half a period. 0 for fewer than three times.
 double unevenness_s(std::span<const double> times_s);

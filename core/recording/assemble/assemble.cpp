@@ -157,6 +157,11 @@ bool ScanAssembler::assemble() {
     if (!check_cloud_times(placed)) return false;
     order_lines(placed);
   } else {
+    if (const ClockPart part = part_of_one_clock(times_s); part.set_back_s > 0) {
+      report_.warnings.push_back(set_back_warning(part, times_s.size(), raw_.topic));
+      times_s = {times_s.begin() + std::ptrdiff_t(part.begin), times_s.begin() + std::ptrdiff_t(part.end)};
+      placed = {placed.begin() + std::ptrdiff_t(part.begin), placed.begin() + std::ptrdiff_t(part.end)};
+    }
     const TimeOrder order = order_by_time(times_s);
     report_.scans_out_of_order = order.out_of_order;
     report_.scans_duplicate = order.duplicates;

@@ -219,6 +219,13 @@ bool assemble_motor(const RawJoint& raw, Recording& recording) {
     if (!raw.publisher.empty()) publisher.push_back(raw.publisher[i]);
   }
   keep_one_publisher(raw, {times_s, angles_rad, publisher}, report);
+  if (const ClockPart part = part_of_one_clock(times_s); part.set_back_s > 0) {
+    report.warnings.push_back(set_back_warning(part, times_s.size(), raw.topic));
+    for (std::vector<double>* values : {&times_s, &angles_rad}) {
+      values->resize(part.end);
+      values->erase(values->begin(), values->begin() + std::ptrdiff_t(part.begin));
+    }
+  }
   const TimeOrder order = order_by_time(times_s);
   report.motor_out_of_order = order.out_of_order;
   report.motor_duplicate = order.duplicates;

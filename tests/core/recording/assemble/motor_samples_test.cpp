@@ -58,6 +58,34 @@ double read_every_50_ms(double time_s) {
   return triangle_rad(std::floor(time_s / 0.05 + 1e-9) * 0.05);
 }
 
+// Sampled at 100 Hz; the clock is set back by so much after so long.
+RawJoint of_a_clock_set_back(double by_s, double after_s) {
+  RawJoint joint = sampled(triangle_rad);
+  for (std::size_t i = 0; i < joint.stamps.size(); ++i)
+    if (0.01 * double(i) >= after_s) joint.stamps[i].header_ns -= std::llround(by_s * 1e9);
+  return joint;
+}
+
+TEST(MotorSamples, OfAClockThatWasSetBackTheLongerSideIsUsed) {
+  const Recording before = assembled(of_a_clock_set_back(1, 8)), after = assembled(of_a_clock_set_back(1, 3));
+  EXPECT_EQ(before.motor.time_s.size(), 800U);
+  EXPECT_NEAR(before.motor.time_s.front(), 0, 1e-9);
+  EXPECT_EQ(after.motor.time_s.size(), 900U);
+  EXPECT_NEAR(after.motor.time_s.front(), 2, 1e-9);
+  for (const Recording& recording : {before, after})
+    EXPECT_TRUE(warns_of(recording, "go back by 1.000 s")) << recording.report.warnings.size();
+}
+
+TEST(MotorSamples, MessagesThatAreLateAreNoClockThatWasSet) {
+  RawJoint joint = sampled(triangle_rad);
+  for (std::size_t i = 100; i < joint.stamps.size(); i += 100)  // one message comes after 30 others
+    std::rotate(joint.stamps.begin() + std::ptrdiff_t(i), joint.stamps.begin() + std::ptrdiff_t(i) + 1,
+                joint.stamps.begin() + std::ptrdiff_t(i) + 30);
+  const Recording recording = assembled(joint);
+  EXPECT_EQ(recording.motor.time_s.size(), 1200U);
+  EXPECT_FALSE(warns_of(recording, "go back"));
+}
+
 TEST(MotorSamples, OldAnglesSentAgainAreLeftOut) {
   const Recording recording = assembled(sampled(read_every_50_ms));
   EXPECT_EQ(recording.report.motor_repeated, 960U);
