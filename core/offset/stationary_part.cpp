@@ -16,7 +16,7 @@ double length_s(const RecordingPart& part) {
 // Parts in which the rig may have been stationary, to be looked at line by line.
 std::vector<RecordingPart> likely_parts(const PreparedRecording& prepared,
                                         const std::vector<MotionPart>& parts) {
-  constexpr std::size_t kFewSweeps = 20;  // pairs of the same direction may all hold a motion
+  constexpr std::size_t kFewSweeps = 20;  // a motion may begin within each pair of the same direction
   const MotorMotion& motor = prepared.motor;
   std::vector<RecordingPart> likely;
   for (const MotionPart& part :
@@ -24,7 +24,7 @@ std::vector<RecordingPart> likely_parts(const PreparedRecording& prepared,
     if (!part.moved) likely.push_back({part.begin_s, part.end_s + motor.median_sweep_s});
   std::ranges::stable_sort(likely, std::greater<>(), length_s);
   if (!likely.empty()) likely.resize(1);
-  if (!likely.empty() || motor.sweeps.size() > kFewSweeps) return likely;
+  if (motor.sweeps.size() > kFewSweeps) return likely;
   const double first_s = prepared.recording->scans.front().first_beam_s;
   for (std::size_t i = 0; i + 1 < motor.sweeps.size(); ++i)
     likely.push_back({motor.sweeps[i].begin_s - first_s, motor.sweeps[i + 1].end_s - first_s});
@@ -75,20 +75,22 @@ std::optional<RecordingPart> seen_part(const PreparedRecording& prepared, const 
   return RecordingPart{std::ceil(begin_s * 10) / 10, std::floor(end_s * 10) / 10};
 }
 
-// The parts with one of them known to be stationary.
+// The parts with one of them known to be stationary: to either side of it the rig moved.
 std::vector<MotionPart> with_stationary(const std::vector<MotionPart>& parts, const RecordingPart& part,
                                         double duration_s) {
   std::vector<MotionPart> all;
-  for (const MotionPart& other : parts) {
+  for (const MotionPart& other : parts)
     if (other.begin_s < part.begin_s)
       all.push_back({other.begin_s, std::min(other.end_s, part.begin_s), other.moved});
-  }
+  if (!all.empty()) all.back().moved = true;
   all.push_back({part.begin_s, part.end_s, false});
+  double end_s = part.end_s;
   for (const MotionPart& other : parts) {
-    if (other.end_s > part.end_s)
-      all.push_back({std::max(other.begin_s, part.end_s), other.end_s, other.moved});
+    if (other.end_s <= end_s) continue;
+    all.push_back({end_s, other.end_s, other.moved || end_s == part.end_s});
+    end_s = other.end_s;
   }
-  if (parts.empty() && part.end_s < duration_s) all.push_back({part.end_s, duration_s, true});
+  if (end_s == part.end_s && end_s < duration_s) all.push_back({end_s, duration_s, true});
   return all;
 }
 

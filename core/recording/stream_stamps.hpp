@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -37,15 +38,17 @@ struct TimeOrder {
 };
 TimeOrder order_by_time(std::span<const double> times_s);
 
-/// The part of a stream in which no clock was set back: where the stamps go back and go on from there, the
-/// longer side. Stamps of before and after would overlap in time, with another offset each.
+/// What one clock stamped of a stream. If a clock was set back, the stamps before and after overlap: messages
+/// are twice as dense there, and if the values of a motor are given, they go to and fro between two motions.
 struct ClockPart {
-  std::size_t begin = 0, end = 0;  // messages
-  double set_back_s = 0;           // by how much, the first time; 0: it was not
+  double from_s = 0, to_s = 0;  // the longer side, without the overlap
+  double set_back_s = 0;        // about
 };
-ClockPart part_of_one_clock(std::span<const double> times_s);
-/// A sentence, for a part that is not all of the stream's messages.
-std::string set_back_warning(const ClockPart& part, std::size_t messages, const std::string& topic);
+/// Absent if there is no such overlap within the stream. Times in any order.
+std::optional<ClockPart> part_of_one_clock(std::span<const double> times_s,
+                                           std::span<const double> values = {});
+/// A sentence; `start_s`: when the recording starts.
+std::string set_back_warning(const ClockPart& part, double start_s, const std::string& topic);
 
 /// How uneven periodic times are: the deviation of their spacings from whole periods, nine times in ten; at
 /// most half a period. 0 for fewer than three times.

@@ -219,18 +219,14 @@ bool assemble_motor(const RawJoint& raw, Recording& recording) {
     if (!raw.publisher.empty()) publisher.push_back(raw.publisher[i]);
   }
   keep_one_publisher(raw, {times_s, angles_rad, publisher}, report);
-  if (const ClockPart part = part_of_one_clock(times_s); part.set_back_s > 0) {
-    report.warnings.push_back(set_back_warning(part, times_s.size(), raw.topic));
-    for (std::vector<double>* values : {&times_s, &angles_rad}) {
-      values->resize(part.end);
-      values->erase(values->begin(), values->begin() + std::ptrdiff_t(part.begin));
-    }
-  }
   const TimeOrder order = order_by_time(times_s);
   report.motor_out_of_order = order.out_of_order;
   report.motor_duplicate = order.duplicates;
   MotorTrack& motor = recording.motor;
+  const auto clock = part_of_one_clock(times_s, angles_rad);
+  if (clock) report.warnings.push_back(set_back_warning(*clock, times_s[order.kept[0]], raw.topic));
   for (const std::size_t i : order.kept) {
+    if (clock && (times_s[i] < clock->from_s || times_s[i] > clock->to_s)) continue;
     motor.time_s.push_back(times_s[i]);
     motor.angle_rad.push_back(angles_rad[i]);
   }
