@@ -99,6 +99,7 @@ std::vector<MotionPart> with_stationary(const std::vector<MotionPart>& parts, co
 MotionCourse motion_course(const PreparedRecording& prepared, const Job& job) {
   MotionCourse course{motion_over_time(prepared), {}};
   if (prepared.recording->scans.empty() || prepared.motor.sweeps.size() < 2) return course;
+  if (!course.parts.empty() && std::ranges::none_of(course.parts, &MotionPart::moved)) return course;
   for (const RecordingPart& likely : likely_parts(prepared, course.parts)) {
     const auto seen = seen_part(prepared, likely, job);
     if (job.cancelled()) return course;

@@ -19,9 +19,10 @@ struct MotionCourse {
   std::optional<RecordingPart> stationary;
 };
 
-/// Of a recording in which the rig moved. Sweeps of the same direction show a stationary part to within a
-/// pair of sweeps; of few, long sweeps neighbouring ones are tried, at the offset that fits them best. The
-/// scan lines then show where it begins and ends (motion_of_lines).
+/// Of a recording in which the rig moved; of one that is stationary all the time `stationary` is absent.
+/// Sweeps of the same direction show a stationary part to within a pair of sweeps; of few, long sweeps
+/// neighbouring ones are tried, at the offset that fits them best. The scan lines then show where it begins
+/// and ends (motion_of_lines).
 MotionCourse motion_course(const PreparedRecording& prepared, const Job& job);
 
 }  // namespace sweepscope

@@ -11,7 +11,7 @@
 namespace sweepscope::ui {
 namespace {
 
-constexpr double kWidth = 760, kHeight = 560, kTitles = 120;  // at 100 %
+constexpr double kWidth = 760, kHeight = 620, kTitles = 120;  // at 100 %
 
 /// The title of what is chosen; its widget comes next.
 void begin_choice(const PaneContext& context, const Command& command) {

@@ -118,10 +118,13 @@ std::string reading_in_words(const std::vector<BeamReading>& readings) {
   const BeamReading* chosen = chosen_of(readings);
   if (chosen == nullptr || !chosen->residual_m) return "";
   std::string others;
-  for (const BeamReading& reading : readings)
-    if (!reading.chosen && reading.residual_m)
-      others += fmt::format("{} {} {:.1f} mm", others.empty() ? "; others:" : ",",
-                            entry_of(reading.kind).name, *reading.residual_m * 1e3);
+  for (const BeamReading& reading : readings) {
+    if (reading.chosen || !reading.residual_m) continue;
+    std::string name = entry_of(reading.kind).name;
+    std::ranges::replace(name, '_', ' ');
+    others +=
+        fmt::format("{} {} {:.1f} mm", others.empty() ? "; others:" : ",", name, *reading.residual_m * 1e3);
+  }
   return fmt::format("{}: surfaces fit to {:.1f} mm{}", entry_of(chosen->kind).description,
                      *chosen->residual_m * 1e3, others);
 }
