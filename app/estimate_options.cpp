@@ -112,6 +112,9 @@ void print_answer(const Estimate& estimate) {
   print("method   {}, {} sweeps, {} scans, {} candidates\n", to_text(estimate.method), estimate.sweeps,
         estimate.scans, estimate.curve.size());
   if (estimate.kind) print("kind     {}: {}\n", to_text(*estimate.kind), estimate.kind_reason);
+  if (const auto& part = estimate.stationary_part)
+    print("window   {:.1f} to {:.1f} s, in which the rig was stationary: --window {:.6g}:{:.6g}\n",
+          part->begin_s, part->end_s, part->begin_s, part->end_s);
   if (estimate.rig) print_rig(*estimate.rig);
   if (estimate.rig_effects && estimate.identifiable) print_effects(*estimate.rig_effects);
   if (estimate.motion) print("{}\n", motion_line(*estimate.motion));

@@ -54,18 +54,6 @@ std::string stream_text(const StreamSummary& stream, const std::string& where = 
                                   stream.duplicates, stream.dropped));
 }
 
-// The reading in use, and how well the others fit.
-std::string readings_text(const LaserSummary& laser) {
-  const BeamReading* chosen = chosen_of(laser.readings);
-  if (chosen == nullptr || !chosen->residual_m) return "";
-  std::string others;
-  for (const BeamReading& reading : laser.readings)
-    if (!reading.chosen && reading.residual_m)
-      others += fmt::format("{} {:.1f} mm", others.empty() ? "; others" : ",", *reading.residual_m * 1e3);
-  return row("reading", fmt::format("{}: surfaces fit to {:.1f} mm{}", entry_of(chosen->kind).description,
-                                    *chosen->residual_m * 1e3, others));
-}
-
 std::string laser_text(const LaserSummary& laser) {
   const std::string beams = laser.min_beams == laser.max_beams
                                 ? fmt::format("{}", laser.max_beams)
@@ -76,6 +64,7 @@ std::string laser_text(const LaserSummary& laser) {
   const std::string of_clouds =
       laser.rings > 0 ? fmt::format(" of clouds, on {} {},", laser.rings, laser.rings > 1 ? "rings" : "ring")
                       : "";
+  const std::string reading = reading_in_words(laser.readings);
   return "laser\n" + row("topic", laser.topic) +
          row("scans", fmt::format("{}{} of {} beams from {:.1f} to {:.1f} deg in {:.1f} ms{}", laser.used,
                                   of_clouds, beams, laser.first_beam_deg, laser.last_beam_deg,
@@ -83,7 +72,7 @@ std::string laser_text(const LaserSummary& laser) {
          stream_text(laser, laser.stamp_at == StampAt::kFirstBeam  ? ", taken as the first beam's"
                             : laser.stamp_at == StampAt::kLastBeam ? ", taken as the last beam's"
                                                                    : ", taken as the scan's arrival") +
-         readings_text(laser) +
+         (reading.empty() ? "" : row("reading", reading)) +
          row("ranges",
              fmt::format("{:.1f} % usable, median {:.2f} m; {} NaN, {} infinite, {} zero, {} out of range",
                          usable, laser.median_range_m, laser.nan, laser.infinite, laser.zero,
@@ -121,6 +110,9 @@ std::string as_text(const RecordingSummary& summary) {
   std::string text = printable_line(summary.name) + "\n\n" + topics_text(summary) + "\n" +
                      laser_text(summary.laser) + "\n" + motor_text(summary.motor);
   if (summary.motion) text += "\nmotion\n" + row("the rig is", *summary.motion);
+  if (const auto& part = summary.stationary_part)
+    text += row("stationary", fmt::format("from {:.1f} to {:.1f} s: --window {:.6g}:{:.6g}", part->begin_s,
+                                          part->end_s, part->begin_s, part->end_s));
   text += "\nexpected accuracy\n";
   for (const std::string& line : summary.expectations) text += "  " + printable_line(line) + "\n";
   return text;

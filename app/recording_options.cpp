@@ -26,12 +26,12 @@ std::optional<double> parse_number(const std::string& text) {
   return number;
 }
 
-std::optional<RecordingOptions::Window> parse_window(const std::string& text) {
+std::optional<TimeWindow> parse_window(const std::string& text) {
   const auto colon = text.find(':');
   if (colon == std::string::npos) return std::nullopt;
   const auto from_s = parse_number(text.substr(0, colon)), to_s = parse_number(text.substr(colon + 1));
   if (!from_s || !to_s || *from_s >= *to_s) return std::nullopt;
-  return RecordingOptions::Window{*from_s, *to_s};
+  return TimeWindow{*from_s, *to_s};
 }
 
 }  // namespace
@@ -130,9 +130,7 @@ Result<ReadOptions> RecordingOptions::read_options() const {
 Result<Recording> RecordingOptions::read(const Job& job) const {
   const auto options = read_options();
   if (!options) return tl::unexpected(options.error());
-  auto whole = read_fitting(recording, *options, job);
-  if (!whole || !window) return whole;
-  return cut_to_window(*whole, {window->from_s, window->to_s}, recording.string());
+  return read_fitting(recording, *options, job, window);
 }
 
 Result<RecordingFile> RecordingOptions::open(const Job& job) const {

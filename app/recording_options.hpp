@@ -15,6 +15,7 @@
 #include "core/offset/readings/fitting_recording.hpp"
 #include "core/recording/formats/recording_file.hpp"
 #include "core/recording/rig/named_streams.hpp"
+#include "core/recording/time_window.hpp"
 
 namespace sweepscope::app {
 
@@ -41,12 +42,9 @@ void declare_stamps(CLI::App& app, std::optional<StampSource>& stamps);
 
 /// The options of every subcommand that reads a recording, declared once.
 struct RecordingOptions : RigOptions {
-  struct Window {
-    double from_s = 0, to_s = 0;
-  };
   std::filesystem::path recording;
   std::optional<StampSource> stamps;
-  std::optional<Window> window;       // seconds since the first scan
+  std::optional<TimeWindow> window;   // seconds since the first scan
   std::optional<std::string> assume;  // "stationary" or "moving"; empty: the motion test decides
   bool keep_intensities = true;       // of the beams; false if they are not used
   int threads = 0;                    // 0: as many as there are processors

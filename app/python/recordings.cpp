@@ -38,11 +38,10 @@ Result<Opened> read(const Reading& reading, const std::optional<StampSource>& st
   if (reading.laser) opened.rig.laser.topic = reading.laser;
   if (reading.motor) opened.rig.motor.topic = reading.motor;
   if (reading.joint) opened.rig.motor.joint = reading.joint;
-  auto whole = read_fitting(reading.path, {opened.rig, stamps}, job);
-  if (whole && reading.window) whole = cut_to_window(*whole, *reading.window, reading.path.string());
-  if (!whole) return tl::unexpected(whole.error());
-  opened.recording = std::move(*whole);
-  return opened;
+  return read_fitting(reading.path, {opened.rig, stamps}, job, reading.window).map([&](Recording&& read) {
+    opened.recording = std::move(read);
+    return std::move(opened);
+  });
 }
 
 std::optional<TimeWindow> time_window(const std::optional<std::pair<double, double>>& window_s) {

@@ -28,7 +28,10 @@ struct Estimate : Answer {
   bool identifiable = false;
   std::optional<OffsetOverTime> over_time;  // where it was asked for; offset_s then holds at the middle
   std::optional<SweepSample> sample;        // none: all sweeps are used
-  std::vector<BeamReading> readings;        // see ReadReport
+  /// The part of a recording that moved in which the rig was stationary, if the answer is of it alone. In
+  /// seconds since the first scan.
+  std::optional<RecordingPart> stationary_part;
+  std::vector<BeamReading> readings;  // see ReadReport
   std::size_t sweeps = 0;
   std::size_t scans = 0;
   double cpu_s = 0;

@@ -1,10 +1,13 @@
 #include "core/offset/estimator.hpp"
 
+#include <fmt/format.h>
+
 #include <chrono>
 #include <ctime>
 
 #include "core/offset/find_offset.hpp"
 #include "core/offset/rig_estimate.hpp"
+#include "core/offset/stationary_part.hpp"
 
 namespace sweepscope {
 namespace {
@@ -40,6 +43,34 @@ class Stopwatch {
   std::chrono::steady_clock::time_point wall_begin_ = std::chrono::steady_clock::now();
 };
 
+// Whether a part of the recording may answer where the whole does not.
+bool parts_may_answer(const Estimate& whole, const EstimateOptions& options) {
+  return !whole.identifiable && !whole.interrupted && whole.kind == RigKind::kMoving && !options.assume &&
+         !options.poses && !options.over_time_s && options.method != Method::kMoving;
+}
+
+// The answer of the part in which the rig was stationary, or that of the whole where there is none.
+Result<Estimate> of_stationary_part(const RecordingSource& source, Estimate whole,
+                                    const EstimateOptions& options, const KeptCandidates& kept,
+                                    const Job& job) {
+  const auto recording = source.read({}, job);
+  if (!recording) return tl::unexpected(recording.error());
+  const auto prepared = source.prepare(*recording, options.features, job);
+  if (!prepared) return tl::unexpected(prepared.error());
+  const auto part = motion_course(*prepared, job).stationary;
+  if (!part || job.cancelled()) return whole;
+  const Recording stationary = window(**recording, part->begin_s, part->end_s);
+  auto found = find_offset(stationary, plan_estimate(stationary, options, false), options, kept, job);
+  if (!found || !found->identifiable || found->kind != RigKind::kStationary) return whole;
+  found->stationary_part = part;
+  found->warnings.insert(
+      found->warnings.begin(),
+      fmt::format("The rig moved, and the whole recording does not determine the offset: only the part from "
+                  "{:.1f} to {:.1f} s, in which the rig was stationary, is used.",
+                  part->begin_s, part->end_s));
+  return found;
+}
+
 Estimate interrupted_before(const Recording& recording, const EstimateOptions& options,
                             const KeptCandidates& kept) {
   Estimate none;
@@ -59,6 +90,8 @@ Result<Estimate> estimate(const RecordingSource& source, const EstimateOptions& 
                    : find_offset(source, plan_estimate(source.outline(), options, keeps), options, kept, job);
   if (!found && found.error().code == ExitCode::kInterrupted)
     return stopwatch.stopped(interrupted_before(source.outline(), options, kept));
+  if (found && !keeps && !options.solve.any() && parts_may_answer(*found, options))
+    found = of_stationary_part(source, std::move(*found), options, kept, job);
   if (!found) return found;
   // No answer is given once the job is cancelled, wherever it was interrupted.
   return stopwatch.stopped(job.cancelled() ? interrupted(std::move(*found)) : std::move(*found));

@@ -12,8 +12,11 @@ namespace sweepscope {
 /// Finds the offset between laser and motor, t_motor = t_laser + offset: directly, as an unknown of a least
 /// squares (the default), or by the paper's criteria for a stationary rig (section 3.2) or a moving one
 /// (section 3.3); see method_of. A recording that does not determine the offset gives an Estimate with
-/// identifiable false and the refusals. The recording may be in memory, prepared already, or in a file, of
-/// which only those parts are read that EstimatePlan names.
+/// identifiable false and the refusals. Of a moving rig that is refused, the part in which it was stationary
+/// is estimated alone if there is one (motion_course), by the same judgement, and is the answer if it has one
+/// (Estimate::stationary_part); not with EstimateOptions::assume, poses, an offset over time, a rig to solve
+/// for, the moving method or kept candidates. The recording may be in memory, prepared already, or in a file,
+/// of which only those parts are read that EstimatePlan names.
 ///
 /// Errors: those of reading; ExitCode::kWrongUsage for a range wider than the motor allows or without a
 /// candidate, for poses with a stationary rig or with a method other than the direct one, for keeping

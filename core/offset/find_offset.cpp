@@ -118,6 +118,17 @@ Estimate counted(Estimate result, const OffsetProblem& problem, const SearchWind
   return result;
 }
 
+// That the rig moved, as a sentence before another; about a wrong axis a stationary rig seems to move.
+std::string moved_before(const OffsetSearch& search) {
+  if (!search.motion.moving() || search.options.assume) return "";
+  const bool stated = search.problem.recording->rig.states_mount();
+  return moved_text(search.motion) +
+         (stated
+              ? " "
+              : " If it was stationary, its motor may turn the laser about another axis than x: set mount: "
+                "{axis: ...} in a rig file. ");
+}
+
 // The kind of rig and the method, and why the recording cannot be used with them.
 Estimate judged(Estimate result, const OffsetSearch& search, const KindDecision& kind) {
   result.kind = search.kind;
@@ -127,13 +138,11 @@ Estimate judged(Estimate result, const OffsetSearch& search, const KindDecision&
   add(result.refusals, one_way_refusal(search.problem.motor, search.kind, search.method));
   if (search.method == Method::kStationary && search.kind == RigKind::kMoving)
     result.refusals.push_back(refusal(kRigMoved, {}, moved_text(search.motion)));
-  const bool seen_moving = search.motion.moving() && !search.options.assume;
   const std::size_t min_sweeps =
       std::size_t(search.options.mapping.settling_sweeps) + kLimits.min_walk_sweeps;
   if (search.as_moving() && result.sweeps < min_sweeps)
-    result.refusals.push_back(refusal(kShortWalk, double(result.sweeps),
-                                      seen_moving ? moved_text(search.motion) + " " : "", result.sweeps,
-                                      min_sweeps));
+    result.refusals.push_back(
+        refusal(kShortWalk, double(result.sweeps), moved_before(search), result.sweeps, min_sweeps));
   return result;
 }
 

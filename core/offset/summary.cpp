@@ -11,6 +11,7 @@
 #include "core/offset/judgement/warnings.hpp"
 #include "core/offset/kind/rig_motion.hpp"
 #include "core/offset/prepared/prepared.hpp"
+#include "core/offset/stationary_part.hpp"
 
 namespace sweepscope {
 namespace {
@@ -117,6 +118,7 @@ Result<RecordingSummary> summarise(const Recording& recording, const Job& job) {
   if (!prepared) return tl::unexpected(prepared.error());
   const MotionTest motion = test_motion(*prepared);
   if (motion.answered()) summary.motion = motion.moving() ? "moving" : "stationary";
+  if (motion.moving()) summary.stationary_part = motion_course(*prepared, job).stationary;
   summary.expectations = expectations(recording, summary, prepared->motor);
   return summary;
 }

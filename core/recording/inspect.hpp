@@ -61,7 +61,9 @@ struct RecordingSummary {
   std::vector<RecordedTopic> topics;
   LaserSummary laser;
   MotorSummary motor;
-  std::optional<std::string> motion;      // "stationary" or "moving", where the motion test was run
+  std::optional<std::string> motion;  // "stationary" or "moving", where the motion test was run
+  /// Of a moving rig the longest part in which it was stationary; seconds since the first scan.
+  std::optional<RecordingPart> stationary_part;
   std::vector<std::string> expectations;  // whole sentences; see expectations() in core/offset
   std::vector<std::string> warnings;
 };

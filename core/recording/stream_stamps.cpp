@@ -148,6 +148,74 @@ TimeOrder order_by_time(std::span<const double> times_s) {
   return order;
 }
 
+namespace {
+
+struct Messages {
+  std::size_t first = 0, last = 0;
+};
+
+// Where the messages are about twice as dense as usual, for at least as long as ten of them take otherwise.
+std::vector<Messages> dense_parts(std::span<const double> times_s, double spacing_s) {
+  constexpr std::size_t kWindow = 10;
+  constexpr double kMin = 1.6, kMax = 2.4;  // as dense
+  std::vector<Messages> parts;
+  for (std::size_t i = 0; i + kWindow < times_s.size(); ++i) {
+    if (times_s[i + kWindow] - times_s[i] > kWindow * spacing_s / kMin) continue;
+    if (!parts.empty() && parts.back().last >= i)
+      parts.back().last = i + kWindow;
+    else
+      parts.push_back({i, i + kWindow});
+  }
+  std::erase_if(parts, [&](const Messages& part) {
+    const double usual = (times_s[part.last] - times_s[part.first]) / spacing_s;
+    return usual < kWindow || double(part.last - part.first) > kMax * usual;
+  });
+  return parts;
+}
+
+// By how much the values change a second, up and down alike.
+double changes_per_s(std::span<const double> times_s, std::span<const double> values) {
+  double sum = 0;
+  for (std::size_t i = 1; i < values.size(); ++i) sum += std::abs(values[i] - values[i - 1]);
+  return sum / std::max(times_s.back() - times_s.front(), kSecondsPerNanosecond);
+}
+
+}  // namespace
+
+std::optional<ClockPart> part_of_one_clock(std::span<const double> times_s, std::span<const double> values) {
+  constexpr std::size_t kMinSide = 10;
+  constexpr double kToAndFro = 2;  // times as many changes as elsewhere
+  std::vector<std::size_t> order(times_s.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return times_s[i]; });
+  std::vector<double> sorted_s, in_order;
+  for (const std::size_t i : order) {
+    sorted_s.push_back(times_s[i]);
+    if (!values.empty()) in_order.push_back(values[i]);
+  }
+  const std::vector<Messages> dense = dense_parts(sorted_s, median(spacings(sorted_s)));
+  if (dense.size() != 1) return std::nullopt;
+  const auto [first, last] = dense.front();
+  if (first < kMinSide || sorted_s.size() - last < kMinSide) return std::nullopt;
+  const auto changes = [&](std::size_t from, std::size_t to) {
+    return changes_per_s(std::span(sorted_s).subspan(from, to - from),
+                         std::span(in_order).subspan(from, to - from));
+  };
+  if (!in_order.empty() &&
+      changes(first, last) < kToAndFro * std::max(changes(0, first), changes(last, sorted_s.size())))
+    return std::nullopt;
+  const bool before = first > sorted_s.size() - last;
+  return ClockPart{before ? sorted_s.front() : sorted_s[last], before ? sorted_s[first] : sorted_s.back(),
+                   sorted_s[last] - sorted_s[first]};
+}
+
+std::string set_back_warning(const ClockPart& part, double start_s, const std::string& topic) {
+  return fmt::format(
+      "the stamps on {} overlap for {:.2f} s, so a clock was set back by about as much: only the messages from "
+      "{:.2f} to {:.2f} s are used, and those of the other side may have another offset",
+      topic, part.set_back_s, part.from_s - start_s, part.to_s - start_s);
+}
+
 double unevenness_s(std::span<const double> times_s) {
   std::vector<double> left_s = spacings(times_s);
   const double period_s = median(left_s);

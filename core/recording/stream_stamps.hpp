@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -36,6 +37,18 @@ struct TimeOrder {
   std::size_t duplicates = 0;
 };
 TimeOrder order_by_time(std::span<const double> times_s);
+
+/// What one clock stamped of a stream. If a clock was set back, the stamps before and after overlap: messages
+/// are twice as dense there, and if the values of a motor are given, they go to and fro between two motions.
+struct ClockPart {
+  double from_s = 0, to_s = 0;  // the longer side, without the overlap
+  double set_back_s = 0;        // about
+};
+/// Absent if there is no such overlap within the stream. Times in any order.
+std::optional<ClockPart> part_of_one_clock(std::span<const double> times_s,
+                                           std::span<const double> values = {});
+/// A sentence; `start_s`: when the recording starts.
+std::string set_back_warning(const ClockPart& part, double start_s, const std::string& topic);
 
 /// How uneven periodic times are: the deviation of their spacings from whole periods, nine times in ten; at
 /// most half a period. 0 for fewer than three times.

@@ -358,6 +358,10 @@ Estimate estimate_from_json(const Json& document) {
   estimate.kind_reason = optional_text(document, "kind_reason");
   estimate.over_time = over_time_from_json(document);
   estimate.sample = sample_from_json(document);
+  if (document.contains("window_s")) {
+    const auto [begin_s, end_s] = required<std::array<double, 2>>(document, "window_s");
+    estimate.stationary_part = RecordingPart{begin_s, end_s};
+  }
   estimate.lost = intervals_from_json(document, "lost_s");
   estimate.motion = motion_from_json(document);
   estimate.fit = fit_from_json(document);
@@ -423,6 +427,7 @@ std::string estimate_to_json(const Estimate& estimate, Timing timing) {
   document["sweeps"] = estimate.sweeps;
   document["scans"] = estimate.scans;
   if (estimate.sample) document["sample"] = sample_to_json(*estimate.sample);
+  if (const auto& part = estimate.stationary_part) document["window_s"] = {part->begin_s, part->end_s};
   document["cpu_s"] = timing == Timing::kWritten ? Json(estimate.cpu_s) : Json(nullptr);
   document["wall_s"] = timing == Timing::kWritten ? Json(estimate.wall_s) : Json(nullptr);
   document["version"] = SWEEPSCOPE_VERSION;

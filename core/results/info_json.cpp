@@ -5,6 +5,7 @@
 
 #include "core/io/printable_text.hpp"
 #include "core/recording/rig.hpp"
+#include "core/results/fields.hpp"
 
 namespace sweepscope {
 namespace {
@@ -72,6 +73,10 @@ Json motor_json(const MotorSummary& motor) {
   return json;
 }
 
+Json part_json(const std::optional<RecordingPart>& part) {
+  return part ? Json{part->begin_s, part->end_s} : Json(nullptr);
+}
+
 }  // namespace
 
 std::string info_to_json(const RecordingSummary& summary) {
@@ -82,11 +87,12 @@ std::string info_to_json(const RecordingSummary& summary) {
                       {"messages", topic.messages},
                       {"malformed", topic.malformed}});
   }
-  const Json json = {{"schema", "sweepscope.info/1"},      {"recording", summary.name},
-                     {"warnings", summary.warnings},       {"topics", topics},
-                     {"laser", laser_json(summary.laser)}, {"motor", motor_json(summary.motor)},
-                     {"motion", or_null(summary.motion)},  {"expectations", summary.expectations},
-                     {"version", SWEEPSCOPE_VERSION}};
+  const Json json = {
+      {"schema", "sweepscope.info/1"},        {"recording", summary.name},
+      {"warnings", summary.warnings},         {"topics", topics},
+      {"laser", laser_json(summary.laser)},   {"motor", motor_json(summary.motor)},
+      {"motion", or_null(summary.motion)},    {"stationary_part_s", part_json(summary.stationary_part)},
+      {"expectations", summary.expectations}, {"version", SWEEPSCOPE_VERSION}};
   return json_text(json);
 }
 

@@ -33,7 +33,7 @@ int number_of(const std::optional<T>& choice) {
   return choice ? static_cast<int>(*choice) : -1;
 }
 
-Result<Recording> read(const RecordedFile& file, const Job& job) {
+Result<Recording> read(const RecordedFile& file, const std::optional<TimeWindow>& part, const Job& job) {
   ReadOptions options;
   options.stamps = file.stamps;
   if (file.rig) {
@@ -41,7 +41,7 @@ Result<Recording> read(const RecordedFile& file, const Job& job) {
     if (!rig) return tl::unexpected(rig.error());
     options.rig = std::move(*rig);
   }
-  return read_fitting(file.path, options, job);
+  return read_fitting(file.path, options, job, part);
 }
 
 }  // namespace
@@ -75,6 +75,8 @@ std::optional<double> FigureData::truth_s(const std::string& recording) const {
 Result<const FigureData::Source*> FigureData::source(const std::string& name) {
   if (const auto known = sources_.find(name); known != sources_.end()) return &known->second;
   const RecordingSpec& spec = recipe_.recordings.at(name);
+  std::optional<TimeWindow> part;
+  if (spec.window_s) part = TimeWindow{spec.window_s->first, spec.window_s->second};
   Source source;
   if (const auto* options = std::get_if<SimulationOptions>(&spec.source)) {
     said_("simulate " + name);
@@ -87,16 +89,15 @@ Result<const FigureData::Source*> FigureData::source(const std::string& name) {
     }
   } else {
     said_("read " + name);
-    auto recorded = read(std::get<RecordedFile>(spec.source), job_);
+    auto recorded = read(std::get<RecordedFile>(spec.source), part, job_);
     if (!recorded) return tl::unexpected(recorded.error());
     source.recording = std::move(*recorded);
+    part.reset();
   }
-  if (spec.window_s) {
-    source.recording = window(source.recording, spec.window_s->first, spec.window_s->second);
-    if (source.recording.scans.empty()) {
-      return unreadable(
-          fmt::format("{}: no scan of recording {} lies within its window_s", recipe_.path.string(), name));
-    }
+  if (part) {
+    auto cut = cut_to_window(source.recording, *part, name);
+    if (!cut) return tl::unexpected(cut.error());
+    source.recording = std::move(*cut);
   }
   return &sources_.emplace(name, std::move(source)).first->second;
 }

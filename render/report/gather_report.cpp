@@ -108,6 +108,13 @@ Result<ReportContent> gather_report(const PreparedRecording& prepared, const Rep
   if (!found) return tl::unexpected(found.error());
   if (found->interrupted) return failure(ExitCode::kInterrupted, "interrupted while looking for the offset");
   content.estimate = std::move(*found);
+  if (const auto& part = content.estimate.stationary_part)
+    return prepare(std::make_shared<const Recording>(window(*prepared.recording, part->begin_s, part->end_s)),
+                   prepared.feature_options, job)
+        .and_then([&](const PreparedRecording& stationary) {
+          return add_evidence(content, stationary, wanted, kept, job);
+        })
+        .map([&] { return std::move(content); });
   if (!content.estimate.rig)
     return add_evidence(content, prepared, wanted, kept, job).map([&] { return std::move(content); });
   const Recording corrected = with_rig(*prepared.recording, *content.estimate.rig);

@@ -146,6 +146,12 @@ TEST_F(Choices, APartInTimeIsDraggedOnTheStripOfWhereTheRigStood) {
       "copy-command\nexpect message contains --window 0:2.5\n");
 }
 
+TEST_F(Choices, ThePageSaysHowTheBeamsAreRead) {
+  make({"simulate room-3 -o reversed.bag --duration-s 4 --sweep-s 0.513 --beam-times reversed"});
+  view("choose rec\nwait loaded\nexpect chosen-reading is recorded\n");
+  view("choose reversed.bag\nwait loaded\nexpect chosen-reading is reversed\nexpect chosen-parts is 1\n");
+}
+
 TEST_F(Choices, ARecordingThatNeedsARigFileIsOpenedWithOne) {
   add_laser();
   std::ofstream(folder_ / "rig.yaml") << "laser: {topic: /scan}\nmount: {axis: [0, 1, 0]}\n";

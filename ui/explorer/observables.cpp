@@ -124,6 +124,12 @@ const std::vector<Observable> kObservables{
        return streams.joint ? streams.joints[*streams.joint].joint : std::string();
      }},
     {"chosen-problem", "what is missing there; empty if it can be opened", chosen_problem},
+    {"chosen-reading", "how its beams are timed, as in JSON (readings); empty: not decided",
+     [](const Explorer& e) -> std::string {
+       const auto* choosing = e.page.choosing();
+       const auto* chosen = choosing && choosing->survey ? chosen_of(choosing->survey->readings) : nullptr;
+       return chosen ? entry_of(chosen->kind).name : "";
+     }},
     {"chosen-parts", "in how many parts the rig stood or moved; 0: not known yet",
      [](const Explorer& e) {
        const auto* choosing = e.page.choosing();

@@ -44,8 +44,7 @@ Result<LoadedPtr> finish(std::shared_ptr<Loaded> loaded, const Job& job) {
 Result<LoadedPtr> load_file(const ReadingChoices& choices, const Job& job) {
   const auto options = read_options(choices);
   if (!options) return tl::unexpected(options.error());
-  auto recording = read_fitting(choices.file, *options, job);
-  if (recording && choices.window) recording = cut_to_window(*recording, *choices.window, choices.file);
+  auto recording = read_fitting(choices.file, *options, job, choices.window);
   if (!recording) return tl::unexpected(recording.error());
   auto loaded = std::make_shared<Loaded>();
   loaded->choices = choices;

@@ -11,7 +11,7 @@
 namespace sweepscope::ui {
 namespace {
 
-constexpr double kWidth = 760, kHeight = 560, kTitles = 120;  // at 100 %
+constexpr double kWidth = 760, kHeight = 620, kTitles = 120;  // at 100 %
 
 /// The title of what is chosen; its widget comes next.
 void begin_choice(const PaneContext& context, const Command& command) {
@@ -76,7 +76,7 @@ void laser_choice(const PaneContext& context, const RecordingSurvey& streams) {
   note(context, streams.laser_problem, true);
 }
 
-void motor_choice(const PaneContext& context, const RecordingSurvey& streams) {
+void motor_choice(const PaneContext& context, const RecordingSurvey& streams, const std::string& motor_note) {
   begin_choice(context, *find_command("choose-motor"));
   Entries entries{{}, streams.joint, streams.joints.empty() ? "None in this recording" : "Not chosen yet"};
   for (const JointChoice& joint : streams.joints)
@@ -84,6 +84,7 @@ void motor_choice(const PaneContext& context, const RecordingSurvey& streams) {
         in_words(joint), fmt::format("choose-motor {} {}", ui::quoted(joint.joint), ui::quoted(joint.topic)));
   combo(context, "choose-motor", entries);
   note(context, streams.joint_problem, true);
+  if (streams.joint) note(context, motor_note);
 }
 
 void stamps_choice(const PaneContext& context, const ChoicesPage::Choosing& choosing) {
@@ -267,12 +268,15 @@ void draw_choices_page(const PaneContext& context, const PixelRect& place) {
   const RecordingSurvey streams = choosing.survey ? choosing.survey->streams : RecordingSurvey();
   if (choosing.survey) {
     laser_choice(context, streams);
-    motor_choice(context, streams);
+    motor_choice(context, streams, choosing.survey->motor_note);
   }
   stamps_choice(context, choosing);
   heading(context, "Rig and trajectory");
   file_choice(context, "choose-rig", choosing.choices.rig_file, "No rig file");
-  if (choosing.survey) note(context, choosing.survey->mount_note);
+  if (choosing.survey) {
+    note(context, choosing.survey->mount_note);
+    note(context, choosing.survey->reading_note);
+  }
   file_choice(context, "choose-poses", choosing.choices.poses, "None: it is solved for");
   heading(context, "Time");
   part_choice(context, choosing);

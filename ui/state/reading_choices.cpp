@@ -2,11 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <filesystem>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "core/io/printable_text.hpp"
-#include "core/offset/prepared/prepared.hpp"
+#include "core/numbers.hpp"
+#include "core/offset/readings/fitting_recording.hpp"
+#include "core/offset/stationary_part.hpp"
 #include "core/recording/assemble/assemble.hpp"
 #include "core/recording/formats/read_raw_recording.hpp"
 
@@ -28,21 +33,51 @@ std::string stamps_in_words(const Recording& recording) {
   return words + fmt::format(" Scans were received {:.1f} ms after their header stamps.", late_s * 1e3);
 }
 
-std::string mount_in_words(const ReadingChoices& choices, const Rig& rig, const std::string& transforms) {
-  const Eigen::Vector3d& axis = rig.mount.axis;
-  const std::string of_axis =
-      fmt::format("[{:.3g}, {:.3g}, {:.3g}]", axis.x() + 0.0, axis.y() + 0.0, axis.z() + 0.0);
-  if (!choices.rig_file.empty()) return fmt::format("The motor turns the laser about {}.", of_axis);
-  return "Without a rig file the motor rolls the laser about x." +
-         (transforms.empty() ? "" : " " + transforms);
+std::string motor_in_words(const Recording& recording) {
+  const auto& angles_rad = recording.motor.angle_rad;
+  if (angles_rad.empty()) return "";
+  const auto [min, max] = std::ranges::minmax(angles_rad);
+  return fmt::format("Angles in {}: from {:.1f}° to {:.1f}°.", name_of(recording.rig.motor.unit),
+                     min * kDegPerRad, max * kDegPerRad);
 }
 
-void note_recording(const Recording& recording, ReadingSurvey& found, const Job& job) {
+/// `by`: what says so.
+std::string mount_in_words(const Eigen::Vector3d& axis, const std::string& by) {
+  return fmt::format("The motor turns the laser about [{:.3g}, {:.3g}, {:.3g}]{}.", axis.x() + 0.0,
+                     axis.y() + 0.0, axis.z() + 0.0, by);
+}
+
+/// The recording as its surfaces show that it is to be read, with what they show in words.
+Recording read_by_surfaces(Recording recording, const ReadOptions& options, ReadingSurvey& found,
+                           const Job& job) {
+  const RankedReadings ranked = rank_unstated(recording, options, job);
+  found.readings = ranked.beams;
+  found.reading_note = reading_in_words(ranked.beams);
+  if (found.reading_note.empty())
+    found.reading_note = options.rig && options.rig->laser.time_increment_s
+                             ? "The beams are timed as the rig file says."
+                             : "The beams are timed as recorded: the surfaces do not show another order.";
+  found.reading_note[0] = char(std::toupper(static_cast<unsigned char>(found.reading_note[0])));
+  if (!(options.rig && options.rig->states_mount()) && recording.rig.states_mount())
+    found.mount_note = mount_in_words(recording.rig.mount.axis, ", by the recording's transforms");
+  if (ranked.axis_is_found) {
+    recording.rig.mount.axis = ranked.axis;
+    found.mount_note = mount_in_words(ranked.axis, ", as the surfaces show");
+  }
+  const BeamReading* chosen = chosen_of(ranked.beams);
+  if (chosen == nullptr || chosen->kind == BeamReadingKind::kRecorded) return recording;
+  return read_as(recording, chosen->time_increment_s);
+}
+
+void note_recording(Recording recording, const ReadOptions& options, ReadingSurvey& found, const Job& job) {
   found.stamps_note = stamps_in_words(recording);
+  found.motor_note = motor_in_words(recording);
   if (recording.scans.empty()) return;
   found.duration_s = recording.scans.back().first_beam_s - recording.scans.front().first_beam_s;
-  const auto prepared = prepare(recording, FeatureOptions(), job);
-  if (prepared) found.motion = motion_over_time(*prepared);
+  const auto prepared =
+      prepare(std::make_shared<const Recording>(read_by_surfaces(std::move(recording), options, found, job)),
+              FeatureOptions(), job);
+  if (prepared) found.motion = motion_course(*prepared, job).parts;
 }
 
 /// A key's text; empty without one.
@@ -150,11 +185,14 @@ Result<ReadingSurvey> survey_file(const ReadingChoices& choices, const Job& job)
   ReadingSurvey found;
   if (!options) found.problem = options.error().message;
   found.streams = survey(*raw, rig);
-  found.mount_note = mount_in_words(choices, rig, found.streams.mount_note);
+  found.mount_note = choices.rig_file.empty() ? "Without a rig file the motor rolls the laser about x."
+                                              : mount_in_words(rig.mount.axis, "");
+  if (choices.rig_file.empty() && !found.streams.mount_note.empty())
+    found.mount_note += " " + found.streams.mount_note;
   if (!found.streams.complete() || job.cancelled()) return found;
-  const auto recording = assemble(std::move(*raw), rig, choices.stamps);
+  auto recording = assemble(std::move(*raw), rig, choices.stamps);
   if (recording)
-    note_recording(*recording, found, job);
+    note_recording(std::move(*recording), options.value_or(ReadOptions()), found, job);
   else if (found.problem.empty())
     found.problem = recording.error().message;
   return found;

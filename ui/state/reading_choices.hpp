@@ -7,6 +7,7 @@
 
 #include "core/job.hpp"
 #include "core/offset/kind/rig_motion.hpp"
+#include "core/offset/readings/beam_readings.hpp"
 #include "core/recording/formats/read_recording.hpp"
 #include "core/recording/rig/named_streams.hpp"
 #include "core/recording/survey/survey.hpp"
@@ -46,11 +47,14 @@ Result<ReadingChoices> reading_from_json(const nlohmann::ordered_json& json, con
 /// stood and moved.
 struct ReadingSurvey {
   RecordingSurvey streams;
-  std::string problem;             // why it cannot be read like this; empty: it can, or a stream is missing
-  std::string stamps_note;         // which stamps are used, and how far apart the two kinds are
-  std::string mount_note;          // where the mount is known from
-  double duration_s = 0;           // 0: not known
-  std::vector<MotionPart> motion;  // empty: not known
+  std::string problem;       // why it cannot be read like this; empty: it can, or a stream is missing
+  std::string stamps_note;   // which stamps are used, and how far apart the two kinds are
+  std::string motor_note;    // the unit of the motor's angles, and their range
+  std::string mount_note;    // where the mount is known from
+  std::string reading_note;  // how the beams are timed, with the residuals of all that was tried
+  std::vector<BeamReading> readings;  // see ReadReport
+  double duration_s = 0;              // 0: not known
+  std::vector<MotionPart> motion;     // empty: not known
 };
 
 /// Reads the whole file. An error only where nothing in it can be read.

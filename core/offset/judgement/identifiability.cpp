@@ -78,7 +78,12 @@ MaybeRefusal samples_refusal(const MotorTrack& track, const MotorMotion& motor, 
 MaybeRefusal beam_times_refusal(const Recording& recording, const SearchScale& scale) {
   const double units = beam_times_sigma_s(recording) / scale.unit_s;
   if (units < kLimits.max_beam_time_sigma_units) return std::nullopt;
-  return refusal(kBeamTimesUnknown, units, recording.report.beam_time_doubt_s * 1e3);
+  std::string fitting;
+  for (const BeamReading& reading : recording.report.readings)
+    if (reading.offset_s)
+      fitting += fmt::format("{} {:.4g}", fitting.empty() ? "; the surfaces fit with" : ",",
+                             reading.time_increment_s);
+  return refusal(kBeamTimesUnknown, units, recording.report.beam_time_doubt_s * 1e3, fitting);
 }
 
 MaybeRefusal gaps_refusal(const Recording& recording, const std::vector<char>& covered, double min_s,

@@ -51,7 +51,7 @@ constexpr std::array kEntries{
                  "longer or shorter."},
     RefusalEntry{kBeamTimesUnknown, "beam_times_unknown", kLimits.max_beam_time_sigma_units, "units",
                  "When the beams were fired is not known: the time of the last beam of a scan may be "
-                 "off by {:.1f} ms. Set laser.time_increment_s in a rig file."},
+                 "off by {:.1f} ms. Set laser.time_increment_s in a rig file{}."},
     RefusalEntry{kFewSharedSurfaces, "few_shared_surfaces", kNoLimit, "",
                  "Too few surfaces were measured in both directions{}."},
     RefusalEntry{kScanLinesDoNotRepeat, "scan_lines_do_not_repeat", kLimits.max_line_spread_deg, "deg",

@@ -1,6 +1,7 @@
 #include "core/offset/kind/stationary_motion.hpp"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <numbers>
 #include <optional>
@@ -202,6 +203,37 @@ class Shifts {
   std::vector<LinePool> pools_;
 };
 
+// The lines of the two sweeps of a pool that are nearest to a sweep.
+LinePool nearest_lines(const StationaryPoints& points, const LinePool& pool, std::size_t sweep) {
+  std::vector<std::size_t> sweeps;
+  for (const std::uint32_t line : pool) sweeps.push_back(points.sweep[line]);
+  std::ranges::sort(sweeps);
+  sweeps.erase(std::unique(sweeps.begin(), sweeps.end()), sweeps.end());
+  std::ranges::stable_sort(sweeps, {},
+                           [&](std::size_t other) { return other > sweep ? other - sweep : sweep - other; });
+  sweeps.resize(std::min<std::size_t>(sweeps.size(), 2));
+  LinePool lines;
+  std::ranges::copy_if(pool, std::back_inserter(lines), [&](std::uint32_t line) {
+    return std::ranges::find(sweeps, points.sweep[line]) != sweeps.end();
+  });
+  return lines;
+}
+
+// A sweep's lines in groups of equal times.
+std::vector<LinePool> groups_in_time(const LinePool& sweep, const std::vector<double>& time_s) {
+  constexpr std::size_t kGroups = 8;  // 120 matches each, of a scanner with a few hundred beams
+  std::vector<LinePool> groups(kGroups);
+  const auto [first, last] =
+      std::ranges::minmax_element(sweep, {}, [&](std::uint32_t line) { return time_s[line]; });
+  const double begin_s = time_s[*first], step_s = (time_s[*last] - begin_s) / double(kGroups);
+  for (const std::uint32_t line : sweep) {
+    const double place = step_s > 0 ? (time_s[line] - begin_s) / step_s : 0;
+    groups[std::min(kGroups - 1, std::size_t(place))].push_back(line);
+  }
+  std::erase_if(groups, [](const LinePool& group) { return group.empty(); });
+  return groups;
+}
+
 }  // namespace
 
 MotionTest test_motion(const StationaryGrid& grid, double offset_s) {
@@ -272,6 +304,39 @@ std::vector<MotionPart> motion_over_time(const StationaryGrid& grid, double offs
     }
   }
   if (!parts.empty()) parts.back().end_s = scans.back().first_beam_s - scans.front().first_beam_s;
+  return parts;
+}
+
+std::vector<MotionPart> motion_of_lines(const StationaryGrid& grid, double offset_s,
+                                        const RecordingPart& reference) {
+  std::vector<MotionPart> parts;
+  const MotorMotion& motor = grid.problem->motor;
+  if (motor.one_way() || grid.lines() == 0) return parts;
+  const StationaryPoints points = place_stationary(grid, offset_s, StationaryDetail::kPoints);
+  const auto& scans = grid.problem->recording->scans;
+  std::vector<double> time_s;  // since the first scan
+  for (const std::uint32_t scan : grid.scan)
+    time_s.push_back(scans[scan].first_beam_s - scans[0].first_beam_s);
+  std::array<LinePool, 2> pools = points.pool;
+  for (LinePool& pool : pools)
+    std::erase_if(pool, [&](std::uint32_t line) {
+      const Sweep& sweep = motor.sweeps[points.sweep[line]];
+      const double middle_s = (sweep.begin_s + sweep.end_s) / 2 - offset_s - scans[0].first_beam_s;
+      return middle_s < reference.begin_s || middle_s > reference.end_s;
+    });
+  for (const LinePool& sweep : pools_by_sweep(points)) {
+    if (sweep.empty()) continue;
+    const std::uint32_t any = sweep.front();
+    const LinePool against =
+        nearest_lines(points, pools[points.direction[any] > 0 ? 0 : 1], points.sweep[any]);
+    for (const LinePool& group : groups_in_time(sweep, time_s)) {
+      const auto shift = shift_between(points, against, group, grid);
+      if (!shift) continue;
+      const auto [first, last] =
+          std::ranges::minmax_element(group, {}, [&](std::uint32_t line) { return time_s[line]; });
+      parts.push_back({time_s[*first], time_s[*last], moved(*shift)});
+    }
+  }
   return parts;
 }
 

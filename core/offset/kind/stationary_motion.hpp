@@ -26,4 +26,11 @@ void add_neighbours(const StationaryGrid& grid, double offset_s, MotionTest& tes
 /// The same evidence, pair by pair.
 std::vector<MotionPart> motion_over_time(const StationaryGrid& grid, double offset_s);
 
+/// The same evidence for groups of scan lines, an eighth of a sweep each, in the order of time: each is
+/// compared with the two nearest sweeps of the other direction whose middles lie within `reference` (seconds
+/// since the first scan). Groups with too few matches are left out, and all of a motor that turns one way.
+/// `offset_s` as for `add_neighbours`.
+std::vector<MotionPart> motion_of_lines(const StationaryGrid& grid, double offset_s,
+                                        const RecordingPart& reference);
+
 }  // namespace sweepscope

@@ -1,5 +1,7 @@
 #include "core/offset/readings/beam_readings.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,8 +10,7 @@
 
 #include "core/numbers.hpp"
 #include "core/offset/prepared/prepared.hpp"
-#include "core/offset/search/coarse_search.hpp"
-#include "core/offset/stationary/direct_stationary.hpp"
+#include "core/offset/search/stationary_fit.hpp"
 #include "core/rig_solve/plane_cells.hpp"
 
 namespace sweepscope {
@@ -37,25 +38,9 @@ double scan_time_s(const BeamReading& reading, double beams) {
 }
 
 // A fit of the first sweeps by one reading.
-struct ReadingFit {
-  StationaryDirect direct;
-  bool fits = false;
-};
-
-ReadingFit fit_by(const Recording& recording, const Job& job) {
-  ReadingFit fit;
-  const auto prepared = prepare(recording, FeatureOptions{}, job);
-  if (!prepared || prepared->motor.sweeps.size() < 2) return fit;
-  const SearchScale scale = search_scale(prepared->motor);
-  const auto [from_s, to_s, coarse] = search_by_default(*prepared, scale, job);
-  if (!coarse.best || job.cancelled()) return fit;
-  const OffsetProblem problem = problem_for(*prepared, from_s, to_s);
-  StationaryDirectOptions options;
-  options.resampling = Resampling::kNone;
-  fit.direct = solve_stationary(stationary_grid(problem), coarse.offset_s(), options, job);
-  fit.fits = fit.direct.matches >= options.min_matches && fit.direct.residual_m < kMaxResidual_m &&
-             std::abs(fit.direct.offset_s - coarse.offset_s())<5 * scale.unit_s&& * coarse.best> 0 &&
-             *coarse.best + 1 < coarse.curve.size();
+StationaryFit fit_by(const Recording& recording, const Job& job) {
+  StationaryFit fit = fit_stationary(recording, job);
+  fit.fits = fit.fits && fit.direct.residual_m < kMaxResidual_m;
   return fit;
 }
 
@@ -129,6 +114,21 @@ const BeamReading* chosen_of(const std::vector<BeamReading>& readings) {
   return found == readings.end() ? nullptr : &*found;
 }
 
+std::string reading_in_words(const std::vector<BeamReading>& readings) {
+  const BeamReading* chosen = chosen_of(readings);
+  if (chosen == nullptr || !chosen->residual_m) return "";
+  std::string others;
+  for (const BeamReading& reading : readings) {
+    if (reading.chosen || !reading.residual_m) continue;
+    std::string name = entry_of(reading.kind).name;
+    std::ranges::replace(name, '_', ' ');
+    others +=
+        fmt::format("{} {} {:.1f} mm", others.empty() ? "; others:" : ",", name, *reading.residual_m * 1e3);
+  }
+  return fmt::format("{}: surfaces fit to {:.1f} mm{}", entry_of(chosen->kind).description,
+                     *chosen->residual_m * 1e3, others);
+}
+
 std::vector<BeamReading> possible_readings(const Recording& recording) {
   constexpr double kAlike = 0.1;  // of the longer of two
   const LaserScan& scan = recording.scans.front();
@@ -184,12 +184,12 @@ std::vector<BeamReading> rank_beams(const Recording& first, const Job& job) {
   std::vector<BeamReading> readings = possible_readings(first);
   if (first.rig.laser.time_increment_s) readings.resize(1);  // stated, and not overruled
   const double beams = median_beams(first);
-  std::vector<ReadingFit> fits;
+  std::vector<StationaryFit> fits;
   for (BeamReading& reading : readings) {
     const bool recorded = &reading == &readings.front();
     fits.push_back(fit_by(recorded ? first : read_as(first, reading.time_increment_s), job));
     if (job.cancelled()) return {};
-    const ReadingFit& fit = fits.back();
+    const StationaryFit& fit = fits.back();
     if (fit.direct.matches > 0) reading.residual_m = fit.direct.residual_m;
     if (fit.fits) reading.offset_s = fit.direct.offset_s;
     const bool explains = fit.fits && is_nearest(fit.direct, readings, fits.size() - 1, beams);

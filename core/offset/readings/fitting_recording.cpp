@@ -6,8 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/offset/readings/beam_readings.hpp"
-
 namespace sweepscope {
 namespace {
 
@@ -100,14 +98,22 @@ Rig with_found(Rig rig, const FoundReading& found) {
   return rig;
 }
 
-Result<Recording> read_fitting(const std::filesystem::path& path, const ReadOptions& options,
-                               const Job& job) {
-  auto recording = read_recording(path, options, job);
+RankedReadings rank_unstated(const Recording& recording, const ReadOptions& options, const Job& job) {
+  return is_stated(options) ? RankedReadings() : rank_readings(recording, job);
+}
+
+Result<Recording> read_fitting(const std::filesystem::path& path, const ReadOptions& options, const Job& job,
+                               const std::optional<TimeWindow>& part) {
+  const auto read = [&](const ReadOptions& by) {
+    return read_recording(path, by, job).and_then([&](Recording&& whole) -> Result<Recording> {
+      return part ? cut_to_window(whole, *part, path.string()) : std::move(whole);
+    });
+  };
+  auto recording = read(options);
   if (!recording || is_stated(options)) return recording;
   const RankedReadings ranked = rank_readings(*recording, job);
   const std::string topic = recording->rig.laser.topic.value_or("");
-  if (const auto other = other_options(options, topic, found_by(ranked)))
-    recording = read_recording(path, *other, job);
+  if (const auto other = other_options(options, topic, found_by(ranked))) recording = read(*other);
   if (recording) add_readings(ranked, topic, recording->report);
   return recording;
 }

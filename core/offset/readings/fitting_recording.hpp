@@ -1,14 +1,20 @@
 #pragma once
 
+#include <optional>
+
+#include "core/offset/readings/beam_readings.hpp"
 #include "core/recording/formats/recording_file.hpp"
+#include "core/recording/time_window.hpp"
 
 namespace sweepscope {
 
 /// read_recording and RecordingFile::open, where the rig file does not state the times of beams: read as the
 /// geometry shows (rank_readings), with the readings that were tried in ReadReport::readings. Where another
 /// reading than the recorded one is used, the recording's rig has its time_increment_s, and a warning names
-/// it. Where two readings fit alike, their difference is ReadReport::beam_time_doubt_s.
-Result<Recording> read_fitting(const std::filesystem::path& path, const ReadOptions& options, const Job& job);
+/// it. Where two readings fit alike, their difference is ReadReport::beam_time_doubt_s. Of a recording that
+/// is cut to a part, the sweeps of that part are ranked; the others by those of its beginning.
+Result<Recording> read_fitting(const std::filesystem::path& path, const ReadOptions& options, const Job& job,
+                               const std::optional<TimeWindow>& part = {});
 Result<RecordingFile> open_fitting(const std::filesystem::path& path, const ReadOptions& options,
                                    const Job& job);
 
@@ -22,5 +28,9 @@ Result<FoundReading> find_reading(const std::filesystem::path& path, const ReadO
 
 /// The rig with what was found.
 Rig with_found(Rig rig, const FoundReading& found);
+
+/// The readings of a recording that was read with these options, ranked as above; none where the rig states
+/// all of them.
+RankedReadings rank_unstated(const Recording& recording, const ReadOptions& options, const Job& job);
 
 }  // namespace sweepscope

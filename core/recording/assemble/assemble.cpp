@@ -160,7 +160,11 @@ bool ScanAssembler::assemble() {
     const TimeOrder order = order_by_time(times_s);
     report_.scans_out_of_order = order.out_of_order;
     report_.scans_duplicate = order.duplicates;
-    for (const std::size_t i : order.kept) recording_.scans.push_back(placed[i]);
+    const auto clock = part_of_one_clock(times_s);
+    if (clock) report_.warnings.push_back(set_back_warning(*clock, times_s[order.kept[0]], raw_.topic));
+    for (const std::size_t i : order.kept)
+      if (!clock || (times_s[i] >= clock->from_s && times_s[i] <= clock->to_s))
+        recording_.scans.push_back(placed[i]);
   }
   if (!without_ranges()) take_ranges();
   // Without increments the beams of each part may be of one instant.

@@ -223,7 +223,10 @@ bool assemble_motor(const RawJoint& raw, Recording& recording) {
   report.motor_out_of_order = order.out_of_order;
   report.motor_duplicate = order.duplicates;
   MotorTrack& motor = recording.motor;
+  const auto clock = part_of_one_clock(times_s, angles_rad);
+  if (clock) report.warnings.push_back(set_back_warning(*clock, times_s[order.kept[0]], raw.topic));
   for (const std::size_t i : order.kept) {
+    if (clock && (times_s[i] < clock->from_s || times_s[i] > clock->to_s)) continue;
     motor.time_s.push_back(times_s[i]);
     motor.angle_rad.push_back(angles_rad[i]);
   }

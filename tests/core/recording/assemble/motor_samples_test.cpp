@@ -58,6 +58,47 @@ double read_every_50_ms(double time_s) {
   return triangle_rad(std::floor(time_s / 0.05 + 1e-9) * 0.05);
 }
 
+// Sampled at 100 Hz; the clock is set back by so much after so long.
+RawJoint of_a_clock_set_back(double by_s, double after_s) {
+  RawJoint joint = sampled(triangle_rad);
+  for (std::size_t i = 0; i < joint.stamps.size(); ++i)
+    if (0.01 * double(i) >= after_s) joint.stamps[i].header_ns -= std::llround(by_s * 1e9);
+  return joint;
+}
+
+TEST(MotorSamples, OfAClockThatWasSetBackTheLongerSideIsUsed) {
+  for (const double by_s : {1.0, 1.003}) {  // equal stamps, or others
+    const Recording before = assembled(of_a_clock_set_back(by_s, 8)),
+                    after = assembled(of_a_clock_set_back(by_s, 3));
+    EXPECT_EQ(before.motor.time_s.front(), 0);
+    EXPECT_NEAR(before.motor.time_s.back(), 8 - by_s, 0.1) << by_s;
+    EXPECT_NEAR(after.motor.time_s.front(), 3, 0.1) << by_s;
+    EXPECT_NEAR(after.motor.time_s.back(), 12 - by_s, 0.1) << by_s;
+    for (const Recording& recording : {before, after})
+      EXPECT_TRUE(warns_of(recording, "a clock was set back"));
+  }
+}
+
+TEST(MotorSamples, AMotorThatIsReadTwiceAsOftenForAWhileHasNoClockThatWasSet) {
+  RawJoint joint;
+  joint.topic = "/joints";
+  for (double time_s = 0; time_s<12; time_s += time_s> 4 && time_s < 6 ? 0.005 : 0.01)
+    add(joint, time_s, encoded(triangle_rad(time_s)));
+  const Recording recording = assembled(joint);
+  EXPECT_EQ(recording.motor.time_s.size(), joint.stamps.size());
+  EXPECT_FALSE(warns_of(recording, "a clock was set back"));
+}
+
+TEST(MotorSamples, MessagesThatAreLateAreNoClockThatWasSet) {
+  RawJoint joint = sampled(triangle_rad);
+  for (std::size_t i = 100; i < joint.stamps.size(); i += 100)  // one message comes after 30 others
+    std::rotate(joint.stamps.begin() + std::ptrdiff_t(i), joint.stamps.begin() + std::ptrdiff_t(i) + 1,
+                joint.stamps.begin() + std::ptrdiff_t(i) + 30);
+  const Recording recording = assembled(joint);
+  EXPECT_EQ(recording.motor.time_s.size(), 1200U);
+  EXPECT_FALSE(warns_of(recording, "a clock was set back"));
+}
+
 TEST(MotorSamples, OldAnglesSentAgainAreLeftOut) {
   const Recording recording = assembled(sampled(read_every_50_ms));
   EXPECT_EQ(recording.report.motor_repeated, 960U);
