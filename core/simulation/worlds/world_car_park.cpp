@@ -50,7 +50,7 @@ void add_level(Mesh& mesh, Draw& draw, const Decks& decks, double z_m) {
     mesh.add_box({x - 0.15, 0, z_m + clear_m - 0.22}, {x + 0.15, decks.depth_m(), z_m + clear_m}, 0.7);
   for (int pipe = draw.count(1, 3); pipe > 0; --pipe) {
     const double y = draw.in(1, decks.depth_m() - 1), radius_m = draw.in(0.04, 0.1);
-    const Vector3d from(0, y, z_m + clear_m - 0.3), to(decks.length_m, y, z_m + clear_m - 0.3);
+    const Vector3d from(0, y, z_m + clear_m - 0.12), to(decks.length_m, y, z_m + clear_m - 0.12);
     mesh.add(rod(from, to, radius_m, 0.7, 8));
   }
 }
@@ -109,7 +109,7 @@ void add_neighbours(Mesh& mesh, Draw& draw, const Decks& decks) {
 World car_park(Draw& draw) {
   World world;
   const Decks decks{.length_m = draw.in(36, 60),
-                    .height_m = draw.in(2.75, 3.2),
+                    .height_m = draw.in(2.95, 3.3),
                     .lanes = draw.count(1, 2),
                     .pillars_m = draw.in(4.9, 8.2),
                     .roofed = draw.chance(0.5)};

@@ -27,12 +27,12 @@ class Worlds : public testing::TestWithParam<std::string_view> {
                            double duration_s = kDuration_s) {
     const auto path = make_walk(world, style, seed, duration_s);
     EXPECT_TRUE(path.has_value()) << GetParam() << ':' << seed << ' ' << style.name;
-    return path.value_or(RecordedPath{});
+    return path.value();  // throws
   }
 };
 
 TEST_P(Worlds, KeepEveryWalkClearOfTheirSurfacesAndOnTheirFloor) {
-  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     const World place = world(seed);
     const RayCaster caster(place.mesh);
     for (const WalkStyle& style : walk_styles()) {
@@ -51,7 +51,7 @@ TEST_P(Worlds, KeepEveryWalkClearOfTheirSurfacesAndOnTheirFloor) {
 
 TEST_P(Worlds, AreWalkedWithinTheBoundsOfTheStyle) {
   const std::vector<std::pair<double, double>> bounds{{1.1, 40}, {1.75, 60}, {2.2, 100}};  // m/s, deg/s
-  for (std::uint64_t seed = 5; seed <= 8; ++seed) {
+  for (std::uint64_t seed = 4; seed <= 6; ++seed) {
     const World place = world(seed);
     for (std::size_t i = 0; i < bounds.size(); ++i) {
       const RecordedPath path = walk(place, walk_styles()[i], seed);
