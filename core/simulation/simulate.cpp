@@ -18,6 +18,8 @@
 #include "core/simulation/scenes/people.hpp"
 #include "core/simulation/scenes/scene.hpp"
 #include "core/simulation/sensor.hpp"
+#include "core/simulation/worlds/walk.hpp"
+#include "core/simulation/worlds/world.hpp"
 
 namespace sweepscope {
 namespace {
@@ -120,9 +122,34 @@ Result<double> duration_of(const SimulationOptions& options, const Scene& scene)
   return duration_s;
 }
 
+/// A world drawn at random, with a walk of the duration asked for.
+Result<Scene> random_scene_of(SimulationOptions& options) {
+  constexpr double kWalk_s = 60, kShortest_s = 5, kLongest_s = 600;
+  const RandomWorld& random = options.random;
+  const double duration_s = options.duration_s.value_or(kWalk_s);
+  if (!(duration_s >= kShortest_s && duration_s <= kLongest_s))
+    return wrong(fmt::format("the duration is {:g} s, but walks through random worlds last {:g} to {:g} s",
+                             duration_s, kShortest_s, kLongest_s));
+  const auto style = walk_style(random.walk);
+  if (!style)
+    return wrong(
+        fmt::format("there is no walk '{}'; the walks are {}", random.walk, fmt::join(walk_names(), ", ")));
+  auto world = make_world(random.world, random.world_seed);
+  if (!world)
+    return wrong(fmt::format("there is no world '{}'; the worlds are {}", random.world,
+                             fmt::join(world_names(), ", ")));
+  options.scene = fmt::format("{}:{} {}:{}", random.world, random.world_seed, random.walk, random.walk_seed);
+  auto path = make_walk(*world, *style, random.walk_seed, duration_s);
+  if (!path)
+    return wrong(
+        fmt::format("{}: no free way of {:g} s was found; use another seed", options.scene, duration_s));
+  return Scene{std::move(world->mesh), std::move(*path)};
+}
+
 /// The scene asked for; fills in what the simulation says about an own one.
 Result<Scene> scene_of(Simulation& simulation) {
   SimulationOptions& options = simulation.options;
+  if (!options.random.world.empty()) return random_scene_of(options);
   if (options.own.mesh.empty()) {
     auto scene = make_scene(options.scene);
     if (!scene)
@@ -140,11 +167,15 @@ Result<Scene> scene_of(Simulation& simulation) {
   return std::move(own->scene);
 }
 
+bool has_named_scene(const SimulationOptions& options) {
+  return options.own.mesh.empty() && options.random.world.empty();
+}
+
 /// Brings the people in, and keeps an own walk out of the walls.
 Result<void> furnish(Sensor& sensor, const SimulationOptions& options) {
   const auto laser_at = [&](double t_s) { return sensor.laser_position_at(t_s); };
   const double duration_s = *options.duration_s;
-  if (!options.own.mesh.empty())
+  if (!has_named_scene(options))
     if (auto free = check_free_space(sensor.surroundings(), laser_at, duration_s); !free)
       return wrong(fmt::format("{}: {}", options.scene, free.error().message));
   auto people = place_people(options.people, options.seed, sensor.surroundings(), laser_at, duration_s);
@@ -194,7 +225,7 @@ Recording blank_recording(const SimulationOptions& options, const Sensor& sensor
 
 void fill_truth(Simulation& simulation, const Sensor& sensor) {
   const double end_s = *simulation.options.duration_s;
-  const double step_s = simulation.options.own.mesh.empty() ? kTruthStep_s : kOwnTruthStep_s;
+  const double step_s = has_named_scene(simulation.options) ? kTruthStep_s : kOwnTruthStep_s;
   const auto steps = static_cast<int>(std::floor(end_s / step_s + 1e-9));
   for (int i = 0; i <= steps; ++i) {
     const simulation::Pose pose = sensor.pose_at(i * step_s);

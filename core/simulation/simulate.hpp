@@ -27,13 +27,20 @@ struct OwnScene {
   double from_s = 0;  // the trajectory's first seconds are left out
 };
 
+/// A world and a walk drawn at random; see simulation::world_names() and simulation::walk_names().
+struct RandomWorld {
+  std::string world, walk = "brisk";  // no world: none
+  std::uint64_t world_seed = 1, walk_seed = 1;
+};
+
 /// What to record. t_motor = t_laser + offset: at one true instant the laser's clock shows T and the motor's
 /// T + offset_s. Equal options give equal bytes, on every x86-64 machine and for any number of threads.
 struct SimulationOptions {
   std::string scene = "room-1";      // see simulation::scene_names()
   double offset_s = 0.024;           // within +-10 s
   std::uint64_t seed = 1;            // of noise, dropouts, jitter, swaying and the motor's phase
-  std::optional<double> duration_s;  // the first seconds of the walk; none: all of it, and 4.5 s in a room
+  std::optional<double> duration_s;  // the first seconds of the walk; none: all of it, 4.5 s in a
+                                     // room, 60 s in a random world, whose walks last as long as asked
 
   simulation::Scanner scanner = {};
   std::optional<double> noise_m = {};  // standard deviation of a range, 0 to 1; none: the scanner's
@@ -84,7 +91,8 @@ struct SimulationOptions {
   int people = 0;                     // people who walk through the scene, 0 to 50
   double glass = 0;  // fraction of the upright surfaces, in cells of 1 m, that are glass, 0 to 1
 
-  OwnScene own = {};  // instead of `scene`
+  OwnScene own = {};        // instead of `scene`
+  RandomWorld random = {};  // instead of both
 
   bool imu = false;        // the bag also holds an IMU's gyroscope, in the base frame
   double imu_shift_s = 0;  // added to its stamps it gives the laser's clock, within +-10

@@ -4,11 +4,14 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <string_view>
 #include <utility>
 
 #include "core/io/text_cursor.hpp"
+#include "core/simulation/worlds/walk.hpp"
+#include "core/simulation/worlds/world.hpp"
 
 namespace sweepscope {
 namespace {
@@ -64,6 +67,17 @@ std::vector<SimulationOption> recording_options(TypedSimulation& typed) {
       {"encoder-jitter-ms", &typed.encoder_jitter_ms, "Standard deviation of the sampling instants"},
       {"imu", &options.imu, "Also record a gyroscope on the base, as sensor_msgs/Imu on /imu"},
       {"imu-shift-ms", &typed.imu_shift_ms, "t_laser = t_imu + time shift", "", "imu"}};
+}
+
+std::vector<SimulationOption> world_options(TypedSimulation& typed) {
+  const auto names = [](const char* what, const std::vector<std::string_view>& list) {
+    return fmt::format("{}: {} (default SEED: --seed)", what, fmt::join(list, ", "));
+  };
+  return {
+      {"world", &typed.world, names("A place drawn at random instead of SCENE", simulation::world_names()),
+       "NAME[:SEED]", "", false},
+      {"walk", &typed.walk, names("How the rig is carried through it", simulation::walk_names()),
+       "NAME[:SEED]", "world", false}};
 }
 
 std::vector<SimulationOption> own_scene_options(TypedSimulation& typed) {
@@ -152,12 +166,37 @@ Result<void> take_names(const TypedSimulation& typed, SimulationOptions& options
   return {};
 }
 
+/// "yard:7" into its name and seed.
+Result<void> take_seeded(const char* option, std::string_view text, std::string& name, std::uint64_t& seed) {
+  const std::size_t colon = text.find(':');
+  name = text.substr(0, colon);
+  if (colon == std::string_view::npos) return {};
+  const std::string_view digits = text.substr(colon + 1);
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), seed);
+  if (error == std::errc() && end == digits.data() + digits.size()) return {};
+  return failure(ExitCode::kWrongUsage,
+                 fmt::format("{} needs NAME or NAME:SEED with a whole number, not '{}'", option, text));
+}
+
+/// The world and the walk, if one is asked for.
+Result<void> take_world(const TypedSimulation& typed, SimulationOptions& options) {
+  if (typed.world.empty()) return {};
+  if (!typed.scene.empty() || !options.own.mesh.empty())
+    return failure(ExitCode::kWrongUsage, "--world takes the place of SCENE and of --mesh: name one of them");
+  RandomWorld& random = options.random;
+  random.world_seed = random.walk_seed = options.seed;
+  return take_seeded("--world", typed.world, random.world, random.world_seed).and_then([&] {
+    return typed.walk.empty() ? Result<void>{}
+                              : take_seeded("--walk", typed.walk, random.walk, random.walk_seed);
+  });
+}
+
 }  // namespace
 
 Result<SimulationOptions> simulation_of(const TypedSimulation& typed) {
   SimulationOptions options = typed.options;
-  if (typed.scene.empty() && options.own.mesh.empty())
-    return failure(ExitCode::kWrongUsage, "name a SCENE, or a mesh of yours with --mesh");
+  if (typed.scene.empty() && options.own.mesh.empty() && typed.world.empty())
+    return failure(ExitCode::kWrongUsage, "name a SCENE, a --world, or a mesh of yours with --mesh");
   if (!typed.scene.empty()) options.scene = typed.scene;
   const auto motor = simulation::motor_kind(typed.motor);
   if (!motor)
@@ -166,6 +205,7 @@ Result<SimulationOptions> simulation_of(const TypedSimulation& typed) {
                                fmt::join(simulation::motor_names(), ", ")));
   options.motor = *motor;
   if (auto named = take_names(typed, options); !named) return tl::unexpected(named.error());
+  if (auto world = take_world(typed, options); !world) return tl::unexpected(world.error());
   options.offset_s = typed.offset_ms / 1e3;
   if (typed.noise_mm) options.noise_m = *typed.noise_mm / 1e3;
   options.encoder_jitter_s = typed.encoder_jitter_ms / 1e3;
@@ -196,6 +236,7 @@ std::vector<SimulationOption> simulation_options(TypedSimulation& typed) {
       all.push_back(std::move(option));
     }
   };
+  add(world_options(typed), Group::kRandomWorld);
   add(own_scene_options(typed), Group::kOwnScene);
   add(message_options(typed), Group::kMessages);
   add(faults(typed), Group::kFaults);

@@ -15,7 +15,8 @@ namespace sweepscope {
 /// The options of a simulation as a person gives them, in the units of their names. The members that
 /// `options` has as well take the place of those.
 struct TypedSimulation {
-  std::string scene;  // empty: a scene of one's own
+  std::string scene;        // empty: a scene of one's own, or a world
+  std::string world, walk;  // "yard" or "yard:7"; without a seed that of `options`
   std::string motor{simulation::name_of(SimulationOptions{}.motor)}, axis{"x"};
   std::string scanner{SimulationOptions{}.scanner.name}, beam_times,
       stamp_at{"first_beam"};  // empty: the scanner's
@@ -35,7 +36,7 @@ Result<SimulationOptions> simulation_of(const TypedSimulation& typed);
 /// One option of a simulation, declared once: the command line's `--name VALUE` and Python's keyword come
 /// from it.
 struct SimulationOption {
-  enum class Group { kRecording, kOwnScene, kMessages, kFaults };
+  enum class Group { kRecording, kRandomWorld, kOwnScene, kMessages, kFaults };
   using Value = std::variant<bool*, int*, std::uint64_t*, double*, std::optional<double>*,
                              std::vector<double>*, std::string*, std::filesystem::path*>;
 

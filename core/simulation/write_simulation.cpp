@@ -279,6 +279,11 @@ std::string truth_json(const Simulation& simulation) {
   const Json recorded_as = recorded_as_json(simulation.options);
   if (recorded_as != recorded_as_json({})) json["recorded_as"] = recorded_as;
   if (!simulation.options.own.mesh.empty()) json["own_scene"] = own_json(simulation);
+  if (const RandomWorld& random = simulation.options.random; !random.world.empty())
+    json["random_world"] = {{"world", random.world},
+                            {"world_seed", random.world_seed},
+                            {"walk", random.walk},
+                            {"walk_seed", random.walk_seed}};
   if (simulation.options.imu)
     json["imu"] = {{"topic", "/imu"}, {"time_shift_ms", tidy(simulation.options.imu_shift_s * 1e3)}};
   return json.dump(2) + "\n";

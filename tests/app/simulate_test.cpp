@@ -65,6 +65,36 @@ TEST_F(SimulateCommand, NamesTheChoicesWhereAnOptionIsNotOneOfThem) {
   }
 }
 
+TEST_F(SimulateCommand, MakesAWorldAndAWalkAtRandom) {
+  const Outcome outcome =
+      simulate("--world corridor:7 --walk calm:3 -o a.bag --duration-s 5 --scanner lms111");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("corridor:7 calm:3 for 5 s"), std::string::npos) << outcome.out;
+  const auto truth = nlohmann::json::parse(std::ifstream(folder_ / "a.truth.json"));
+  EXPECT_EQ(truth["random_world"]["world_seed"], 7);
+  EXPECT_EQ(truth["random_world"]["walk"], "calm");
+}
+
+TEST_F(SimulateCommand, TakesTheSeedOfAWorldFromItsOwnSeed) {
+  EXPECT_EQ(simulate("--world hall -o a.bag --duration-s 5 --seed 9").exit_code, 0);
+  EXPECT_EQ(simulate("--world hall:9 --walk brisk:9 -o b.bag --duration-s 5 --seed 9").exit_code, 0);
+  EXPECT_EQ(test::contents_of(folder_ / "a.bag"), test::contents_of(folder_ / "b.bag"));
+}
+
+TEST_F(SimulateCommand, RefusesAWorldThatIsUnknownOrNotAlone) {
+  for (const auto& [arguments, reason] :
+       {std::pair("--world castle",
+                  "the worlds are yard, forest, street, corridor, hall, tunnel, stairs, car-park"),
+        std::pair("--world yard --walk slow", "the walks are calm, brisk, wild"),
+        std::pair("--world yard:x", "--world needs NAME or NAME:SEED"),
+        std::pair("--world yard --duration-s 601", "last 5 to 600 s"),
+        std::pair("--world yard room-1", "excludes"), std::pair("room-1 --walk calm", "--world")}) {
+    const Outcome outcome = simulate(std::string("-o a.bag ") + arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << arguments;
+    EXPECT_NE(outcome.err.find(reason), std::string::npos) << outcome.err;
+  }
+}
+
 TEST_F(SimulateCommand, NamesTheScenesWhereOneIsUnknown) {
   EXPECT_NE(simulate("hall -o a.bag").err.find("the scenes are metro-station, parking-area, cemetery"),
             std::string::npos);

@@ -278,6 +278,8 @@ def simulate(
     encoder_jitter_ms: Optional[float] = None,
     imu: Optional[bool] = None,
     imu_shift_ms: Optional[float] = None,
+    world: Optional[str] = None,
+    walk: Optional[str] = None,
     mesh: Optional[_Path] = None,
     trajectory: Optional[_Path] = None,
     trajectory_at: Union[str, _Numbers, None] = None,

@@ -172,7 +172,7 @@ def figures(recipe, output=None, *, threads=0, progress=None):
 def simulate(scene, output, *, threads=0, progress=None, **options):
     """Simulates a recording whose offset is known, as a ROS 1 bag, with OUT.truth.json and OUT.truth.tum beside it.
 
-    scene: one of sweepscope.scenes(), or None with mesh. output: the .bag file.
+    scene: one of sweepscope.scenes(), or None with mesh or world. output: the .bag file.
     Gives the truth: offset_ms, and the other keys of OUT.truth.json. Units are in the names of the options:"""
     given = {
         option["name"]: _simulation_value(option, value)

@@ -1,11 +1,11 @@
 #include "core/simulation/motion/trajectory.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
 #include "core/simulation/math/portable_math.hpp"
+#include "core/simulation/motion/gait.hpp"
 #include "core/simulation/motion/plan_curve.hpp"
 #include "core/simulation/motion/speed_profile.hpp"
 
@@ -14,57 +14,7 @@ namespace {
 
 using Eigen::Quaterniond;
 
-constexpr double kCadence_hz = 1.8;  // steps; a stride, left and right, is two
 constexpr double kMeasureStep_s = 0.01;
-constexpr std::uint64_t kSwayPurpose = 1;
-
-/// A rotation by angle_rad about the axis-th coordinate axis.
-Quaterniond about(int axis, double angle_rad) {
-  const SinCos half = sin_cos(angle_rad / 2);
-  Quaterniond q(half.cos, 0, 0, 0);
-  q.vec()[axis] = half.sin;
-  return q;
-}
-
-/// The rotation about z that turns x to `forward`, by half-angle formulas.
-Quaterniond heading(const Vector2d& forward) {
-  const double cos_half = std::sqrt(std::max(0.0, (1 + forward.x()) / 2));
-  const double sin_half = std::sqrt(std::max(0.0, (1 - forward.x()) / 2));
-  return {cos_half, 0, 0, forward.y() < 0 ? -sin_half : sin_half};
-}
-
-/// How a person carrying the rig sways: with every stride to the sides, with every step up and down.
-struct Sway {
-  double roll_rad, pitch_rad, yaw_rad, left_m, up_m;
-};
-
-class Gait {
- public:
-  explicit Gait(std::uint64_t seed) {
-    Random random(seed, kSwayPurpose, 0);
-    for (SinCos& phase : phases_) phase = sin_cos(2 * kPi * random.uniform());
-    drift_phase_ = 2 * kPi * random.uniform();
-  }
-
-  Sway at(double t_s, double speed_mps) const {
-    const SinCos drift = sin_cos(2 * kPi * 0.11 * t_s + drift_phase_);
-    const SinCos stride = sin_cos(kPi * kCadence_hz * t_s + 0.3 * drift.sin);
-    const SinCos step = {2 * stride.sin * stride.cos, stride.cos * stride.cos - stride.sin * stride.sin};
-    const auto shifted = [&](const SinCos& wave, int phase) {
-      const SinCos& by = phases_[static_cast<std::size_t>(phase)];
-      return wave.sin * by.cos + wave.cos * by.sin;
-    };
-    const double stir = smooth_step(speed_mps / 0.6);
-    return {radians(0.7) * stir * shifted(stride, 0) + radians(0.15) * shifted(drift, 5),
-            radians(0.4) * stir * shifted(step, 1) + radians(0.15) * shifted(drift, 6),
-            radians(0.8) * stir * shifted(stride, 2), 0.012 * stir * shifted(stride, 3),
-            0.010 * stir * shifted(step, 4)};
-  }
-
- private:
-  std::array<SinCos, 7> phases_;
-  double drift_phase_ = 0;
-};
 
 /// The angle between two orientations that differ by little.
 double small_angle_rad(const Quaterniond& from, const Quaterniond& to) {
@@ -100,9 +50,7 @@ class Trajectory::Walk {
     const Sway sway = gait_.at(inside_s, progress.speed_mps);
     const Vector2d left(-point.forward.y(), point.forward.x());
     const Vector2d plan = point.position_m + sway.left_m * left;
-    return {
-        {plan.x(), plan.y(), height_m_ + sway.up_m},
-        heading(point.forward) * about(2, sway.yaw_rad) * about(1, sway.pitch_rad) * about(0, sway.roll_rad)};
+    return {{plan.x(), plan.y(), height_m_ + sway.up_m}, swayed(heading(point.forward), sway)};
   }
 
   const double plan_scale;

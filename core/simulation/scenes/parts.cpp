@@ -1,5 +1,6 @@
 #include "core/simulation/scenes/parts.hpp"
 
+#include <array>
 #include <cmath>
 
 #include "core/simulation/math/portable_math.hpp"
@@ -83,6 +84,28 @@ Mesh lamp_post(double height_m) {
   Mesh mesh = frustum(8, 0.10, 0.05, height_m, 0.6);
   mesh.add(prism(8, 0.16, 0.5, 0.6)).add(rod({0, 0, height_m - 0.1}, {1.2, 0, height_m + 0.1}, 0.035, 0.6));
   return mesh.add_box({0.9, -0.12, height_m + 0.05}, {1.6, 0.12, height_m + 0.2}, 0.8);
+}
+
+Mesh car(bool tall, double albedo) {
+  constexpr double kWidth_m = 1.78;
+  const std::array<Vector2d, 7> body = {Vector2d(-2.15, 0.28), Vector2d(2.1, 0.28), Vector2d(2.2, 0.5),
+                                        Vector2d(2.1, 0.72),   Vector2d(1.1, 0.9),  Vector2d(-2.0, 0.95),
+                                        Vector2d(-2.2, 0.6)};
+  const std::array<Vector2d, 4> cabin = {Vector2d(-1.95, 0.93), Vector2d(1.05, 0.88), Vector2d(0.3, 1.43),
+                                         Vector2d(-1.4, 1.47)};
+  const std::array<Vector2d, 5> box_body = {Vector2d(-2.3, 0.3), Vector2d(2.2, 0.3), Vector2d(2.2, 0.95),
+                                            Vector2d(1.5, 2.05), Vector2d(-2.3, 2.15)};
+  Mesh mesh;
+  if (tall) {
+    mesh.add(extrusion(box_body, kWidth_m + 0.1, albedo), {0, -kWidth_m / 2 - 0.05, 0, 0});
+  } else {
+    mesh.add(extrusion(body, kWidth_m, albedo), {0, -kWidth_m / 2, 0, 0});
+    mesh.add(extrusion(cabin, kWidth_m - 0.3, 0.3), {0, -kWidth_m / 2 + 0.15, 0, 0});
+  }
+  for (const double x : {-1.35, 1.35})
+    for (const double y : {-0.92, 0.72}) mesh.add(rod({x, y, 0.31}, {x, y + 0.2, 0.31}, 0.31, 0.2, 14));
+  for (const double y : {-1.05, 0.90}) mesh.add_box({0.65, y, 0.9}, {0.75, y + 0.15, 1.05}, 0.4);
+  return mesh;
 }
 
 Mesh garden_bench() {

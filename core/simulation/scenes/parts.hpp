@@ -27,6 +27,9 @@ Mesh bare_tree(double height_m, std::uint64_t seed);
 /// A mast at the origin with an arm along +x.
 Mesh lamp_post(double height_m);
 
+/// Forward is +x, the middle of the wheelbase over the origin. `tall` makes a van of it.
+Mesh car(bool tall, double albedo);
+
 /// A bench facing -y, its front left corner at the origin.
 Mesh garden_bench();
 
