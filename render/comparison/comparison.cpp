@@ -339,7 +339,7 @@ std::vector<PngText> comparison_texts(std::span<const ComparedMap> maps, const C
   std::string thickness;
   for (const ComparedMap& map : maps) {
     if (map.thickness && map.thickness->map)
-      thickness += (thickness.empty() ? "" : "; ") + in_words(*map.thickness->map);
+      thickness += (thickness.empty() ? "" : "; ") + in_words(map);
   }
   std::vector<PngText> texts{
       {"Software", "sweepscope " SWEEPSCOPE_VERSION},
