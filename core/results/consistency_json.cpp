@@ -33,7 +33,7 @@ Json times_json(const Times& times) {
 Json consistency_json(const MapConsistency* consistency) {
   if (consistency == nullptr) return nullptr;
   Json apart = Json::array();
-  constexpr std::size_t kMax = 10;
+  constexpr std::size_t kMax = 5;
   for (std::size_t i = 0; i < std::min(kMax, consistency->apart.size()); ++i) {
     const SurfacesApart& one = consistency->apart[i];
     apart.push_back({{"apart_m", rounded(one.apart_m)},

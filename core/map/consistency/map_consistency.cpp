@@ -18,7 +18,7 @@ constexpr double kView_s = 1.8;                                  // at least, of
 constexpr std::size_t kPlanes = 160, kEdges = 80;                // of a view that are matched
 constexpr double kAgain_s = 4, kNear_m = 10, kTurned_rad = 1.2;  // two views of one place
 constexpr std::size_t kRevisits = 4;                             // that a view is compared with
-constexpr double kMinApart_m = 0.2, kApartOfWay = 0.005;         // farther apart: a broken map
+constexpr double kMinApart_m = 0.3, kApartOfWay = 0.005;         // farther apart: a broken map
 constexpr double kMaxMisfit = 0.45;                        // part of a sweep's features beside their surfaces
 constexpr std::size_t kMinMatched = 25;                    // features of a sweep, to say so
 constexpr double kMinMissing_m = 1, kMissingOfWay = 0.25;  // a trajectory that creeps

@@ -17,7 +17,9 @@ constexpr double kOnSurface_m = 0.1;    // nearer, a feature lies on its surface
 constexpr double kMatchSigma_m = 0.02;  // of a match: its neighbours err together
 constexpr double kWideLoss_m = 0.3, kNarrowLoss_m = 0.05;
 constexpr double kMaxTranslationSigma_m = 0.03, kMaxRotationSigma_rad = 0.6 * kRadPerDeg;
-constexpr double kMinCoinciding = 0.2;  // part of the features
+constexpr double kMinCoinciding = 0.2;   // part of the features
+constexpr double kMaxMovedMisfit = 0.3;  // after the move
+constexpr double kMinPlaced = 0.15;  // of the features as placed: else the views saw different places, alike
 
 // The surface about a feature where it was searched last.
 struct Surface {
@@ -130,7 +132,8 @@ bool ViewPair::determined() const {
 }
 
 bool ViewPair::coincides() const {
-  return determined() && double(moved.near) > kMinCoinciding * double(features);
+  return determined() && double(moved.near) > kMinCoinciding * double(features) &&
+         moved.misfit()<kMaxMovedMisfit&& double(placed.matched)> kMinPlaced * double(features);
 }
 
 ViewPair match_views(const SweepMaps& other, const Vector3d& other_at_m, const View& view,

@@ -1,6 +1,6 @@
 #pragma once
 
-// The mathematics: docs/algorithms.md, section 18.
+// The mathematics: docs/algorithms.md, section 19.
 
 #include <Eigen/Core>
 #include <cstddef>

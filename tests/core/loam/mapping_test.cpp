@@ -183,6 +183,7 @@ TEST(LostTimes, LeaveOutSweepsWithoutScans) {
   recording.scans.resize(2);
   recording.scans[0].first_beam_s = 1;
   recording.scans[1].first_beam_s = 4;
+  for (LaserScan& scan : recording.scans) scan.beams = 1;
   std::vector<SweepPose> sweeps(4);
   for (std::size_t k = 0; k < sweeps.size(); ++k) {
     sweeps[k].begin_s = double(k);
