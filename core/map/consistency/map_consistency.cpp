@@ -229,13 +229,25 @@ std::string place_in_words(const Vector3d& p_m) {
   return fmt::format("({:.1f}, {:.1f}, {:.1f}) m", p_m.x(), p_m.y(), p_m.z());
 }
 
+// Of the pairs that are nearly as far apart as the worst, the one closest in time: it shows best when the
+// trajectory went wrong.
+SurfacesApart closest_in_time(const std::vector<SurfacesApart>& apart) {
+  constexpr double kNearly = 0.8;
+  SurfacesApart closest = apart.front();
+  for (const SurfacesApart& one : apart)
+    if (one.apart_m > kNearly * apart.front().apart_m &&
+        one.again_s - one.first_s < closest.again_s - closest.first_s)
+      closest = one;
+  return closest;
+}
+
 std::optional<std::string> apart_warning(const MapConsistency& found) {
-  const auto worst = found.worst();
-  if (!worst || worst->apart_m <= found.limit_m) return std::nullopt;
+  if (found.apart.empty() || found.apart.front().apart_m <= found.limit_m) return std::nullopt;
+  const SurfacesApart shown = closest_in_time(found.apart);
   return fmt::format(
       "The map does not agree with itself: surfaces seen at {:.0f} s and again at {:.0f} s lie {:.1f} m apart "
       "near {}. The trajectory is wrong between these times.",
-      worst->first_s, worst->again_s, worst->apart_m, place_in_words(worst->place_m));
+      shown.first_s, shown.again_s, shown.apart_m, place_in_words(shown.place_m));
 }
 
 std::optional<std::string> unfit_warning(const std::vector<DoubtfulTime>& unfit) {
