@@ -161,8 +161,7 @@ Result<void> measure(std::vector<ComparedMap>& maps) {
 void say_thickness(const ComparedMap& map) {
   const std::string name =
       map.label.empty() ? fmt::format("offset {} ms", offset_label_ms(*map.offset_s)) : map.label;
-  const bool measured = map.thickness && map.thickness->map;
-  print("{}: {}\n", name, measured ? in_words(*map.thickness->map) : "no surface has a thickness");
+  print("{}: {}\n", name, in_words(map));
 }
 
 /// With the JSON on stdout, it alone is there.
@@ -170,6 +169,8 @@ Result<void> write_facts(const Compared& compared, const CompareOptions& options
                          const ComparisonOptions& picture) {
   if (options.json != "-")
     for (const ComparedMap& map : compared.maps) say_thickness(map);
+  if (options.json != "-" && compared.maps.front().consistency)
+    print("{}\n", in_words(*compared.maps.front().consistency));
   if (options.json.empty()) return {};
   const Estimate* curve = compared.estimate ? &*compared.estimate : nullptr;
   return differing_places(compared.maps, curve, picture)

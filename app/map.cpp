@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "app/commands.hpp"
 #include "app/progress.hpp"
@@ -9,7 +10,9 @@
 #include "core/io/cloud_file.hpp"
 #include "core/io/trajectory_file.hpp"
 #include "core/map/clean_map.hpp"
+#include "core/map/consistency/map_consistency.hpp"
 #include "core/map/offset_map.hpp"
+#include "core/results/consistency_json.hpp"
 
 namespace sweepscope::app {
 namespace {
@@ -17,7 +20,7 @@ namespace {
 struct MapArguments {
   RecordingOptions recording;
   double offset_ms = 0;
-  std::string output, trajectory, poses;
+  std::string output, trajectory, poses, json;
   double voxel_m = 0;
   bool remove_outliers = false;
 };
@@ -45,11 +48,21 @@ Result<Built> build(const MapArguments& options) {
   return Built{std::move(maps->front()), recording->epoch_ns};
 }
 
+std::string facts_json(const OffsetMap& map, const MapArguments& options) {
+  return json_text({{"schema", "sweepscope.map/1"},
+                    {"map", options.output},
+                    {"offset_ms", options.offset_ms},
+                    {"points", map.cloud->size()},
+                    {"moving", map.moving},
+                    {"lost", map.lost},
+                    {"map_consistency", consistency_json(map.consistency.get())}});
+}
+
 ExitCode run(const MapArguments& options) {
   const auto threads = options.recording.limit_threads();
   std::vector<std::filesystem::path> inputs = options.recording.input_files();
   if (!options.poses.empty()) inputs.emplace_back(options.poses);
-  const auto checked = check_outputs({options.output, options.trajectory}, std::move(inputs));
+  const auto checked = check_outputs({options.output, options.trajectory, options.json}, std::move(inputs));
   if (!checked) return fail(checked.error());
   auto built = build(options);
   if (!built) return fail(built.error());
@@ -63,8 +76,14 @@ ExitCode run(const MapArguments& options) {
     const auto written = write_tum(options.trajectory, map->trajectory, built->epoch_ns);
     if (!written) return fail(written.error());
   }
+  if (!options.json.empty()) {
+    const auto written = write_text(options.json, facts_json(*map, options));
+    if (!written) return fail(written.error());
+  }
+  if (options.json == "-") return ExitCode::kDone;
   print("{}: {} points of a {} rig at t_motor = t_laser + {:.3f} ms\n", options.output, map->cloud->size(),
         map->moving ? "moving" : "stationary", options.offset_ms);
+  if (map->consistency) print("{}\n", in_words(*map->consistency));
   return ExitCode::kDone;
 }
 
@@ -91,6 +110,9 @@ void add_map(CLI::App& app, ExitCode& exit_code) {
       ->add_option("--poses", options->poses,
                    "Trajectory of the rig (TUM), used instead of solving for it; the map is in its frame")
       ->type_name("F");
+  command
+      ->add_option("--json", options->json, "Write whether the map agrees with itself, as JSON; - is stdout")
+      ->type_name("F|-");
   command->add_option("--voxel-m", options->voxel_m, "Keep one point per cube of this size (default: all)")
       ->check(finite_number())
       ->check(CLI::PositiveNumber);

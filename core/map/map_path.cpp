@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/map/stamped_poses.hpp"
 #include "core/offset/judgement/identifiability.hpp"
@@ -31,6 +32,58 @@ Result<void> check_scans(const OffsetProblem& problem, double offset_s) {
       fmt::format("{}: no scan is covered by the motor's samples at these offsets.", recording.name));
 }
 
+// The sweep as poses from elsewhere have it; lost where they do not cover it.
+SweepPose along(const std::vector<StampedPose>& poses, SweepPose sweep) {
+  constexpr double kKnot_s = 0.033;
+  sweep.lost = !poses_cover(poses, sweep.begin_s, sweep.end_s);
+  if (sweep.lost) return sweep;
+  const auto steps = std::size_t(std::max(1.0, std::ceil((sweep.end_s - sweep.begin_s) / kKnot_s)));
+  sweep.knots.clear();
+  for (std::size_t i = 0; i <= steps; ++i) {
+    const double u = double(i) / double(steps);
+    sweep.knots.push_back(pose_at(poses, (1 - u) * sweep.begin_s + u * sweep.end_s));
+  }
+  return sweep;
+}
+
+// The poses of all sweeps that a SweepPlacer has at an offset; those that the path lacks are lost.
+std::vector<SweepPose> poses_of_sweeps(const OffsetProblem& problem, const MapPath& path, double offset_s) {
+  const std::vector<std::size_t> sweep_of =
+      assign_sweeps(problem.recording->scans, problem.motor.sweeps, offset_s);
+  std::vector<SweepPose> poses;
+  for (std::size_t i = 0; i < sweep_of.size(); ++i) {
+    if (problem.scan_used[i] == 0 || sweep_of[i] == kNoSweep) continue;
+    if (!poses.empty() && poses.back().sweep == sweep_of[i]) continue;
+    const Sweep& sweep = problem.motor.sweeps[sweep_of[i]];
+    SweepPose pose;
+    pose.sweep = sweep_of[i];
+    pose.direction = sweep.direction;
+    pose.begin_s = sweep.begin_s - offset_s;
+    pose.end_s = sweep.end_s - offset_s;
+    pose.lost = true;
+    if (path.walk) {
+      const auto solved = std::ranges::lower_bound(path.walk->sweeps, pose.sweep, {}, &SweepPose::sweep);
+      if (solved != path.walk->sweeps.end() && solved->sweep == pose.sweep) pose = *solved;
+    } else {
+      pose = along(path.poses, pose);
+    }
+    poses.push_back(std::move(pose));
+  }
+  return poses;
+}
+
+// Adds the consistency of the path with its warnings. A solved path has an offset of its own.
+Result<MapPath> checked(const OffsetProblem& problem, MapPath path, const Job& job, double offset_s = 0) {
+  if (path.lost()) return path;
+  if (path.walk) offset_s = path.walk->tracked_at_s;
+  auto found = map_consistency(problem, poses_of_sweeps(problem, path, offset_s), offset_s, job);
+  if (!found) return failure(ExitCode::kInterrupted, "interrupted while building the map");
+  for (const std::string& warning : found->warnings)
+    path.warning += (path.warning.empty() ? "" : " ") + warning;
+  path.consistency = std::make_shared<const MapConsistency>(std::move(*found));
+  return path;
+}
+
 }  // namespace
 
 Result<MapPath> find_map_path(const PreparedRecording& prepared, double from_s, double to_s,
@@ -47,7 +100,7 @@ Result<MapPath> find_map_path(const PreparedRecording& prepared, double from_s, 
     auto covered = check_pose_coverage(*problem.recording, path.poses, path.used);
     if (!covered) return tl::unexpected(covered.error());
     path.warning = std::move(*covered);
-    return path;
+    return checked(problem, std::move(path), job, (from_s + to_s) / 2);
   }
   if (!path.moving) return path;
   if (!path.walk) {
@@ -56,7 +109,7 @@ Result<MapPath> find_map_path(const PreparedRecording& prepared, double from_s, 
     path.walk = std::make_shared<const SolvedWalk>(std::move(*solved));
   }
   path.warning = pieces_warning(path.walk->sweeps, *problem.recording).value_or("");
-  return path;
+  return checked(problem, std::move(path), job);
 }
 
 MapPath path_without_solving(const PreparedRecording& prepared, std::vector<char> used,

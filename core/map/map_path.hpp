@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/map/consistency/map_consistency.hpp"
 #include "core/map/offset_map.hpp"
 #include "core/offset/walk/walk.hpp"
 
@@ -17,8 +18,11 @@ struct MapPath {
   std::vector<char> used;          // per scan; those of 0 are not placed
   std::vector<Sweep> sweeps;       // of the motor, on its clock
   std::vector<StampedPose> poses;  // from elsewhere; empty: the trajectory is solved for, or there is none
-  std::shared_ptr<const SolvedWalk> walk;  // of a moving rig without poses from elsewhere
-  std::string warning;  // of poses that do not cover every scan, or of a map in pieces; else empty
+  std::shared_ptr<const SolvedWalk> walk;             // of a moving rig without poses from elsewhere
+  std::shared_ptr<const MapConsistency> consistency;  // of a moving rig whose track was not lost; else null
+  // Of poses that do not cover every scan, a map in pieces, or one that does not agree with itself; else
+  // empty.
+  std::string warning;
 
   bool lost() const { return walk && walk->lost; }
 };

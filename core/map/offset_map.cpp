@@ -16,6 +16,7 @@ OffsetMap map_along(const Recording& recording, const MapPath& path, double offs
   map.walk = path.walk;
   map.moving = path.moving;
   map.lost = path.lost();
+  map.consistency = path.consistency;
   map.warning = path.warning;
   return map;
 }

@@ -17,6 +17,7 @@
 
 namespace sweepscope {
 
+struct MapConsistency;
 struct MapPath;
 
 struct MapOptions {
@@ -40,8 +41,9 @@ struct OffsetMap {
   std::vector<SweepPose> sweeps;           // the poses that the beams were placed along
   std::shared_ptr<const SolvedWalk> walk;  // of a moving rig whose trajectory was solved for
   bool moving = false;
-  bool lost = false;    // LOAM lost track: the map is not to be trusted
-  std::string warning;  // of poses that do not cover every scan, or of a map in pieces; else empty
+  bool lost = false;                                  // LOAM lost track: the map is not to be trusted
+  std::shared_ptr<const MapConsistency> consistency;  // of the path; see MapPath
+  std::string warning;                                // also of the path; else empty
 };
 
 /// Builds the map at each of the offsets from the same scans: every beam is placed with the motor angle of

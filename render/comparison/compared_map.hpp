@@ -14,6 +14,8 @@
 
 namespace sweepscope {
 
+struct MapConsistency;
+
 /// A map to draw, alone or beside others.
 struct ComparedMap {
   std::string label;                       // empty: "offset 24.0 ms", from offset_s
@@ -24,6 +26,7 @@ struct ComparedMap {
   std::optional<ScannerPose> scanner;      // at the end of the path; absent if not known
   std::vector<FeatureKind> feature_kinds;  // of each point; empty if not known
 
+  std::shared_ptr<const MapConsistency> consistency;  // null if it is not known
   std::shared_ptr<const SurfaceThickness> thickness;  // of the cloud; null if it was not measured
 
   std::size_t size() const { return cloud ? cloud->size() : 0; }
@@ -33,6 +36,10 @@ struct ComparedMap {
 /// each point.
 ComparedMap compared_map(const Recording& recording, const OffsetMap& map,
                          const FeatureSet* features = nullptr);
+
+/// The thickness of its surfaces; says so where the map does not agree with itself, since each of two walls
+/// that should be one may be thin.
+std::string in_words(const ComparedMap& map);
 
 /// Measures the thickness of the map's surfaces unless that was done. If `job` is cancelled it stays as it
 /// was.

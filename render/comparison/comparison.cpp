@@ -338,8 +338,7 @@ std::vector<PngText> comparison_texts(std::span<const ComparedMap> maps, const C
   for (const ComparedMap& map : maps) labels += (labels.empty() ? "" : "; ") + label_of(map);
   std::string thickness;
   for (const ComparedMap& map : maps) {
-    if (map.thickness && map.thickness->map)
-      thickness += (thickness.empty() ? "" : "; ") + in_words(*map.thickness->map);
+    if (map.thickness && map.thickness->map) thickness += (thickness.empty() ? "" : "; ") + in_words(map);
   }
   std::vector<PngText> texts{
       {"Software", "sweepscope " SWEEPSCOPE_VERSION},

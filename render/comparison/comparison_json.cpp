@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/io/printable_text.hpp"
+#include "core/results/consistency_json.hpp"
 
 namespace sweepscope {
 namespace {
@@ -37,7 +38,11 @@ Json thickness_json(const MapThickness& thickness) {
 }
 
 std::string comparison_json(std::span<const ComparedMap> maps, std::span<const DifferingPlace> places) {
-  Json json{{"schema", "sweepscope.compare/1"}, {"maps", Json::array()}, {"places", Json::array()}};
+  const MapConsistency* consistency = maps.empty() ? nullptr : maps.front().consistency.get();
+  Json json{{"schema", "sweepscope.compare/1"},
+            {"map_consistency", consistency_json(consistency)},
+            {"maps", Json::array()},
+            {"places", Json::array()}};
   for (const ComparedMap& map : maps) json["maps"].push_back(map_json(map));
   for (const DifferingPlace& place : places) json["places"].push_back(place_json(place));
   return json_text(std::move(json));

@@ -39,6 +39,7 @@ Result<void> add_maps(ReportContent& content, const PreparedRecording& prepared,
     next.offset_s = map.offset_s;
     next.cloud = map.cloud;
     next.path = std::move(map.trajectory);
+    next.consistency = map.consistency;
     measure_thickness(next, job);
     if (job.cancelled()) return failure(ExitCode::kInterrupted, "interrupted while measuring the map");
   }

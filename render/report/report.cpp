@@ -136,6 +136,9 @@ std::string warnings_list(const ReportContent& content) {
     for (const std::string& warning : *list)
       items += html::element("li", html::escape(with_plus_minus_sign(warning)));
   }
+  if (!content.maps.empty() && content.maps.back().consistency)
+    for (const std::string& warning : content.maps.back().consistency->warnings)
+      items += html::element("li", html::escape(warning));
   if (items.empty()) return "<p>None.</p>\n";
   return "<ul class=\"warnings\">" + items + "</ul>\n";
 }
@@ -253,9 +256,11 @@ std::string thickness_table(const ReportContent& content) {
     if (!map.thickness || !map.thickness->map) continue;
     const char* chip = &map == &content.maps.front() ? "map-a" : "map-b";
     rows += fmt::format("<tr><th><span class=\"{}\"></span>offset {} ms</th><td>{}</td></tr>\n", chip,
-                        offset_label_ms(*map.offset_s), html::escape(in_words(*map.thickness->map)));
+                        offset_label_ms(*map.offset_s), html::escape(in_words(map)));
   }
   if (rows.empty()) return rows;
+  const auto& consistency = content.maps.back().consistency;
+  if (consistency) rows += row("both maps", in_words(*consistency));
   return in_table(rows) +
          "<p class=\"caption\">How thick flat surfaces are in the map: the width at half height across "
          "each. In a sharp map this is the range noise.</p>\n";

@@ -98,6 +98,8 @@ void MapPair::show(Side side, CloudRequest request) {
                : solved.is_exact(map, offset_s) ? PaneState::kSolved
                                                 : PaneState::kPreview;
   pane.lost = map.lost;
+  pane.consistency = map.path.consistency;
+  pane.warning = map.path.warning;
   pane.problem = solved.problem_at(offset_s);
   if (pane.state != PaneState::kSolved && solved.is_cancelled(offset_s))
     pane.problem = "Cancelled. Move the offset, or choose Solve the maps in the menu Offset.";

@@ -52,6 +52,8 @@ struct Pane {
   std::optional<MapThickness> thickness;    // of the map, with slow values that are its blur
   std::string problem;                      // why the map could not be solved
   bool lost = false;
+  std::shared_ptr<const MapConsistency> consistency;  // of the map's path; null if it is not known
+  std::string warning;                                // of the path; else empty
   /// A close-up of the place that is looked at; null without one. Placed with what `request` asks for.
   PlacedCloudPtr close_up;
   PlacePtr close_up_place;

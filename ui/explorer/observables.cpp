@@ -71,7 +71,12 @@ std::string rig_found(const Estimate* estimate) {
 std::string thickness_words(const Pane& pane) {
   if (!pane.full || !pane.thickness || !pane.request || pane.request->look.colouring != ColourBy::kBlur)
     return "";
-  return in_words(*pane.thickness);
+  const bool warned = pane.consistency && pane.consistency->warned();
+  return in_words(*pane.thickness) + (warned ? "; the map does not agree with itself" : "");
+}
+
+std::string consistency_words(const Pane& pane) {
+  return pane.consistency ? in_words(*pane.consistency) : "";
 }
 
 std::string points_of(const Pane& pane) {
@@ -143,6 +148,10 @@ const std::vector<Observable> kObservables{
     {"state", "empty, provisional, preview or solved", nullptr, state_word},
     {"points", "how many points the pane shows", nullptr, points_of},
     {"thickness", "how thick the map's surfaces are; empty unless blur colours it", nullptr, thickness_words},
+    {"consistency", "how far apart surfaces lie that were seen twice; empty of a stationary rig", nullptr,
+     consistency_words},
+    {"warning", "what is wrong with the map's path; else empty", nullptr,
+     [](const Pane& pane) { return pane.warning; }},
     {"places", "at how many places the maps differ, as far as they are listed",
      [](const Explorer& e) { return std::to_string(e.places.all().size()); }},
     {"place-at", "x and y of the place that the close-up shows; empty without one", place_at},

@@ -80,7 +80,8 @@ std::string state_of_map(const PaneContext& context, Side side) {
       return "preview";
     case PaneState::kSolved:
       if (!context.explorer.loaded()->poses.empty()) return "along given poses";
-      return pane.lost ? "lost track" : "solved";
+      if (pane.lost) return "lost track";
+      return pane.warning.empty() ? "solved" : "solved, see Notes";
   }
   return "";
 }

@@ -50,6 +50,10 @@ void notes(const PaneContext& context, const Loaded& loaded) {
     const char* name = side == Side::kA ? "A" : "B";
     if (!pane.problem.empty()) all.push_back(fmt::format("Map {}: {}", name, pane.problem));
   }
+  for (const Side side : kBothSides) {  // mostly they have one path
+    const std::string& warning = context.explorer.pane(side).warning;
+    if (!warning.empty() && std::ranges::find(all, warning) == all.end()) all.push_back(warning);
+  }
   if (all.empty()) return;
   heading(context, "Notes");
   for (const std::string& note : all) small_print(context, without_options(printable_line(note)));

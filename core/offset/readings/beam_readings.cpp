@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "core/numbers.hpp"
+#include "core/offset/kind/stationary_motion.hpp"
 #include "core/offset/prepared/prepared.hpp"
 #include "core/offset/search/stationary_fit.hpp"
 #include "core/rig_solve/plane_cells.hpp"
@@ -84,6 +85,14 @@ Recording first_sweeps(const Recording& recording) {
   for (const Sweep& sweep : motor.sweeps)
     if (sweep.begin_s > begin_s && ++sweeps == kSweeps) return window(recording, 0, sweep.end_s - begin_s);
   return recording;
+}
+
+// Sweeps of one direction see the same however the beams are timed and whatever the axis. Of a rig that moves
+// no reading fits, and the one that fits least badly says nothing.
+bool moves(const Recording& recording, const Job& job) {
+  const auto prepared = prepare(borrowed(recording), FeatureOptions(), job);
+  if (!prepared) return false;
+  return test_motion(stationary_grid(problem_for(*prepared, 0, 0)), 0).moving();
 }
 
 }  // namespace
@@ -233,6 +242,7 @@ RankedReadings rank_readings(const Recording& recording, const Job& job) {
   ranked.axis = recording.rig.mount.axis;
   if (!recording.directions.empty() || recording.scans.empty() || recording.ranges_m.empty()) return ranked;
   const Recording first = first_sweeps(recording);
+  if (moves(first, job)) return ranked;
   ranked.beams = rank_beams(first, job);
   if (recording.rig.states_mount() || job.cancelled()) return ranked;
   Recording about_y = first;

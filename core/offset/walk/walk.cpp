@@ -109,8 +109,13 @@ double followed_rad_s(const std::vector<SweepPose>& sweeps) {
 }  // namespace
 
 std::vector<Interval> lost_times(const std::vector<SweepPose>& sweeps, const Recording& recording) {
+  constexpr double kMin_s = 0.05;  // printed as 0.1 s: of a sweep at an end the scans may hold less
   std::vector<Interval> lost = lost_intervals(sweeps);
   const double first_s = recording.scans.front().first_beam_s;
+  const double end_s = recording.scans.back().last_beam_s();
+  std::erase_if(lost, [&](const Interval& interval) {
+    return std::min(interval.end_s, end_s) - std::max(interval.begin_s, first_s) < kMin_s;
+  });
   for (Interval& interval : lost) {
     interval.begin_s = std::max(0.0, interval.begin_s - first_s);
     interval.end_s -= first_s;
@@ -149,11 +154,15 @@ std::optional<std::string> pieces_warning(const std::vector<SweepPose>& sweeps, 
 
 Refusal lost_refusal(const SolvedWalk& walk, const Recording& recording) {
   const std::vector<Interval> lost = lost_times(walk.sweeps, recording);
-  std::string text = fmt::format("The motion could not be followed for {:.1f} s", length_s(lost));
-  if (!lost.empty()) text += fmt::format(", first at {:.1f} s", lost.front().begin_s);
+  const auto tracked = std::ranges::count(walk.sweeps, false, &SweepPose::lost);
+  if (lost.empty())
+    return refusal(RefusalKind::kTrackLost, double(tracked),
+                   fmt::format("Only {} sweeps could be followed, and {} are required. Record a longer walk.",
+                               tracked, kLimits.min_tracked_sweeps));
+  std::string text = fmt::format("The motion could not be followed for {:.1f} s, first at {:.1f} s",
+                                 length_s(lost), lost.front().begin_s);
   const double followed_deg_s = followed_rad_s(walk.sweeps) / kRadPerDeg;
   if (followed_deg_s > 1) text += fmt::format("; turns of up to {:.0f} deg/s were followed", followed_deg_s);
-  const auto tracked = std::ranges::count(walk.sweeps, false, &SweepPose::lost);
   return refusal(RefusalKind::kTrackLost, double(tracked),
                  text + ". Turn more slowly, at most by 40 deg/s, above all in the first 5 s.");
 }

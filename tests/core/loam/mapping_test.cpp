@@ -177,6 +177,29 @@ TEST(PiecesWarning, NamesWhereStretchesBeginThatDoNotFit) {
   EXPECT_NE(warning->find("from 6.0 s on"), std::string::npos) << *warning;
 }
 
+// The sweep that a recording begins with may end before its first scan.
+TEST(LostTimes, LeaveOutSweepsWithoutScans) {
+  Recording recording;
+  recording.scans.resize(2);
+  recording.scans[0].first_beam_s = 1;
+  recording.scans[1].first_beam_s = 4;
+  for (LaserScan& scan : recording.scans) scan.beams = 1;
+  std::vector<SweepPose> sweeps(4);
+  for (std::size_t k = 0; k < sweeps.size(); ++k) {
+    sweeps[k].begin_s = double(k);
+    sweeps[k].end_s = double(k + 1);
+    sweeps[k].lost = k == 0;
+  }
+  EXPECT_TRUE(lost_times(sweeps, recording).empty());
+  EXPECT_FALSE(lost_warning(lost_times(sweeps, recording)));
+  SolvedWalk walk;
+  walk.sweeps = sweeps;
+  EXPECT_EQ(lost_refusal(walk, recording).text.find("0.0 s"), std::string::npos);
+  sweeps[2].lost = true;
+  ASSERT_EQ(lost_times(sweeps, recording).size(), 1U);
+  EXPECT_EQ(lost_times(sweeps, recording)[0].begin_s, 1);
+}
+
 TEST(LostIntervals, AreRunsOfLostSweeps) {
   std::vector<SweepPose> sweeps(7);
   for (std::size_t k = 0; k < sweeps.size(); ++k) {
