@@ -15,7 +15,7 @@ std::int64_t ns_after(std::int64_t first_ns, double time_s) {
 
 double ClockShift::offset_s(std::int64_t laser_ns) const {
   double offset_s = offset_s_ + rate_ * (static_cast<double>(laser_ns - at_laser_ns_) / kNs_per_s);
-  for (const OffsetStep& step : steps_) {
+  for (const ShiftStep& step : steps_) {
     if (step.laser_ns <= laser_ns && step.laser_ns > at_laser_ns_) offset_s += step.size_s;
     if (step.laser_ns > laser_ns && step.laser_ns <= at_laser_ns_) offset_s -= step.size_s;
   }
@@ -43,7 +43,7 @@ ClockShift clock_shift(const AppliedOffset& offset, std::int64_t first_ns, std::
   if (!offset.changes()) return ClockShift(offset.offset_s);
   const std::int64_t middle_ns =
       offset.middle_s ? ns_after(first_ns, *offset.middle_s) : first_ns + (last_ns - first_ns) / 2;
-  std::vector<OffsetStep> steps;
+  std::vector<ShiftStep> steps;
   for (const AppliedOffset::Jump& jump : offset.jumps)
     steps.push_back({ns_after(first_ns, jump.time_s), jump.size_s});
   return {offset.offset_s, middle_ns, offset.rate, std::move(steps)};

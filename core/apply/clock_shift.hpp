@@ -9,7 +9,7 @@
 namespace sweepscope {
 
 /// A step of the offset at an instant of the laser's clock.
-struct OffsetStep {
+struct ShiftStep {
   std::int64_t laser_ns = 0;
   double size_s = 0;
 };
@@ -21,7 +21,7 @@ class ClockShift {
   explicit ClockShift(double offset_s) : offset_s_(offset_s) {}
   /// The offset at an instant of the laser's clock, its rate (seconds per second) and its steps before and
   /// after that instant.
-  ClockShift(double offset_s, std::int64_t at_laser_ns, double rate, std::vector<OffsetStep> steps)
+  ClockShift(double offset_s, std::int64_t at_laser_ns, double rate, std::vector<ShiftStep> steps)
       : offset_s_(offset_s), at_laser_ns_(at_laser_ns), rate_(rate), steps_(std::move(steps)) {}
 
   /// The offset at an instant of the laser's clock.
@@ -36,7 +36,7 @@ class ClockShift {
   double offset_s_;
   std::int64_t at_laser_ns_ = 0;
   double rate_ = 0;
-  std::vector<OffsetStep> steps_;
+  std::vector<ShiftStep> steps_;
 };
 
 /// The shift of an offset to apply, of a recording whose scans have stamps from `first_ns` to `last_ns`.

@@ -36,7 +36,7 @@ class ComparedWalk {
     find_views();
   }
 
-  const std::vector<View>& views() const { return views_; }
+  const std::vector<WalkView>& views() const { return views_; }
 
   struct Compared {
     std::size_t other = 0, view = 0;
@@ -77,12 +77,12 @@ class ComparedWalk {
       // The last one takes what remains.
       for (std::size_t begin = first; begin + of_view <= end; begin += of_view) {
         const bool last = begin + 2 * of_view > end;
-        View& view = views_.emplace_back();
+        WalkView& view = views_.emplace_back();
         view.first = begin;
         view.end = last ? end : begin + of_view;
       }
     }
-    for (View& view : views_) {
+    for (WalkView& view : views_) {
       const SweepPose &begin = poses_[view.first], &end = poses_[view.end - 1];
       view.begin_s = begin.begin_s;
       view.end_s = end.end_s;
@@ -97,7 +97,7 @@ class ComparedWalk {
       for (std::size_t i = block.begin(); i != block.end(); ++i) see(views_[i], placer);
     });
   }
-  void see(View& view, SweepPlacer& placer) const {
+  void see(WalkView& view, SweepPlacer& placer) const {
     std::vector<SeenFeature> planes, edges;
     PlacedSweep sweep;
     for (std::size_t k = view.first; k < view.end; ++k) {
@@ -117,7 +117,7 @@ class ComparedWalk {
   // The views that are compared with the surfaces of one: the next two, and later ones of the same place. The
   // first view is compared with the second one's.
   std::vector<std::size_t> partners(std::size_t i) const {
-    const View& own = views_[i];
+    const WalkView& own = views_[i];
     std::vector<std::pair<double, std::size_t>> again;
     std::vector<std::size_t> found;
     if (i == 1) found.push_back(0);
@@ -141,7 +141,7 @@ class ComparedWalk {
   const std::vector<SweepPose>& poses_;
   double offset_s_;
   MappingOptions options_;
-  std::vector<View> views_;
+  std::vector<WalkView> views_;
 };
 
 }  // namespace
@@ -161,7 +161,7 @@ double way_m(const std::vector<SweepPose>& poses) {
   return sum_m;
 }
 
-std::vector<SurfacesApart> surfaces_apart(const std::vector<View>& views, const Pairs& pairs) {
+std::vector<SurfacesApart> surfaces_apart(const std::vector<WalkView>& views, const Pairs& pairs) {
   std::vector<SurfacesApart> apart;
   for (const auto& [other, view, pair] : pairs)
     if (view > other && pair.coincides())
@@ -171,7 +171,7 @@ std::vector<SurfacesApart> surfaces_apart(const std::vector<View>& views, const 
 }
 
 // Sweeps of which most features lie beside the surfaces of every view.
-std::vector<DoubtfulTime> unfit_times(const std::vector<SweepPose>& poses, const std::vector<View>& views,
+std::vector<DoubtfulTime> unfit_times(const std::vector<SweepPose>& poses, const std::vector<WalkView>& views,
                                       const Pairs& pairs) {
   std::vector<std::optional<double>> misfit(poses.size());
   for (const auto& [other, view, pair] : pairs)
@@ -192,7 +192,7 @@ std::vector<DoubtfulTime> unfit_times(const std::vector<SweepPose>& poses, const
 }
 
 // Of the views [first, last], what the views beside them say about their speed.
-UndeterminedTime undetermined_time(const std::vector<View>& views, std::size_t first, std::size_t last) {
+UndeterminedTime undetermined_time(const std::vector<WalkView>& views, std::size_t first, std::size_t last) {
   UndeterminedTime time;
   time.at_s = {views[first].middle_s(), views[last].middle_s()};
   time.place_m = views[(first + last + 1) / 2].at.translation_m;
@@ -211,7 +211,7 @@ UndeterminedTime undetermined_time(const std::vector<View>& views, std::size_t f
   return time;
 }
 
-std::vector<UndeterminedTime> undetermined_times(const std::vector<View>& views, const Pairs& pairs) {
+std::vector<UndeterminedTime> undetermined_times(const std::vector<WalkView>& views, const Pairs& pairs) {
   std::vector<char> free(views.size(), 0);  // from the view before it
   for (const auto& [other, view, pair] : pairs)
     if (view == other + 1 && !pair.determined()) free[view] = 1;

@@ -30,7 +30,7 @@ struct Surface {
 
 class Registration {
  public:
-  Registration(const SweepMaps& other, const Vector3d& other_at_m, const View& view,
+  Registration(const SweepMaps& other, const Vector3d& other_at_m, const WalkView& view,
                const MappingOptions& options)
       : search_{other.edges, other.planes, search_rule(options, false, SweepFilter::kAny)},
         other_at_m_(other_at_m),
@@ -70,7 +70,7 @@ class Registration {
 
   PatchSearch search_;
   Vector3d other_at_m_;
-  const View& view_;
+  const WalkView& view_;
   double reuse_within_m_;
   std::vector<Surface> surfaces_;
 };
@@ -136,7 +136,7 @@ bool ViewPair::coincides() const {
          moved.misfit()<kMaxMovedMisfit&& double(placed.matched)> kMinPlaced * double(features);
 }
 
-ViewPair match_views(const SweepMaps& other, const Vector3d& other_at_m, const View& view,
+ViewPair match_views(const SweepMaps& other, const Vector3d& other_at_m, const WalkView& view,
                      const MappingOptions& options) {
   Registration registration(other, other_at_m, view, options);
   ViewPair pair;

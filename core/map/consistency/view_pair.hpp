@@ -19,7 +19,7 @@ struct SeenFeature {
 };
 
 /// What the rig saw in a short time: sweeps of both directions that follow each other.
-struct View {
+struct WalkView {
   std::size_t first = 0, end = 0;  // its sweeps are [first, end) of the path
   double begin_s = 0, end_s = 0;   // laser clock
   Pose at;                         // map_from_base in the middle
@@ -55,7 +55,7 @@ struct ViewPair {
 
 /// Matches a view to the map of another one that was about `other_at_m`. Surfaces match if both saw them from
 /// the same side.
-ViewPair match_views(const SweepMaps& other, const Eigen::Vector3d& other_at_m, const View& view,
+ViewPair match_views(const SweepMaps& other, const Eigen::Vector3d& other_at_m, const WalkView& view,
                      const MappingOptions& options);
 
 }  // namespace sweepscope
