@@ -94,7 +94,8 @@ void declare_options(CLI::App& app, CLI::Option& scene, Typed& typed) {
     if (!option.type.empty()) declared->type_name(option.type);
     if (!option.needs.empty()) declared->needs(app.get_option("--" + option.needs));
     if (option.name == "mesh" || option.name == "world") declared->excludes(&scene);
-    if (option.group == SimulationOption::Group::kRandomWorld) declared->group("A place and a walk at random");
+    if (option.group == SimulationOption::Group::kRandomWorld)
+      declared->group("A place and a walk at random");
     if (option.group == SimulationOption::Group::kOwnScene) declared->group("A scene and a walk of your own");
     if (option.group == SimulationOption::Group::kMessages) declared->group("How drivers write messages");
     if (option.group == SimulationOption::Group::kFaults) declared->group("Faults of real rigs");

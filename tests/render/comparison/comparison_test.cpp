@@ -260,6 +260,7 @@ TEST(Places, AreWrittenAsJsonWithTheMapsThatTheyCompare) {
   const std::vector<DifferingPlace> places{{{{1.25, -2}, 4}, {90, 60}}};
   EXPECT_EQ(nlohmann::json::parse(comparison_json(maps, places)), nlohmann::json::parse(R"({
       "schema": "sweepscope.compare/1",
+      "map_consistency": null,
       "maps": [{"label": "", "offset_ms": 19.0, "thickness": null},
                {"label": "B", "offset_ms": null, "thickness": null}],
       "places": [{"x_m": 1.25, "y_m": -2.0, "height_m": 4.0, "cells": [90, 60],
