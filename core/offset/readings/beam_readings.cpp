@@ -87,12 +87,17 @@ Recording first_sweeps(const Recording& recording) {
   return recording;
 }
 
-// Sweeps of one direction see the same however the beams are timed and whatever the axis. Of a rig that moves
-// no reading fits, and the one that fits least badly says nothing.
-bool moves(const Recording& recording, const Job& job) {
-  const auto prepared = prepare(borrowed(recording), FeatureOptions(), job);
+// Of a rig that moves no reading fits, and the one that fits least badly says nothing.
+bool moves(const Recording& first, const RankedReadings& ranked, const Job& job) {
+  const BeamReading* chosen = chosen_of(ranked.beams);
+  if (chosen == nullptr || !chosen->offset_s) return false;
+  Recording read =
+      chosen->kind == BeamReadingKind::kRecorded ? first : read_as(first, chosen->time_increment_s);
+  read.rig.mount.axis = ranked.axis;
+  const auto prepared = prepare(borrowed(read), FeatureOptions(), job);
   if (!prepared) return false;
-  return test_motion(stationary_grid(problem_for(*prepared, 0, 0)), 0).moving();
+  const double offset_s = *chosen->offset_s;
+  return test_motion(stationary_grid(problem_for(*prepared, offset_s, offset_s)), offset_s).moving();
 }
 
 }  // namespace
@@ -234,17 +239,12 @@ std::vector<BeamReading> rank_beams(const Recording& first, const Job& job) {
   return readings;
 }
 
-}  // namespace
-
-RankedReadings rank_readings(const Recording& recording, const Job& job) {
+RankedReadings rank_as_stationary(const Recording& first, const Job& job) {
   constexpr double kClearlyWider = 1.15, kNearer = 0.7;
   RankedReadings ranked;
-  ranked.axis = recording.rig.mount.axis;
-  if (!recording.directions.empty() || recording.scans.empty() || recording.ranges_m.empty()) return ranked;
-  const Recording first = first_sweeps(recording);
-  if (moves(first, job)) return ranked;
+  ranked.axis = first.rig.mount.axis;
   ranked.beams = rank_beams(first, job);
-  if (recording.rig.states_mount() || job.cancelled()) return ranked;
+  if (first.rig.states_mount() || job.cancelled()) return ranked;
   Recording about_y = first;
   about_y.rig.mount.axis = Eigen::Vector3d::UnitY();
   const BeamReading* best = chosen_of(ranked.beams);
@@ -271,6 +271,17 @@ RankedReadings rank_readings(const Recording& recording, const Job& job) {
   ranked.axis = about_y.rig.mount.axis;
   ranked.axis_is_found = true;
   return ranked;
+}
+
+}  // namespace
+
+RankedReadings rank_readings(const Recording& recording, const Job& job) {
+  RankedReadings as_read;
+  as_read.axis = recording.rig.mount.axis;
+  if (!recording.directions.empty() || recording.scans.empty() || recording.ranges_m.empty()) return as_read;
+  const Recording first = first_sweeps(recording);
+  RankedReadings ranked = rank_as_stationary(first, job);
+  return moves(first, ranked, job) ? as_read : ranked;
 }
 
 std::optional<BeamReading> better_reading(const Recording& recording, const StationaryDirect& found) {
