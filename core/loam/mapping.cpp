@@ -10,6 +10,7 @@
 #include "core/loam/path/given_motion.hpp"
 #include "core/loam/path/least_squares.hpp"
 #include "core/loam/tracker.hpp"
+#include "core/numbers.hpp"
 
 namespace sweepscope {
 namespace {
@@ -138,11 +139,10 @@ class Walk {
         for (std::size_t i = first; i < end; ++i) of->agreed[i - of->range.first] |= agreed[i - first];
     }
   }
-  // Whether a second track found nearly the same; of a single start, whether most features match.
+  // Whether a second track found nearly the same.
   bool confirmed(const Stretch& best, Range range) const {
     if (best.range.size() != range.size() || best.alternates) return false;
     constexpr double kMostSweeps = 0.9;
-    if (options_.starts.size() == 1) return best.count.matched_part() >= options_.well_tracked;
     return double(best.agreed_sweeps()) >= kMostSweeps * double(range.size());
   }
   // Whether hardly anything matches, wherever it begins.
@@ -193,9 +193,7 @@ class Walk {
   std::vector<Start> ranked(std::vector<Start> starts) const {
     std::vector<double> determined;
     for (const Start& start : starts) determined.push_back(start.determined);
-    const auto middle = determined.begin() + std::ptrdiff_t(determined.size() / 2);
-    std::nth_element(determined.begin(), middle, determined.end());
-    const double enough = std::min(options_.well_determined, *middle);
+    const double enough = std::min(options_.well_determined, median(std::move(determined)));
     std::ranges::stable_sort(starts, [&](const Start& a, const Start& b) {
       const bool a_enough = a.determined >= enough, b_enough = b.determined >= enough;
       return a_enough != b_enough ? a_enough : a.cost_m < b.cost_m;

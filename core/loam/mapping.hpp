@@ -17,9 +17,8 @@ namespace sweepscope {
 struct TrackedWalk {
   std::vector<SweepPose> sweeps;    // of every sweep, in the order of time
   std::vector<std::size_t> starts;  // where it began, see MappingOptions, and others that were tried after it
-  bool well = false;  // one stretch that does not alternate and that a second track confirms, or ...
-                      // with a single start, on which most features match
-  MatchCount count;   // at LOAM's own converged pose of each sweep, before it enters the map
+  bool well = false;                // one stretch that does not alternate and that a second track confirms
+  MatchCount count;                 // at LOAM's own converged pose of each sweep, before it enters the map
 
   /// Sweeps that are not lost.
   std::size_t tracked() const;

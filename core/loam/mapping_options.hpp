@@ -48,7 +48,6 @@ struct MappingOptions {
   std::vector<std::size_t> starts;
   double well_determined = 0.01;
   int max_starts = 6;
-  double well_tracked = 0.8;          // part of the features that match on a walk with a single start
   double max_alternation_rad = 0.07;  // beyond, sweeps of one direction lie beside those of the other
 
   // Instead of the above, for criteria that are counted at LOAM's own poses.

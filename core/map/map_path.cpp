@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <optional>
 
+#include "core/loam/path/given_motion.hpp"
 #include "core/map/stamped_poses.hpp"
 #include "core/offset/judgement/identifiability.hpp"
 #include "core/offset/kind/stationary_motion.hpp"
@@ -32,24 +33,13 @@ Result<void> check_scans(const OffsetProblem& problem, double offset_s) {
       fmt::format("{}: no scan is covered by the motor's samples at these offsets.", recording.name));
 }
 
-// The sweep as poses from elsewhere have it; lost where they do not cover it.
-SweepPose along(const std::vector<StampedPose>& poses, SweepPose sweep) {
-  constexpr double kKnot_s = 0.033;
-  sweep.lost = !poses_cover(poses, sweep.begin_s, sweep.end_s);
-  if (sweep.lost) return sweep;
-  const auto steps = std::size_t(std::max(1.0, std::ceil((sweep.end_s - sweep.begin_s) / kKnot_s)));
-  sweep.knots.clear();
-  for (std::size_t i = 0; i <= steps; ++i) {
-    const double u = double(i) / double(steps);
-    sweep.knots.push_back(pose_at(poses, (1 - u) * sweep.begin_s + u * sweep.end_s));
-  }
-  return sweep;
-}
-
 // The poses of all sweeps that a SweepPlacer has at an offset; those that the path lacks are lost.
 std::vector<SweepPose> poses_of_sweeps(const OffsetProblem& problem, const MapPath& path, double offset_s) {
   const std::vector<std::size_t> sweep_of =
       assign_sweeps(problem.recording->scans, problem.motor.sweeps, offset_s);
+  std::optional<GivenMotion> given;
+  if (!path.walk)
+    given.emplace(path.poses, GivenMotion::Parts::kRotationAndTranslation, GivenMotion::Role::kTruth);
   std::vector<SweepPose> poses;
   for (std::size_t i = 0; i < sweep_of.size(); ++i) {
     if (problem.scan_used[i] == 0 || sweep_of[i] == kNoSweep) continue;
@@ -64,8 +54,9 @@ std::vector<SweepPose> poses_of_sweeps(const OffsetProblem& problem, const MapPa
     if (path.walk) {
       const auto solved = std::ranges::lower_bound(path.walk->sweeps, pose.sweep, {}, &SweepPose::sweep);
       if (solved != path.walk->sweeps.end() && solved->sweep == pose.sweep) pose = *solved;
-    } else {
-      pose = along(path.poses, pose);
+    } else if (poses_cover(path.poses, pose.begin_s, pose.end_s)) {
+      pose = along(*given, pose, given->at(pose.begin_s), pose.begin_s, MappingOptions().knot_s);
+      pose.lost = false;
     }
     poses.push_back(std::move(pose));
   }

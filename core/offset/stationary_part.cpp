@@ -19,8 +19,8 @@ std::vector<RecordingPart> likely_parts(const PreparedRecording& prepared,
   constexpr std::size_t kFewSweeps = 20;  // a motion may begin within each pair of the same direction
   const MotorMotion& motor = prepared.motor;
   std::vector<RecordingPart> likely;
-  for (const MotionPart& part :
-       parts)  // the first pair that moved begins a sweep after the last that did not
+  // The first pair that moved begins a sweep after the last that did not.
+  for (const MotionPart& part : parts)
     if (!part.moved) likely.push_back({part.begin_s, part.end_s + motor.median_sweep_s});
   std::ranges::stable_sort(likely, std::greater<>(), length_s);
   if (!likely.empty()) likely.resize(1);
@@ -33,18 +33,21 @@ std::vector<RecordingPart> likely_parts(const PreparedRecording& prepared,
 
 // From a group of lines that is stationary as far as there are others that follow each other. One next to a
 // group that moved may already have moved in part, and is left out.
+struct LastStationary {
+  std::optional<MotionPart> group;
+  bool is_last = false;  // of all groups
+};
 template <typename Groups>
-std::optional<MotionPart> last_stationary(const Groups& groups, double max_gap_s, bool& to_the_end) {
+LastStationary last_stationary(const Groups& groups, double max_gap_s) {
   std::optional<MotionPart> before, last;
   for (const MotionPart& group : groups) {
     const double gap_s = last ? std::max(group.begin_s - last->end_s, last->begin_s - group.end_s) : 0;
-    if (gap_s > max_gap_s) return last;
-    if (group.moved) return before;
+    if (gap_s > max_gap_s) return {last};
+    if (group.moved) return {before};
     before = last;
     last = group;
   }
-  to_the_end = true;
-  return last;
+  return {last, true};
 }
 
 // The part round a likely one that its scan lines show to be stationary.
@@ -61,10 +64,9 @@ std::optional<RecordingPart> seen_part(const PreparedRecording& prepared, const 
       motion_of_lines(stationary_grid(problem), fit.direct.offset_s, likely);
   const double middle_s = (likely.begin_s + likely.end_s) / 2;
   const auto from = std::ranges::lower_bound(groups, middle_s, {}, &MotionPart::begin_s);
-  bool to_begin = false, to_end = false;
-  const auto first = last_stationary(std::ranges::subrange(std::make_reverse_iterator(from), groups.rend()),
-                                     sweep_s, to_begin),
-             last = last_stationary(std::ranges::subrange(from, groups.end()), sweep_s, to_end);
+  const auto [first, to_begin] =
+      last_stationary(std::ranges::subrange(std::make_reverse_iterator(from), groups.rend()), sweep_s);
+  const auto [last, to_end] = last_stationary(std::ranges::subrange(from, groups.end()), sweep_s);
   if (!first || !last) return std::nullopt;
   const double duration_s = recording.scans.back().first_beam_s - recording.scans.front().first_beam_s;
   const RecordingPart turning{first->begin_s, last->end_s};

@@ -84,36 +84,25 @@ void add(SurfaceFit& fit, const MatchResidual& residual) {
   if (on_surface(residual)) ++fit.near;
 }
 
-// The normal equations of a step about `pivot_m`.
-struct StepEquations {
-  Matrix6d matrix = Matrix6d::Zero();
-  Vector6d gradient = Vector6d::Zero();
-
-  void add(const Vector3d& p_m, const MatchResidual& residual, const Vector3d& pivot_m, double loss_m) {
-    if (!residual.has_normal) return;
-    const Vector6d row = distance_jacobian(p_m, residual.normal, pivot_m);
-    const double weight = cauchy_weight(residual.distance_m, loss_m) / (kMatchSigma_m * kMatchSigma_m);
-    matrix.noalias() += weight * row * row.transpose();
-    gradient += weight * residual.distance_m * row;
-  }
-  double max_sigma(int first) const {
-    constexpr double kPrior = 1e-2;  // of 10 m and 10 rad: the matrix is then regular
-    const Matrix6d covariance = (matrix + kPrior * Matrix6d::Identity()).inverse();
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance.block<3, 3>(first, first));
-    return std::sqrt(solver.eigenvalues()[2]);
-  }
-};
+// Of three of a step's unknowns, from `first` on, in their least determined direction.
+double max_sigma(const RigidEquations& equations, int first) {
+  constexpr double kPrior = 1e-2;  // of 10 m and 10 rad: the matrix is then regular
+  const Matrix6d covariance = (equations.matrix + kPrior * Matrix6d::Identity()).inverse();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance.block<3, 3>(first, first));
+  return std::sqrt(solver.eigenvalues()[2]);
+}
 
 // With a loss that narrows. Gives the equations of the last step.
-StepEquations register_view(Registration& registration, const Vector3d& at_m, double tolerance, Pose& move) {
+RigidEquations register_view(Registration& registration, const Vector3d& at_m, double tolerance, Pose& move) {
   constexpr int kIterations = 5;  // with either loss
-  StepEquations equations;
+  RigidEquations equations;
   for (const double loss_m : {kWideLoss_m, kNarrowLoss_m})
     for (int i = 0; i < kIterations; ++i) {
       const Vector3d pivot_m = move * at_m;
       equations = {};
       registration.match(move, [&](const SeenFeature&, const Vector3d& p_m, const MatchResidual& residual) {
-        equations.add(p_m, residual, pivot_m, loss_m);
+        const double weight = cauchy_weight(residual.distance_m, loss_m) / (kMatchSigma_m * kMatchSigma_m);
+        if (residual.has_normal) equations.add(p_m - pivot_m, residual.normal, residual.distance_m, weight);
       });
       constexpr double kMinInformation = 100;  // 10 cm and 0.1 rad
       int free_directions = 0;
@@ -132,8 +121,9 @@ bool ViewPair::determined() const {
 }
 
 bool ViewPair::coincides() const {
-  return determined() && double(moved.near) > kMinCoinciding * double(features) &&
-         moved.misfit()<kMaxMovedMisfit&& double(placed.matched)> kMinPlaced * double(features);
+  const double all = double(features);
+  return determined() && double(moved.near) > kMinCoinciding * all && kMaxMovedMisfit > moved.misfit() &&
+         double(placed.matched) > kMinPlaced * all;
 }
 
 ViewPair match_views(const SweepMaps& other, const Vector3d& other_at_m, const WalkView& view,
@@ -147,7 +137,7 @@ ViewPair match_views(const SweepMaps& other, const Vector3d& other_at_m, const W
                        add(pair.placed, residual);
                        add(pair.placed_sweeps[feature.sweep], residual);
                      });
-  const StepEquations equations =
+  const RigidEquations equations =
       register_view(registration, view.at.translation_m, 2 * options.step_tolerance, pair.move);
   registration.match(pair.move,
                      [&](const SeenFeature& feature, const Vector3d& p_m, const MatchResidual& residual) {
@@ -160,8 +150,8 @@ ViewPair match_views(const SweepMaps& other, const Vector3d& other_at_m, const W
     pair.apart_m /= double(pair.moved.near);
     pair.place_m /= double(pair.moved.near);
   }
-  pair.rotation_sigma_rad = equations.max_sigma(0);
-  pair.translation_sigma_m = equations.max_sigma(3);
+  pair.rotation_sigma_rad = max_sigma(equations, 0);
+  pair.translation_sigma_m = max_sigma(equations, 3);
   return pair;
 }
 

@@ -18,9 +18,9 @@ StationaryFit fit_stationary(const Recording& part, const Job& job) {
   StationaryDirectOptions options;
   options.resampling = Resampling::kNone;
   fit.direct = solve_stationary(stationary_grid(problem), coarse.offset_s(), options, job);
-  const bool near = std::abs(fit.direct.offset_s -
-                             coarse.offset_s())<kNear_units * scale.unit_s, inside = *coarse.best> 0 &&
-                    *coarse.best + 1 < coarse.curve.size();
+  const double away_s = std::abs(fit.direct.offset_s - coarse.offset_s());
+  const bool near = away_s < kNear_units * scale.unit_s;
+  const bool inside = *coarse.best > 0 && *coarse.best + 1 < coarse.curve.size();
   fit.fits = fit.direct.matches >= options.min_matches && near && inside;
   return fit;
 }

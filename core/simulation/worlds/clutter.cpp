@@ -54,6 +54,16 @@ Mesh Relief::mesh(const Box2& box_m, double albedo) const {
   return mesh;
 }
 
+void scatter(Mesh& mesh, Draw& draw, Spots& spots, const Relief& relief, const Box2& within_m, int count,
+             double radius_m, const std::function<Mesh()>& make) {
+  for (; count > 0; --count) {
+    const auto spot = spots.find(draw, within_m, radius_m);
+    if (!spot) continue;
+    const double yaw_deg = draw.in(0, 360);
+    mesh.add(make(), {spot->x(), spot->y(), relief.at(*spot), yaw_deg});
+  }
+}
+
 std::vector<std::pair<Placement, double>> sides_of(const Box2& box_m) {
   const Vector2d low = box_m.min(), high = box_m.max(), size = box_m.sizes();
   return {{{low.x(), high.y(), 0, 0}, size.x()},

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <functional>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -43,6 +44,10 @@ class Relief {
   };
   std::vector<Wave> waves_;
 };
+
+/// Things made by `make` at up to `count` free spots in a box, each on the ground and turned at random.
+void scatter(Mesh& mesh, Draw& draw, Spots& spots, const Relief& relief, const Box2& within_m, int count,
+             double radius_m, const std::function<Mesh()>& make);
 
 /// The places of four walls around a box, each seen from inside (its front at local y = 0, seen from y < 0),
 /// with their lengths: north, east, south, west.

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "core/simulation/scenes/parts.hpp"
 #include "core/simulation/worlds/clutter.hpp"
 #include "core/simulation/worlds/world.hpp"
@@ -48,16 +50,10 @@ World forest(Draw& draw) {
   Spots spots(draw.in(1.2, 2));
   spots.take(Vector2d::Zero(), 1.2);
   const double each_m2 = draw.in(10, 26);  // of ground for a tree
-  const auto put = [&](double count, double radius_m, auto make) {
-    for (; count > 0; --count) {
-      const auto spot = spots.find(draw, seen, radius_m);
-      if (!spot) continue;
-      const double yaw_deg = draw.in(0, 360);
-      world.mesh.add(make(), {spot->x(), spot->y(), relief.at(*spot), yaw_deg});
-    }
-  };
-  put(4 * seen_m * seen_m / each_m2, 0.3, [&] { return forest_tree(draw); });
-  put(draw.count(10, 70), 0.6, [&] { return undergrowth(draw); });
+  const int trees = static_cast<int>(std::ceil(4 * seen_m * seen_m / each_m2));
+  scatter(world.mesh, draw, spots, relief, seen, trees, 0.3, [&] { return forest_tree(draw); });
+  const int bushes = draw.count(10, 70);
+  scatter(world.mesh, draw, spots, relief, seen, bushes, 0.6, [&] { return undergrowth(draw); });
   return world;
 }
 

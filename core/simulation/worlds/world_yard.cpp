@@ -32,13 +32,8 @@ void fill_yard(World& world, Draw& draw, const Relief& relief) {
   spots.take(Vector2d::Zero(), 1.0);
   const Vector2d inset = Vector2d::Constant(1.4);
   const Box2 within(world.walked_m.min() + inset, world.walked_m.max() - inset);
-  const auto put = [&](int count, double radius_m, auto make) {
-    for (; count > 0; --count) {
-      const auto spot = spots.find(draw, within, radius_m);
-      if (!spot) continue;
-      const double yaw_deg = draw.in(0, 360);
-      world.mesh.add(make(), {spot->x(), spot->y(), relief.at(*spot), yaw_deg});
-    }
+  const auto put = [&](int count, double radius_m, const std::function<Mesh()>& make) {
+    scatter(world.mesh, draw, spots, relief, within, count, radius_m, make);
   };
   put(draw.count(1, 3), 3.2, [&] { return shed(draw); });
   put(draw.count(0, 2), 2.4, [&] {
