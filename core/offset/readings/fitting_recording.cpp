@@ -111,7 +111,9 @@ Result<Recording> read_fitting(const std::filesystem::path& path, const ReadOpti
   };
   auto recording = read(options);
   if (!recording || is_stated(options)) return recording;
-  const RankedReadings ranked = rank_readings(*recording, job);
+  RankedReadings ranked = rank_readings(*recording, job);
+  if (part && chosen_of(ranked.beams) == nullptr)
+    if (const auto whole = read_recording(path, options, job)) ranked = rank_readings(*whole, job);
   const std::string topic = recording->rig.laser.topic.value_or("");
   if (const auto other = other_options(options, topic, found_by(ranked))) recording = read(*other);
   if (recording) add_readings(ranked, topic, recording->report);

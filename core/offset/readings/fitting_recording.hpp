@@ -12,7 +12,8 @@ namespace sweepscope {
 /// geometry shows (rank_readings), with the readings that were tried in ReadReport::readings. Where another
 /// reading than the recorded one is used, the recording's rig has its time_increment_s, and a warning names
 /// it. Where two readings fit alike, their difference is ReadReport::beam_time_doubt_s. Of a recording that
-/// is cut to a part, the sweeps of that part are ranked; the others by those of its beginning.
+/// is cut to a part, the sweeps of that part are ranked, and where they decide nothing those of the
+/// beginning.
 Result<Recording> read_fitting(const std::filesystem::path& path, const ReadOptions& options, const Job& job,
                                const std::optional<TimeWindow>& part = {});
 Result<RecordingFile> open_fitting(const std::filesystem::path& path, const ReadOptions& options,

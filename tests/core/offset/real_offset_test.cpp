@@ -1,8 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "core/offset/estimator.hpp"
-#include "core/recording/formats/read_recording.hpp"
-#include "core/recording/time_window.hpp"
+#include "core/offset/readings/fitting_recording.hpp"
 #include "tests/core/recording/test_bag.hpp"
 
 namespace sweepscope {
@@ -21,9 +20,8 @@ TEST(RealOffset, ReceiveTimesAnswerAsMuchBelowHeaderStampsAsTheirDelaysSay) {
     std::vector<double> offsets_s;
     for (const StampSource stamps : {StampSource::kHeader, StampSource::kReceive}) {
       options.stamps = stamps;
-      const auto whole = read_recording(data / "guardian_tilt/guardian_tilt_B.bag", options, Job());
-      ASSERT_TRUE(whole) << whole.error().message;
-      const auto part = cut_to_window(*whole, {0, until_s}, whole->name);
+      const auto part =
+          read_fitting(data / "guardian_tilt/guardian_tilt_B.bag", options, Job(), TimeWindow{0, until_s});
       ASSERT_TRUE(part) << part.error().message;
       const auto found = estimate(*part, EstimateOptions(), Job());
       ASSERT_TRUE(found && found->identifiable);
