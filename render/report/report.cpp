@@ -131,14 +131,17 @@ std::string recorded(const RecordingSummary& summary) {
 }
 
 std::string warnings_list(const ReportContent& content) {
-  std::string items;
-  for (const auto* list : {&content.recording.warnings, &content.estimate.warnings}) {
-    for (const std::string& warning : *list)
-      items += html::element("li", html::escape(with_plus_minus_sign(warning)));
-  }
+  std::vector<std::string> all = content.recording.warnings;
+  const auto add = [&](const std::vector<std::string>& warnings) {
+    for (const std::string& warning : warnings)
+      if (std::ranges::find(all, warning) == all.end()) all.push_back(warning);
+  };
+  add(content.estimate.warnings);
   if (!content.maps.empty() && content.maps.back().consistency)
-    for (const std::string& warning : content.maps.back().consistency->warnings)
-      items += html::element("li", html::escape(warning));
+    add(content.maps.back().consistency->warnings);
+  std::string items;
+  for (const std::string& warning : all)
+    items += html::element("li", html::escape(with_plus_minus_sign(warning)));
   if (items.empty()) return "<p>None.</p>\n";
   return "<ul class=\"warnings\">" + items + "</ul>\n";
 }

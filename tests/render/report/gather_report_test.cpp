@@ -106,5 +106,17 @@ TEST(GatherReport, ARigThatIsSolvedForIsShownAndItsMapsAreThoseOfTheRigFound) {
   EXPECT_EQ(report_html(with_file).value().find("<h2>The rig</h2>"), std::string::npos);
 }
 
+TEST(ReportPage, AWarningOfTheRecordingThatTheEstimateRepeatsStandsOnce) {
+  ReportContent content;
+  content.recording.warnings = {"the motor is late"};
+  content.estimate.warnings = {"the motor is late", "few matches"};
+  const auto page = report_html(content);
+  ASSERT_TRUE(page) << page.error().message;
+  const std::size_t first = page->find("<li>the motor is late</li>");
+  ASSERT_NE(first, std::string::npos);
+  EXPECT_EQ(page->find("<li>the motor is late</li>", first + 1), std::string::npos);
+  EXPECT_NE(page->find("<li>few matches</li>"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace sweepscope
