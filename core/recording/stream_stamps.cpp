@@ -190,7 +190,9 @@ std::optional<ClockPart> part_of_one_clock(std::span<const double> times_s, std:
   std::ranges::stable_sort(order, {}, [&](std::size_t i) { return times_s[i]; });
   std::vector<double> sorted_s, in_order;
   for (const std::size_t i : order) {
-    if (!sorted_s.empty() && times_s[i] == sorted_s.back()) continue;  // sent twice, by the same clock
+    const bool sent_twice = !sorted_s.empty() && times_s[i] == sorted_s.back() &&
+                            (values.empty() || values[i] == in_order.back());
+    if (sent_twice) continue;
     sorted_s.push_back(times_s[i]);
     if (!values.empty()) in_order.push_back(values[i]);
   }
