@@ -85,7 +85,7 @@ ExitCode conclude_search(const EstimateArguments& options, const Estimate& found
   const auto ordered = candidates == nullptr ? Result<void>() : candidates->put_in_order();
   if (options.shard) return ordered ? say_shard(options, found, *candidates, path) : fail(ordered.error());
   ExitCode code = conclude(found, options.output);
-  if (code == ExitCode::kDone && options.campaign.expected)
+  if (found.identifiable && options.campaign.expected)
     code = conclude_expectation(*options.campaign.expected, found, !options.output.on_stdout());
   if (const auto written = write_rig(options, found); !written) return fail(written.error());
   return ordered ? code : fail(ordered.error());

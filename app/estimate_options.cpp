@@ -9,6 +9,7 @@
 #include "app/say.hpp"
 #include "core/io/content_hash.hpp"
 #include "core/numbers.hpp"
+#include "core/offset/rig_estimate.hpp"
 #include "core/results/estimate_json.hpp"
 #include "core/results/rig_json.hpp"
 
@@ -102,7 +103,8 @@ void print_answer(const Estimate& estimate) {
         estimate.sigma_s ? fmt::format(" +- {:.3f} ms (1 sigma)", *estimate.sigma_s * 1e3) : "";
     print("offset   {:.3f} ms{}      t_motor = t_laser + offset\n", *estimate.offset_s * 1e3, sigma);
   } else {
-    print("offset   cannot be determined from this recording\n");
+    print("offset   {}\n", estimate.offset_is_gauge() ? "cannot be determined, and does not blur the map"
+                                                      : "cannot be determined from this recording");
     for (const std::string& reason : estimate.reasons()) print("  why: {}\n", reason);
   }
   if (estimate.over_time) print_over_time(*estimate.over_time);
@@ -237,7 +239,7 @@ ExitCode conclude(const Estimate& estimate, const EstimateOutput& output) {
   const auto written = output.write(estimate);
   if (!output.on_stdout()) print_answer(estimate);
   if (!written) return fail(written.error());
-  return estimate.identifiable ? ExitCode::kDone : ExitCode::kNotIdentifiable;
+  return has_answer(estimate) ? ExitCode::kDone : ExitCode::kNotIdentifiable;
 }
 
 }  // namespace sweepscope::app

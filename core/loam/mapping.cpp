@@ -368,7 +368,7 @@ MatchCount count_matches(const OffsetProblem& problem, double offset_s, const st
       in_map = 0;
       stretch = pose->stretch;
     }
-    const SweepFilter others = sweep.direction > 0 ? SweepFilter::kBackward : SweepFilter::kForward;
+    const SweepFilter others = sweep.side > 0 ? SweepFilter::kBackward : SweepFilter::kForward;
     if (in_map++ >= options.settling_sweeps)
       count += count_sweep(maps, sweep, *pose, search_rule(options, true, others), options, motor_axis);
     maps.insert(sweep, *pose);

@@ -23,6 +23,7 @@ SweepPlacer::SweepPlacer(const OffsetProblem& problem, double offset_s)
       offset_s_(offset_s),
       kinematics_(problem.recording->rig.mount),
       motor_(problem.recording->motor),
+      one_way_(problem.motor.one_way()),
       sweep_of_(assign_sweeps(problem.recording->scans, problem.motor.sweeps, offset_s)) {
   std::size_t last = kNoSweep;
   for (std::size_t scan = 0; scan < sweep_of_.size(); ++scan) {
@@ -39,6 +40,7 @@ void SweepPlacer::place(std::size_t i, PlacedSweep& placed) {
   const Sweep& sweep = problem_.motor.sweeps[sweep_of_[first]];
   placed.sweep = sweep_of_[first];
   placed.direction = sweep.direction;
+  placed.side = !one_way_ ? sweep.direction : placed.sweep % 2 == 0 ? 1 : -1;
   placed.begin_s = sweep.begin_s - offset_s_;
   placed.end_s = sweep.end_s - offset_s_;
   placed.turned_rad = sweep.direction * sweep.speed_rad_s * (sweep.end_s - sweep.begin_s) *

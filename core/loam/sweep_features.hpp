@@ -24,6 +24,9 @@ struct PlacedFeature {
 struct PlacedSweep {
   std::size_t sweep = 0;  // index into MotorMotion::sweeps
   int direction = 0;
+  /// +1 or -1: in maps its points are matched to those of the other side. Its direction; of a motor that
+  /// turns one way every second half turn.
+  int side = 0;
   double begin_s = 0, end_s = 0;                         // laser clock
   Eigen::Vector3d turned_rad = Eigen::Vector3d::Zero();  // by the motor, rotation vector in the base frame
   std::size_t scans = 0;
@@ -63,6 +66,7 @@ class SweepPlacer {
   double offset_s_;
   Kinematics kinematics_;
   MotorReader motor_;
+  bool one_way_;
   std::vector<std::size_t> sweep_of_;  // per scan
   struct Scans {
     std::size_t first, end;

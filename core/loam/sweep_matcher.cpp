@@ -40,9 +40,9 @@ MatchCount& MatchCount::operator+=(const MatchCount& other) {
 void SweepMaps::insert(const PlacedSweep& sweep, const SweepPose& pose) {
   const SweepMotion motion = pose.motion();
   for (const PlacedFeature& feature : sweep.edges)
-    edges.insert(motion(feature.p_in_base_m, feature.u).cast<float>(), feature.line, sweep.direction);
+    edges.insert(motion(feature.p_in_base_m, feature.u).cast<float>(), feature.line, sweep.side);
   for (const PlacedFeature& feature : sweep.planes)
-    planes.insert(motion(feature.p_in_base_m, feature.u).cast<float>(), feature.line, sweep.direction);
+    planes.insert(motion(feature.p_in_base_m, feature.u).cast<float>(), feature.line, sweep.side);
 }
 
 SearchRule search_rule(const MappingOptions& options, bool grown, SweepFilter filter) {

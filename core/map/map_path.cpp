@@ -7,6 +7,7 @@
 
 #include "core/loam/path/given_motion.hpp"
 #include "core/map/stamped_poses.hpp"
+#include "core/numbers.hpp"
 #include "core/offset/judgement/identifiability.hpp"
 #include "core/offset/kind/stationary_motion.hpp"
 
@@ -20,10 +21,25 @@ bool taken_for_moving(const OffsetProblem& problem, double offset_s, const MapOp
   return test_motion(stationary_grid(problem), offset_s).moving();
 }
 
+// An offset that cannot be found does not blur a map either: it is a gauge.
+bool any_offset_serves(const Refusal& refusal) {
+  return refusal.kind == RefusalKind::kOneWayAtOneSpeed;
+}
+
+std::string gauge_warning(const OffsetProblem& problem) {
+  const auto refused = motor_refusal(problem.recording->motor, problem.motor);
+  if (!refused || !any_offset_serves(*refused)) return "";
+  return fmt::format(
+      "The motor turns one way at one speed: any offset gives this map but for a turn about the motor's axis, "
+      "{:.2g} deg for each millisecond. What blurs it is the mount (`estimate --solve mount`).",
+      problem.motor.median_speed_rad_s * kDegPerRad / 1e3);
+}
+
 // Why no map can be built at all.
 Result<void> check_scans(const OffsetProblem& problem, double offset_s) {
   const Recording& recording = *problem.recording;
-  if (const auto refused = motor_refusal(recording.motor, problem.motor))
+  if (const auto refused = motor_refusal(recording.motor, problem.motor);
+      refused && !any_offset_serves(*refused))
     return failure(ExitCode::kNotIdentifiable, fmt::format("{}: {}", recording.name, refused->text));
   const std::vector<std::size_t> sweep_of = assign_sweeps(recording.scans, problem.motor.sweeps, offset_s);
   for (std::size_t i = 0; i < sweep_of.size(); ++i)
@@ -63,14 +79,17 @@ std::vector<SweepPose> poses_of_sweeps(const OffsetProblem& problem, const MapPa
   return poses;
 }
 
+void add_warning(MapPath& path, const std::string& warning) {
+  path.warning += (path.warning.empty() || warning.empty() ? "" : " ") + warning;
+}
+
 // Adds the consistency of the path with its warnings. A solved path has an offset of its own.
 Result<MapPath> checked(const OffsetProblem& problem, MapPath path, const Job& job, double offset_s = 0) {
   if (path.lost()) return path;
   if (path.walk) offset_s = path.walk->tracked_at_s;
   auto found = map_consistency(problem, poses_of_sweeps(problem, path, offset_s), offset_s, job);
   if (!found) return failure(ExitCode::kInterrupted, "interrupted while building the map");
-  for (const std::string& warning : found->warnings)
-    path.warning += (path.warning.empty() ? "" : " ") + warning;
+  for (const std::string& warning : found->warnings) add_warning(path, warning);
   path.consistency = std::make_shared<const MapConsistency>(std::move(*found));
   return path;
 }
@@ -86,11 +105,12 @@ Result<MapPath> find_map_path(const PreparedRecording& prepared, double from_s, 
   path.used = problem.scan_used;
   path.sweeps = problem.motor.sweeps;
   path.poses = options.poses;
+  path.warning = gauge_warning(problem);
   if (path.moving) path.walk = options.walk;
   if (!path.poses.empty()) {
     auto covered = check_pose_coverage(*problem.recording, path.poses, path.used);
     if (!covered) return tl::unexpected(covered.error());
-    path.warning = std::move(*covered);
+    add_warning(path, *covered);
     return checked(problem, std::move(path), job, (from_s + to_s) / 2);
   }
   if (!path.moving) return path;
@@ -99,7 +119,7 @@ Result<MapPath> find_map_path(const PreparedRecording& prepared, double from_s, 
     if (!solved) return failure(ExitCode::kInterrupted, "interrupted while building the map");
     path.walk = std::make_shared<const SolvedWalk>(std::move(*solved));
   }
-  path.warning = pieces_warning(path.walk->sweeps, *problem.recording).value_or("");
+  add_warning(path, pieces_warning(path.walk->sweeps, *problem.recording).value_or(""));
   return checked(problem, std::move(path), job);
 }
 

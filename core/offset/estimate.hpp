@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -29,7 +30,7 @@ struct Estimate : Answer {
   std::optional<OffsetOverTime> over_time;  // where it was asked for; offset_s then holds at the middle
   std::optional<SweepSample> sample;        // none: all sweeps are used
   /// The part of a recording that moved in which the rig was stationary, if the answer is of it alone. In
-  /// seconds since the first scan.
+  /// seconds since the first scan of the whole recording, as --window takes them.
   std::optional<RecordingPart> stationary_part;
   std::vector<BeamReading> readings;  // see ReadReport
   std::size_t sweeps = 0;
@@ -38,6 +39,13 @@ struct Estimate : Answer {
   double wall_s = 0;
   /// What of the rig was solved for beside the offset; null where nothing was.
   std::shared_ptr<const SolvedRig> rig;
+
+  /// The motor turns one way at one speed: any offset gives the same map but for a turn about the motor's
+  /// axis, so that none is found, and none is needed for a map or for the rig.
+  bool offset_is_gauge() const {
+    return std::ranges::any_of(
+        refusals, [](const Refusal& refusal) { return refusal.kind == RefusalKind::kOneWayAtOneSpeed; });
+  }
   bool interrupted = false;  // the curve holds the candidates finished until then
 
   /// Why it is not identifiable, whole sentences.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cmath>
 #include <ctime>
 
 #include "core/offset/find_offset.hpp"
@@ -49,6 +50,12 @@ bool parts_may_answer(const Estimate& whole, const EstimateOptions& options) {
          !options.poses && !options.over_time_s && options.method != Method::kMoving;
 }
 
+// A part of a recording that may be a part itself, in the whole; milliseconds, so that it can be typed.
+RecordingPart in_whole(const Recording& recording, const RecordingPart& part) {
+  const auto in_ms = [&](double time_s) { return std::floor((recording.begins_s + time_s) * 1e3) / 1e3; };
+  return {in_ms(part.begin_s), in_ms(part.end_s)};
+}
+
 // The answer of the part in which the rig was stationary, or that of the whole where there is none.
 Result<Estimate> of_stationary_part(const RecordingSource& source, Estimate whole,
                                     const EstimateOptions& options, const KeptCandidates& kept,
@@ -62,12 +69,12 @@ Result<Estimate> of_stationary_part(const RecordingSource& source, Estimate whol
   const Recording stationary = window(**recording, part->begin_s, part->end_s);
   auto found = find_offset(stationary, plan_estimate(stationary, options, false), options, kept, job);
   if (!found || !found->identifiable || found->kind != RigKind::kStationary) return whole;
-  found->stationary_part = part;
+  found->stationary_part = in_whole(**recording, *part);
   found->warnings.insert(
       found->warnings.begin(),
       fmt::format("The rig moved, and the whole recording does not determine the offset: only the part from "
                   "{:.1f} to {:.1f} s, in which the rig was stationary, is used.",
-                  part->begin_s, part->end_s));
+                  found->stationary_part->begin_s, found->stationary_part->end_s));
   return found;
 }
 

@@ -166,13 +166,15 @@ OffsetOverTime groups_of(const EstimatePlan& plan, const PreparedRecording& prep
   return follow_groups(*prepared.recording, plan.sample->groups, coarse.offset_s(), options.features, job);
 }
 
-// The motion test of a short recording, with pairs of neighbouring sweeps.
+// The motion test of a short recording, with pairs of neighbouring sweeps and groups of scan lines.
 MotionTest test_motion_of_few(const StationaryGrid& grid, const CoarseSearch& coarse, MotionTest test,
                               const Job& job) {
   if (!coarse.best || !has_few_pairs(test)) return test;
   StationaryDirectOptions options;
   options.resampling = Resampling::kNone;
-  add_neighbours(grid, solve_stationary(grid, coarse.offset_s(), options, job).offset_s, test);
+  const double best_s = solve_stationary(grid, coarse.offset_s(), options, job).offset_s;
+  add_neighbours(grid, best_s, test);
+  if (!test.moving()) test.within_sweeps = moved_within_sweeps(grid, best_s);
   return test;
 }
 

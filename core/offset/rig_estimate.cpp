@@ -7,7 +7,9 @@
 #include <memory>
 
 #include "core/numbers.hpp"
+#include "core/offset/kind/rig_kind.hpp"
 #include "core/offset/kind/rig_motion.hpp"
+#include "core/offset/kind/stationary_motion.hpp"
 #include "core/offset/walk/walk.hpp"
 #include "core/rig_solve/rig_solve.hpp"
 
@@ -161,6 +163,26 @@ Result<Estimate> with_turn_of_walk(const PreparedRecording& prepared, const Esti
   return with(std::move(found), std::make_shared<const SolvedRig>(std::move(solved)));
 }
 
+// A motor that turns one way at one speed: the rig at an offset of 0, which is as good as any other.
+Estimate with_rig_at_any_offset(const PreparedRecording& prepared, const EstimateOptions& options,
+                                Estimate found, const Job& job) {
+  const OffsetProblem problem = problem_for(prepared, 0, 0);
+  const KindDecision kind = decide_kind(test_motion(stationary_grid(problem), 0), options);
+  found.kind = kind.kind;
+  found.kind_reason = kind.reason;
+  found.scans = std::size_t(std::ranges::count(problem.scan_used, 1));
+  found.sweeps = problem.motor.sweeps.size();
+  if (kind.kind == RigKind::kMoving) {
+    found.warnings.push_back(
+        "The rig was not solved for: its motor turns one way at one speed, and the rig moved. Keep it stationary "
+        "for 8 s.");
+    return found;
+  }
+  RigSolve what = options.solve;
+  what.offset = false;
+  return with(std::move(found), std::make_shared<const SolvedRig>(solve_rig(problem, 0, what, job)));
+}
+
 }  // namespace
 
 Result<Estimate> estimate_with_rig(const RecordingSource& source, const EstimateOptions& options,
@@ -175,7 +197,9 @@ Result<Estimate> estimate_with_rig(const RecordingSource& source, const Estimate
   if (!with_features) return tl::unexpected(with_features.error());
   const PreparedRecording& prepared = *with_features;
   auto found = offset.of(prepared);
-  if (!found || job.cancelled() || !found->kind) return found;
+  if (!found || job.cancelled()) return found;
+  if (found->offset_is_gauge()) return with_rig_at_any_offset(prepared, options, std::move(*found), job);
+  if (!found->kind) return found;
   if (found->kind == RigKind::kStationary) {
     auto solved = rig_of_surfaces(prepared, options.solve, *found, job);
     return solved && !job.cancelled() ? with_rig_found(prepared, std::move(solved), offset) : found;
@@ -191,6 +215,11 @@ Result<Estimate> estimate_with_rig(const RecordingSource& source, const Estimate
       return std::move(answer);
     });
   return with_turn_of_walk(prepared, options, std::move(*found), offset);
+}
+
+bool has_answer(const Estimate& found) {
+  return found.identifiable || (found.offset_is_gauge() && found.rig &&
+                                (found.rig->mount.identifiable || found.rig->encoder.identifiable));
 }
 
 }  // namespace sweepscope

@@ -98,9 +98,11 @@ std::vector<std::string> expectations(const Recording& recording, const Recordin
   const Remark refused = expected_refusal(recording, motor);
   add(refused ? *refused : accuracy(recording, motor));
   if (!motor.one_way())
-    add(fmt::format(
-        "Offsets up to {:.4g} ms to either side can be distinguished (a quarter of the motor's period).",
-        1e3 * search_scale(motor).max_half_width_s));
+    add(fmt::format("Offsets up to {:.4g} ms to either side can be distinguished ({}).",
+                    1e3 * search_scale(motor).max_half_width_s,
+                    motor.mirror_shift_s > motor.median_sweep_s
+                        ? "more than a quarter of the motor's period, since its motion is not even"
+                        : "a quarter of the motor's period"));
   if (!refused) add(sparse_samples(recording, motor));
   if (!motor.one_way()) add(few_sweeps(summary.motor.whole_sweeps()));
   for (const auto& [stream, name] :

@@ -10,6 +10,7 @@ Recording without_streams(const Recording& recording) {
   Recording result;
   result.name = recording.name;
   result.epoch_ns = recording.epoch_ns;
+  result.begins_s = recording.begins_s;
   result.rig = recording.rig;
   result.report = recording.report;
   result.turn_rates = recording.turn_rates;
@@ -55,9 +56,14 @@ Recording window(const Recording& recording, double from_s, double to_s, double 
   for (const LaserScan& scan : recording.scans)
     if (holds({from_s, to_s}, since_begin_s(recording, scan))) append(recording, scan, part);
   if (part.scans.empty()) return part;
+  part.begins_s += part.scans.front().first_beam_s - recording.scans.front().first_beam_s;
   part.motor = between(recording.motor, part.scans.front().first_beam_s - motor_margin_s,
                        part.scans.back().last_beam_s() + motor_margin_s);
   return part;
+}
+
+Recording part_of_whole(const Recording& recording, const RecordingPart& part) {
+  return window(recording, part.begin_s - recording.begins_s, part.end_s - recording.begins_s);
 }
 
 Recording parts_of(const Recording& recording, const std::vector<RecordingPart>& parts) {

@@ -115,6 +115,7 @@ struct Recording {
   std::string name;           // of the file without its folder, or of the simulated scene
   std::int64_t epoch_ns = 0;  // origin of all times, ns since 1970 (or of the source's own clock)
   Rig rig;                    // as read and completed by what was detected
+  double begins_s = 0;        // of a part: when it begins, since the first scan of the whole
   std::vector<LaserScan> scans;
   std::vector<float> ranges_m;     // of all scans, one after the other
   std::vector<float> intensities;  // like ranges_m, or empty
@@ -145,6 +146,9 @@ Recording window(const Recording& recording, double from_s, double to_s, double 
 struct RecordingPart {
   double begin_s = 0, end_s = 0;
 };
+
+/// The window whose times are those of the whole recording that this one may be a part of.
+Recording part_of_whole(const Recording& recording, const RecordingPart& part);
 
 /// The scans of several parts, and the recording's first and last scan, so that it lasts as long. The motor's
 /// samples are all kept.

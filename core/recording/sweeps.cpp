@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/numbers.hpp"
+#include "core/recording/mirror_shift.hpp"
 
 namespace sweepscope {
 namespace {
@@ -182,6 +183,7 @@ MotorMotion find_sweeps(const MotorTrack& track) {
   }
   motion.median_speed_rad_s = median(speeds);
   motion.median_sweep_s = median(durations);
+  motion.mirror_shift_s = mirror_shift_s(track, motion);
   return motion;
 }
 

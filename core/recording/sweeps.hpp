@@ -29,6 +29,7 @@ struct MotorMotion {
   double range_rad = 0;           // greatest minus least angle
   double median_speed_rad_s = 0;  // over the sweeps' steady parts
   double median_sweep_s = 0;      // over whole sweeps; over all where none is whole
+  double mirror_shift_s = 0;      // see mirror_shift_s; of a motor that turns to and fro
 
   /// It turned by more than two turns and never back: all sweeps have one direction.
   bool one_way() const;

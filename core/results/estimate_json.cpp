@@ -427,6 +427,7 @@ std::string estimate_to_json(const Estimate& estimate, Timing timing) {
   document["sweeps"] = estimate.sweeps;
   document["scans"] = estimate.scans;
   if (estimate.sample) document["sample"] = sample_to_json(*estimate.sample);
+  if (estimate.offset_is_gauge()) document["offset_is_gauge"] = true;
   if (const auto& part = estimate.stationary_part) document["window_s"] = {part->begin_s, part->end_s};
   document["cpu_s"] = timing == Timing::kWritten ? Json(estimate.cpu_s) : Json(nullptr);
   document["wall_s"] = timing == Timing::kWritten ? Json(estimate.wall_s) : Json(nullptr);

@@ -163,8 +163,13 @@ RigResiduals rig_residuals(const OffsetProblem& problem, const RigUnknowns& befo
       points_on_surfaces(with_before, with_after, options.loss_width_m);
   if (points.empty()) return {};
   const Places places = places_of(problem, with_after, points, options);
-  return {grid_of(places, residuals_m(with_before, points, &PointOnSurface::before), options),
-          grid_of(places, residuals_m(with_after, points, &PointOnSurface::after), options)};
+  std::vector<double> before_m = residuals_m(with_before, points, &PointOnSurface::before);
+  RigResiduals residuals{grid_of(places, before_m, options),
+                         grid_of(places, residuals_m(with_after, points, &PointOnSurface::after), options)};
+  std::erase_if(before_m, [](double residual_m) { return std::isnan(residual_m); });
+  for (double& residual_m : before_m) residual_m = std::abs(residual_m);
+  residuals.before_m = kSigmaPerMedianDeviation * median(std::move(before_m));
+  return residuals;
 }
 
 }  // namespace sweepscope

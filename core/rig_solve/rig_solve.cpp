@@ -300,7 +300,7 @@ void leave_play_open(SolvedRig& solved, double play_deg, double speed_rad_s, con
 
 RigPriors priors_of(const RigSolve& what) {
   RigPriors priors = RigPriors::Zero();
-  priors[kOffset] = kOffsetPrior_s;
+  if (what.offset) priors[kOffset] = kOffsetPrior_s;
   if (what.mount) {
     priors[kTurnU] = priors[kTurnV] = what.mount_deg * kRadPerDeg;
     priors[kShiftU] = priors[kShiftV] = what.mount_mm * 1e-3;
@@ -314,17 +314,20 @@ SolvedRig solve_rig(const OffsetProblem& problem, double first_offset_s, const R
                     const Job& job) {
   RigUnknowns first;
   first.offset_s = first_offset_s;
-  const RigFit before = solve_rig_planes(problem, first, priors_of({}), {}, job);
+  RigSolve nothing;
+  nothing.offset = what.offset;
+  const RigFit before = solve_rig_planes(problem, first, priors_of(nothing), {}, job);
   const bool one_speed = what.play && speed_spread(problem) < kMinSpeedSpread;
   RigSolve separable = what;
   separable.play = what.play && !one_speed;
   const RigSolution solution = solution_of(problem, first, priors_of(separable), job);
   const RigFit& fit = solution.fit;
   SolvedRig solved = solved_with(problem, solution, what);
-  solved.residual_before_m = before.residual_m;
   ResidualGridOptions grid;
   grid.loss_width_m = RigLeastSquaresOptions().loss_width_m(fit.residual_m);
   solved.residuals = rig_residuals(problem, before.rig, solved.found, grid);
+  // The surfaces that a wrong rig shows are often the flat halves of others.
+  solved.residual_before_m = std::max(before.residual_m, solved.residuals.before_m);
   solved.offset_sigma_s = added_sigma_s(fit.covariance, solution.priors);
   if (one_speed)
     leave_play_open(solved, what.play_deg, problem.motor.median_speed_rad_s,

@@ -19,6 +19,7 @@ namespace sweepscope {
 struct RigSolve {
   bool mount = false, play = false, encoder = false;
   double mount_deg = 20, mount_mm = 500, play_deg = 0.5, encoder_deg = 1;
+  bool offset = true;  // false: it stays where it is, as where a motor turns one way at one speed
 
   bool any() const { return mount || play || encoder; }
 };

@@ -62,6 +62,8 @@ std::vector<Bound> bounds_of(const SimulationOptions& o) {
       {"the stamp jitter", o.stamp_jitter_s * 1e3, 0, 10, " ms"},
       {"the backlash", o.backlash_deg, 0, 10, " deg"},
       {"the clock drift", o.clock_drift_ppm, -1000, 1000, " ppm"},
+      {"the motor's rest", o.motor_rest_s, 0, 1e6, " s"},
+      {"the time of the motor's rest", o.motor_rest_at_s, 0, 1e6, " s"},
       {"the jump", o.jump_s * 1e3, -10e3, 10e3, " ms"},
       {"the time of the jump", o.jump_at_s, 0, 1e6, " s"},
       {"the nudge", o.nudge_m * 1e3, -1000, 1000, " mm"},

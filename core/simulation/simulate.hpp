@@ -50,6 +50,8 @@ struct SimulationOptions {
   simulation::MotorAxis axis = simulation::MotorAxis::kX;
   double swing_deg = 90;        // by which the motor swings to either side, 1 to 180
   double motor_middle_deg = 0;  // about which the motor swings, within +-180; 0: the scanner is level there
+  double motor_rest_s = 0,
+         motor_rest_at_s = 0;  // how long the motor stands still, and from when on; 0 to 1e6
   /// Of a motor that turns one way, instead of sweep_s: each for an equal part of the recording, or with
   /// speed_ramp evenly from one to the next. 1 to 3600 each; empty: one speed, half a turn in sweep_s.
   std::vector<double> speeds_dps = {};

@@ -57,6 +57,8 @@ std::vector<SimulationOption> recording_options(TypedSimulation& typed) {
       {"swing-deg", &options.swing_deg, "Angle by which the motor swings to either side"},
       {"motor-middle-deg", &options.motor_middle_deg,
        "Angle about which the motor swings; the scanner is level at 0"},
+      {"motor-rest-s", &options.motor_rest_s, "How long the motor stands still, from --motor-rest-at-s on"},
+      {"motor-rest-at-s", &options.motor_rest_at_s, "Seconds since the first scan"},
       {"speeds-dps", &options.speeds_dps,
        "Speeds of a motor that turns one way (deg/s), each for an equal part of the recording", "A,B,...", "",
        false},

@@ -178,6 +178,8 @@ Json recorded_as_json(const SimulationOptions& o) {
           {"parts", o.parts},
           {"axis", name_of(o.axis)},
           {"swing_deg", tidy(o.swing_deg)},
+          {"motor_rest_s", tidy(o.motor_rest_s)},
+          {"motor_rest_at_s", tidy(o.motor_rest_at_s)},
           {"laser_upside_down", o.laser_upside_down},
           {"motor_repeats", o.motor_repeats},
           {"motor_in_degrees", o.motor_in_degrees}};

@@ -110,7 +110,7 @@ Result<ReportContent> gather_report(const PreparedRecording& prepared, const Rep
   if (found->interrupted) return failure(ExitCode::kInterrupted, "interrupted while looking for the offset");
   content.estimate = std::move(*found);
   if (const auto& part = content.estimate.stationary_part)
-    return prepare(std::make_shared<const Recording>(window(*prepared.recording, part->begin_s, part->end_s)),
+    return prepare(std::make_shared<const Recording>(part_of_whole(*prepared.recording, *part)),
                    prepared.feature_options, job)
         .and_then([&](const PreparedRecording& stationary) {
           return add_evidence(content, stationary, wanted, kept, job);

@@ -115,6 +115,18 @@ TEST_F(EstimateCommand, RefusesAMotorThatTurnsOneWay) {
   const Outcome outcome = run("estimate room.bag");
   EXPECT_EQ(outcome.exit_code, 4);
   EXPECT_NE(outcome.out.find("one way"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("--solve mount"), std::string::npos) << outcome.out;
+}
+
+TEST_F(EstimateCommand, SolvesForTheMountOfAMotorThatTurnsOneWay) {
+  make({"simulate room-2 -o room.bag --motor one-way --duration-s 8 --mount-error-deg 0,2,1"});
+  const Outcome outcome = run("estimate room.bag --solve mount --rig-out found.yaml --json found.json");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.out;
+  const Json json = Json::parse(test::contents_of(folder_ / "found.json"));
+  EXPECT_EQ(json["offset_is_gauge"], true);
+  EXPECT_TRUE(json["offset_ms"].is_null());
+  EXPECT_EQ(json["parameters"]["mount"]["identifiable"], true);
+  EXPECT_EQ(run("map room.bag --rig found.yaml --offset-ms 0 -o room.ply").exit_code, 0);
 }
 
 TEST_F(EstimateCommand, RefusesAWalkThatIsSaidToStandStill) {

@@ -5,6 +5,13 @@
 #include "core/numbers.hpp"
 
 namespace sweepscope {
+namespace {
+
+bool only_within_sweeps(const MotionTest& test) {
+  return test.within_sweeps && !test.pairs_differ() && !test.moved_slowly() && !test.neighbours_differ();
+}
+
+}  // namespace
 
 std::string moved_text(const MotionTest& test) {
   if (!test.pairs_differ() && test.moved_slowly())
@@ -12,11 +19,15 @@ std::string moved_text(const MotionTest& test) {
   if (!test.pairs_differ() && test.neighbours_differ())
     return fmt::format("The rig moved: in {} of {} pairs, neighbouring sweeps do not match at any offset.",
                        test.neighbours_moved, test.neighbours);
+  if (only_within_sweeps(test))
+    return "The rig moved during a part of a sweep: scan lines there do not match the sweeps next to them.";
   return fmt::format("The rig moved: in {} of {} pairs, sweeps of the same direction do not match.",
                      test.moved, test.pairs);
 }
 
 std::string pairs_text(const MotionTest& test) {
+  if (only_within_sweeps(test))
+    return "Scan lines of a part of a sweep do not match the sweeps next to them.";
   if (test.pairs == 0 || (!test.pairs_differ() && test.neighbours_differ()))
     return fmt::format("{} of {} pairs of neighbouring sweeps differ at every offset.", test.neighbours_moved,
                        test.neighbours);

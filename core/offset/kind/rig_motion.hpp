@@ -22,9 +22,10 @@ struct MotionTest {
 
   // Of a short recording: pairs k and k + 1, of opposite directions.
   std::size_t neighbours = 0, neighbours_moved = 0;
+  bool within_sweeps = false;  // scan lines moved against the sweeps next to them, for a fifth of a sweep
 
   bool answered() const { return pairs > 0 || neighbours > 0; }
-  bool moving() const { return pairs_differ() || moved_slowly() || neighbours_differ(); }
+  bool moving() const { return pairs_differ() || moved_slowly() || neighbours_differ() || within_sweeps; }
   bool pairs_differ() const { return 4 * moved > pairs; }
   bool neighbours_differ() const { return 4 * neighbours_moved > neighbours; }
   /// A single pair is not enough: people may stand near where others stood before.

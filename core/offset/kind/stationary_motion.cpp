@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -73,7 +74,10 @@ std::vector<std::size_t> whole_sweeps(const StationaryGrid& grid, const std::vec
   }
   const MotorMotion& motion = grid.problem->motor;
   if (motion.one_way()) return whole_half_turns(motion, lines);
-  const std::size_t most = lines.empty() ? 0 : *std::max_element(lines.begin(), lines.end());
+  std::size_t most = 0;  // of those without a rest within
+  for (std::size_t sweep = 0; sweep < lines.size(); ++sweep)
+    if (motion.sweeps[sweep].end_s - motion.sweeps[sweep].begin_s < 1.5 * motion.median_sweep_s)
+      most = std::max(most, lines[sweep]);
   std::vector<std::size_t> whole;
   for (std::size_t sweep = 0; sweep < lines.size(); ++sweep) {
     const Sweep& motor = motion.sweeps[sweep];
@@ -278,6 +282,14 @@ void add_neighbours(const StationaryGrid& grid, double offset_s, MotionTest& tes
   for (const SweepShift& shift : shifts)
     apart_m.push_back(2 * shift.apart_m);  // next but one lies twice as far
   test.median_apart_m = median(apart_m);
+}
+
+bool moved_within_sweeps(const StationaryGrid& grid, double offset_s) {
+  const std::vector<MotionPart> groups =
+      motion_of_lines(grid, offset_s, {0, std::numeric_limits<double>::infinity()});
+  for (std::size_t i = 2; i < groups.size(); ++i)
+    if (groups[i - 2].moved + groups[i - 1].moved + groups[i].moved >= 2) return true;
+  return false;
 }
 
 std::vector<MotionPart> motion_over_time(const StationaryGrid& grid, double offset_s) {

@@ -23,6 +23,11 @@ bool has_few_pairs(const MotionTest& test);
 /// fit best: a wrong one turns them against each other about the motor's axis, which is no motion.
 void add_neighbours(const StationaryGrid& grid, double offset_s, MotionTest& test);
 
+/// Whether a rig moved that seems stationary from sweep to sweep, since it began to within the first or the
+/// last of them: of three groups of scan lines (motion_of_lines) that follow each other two moved. `offset_s`
+/// as above.
+bool moved_within_sweeps(const StationaryGrid& grid, double offset_s);
+
 /// The same evidence, pair by pair.
 std::vector<MotionPart> motion_over_time(const StationaryGrid& grid, double offset_s);
 

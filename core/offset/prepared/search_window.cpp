@@ -24,7 +24,7 @@ double rounded_up(double value) {
 SearchScale search_scale(const MotorMotion& motor) {
   SearchScale scale;
   scale.max_half_width_s =
-      motor.one_way() ? std::numbers::pi / (2 * motor.speeds_apart_rad_s()) : motor.median_sweep_s / 2;
+      motor.one_way() ? std::numbers::pi / (2 * motor.speeds_apart_rad_s()) : motor.mirror_shift_s / 2;
   scale.unit_s = rounded_up(std::max(1e-3, 0.36 * kRadPerDeg / motor.lever_speed_rad_s()));
   scale.half_width_s =
       std::min(scale.max_half_width_s, std::max(0.060, 5 * kRadPerDeg / motor.lever_speed_rad_s()));
@@ -47,8 +47,8 @@ Result<std::vector<double>> checked_offsets(const std::vector<OffsetRange>& rang
     return failure(
         ExitCode::kWrongUsage,
         fmt::format(
-            "The range of offsets is {:.1f} ms to either side of its middle; this motor allows {:.1f} ms, a "
-            "quarter of its period: an offset wrong by one sweep gives a perfect mirror image.",
+            "The range of offsets is {:.1f} ms to either side of its middle; this motor allows {:.1f} ms: "
+            "offsets further apart than twice that give a perfect mirror image of each other.",
             half_width_s * 1e3, scale.max_half_width_s * 1e3));
   return offsets_s;
 }

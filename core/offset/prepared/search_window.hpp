@@ -15,10 +15,11 @@ namespace sweepscope {
 struct SearchScale {
   double unit_s =
       0;  // 1 ms, or more for a motor that turns less than 0.36 deg in it: what the data can resolve
-  double half_width_s = 0;      // of the default window about 0
-  double max_half_width_s = 0;  // a quarter of the motor's period: beyond, a mirror image fits as well; of a
-                                // motor that turns one way of the offset by which its sides turn against each
-                                // other by a whole turn
+  double half_width_s = 0;  // of the default window about 0
+  /// Offsets that far to either side of 0 are told apart: half of MotorMotion::mirror_shift_s, which is a
+  /// quarter of an even motor's period. Of a motor that turns one way a quarter of the offset by which its
+  /// sides turn against each other by a whole turn.
+  double max_half_width_s = 0;
 };
 SearchScale search_scale(const MotorMotion& motor);
 

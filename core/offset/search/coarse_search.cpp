@@ -7,6 +7,7 @@
 #include "core/numbers.hpp"
 #include "core/offset/prepared/candidates.hpp"
 #include "core/offset/prepared/prepared.hpp"
+#include "core/offset/search/motor_images.hpp"
 #include "core/offset/stationary/stationary_points.hpp"
 #include "core/parallel.hpp"
 
@@ -164,6 +165,7 @@ CoarseSearch search_roughly(const OffsetProblem& problem, double from_s, double 
 SearchedWindow search_by_default(const PreparedRecording& prepared, const SearchScale& scale, const Job& job,
                                  const std::function<void(const CurvePoint&)>& finished) {
   constexpr double kClearlyLower = 0.7;  // than the best of the default window
+  const MotorMotion& motor = prepared.motor;
   const auto about = [&](double middle_s) {
     const double from_s = std::max(middle_s - scale.half_width_s, -scale.max_half_width_s),
                  to_s = std::min(middle_s + scale.half_width_s, scale.max_half_width_s);
@@ -171,16 +173,27 @@ SearchedWindow search_by_default(const PreparedRecording& prepared, const Search
         from_s, to_s,
         search_coarsely(problem_for(prepared, from_s, to_s), from_s, to_s, scale, job, finished)};
   };
-  SearchedWindow near = about(0);
-  if (has_clear_valley(near.coarse) || scale.half_width_s >= scale.max_half_width_s || job.cancelled())
-    return near;
-  const double reach_s = scale.max_half_width_s;
-  const CoarseSearch all =
-      search_roughly(problem_for(prepared, -reach_s, reach_s), -reach_s, reach_s, scale, job);
-  if (!is_inside(all)) return near;
-  const bool lower = !near.coarse.best || cost_m(all) < kClearlyLower * cost_m(near.coarse);
-  if (is_inside(near.coarse) && (!lower || std::abs(all.offset_s()) <= scale.half_width_s)) return near;
-  return about(scale.unit_s * std::round(all.offset_s() / scale.unit_s));
+  const auto about_unit = [&](double middle_s) {
+    return about(scale.unit_s * std::round(middle_s / scale.unit_s));
+  };
+  const auto everywhere = [&](SearchedWindow near) {
+    if (has_clear_valley(near.coarse) || scale.half_width_s >= scale.max_half_width_s || job.cancelled())
+      return near;
+    // As wide as two sweeps it holds the offset or an image of it.
+    const double reach_s =
+        motor.one_way() ? scale.max_half_width_s : std::min(scale.max_half_width_s, motor.median_sweep_s);
+    const CoarseSearch all =
+        search_roughly(problem_for(prepared, -reach_s, reach_s), -reach_s, reach_s, scale, job);
+    if (!is_inside(all)) return near;
+    const bool lower = !near.coarse.best || cost_m(all) < kClearlyLower * cost_m(near.coarse);
+    if (is_inside(near.coarse) && (!lower || std::abs(all.offset_s()) <= scale.half_width_s)) return near;
+    return about_unit(all.offset_s());
+  };
+  SearchedWindow found = everywhere(about(0));
+  if (!found.coarse.best || motor.one_way() || 2 * scale.max_half_width_s <= motor.median_sweep_s)
+    return found;
+  const double best_s = best_of_images_s(prepared, found.coarse.offset_s(), scale.max_half_width_s);
+  return best_s == found.coarse.offset_s() ? found : about_unit(best_s);
 }
 
 }  // namespace sweepscope

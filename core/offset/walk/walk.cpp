@@ -79,9 +79,22 @@ std::optional<SolvedWalk> solve_walk(const OffsetProblem& problem, double first_
   return job.cancelled() ? std::nullopt : std::move(walk);
 }
 
+namespace {
+
+WalkOptions at_one_offset(const MappingOptions& mapping) {
+  constexpr double kHeld_s = 1e-9;
+  WalkOptions options;
+  options.mapping = options.joint.mapping = mapping;
+  options.joint.offset_sigma_s = kHeld_s;
+  return options;
+}
+
+}  // namespace
+
 std::optional<SolvedWalk> find_walk(const OffsetProblem& problem, double middle_s,
                                     const MappingOptions& mapping, const Job& job) {
   const SearchScale scale = search_scale(problem.motor);
+  if (problem.motor.one_way()) return solve_walk(problem, middle_s, at_one_offset(mapping), job);
   const CoarseSearch coarse =
       search_coarsely(problem, middle_s - scale.half_width_s, middle_s + scale.half_width_s, scale, job);
   if (job.cancelled()) return std::nullopt;

@@ -46,8 +46,10 @@ struct SolvedWalk {
 std::optional<SolvedWalk> solve_walk(const OffsetProblem& problem, double first_offset_s,
                                      const WalkOptions& options, const Job& job);
 
-/// The same without an offset to start from: of those the motor allows about `middle_s`, the one that fits
-/// best for a stationary rig (see search_coarsely): motion blurs this minimum but hardly shifts it.
+/// The same without an offset to start from: `middle_s` itself for a motor that turns one way, whose offset a
+/// walk does not show (sweeps then are half turns); otherwise of those the motor allows about `middle_s`, the
+/// one that fits best for a stationary rig (see search_coarsely): motion blurs this minimum but hardly shifts
+/// it.
 std::optional<SolvedWalk> find_walk(const OffsetProblem& problem, double middle_s,
                                     const MappingOptions& mapping, const Job& job);
 

@@ -195,7 +195,7 @@ void WalkPart::match(const OffsetProblem& part) {
     PatchSearch search{edges,
                        planes,
                        {mapping.patch, mapping.search_radius_m, mapping.search_radius_slope,
-                        sweep.direction > 0 ? SweepFilter::kBackward : SweepFilter::kForward}};
+                        sweep.side > 0 ? SweepFilter::kBackward : SweepFilter::kForward}};
     const auto place = [&](const PlacedFeature& feature) { return in_map_m(sweep, feature); };
     match_features(sweep, place, search,
                    [&](MatchedKind, const PlacedFeature& feature, const Vector3d& p_m,
@@ -209,7 +209,7 @@ void WalkPart::match(const OffsetProblem& part) {
 
 void WalkPart::insert(const PlacedSweep& sweep, const PlacedFeature& feature, FeatureMap& map) {
   const std::uint32_t line = line_of(sweep, feature);
-  map.insert(in_map_m(sweep, feature).cast<float>(), line, sweep.direction);
+  map.insert(in_map_m(sweep, feature).cast<float>(), line, sweep.side);
   if (line == last_line_) return;
   last_line_ = line;
   const LaserScan& scan = problem_.recording->scans[feature.line];

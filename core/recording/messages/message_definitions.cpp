@@ -11,6 +11,8 @@ struct Members {
   std::string_view type, members, ros2 = "";
 };
 
+constexpr std::string_view kTrajectoryState = "control_msgs/JointTrajectoryControllerState";
+
 constexpr Members kMembers[] = {
     {"sensor_msgs/LaserScan",
      "std_msgs/Header header\nfloat32 angle_min\nfloat32 angle_max\nfloat32 angle_increment\n"
@@ -50,6 +52,18 @@ constexpr Members kMembers[] = {
      "std_msgs/Header header\nfloat64 set_point\nfloat64 process_value\nfloat64 process_value_dot\n"
      "float64 error\nfloat64 time_step\nfloat64 command\nfloat64 p\nfloat64 i\nfloat64 d\nfloat64 i_clamp\n"
      "bool antiwindup\n"},
+    // Later versions call the two "reference" and "feedback".
+    {kTrajectoryState,
+     "std_msgs/Header header\nstring[] joint_names\ntrajectory_msgs/JointTrajectoryPoint desired\n"
+     "trajectory_msgs/JointTrajectoryPoint actual\n"},
+    {"trajectory_msgs/JointTrajectoryPoint",
+     "float64[] positions\nfloat64[] velocities\nfloat64[] accelerations\nfloat64[] effort\n"
+     "duration time_from_start\n",
+     "float64[] positions\nfloat64[] velocities\nfloat64[] accelerations\nfloat64[] effort\n"
+     "builtin_interfaces/Duration time_from_start\n"},
+    {"dynamixel_workbench_msgs/DynamixelStateList", "DynamixelState[] dynamixel_state\n"},
+    {"dynamixel_workbench_msgs/DynamixelState",
+     "string name\nuint8 id\nint32 present_position\nint32 present_velocity\nint16 present_current\n"},
     {"dynamixel_msgs/JointState",
      "std_msgs/Header header\nstring name\nint32[] motor_ids\nint32[] motor_temps\nfloat64 goal_pos\n"
      "float64 current_pos\nfloat64 error\nfloat64 velocity\nfloat64 load\nbool is_moving\n"},
@@ -98,6 +112,10 @@ std::string members_of(std::string_view type, Encoding encoding) {
   const auto* const found = std::ranges::find(kMembers, type, &Members::type);
   if (found == std::end(kMembers)) return members_of_number(type);
   return std::string(encoding == Encoding::kCdr && !found->ros2.empty() ? found->ros2 : found->members);
+}
+
+bool only_beginning_known(std::string_view type) {
+  return type == kTrajectoryState;
 }
 
 std::string message_definition(std::string_view type, Encoding encoding) {

@@ -16,4 +16,7 @@ std::string message_definition(std::string_view type, Encoding encoding);
 /// name is in ROS 1's spelling.
 std::string members_of(std::string_view type, Encoding encoding);
 
+/// Whether these are only the first members, of a type whose versions differ in what follows.
+bool only_beginning_known(std::string_view type);
+
 }  // namespace sweepscope

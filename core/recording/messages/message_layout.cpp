@@ -126,6 +126,7 @@ Result<std::size_t> MessageLayout::Parser::add(const std::string& name) {
                     name));
   if (number == kMaxTypes)
     return unreadable(fmt::format("{} is made of too many types", layout_.types_[0].name));
+  if (number == 0 && !found) layout_.goes_on_ = only_beginning_known(name);
   numbers_[name] = kBeingAdded;
   layout_.types_.push_back({name, {}});
   std::string_view text = found ? described->second : std::string_view(own);
@@ -286,7 +287,7 @@ class MessageLayout::Walk {
 
   bool walk() {
     of_type(0, 0, false);
-    return reader_.at_end();
+    return layout_.goes_on_ ? reader_.whole() : reader_.at_end();
   }
 
  private:

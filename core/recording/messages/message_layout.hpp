@@ -75,6 +75,7 @@ class MessageLayout {
 
   Encoding encoding_ = Encoding::kRos1;
   std::vector<Type> types_;  // the first is the message's
+  bool goes_on_ = false;     // messages hold more than is known
 };
 
 }  // namespace sweepscope

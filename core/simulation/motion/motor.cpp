@@ -88,8 +88,8 @@ std::string_view name_of(MotorAxis axis) {
 }
 
 Motor::Motor(MotorKind kind, double sweep_s, double phase_s, const Unevenness& uneven,
-             const SpeedCourse& course, double reach_rad)
-    : kind_(kind), sweep_s_(sweep_s), phase_s_(phase_s), reach_rad_(reach_rad) {
+             const SpeedCourse& course, double reach_rad, const Rest& rest)
+    : kind_(kind), sweep_s_(sweep_s), phase_s_(phase_s), reach_rad_(reach_rad), rest_(rest) {
   for (const auto& [t_s, speed_radps] : timed_speeds(course)) {
     const SpeedKnot before = knots_.empty() ? SpeedKnot{t_s, speed_radps, 0} : knots_.back();
     const double turned_rad = (t_s - before.t_s) * (before.speed_radps + speed_radps) / 2;
@@ -105,6 +105,7 @@ Motor::Motor(MotorKind kind, double sweep_s, double phase_s, const Unevenness& u
 }
 
 double Motor::warped_s(double t_s) const {
+  if (t_s > rest_.from_s) t_s = std::max(rest_.from_s, t_s - (rest_.to_s - rest_.from_s));
   double warped_s = t_s;
   for (const Wave& wave : waves_)
     warped_s += wave.amplitude_s * sin_cos(wave.rate_radps * t_s + wave.phase_rad).sin;

@@ -49,13 +49,18 @@ struct SpeedCourse {
   double duration_s = 0;
 };
 
+/// A time in which a motor stands still; it goes on where it stopped.
+struct Rest {
+  double from_s = 0, to_s = 0;
+};
+
 /// The motor's true angle over true time. It swings by reach_rad to either side of 0 deg, from one end to the
 /// other in sweep_s; one that turns one way makes half a turn in sweep_s. phase_s, in [0, 2 sweep_s), is how
 /// long after a passage through 0 deg, upwards, true time 0 falls.
 class Motor {
  public:
   Motor(MotorKind kind, double sweep_s, double phase_s, const Unevenness& uneven = {},
-        const SpeedCourse& course = {}, double reach_rad = std::numbers::pi / 2);
+        const SpeedCourse& course = {}, double reach_rad = std::numbers::pi / 2, const Rest& rest = {});
 
   /// The reading of an ideal encoder without steps, on the motor's side of the gears.
   double angle_rad(double t_s) const;
@@ -76,12 +81,13 @@ class Motor {
   };
   Swing swing(double t_s) const;
   double one_way_rad(double t_s) const;
-  /// The time that a motor of constant speed takes to the angle of this one at t_s.
+  /// The time that a motor of constant speed, which never rests, takes to the angle of this one at t_s.
   double warped_s(double t_s) const;
 
   MotorKind kind_;
   double sweep_s_, phase_s_, reach_rad_;
   std::vector<Wave> waves_;
+  Rest rest_;
   std::vector<SpeedKnot> knots_;  // of a motor that turns one way
 };
 

@@ -1,7 +1,9 @@
 // Offsets of motors that turn one way, against the truth of simulated recordings.
 #include <gtest/gtest.h>
 
+#include "core/map/offset_map.hpp"
 #include "core/offset/estimator.hpp"
+#include "core/offset/rig_estimate.hpp"
 #include "tests/core/engine_fixtures.hpp"
 
 namespace sweepscope {
@@ -61,7 +63,7 @@ TEST(OneWay, OneSpeedIsRefusedWithTheWayToRecordIt) {
   for (const double speed_dps : {360.0, 210.0}) {
     const Estimate refused = found_in(one_way("room-2", 5, {speed_dps}));
     EXPECT_FALSE(refused.identifiable);
-    EXPECT_TRUE(says(refused, "Record 5 s at one speed and 5 s at half of it."));
+    EXPECT_TRUE(says(refused, "record 5 s at one speed and 5 s at half of it."));
   }
 }
 
@@ -90,6 +92,70 @@ TEST(OneWay, ARigThatIsPushedAsideIsRefusedOrTakenToMove) {
   SimulationOptions made = one_way("room-1", 4, {360, 180});
   made.nudge_m = 0.2;
   EXPECT_FALSE(found_in(made).identifiable);
+}
+
+// The mount but for its gauges, a turn about the motor's axis and a shift along it.
+struct MountError {
+  double axis_deg = 0, shift_m = 0;
+};
+MountError error_of(const Mount& found, const SimulationOptions& made) {
+  const auto in_laser = [](const Eigen::Vector3d& rpy_deg, const Eigen::Vector3d& shift_m) {
+    const Eigen::Quaterniond laser_from_motor = rotation_from_rpy(rpy_deg).conjugate();
+    const Eigen::Vector3d axis = laser_from_motor * Eigen::Vector3d::UnitX(),
+                          origin_m = laser_from_motor * -shift_m;
+    return std::pair(axis, Eigen::Vector3d(origin_m - axis * axis.dot(origin_m)));
+  };
+  const auto [axis, origin_m] = in_laser(found.laser_in_motor_rpy_deg, found.laser_in_motor_xyz_m);
+  const auto [true_axis, true_origin_m] = in_laser(made.mount_error_deg, made.mount_error_m);
+  return {std::asin(axis.cross(true_axis).norm()) * kDegPerRad, (origin_m - true_origin_m).norm()};
+}
+
+TEST(OneWay, AtOneSpeedTheMountIsFoundWithoutAnOffset) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    SimulationOptions made = one_way(seed == 2 ? "room-4" : "room-2", seed, {350});
+    made.duration_s = 8;
+    made.mount_error_deg = {0, 3 - double(seed), 2.5};
+    made.mount_error_m = {0, 0.04, -0.02 * double(seed)};
+    EstimateOptions options;
+    options.solve.mount = true;
+    const Estimate found = found_in(made, options);
+    EXPECT_TRUE(found.offset_is_gauge());
+    EXPECT_FALSE(found.offset_s || found.sigma_s);
+    EXPECT_EQ(found.kind, RigKind::kStationary);
+    ASSERT_TRUE(found.rig && found.rig->mount.identifiable) << seed;
+    EXPECT_TRUE(has_answer(found));
+    const MountError error = error_of(found.rig->rig.mount, made);
+    EXPECT_LT(error.axis_deg, 0.02) << seed;
+    EXPECT_LT(error.shift_m, 0.001) << seed;
+    EXPECT_LT(found.rig->residual_after_m, 0.7 * found.rig->residual_before_m);
+  }
+}
+
+TEST(OneWay, AtOneSpeedAMountThatIsNotAskedForIsNoAnswer) {
+  const Estimate refused = found_in(one_way("room-2", 5, {360}));
+  EXPECT_TRUE(refused.offset_is_gauge());
+  EXPECT_FALSE(has_answer(refused));
+}
+
+// Any two are the same but for a turn about the motor's axis, x.
+TEST(OneWay, AtOneSpeedMapsAreDrawnAtAnyOffset) {
+  const SimulationOptions made = one_way("room-2", 5, {360});
+  const Recording recording = simulate(made, Job()).value().recording;
+  const double offsets_s[] = {0, 0.02};
+  const auto maps = build_maps(recording, offsets_s, {}, Job());
+  ASSERT_TRUE(maps) << maps.error().message;
+  EXPECT_NE(maps->front().warning.find("any offset gives this map but for a turn"), std::string::npos);
+  EXPECT_FALSE(maps->front().moving);
+  const auto &first = *maps->at(0).cloud, &second = *maps->at(1).cloud;
+  ASSERT_EQ(first.size(), second.size());
+  const Eigen::AngleAxisd turn(360 * kRadPerDeg * 0.02, Eigen::Vector3d::UnitX());
+  std::size_t apart = 0;
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    const Eigen::Vector3d p_m = first[i].getVector3fMap().cast<double>(),
+                          q_m = second[i].getVector3fMap().cast<double>();
+    if ((turn * p_m - q_m).norm() > 0.002 * (1 + p_m.norm())) ++apart;
+  }
+  EXPECT_LT(apart, first.size() / 100);
 }
 
 }  // namespace

@@ -76,6 +76,30 @@ TEST(StationaryPart, AnswersAsItsWindowDoesWhereTheWalkIsTooShort) {
   }
 }
 
+TEST(StationaryPart, OfAWindowIsOneOfTheWholeRecording) {
+  const Recording whole = recorded(0.7), later = window(whole, 1, 12);
+  const auto found = estimate(later, {}, Job());
+  ASSERT_TRUE(found && found->identifiable && found->stationary_part);
+  EXPECT_NEAR(found->stationary_part->begin_s, 1, 0.05);
+  EXPECT_LE(found->stationary_part->end_s, kStationary_s + 0.1);
+  const RecordingPart part = *found->stationary_part;
+  const auto by_hand = estimate(window(whole, part.begin_s, part.end_s), {}, Job());
+  ASSERT_TRUE(by_hand && by_hand->identifiable);
+  EXPECT_EQ(by_hand->offset_s, found->offset_s);
+  EXPECT_EQ(part_of_whole(later, part).scans.size(), window(whole, part.begin_s, part.end_s).scans.size());
+}
+
+// Three sweeps: no pair of them shows that the rig goes on within the last one.
+TEST(StationaryPart, IsFoundWhereTheRigMovesWithinTheLastSweepAlone) {
+  const auto moves = estimate(recorded(4, 10.5), {}, Job()), rests = estimate(recorded(4, 12), {}, Job());
+  ASSERT_TRUE(moves && moves->identifiable && moves->stationary_part);
+  EXPECT_NEAR(moves->stationary_part->end_s, 10.5, 0.6);
+  EXPECT_NEAR(*moves->offset_s, kTruth_s, 0.3 * kMs);
+  ASSERT_TRUE(rests && rests->identifiable);
+  EXPECT_EQ(rests->kind, RigKind::kStationary);
+  EXPECT_FALSE(rests->stationary_part);
+}
+
 TEST(StationaryPart, WithoutOneAShortWalkStaysRefused) {
   const auto found = estimate(recorded(0.7, 0), {}, Job());
   ASSERT_TRUE(found);
@@ -115,6 +139,11 @@ TEST(StationaryPart, OfTheRealTiltingScannerAnswersWithoutARigFile) {
   const auto by_hand = estimate(window(*recording, 0, 13), {}, Job());
   ASSERT_TRUE(by_hand && by_hand->identifiable);
   EXPECT_NEAR(*found->offset_s, *by_hand->offset_s, 1 * kMs);
+  const auto later = estimate(window(*recording, 2, 17), {}, Job());
+  ASSERT_TRUE(later && later->identifiable && later->stationary_part)
+      << testing::PrintToString(later->reasons());
+  EXPECT_NEAR(later->stationary_part->end_s, 13.0, 0.3);
+  EXPECT_NEAR(*later->offset_s, *by_hand->offset_s, 1 * kMs);
 }
 
 }  // namespace

@@ -210,5 +210,32 @@ TEST(DistinctLines, AreWithoutBoundFor3DScanners) {
   EXPECT_EQ(distinct_lines(recording, MotorMotion(), 0), std::numeric_limits<double>::infinity());
 }
 
+// Ten seconds of sweeps of 0.5 s.
+MotorTrack resting(double at_s, double rest_s) {
+  const Motor motor(MotorKind::kTrapezoid, 0.5, 0.1, {}, {}, kPi / 2, {at_s, at_s + rest_s});
+  return track_of([&](double t_s) { return motor.angle_rad(t_s); }, 0, 10);
+}
+
+TEST(MirrorShift, IsASweepOfAnEvenMotor) {
+  for (const MotorKind kind : {MotorKind::kTriangle, MotorKind::kTrapezoid, MotorKind::kSine})
+    EXPECT_EQ(find_sweeps(turning(kind, 0, 9.3)).mirror_shift_s,
+              find_sweeps(turning(kind, 0, 9.3)).median_sweep_s);
+  const Motor uneven(MotorKind::kTrapezoid, 0.5, 0.1, {0.03, 7});
+  const MotorMotion motion = find_sweeps(track_of([&](double t_s) { return uneven.angle_rad(t_s); }, 0, 9));
+  EXPECT_EQ(motion.mirror_shift_s, motion.median_sweep_s);
+}
+
+TEST(MirrorShift, IsLongerWhereTheMotorRests) {
+  for (const double at_s : {0.0, 4.0, 8.0})
+    EXPECT_GE(find_sweeps(resting(at_s, 2)).mirror_shift_s, 2 * 0.49) << at_s;
+  EXPECT_NEAR(find_sweeps(resting(0, 0.05)).mirror_shift_s, 0.5, 0.01);
+}
+
+TEST(MirrorShift, IsLongerWhereTheMotorChangesItsSpeed) {
+  const Motor motor(MotorKind::kTrapezoid, 0.5, 0.1);
+  const auto angle_rad = [&](double t_s) { return motor.angle_rad(t_s < 4 ? t_s : 4 + 0.7 * (t_s - 4)); };
+  EXPECT_GE(find_sweeps(track_of(angle_rad, 0, 9)).mirror_shift_s, 2 * 0.49);
+}
+
 }  // namespace
 }  // namespace sweepscope

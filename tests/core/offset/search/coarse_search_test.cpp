@@ -76,6 +76,27 @@ TEST(CoarseSearch, ByDefaultAnOffsetFarFrom0IsFoundToo) {
   }
 }
 
+// Half of the motor's period is 0.5 s: an even motor shows a mirror image 0.5 s from the truth.
+TEST(CoarseSearch, ByDefaultAMotorThatRestsShowsWhichOfTheImagesIsRight) {
+  struct Rest {
+    double at_s, s;
+  };
+  for (const auto& [at_s, rest_s] : {Rest{0, 1.5}, Rest{2, 1.2}, Rest{4.5, 2}})
+    for (const double truth_s : {0.024, 0.35, -0.48}) {
+      SimulationOptions options;
+      options.scene = "room-2";
+      options.offset_s = truth_s;
+      options.duration_s = 6.5;
+      options.motor_rest_at_s = at_s;
+      options.motor_rest_s = rest_s;
+      const Simulation simulation = simulate(options, Job()).value();
+      const auto prepared = prepare(simulation.recording, FeatureOptions(), Job());
+      const SearchedWindow found = search_by_default(*prepared, search_scale(prepared->motor), Job());
+      ASSERT_TRUE(found.coarse.best) << truth_s;
+      EXPECT_NEAR(found.coarse.offset_s(), truth_s, 2 * kMs) << at_s;
+    }
+}
+
 TEST(CoarseSearch, SaysEachCandidateOnceWhenItIsFinished) {
   const OffsetProblem problem = test::problem_of(test::room(0.024));
   std::mutex mutex;

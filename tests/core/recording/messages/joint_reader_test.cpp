@@ -221,25 +221,45 @@ TEST_P(JointsByDefinition, ATrajectoryControllersJointsHaveTheirNames) {
   }
 }
 
+// As in a .db3, which holds no definitions; the versions of the message differ in what follows "actual".
+TEST_P(JointsByDefinition, ATrajectoryControllersStateNeedsNoDefinition) {
+  auto controller = reader(topic("control_msgs/JointTrajectoryControllerState"));
+  ASSERT_TRUE(controller) << controller.error().message;
+  MessageBytes message(GetParam());
+  message.header(1, 2, "").number(std::uint32_t{2}).text("pan").text("tilt");
+  for (const double position : {9., 0.25, 8.}) {
+    message.array(std::vector<double>{position, 2 * position});
+    for (int i = 0; i < 3; ++i) message.array(std::vector<double>{7, 7});
+    message.number(std::uint32_t{0}).number(std::uint32_t{0});
+  }
+  const std::string bytes = message.bytes();
+  const auto joints = read(*controller, bytes);
+  ASSERT_EQ(joints.size(), 2U);
+  EXPECT_EQ(joints[1].name, "tilt");
+  EXPECT_EQ(joints[1].position, 0.5);
+}
+
 TEST_P(JointsByDefinition, AListOfDynamixelsHasAJointPerServo) {
   const std::string definition =
       "DynamixelState[] dynamixel_state\n====\nMSG: dynamixel_workbench_msgs/DynamixelState\n"
       "string name\nuint8 id\nint32 present_position\nint32 present_velocity\nint16 present_current\n";
-  auto list = reader(topic("dynamixel_workbench_msgs/DynamixelStateList", definition));
-  ASSERT_TRUE(list) << list.error().message;
-  MessageBytes message(GetParam());
-  message.number(std::uint32_t{2});
-  for (const std::int32_t position : {2048, 1024})
-    message.text(position == 2048 ? "pan" : "tilt")
-        .number(std::uint8_t{1})
-        .number(position)
-        .number(std::int32_t{0})
-        .number(std::int16_t{0});
-  const std::string bytes = message.bytes();
-  const auto joints = read(*list, bytes);
-  ASSERT_EQ(joints.size(), 2U);
-  EXPECT_EQ(joints[1].name, "tilt");
-  EXPECT_EQ(joints[1].position, 1024);
+  for (const std::string& given : {definition, std::string()}) {
+    auto list = reader(topic("dynamixel_workbench_msgs/DynamixelStateList", given));
+    ASSERT_TRUE(list) << list.error().message;
+    MessageBytes message(GetParam());
+    message.number(std::uint32_t{2});
+    for (const std::int32_t position : {2048, 1024})
+      message.text(position == 2048 ? "pan" : "tilt")
+          .number(std::uint8_t{1})
+          .number(position)
+          .number(std::int32_t{0})
+          .number(std::int16_t{0});
+    const std::string bytes = message.bytes();
+    const auto joints = read(*list, bytes);
+    ASSERT_EQ(joints.size(), 2U);
+    EXPECT_EQ(joints[1].name, "tilt");
+    EXPECT_EQ(joints[1].position, 1024);
+  }
 }
 
 TEST_P(JointsByDefinition, ATypeThatCannotBeReadIsRefusedWithTheReason) {
