@@ -240,7 +240,8 @@ std::vector<BeamReading> rank_beams(const Recording& first, const Job& job) {
 }
 
 RankedReadings rank_as_stationary(const Recording& first, const Job& job) {
-  constexpr double kClearlyWider = 1.15, kNearer = 0.7;
+  // A sparse cloud's surfaces have widths by chance, so that much nearer sweeps overrule them.
+  constexpr double kClearlyWider = 1.15, kNearer = 0.7, kMuchNearer = 0.5;
   RankedReadings ranked;
   ranked.axis = first.rig.mount.axis;
   ranked.beams = rank_beams(first, job);
@@ -261,12 +262,17 @@ RankedReadings rank_as_stationary(const Recording& first, const Job& job) {
   if (!prepared) return ranked;
   const double of_x_m = flat_width_m(*prepared, first.rig.mount.axis, *best->offset_s),
                of_y_m = flat_width_m(*prepared, about_y.rig.mount.axis, *best->offset_s);
-  if (of_y_m < of_x_m) return ranked;
+  const BeamReading* const best_x = chosen_of(ranked.beams);
+  const bool explained = best_x != nullptr && *best_x->residual_m < kSmallResidual_m;
+  if (of_y_m < of_x_m && explained) return ranked;
   if (of_y.empty()) of_y = rank_beams(about_y, job);
-  const BeamReading *best_x = chosen_of(ranked.beams), *best_y = chosen_of(of_y);
-  const bool nearer =
-      best_y != nullptr && (best_x == nullptr || *best_y->residual_m < kNearer * *best_x->residual_m);
-  if (!nearer && of_y_m < kClearlyWider * of_x_m) return ranked;
+  const BeamReading* const best_y = chosen_of(of_y);
+  const auto nearer_by = [&](double factor) {
+    return best_y != nullptr && (best_x == nullptr || *best_y->residual_m < factor * *best_x->residual_m);
+  };
+  const bool about_y_axis =
+      of_y_m < of_x_m ? nearer_by(kMuchNearer) : nearer_by(kNearer) || of_y_m >= kClearlyWider * of_x_m;
+  if (!about_y_axis) return ranked;
   ranked.beams = std::move(of_y);
   ranked.axis = about_y.rig.mount.axis;
   ranked.axis_is_found = true;
