@@ -171,7 +171,7 @@ TEST(MotorRefusal, AMotorThatIsStuckOrTurnsOneWaySaysSo) {
   EXPECT_NE(refusal_of(MotorKind::kStuck)->text.find("does not move"), std::string::npos);
   const std::string one_way = refusal_of(MotorKind::kOneWay).value().text;
   EXPECT_NE(one_way.find("one way only, at one speed"), std::string::npos) << one_way;
-  EXPECT_NE(one_way.find("Record 5 s at one speed and 5 s at half of it."), std::string::npos) << one_way;
+  EXPECT_NE(one_way.find("record 5 s at one speed and 5 s at half of it."), std::string::npos) << one_way;
 }
 
 TEST(MotorRefusal, ATrackOfHardlyAnySampleSaysSo) {

@@ -14,7 +14,7 @@ using test::kPi;
 MotorMotion turning(double sweep_s, double speed_rad_s) {
   MotorMotion motion;
   motion.sweeps.resize(4);
-  motion.median_sweep_s = sweep_s;
+  motion.median_sweep_s = motion.mirror_shift_s = sweep_s;
   motion.median_speed_rad_s = speed_rad_s;
   return motion;
 }
@@ -36,6 +36,13 @@ TEST(SearchScale, IsNeverWiderThanAQuarterOfThePeriod) {
   EXPECT_NEAR(search_scale(turning(0.08, 360 * kDegree)).half_width_s, 40 * kMs, 1e-12);
 }
 
+TEST(SearchScale, IsAsWideAsAnUnevenMotorTellsOffsetsApart) {
+  MotorMotion motion = turning(0.5, 360 * kDegree);
+  motion.mirror_shift_s = 1.5;
+  EXPECT_NEAR(search_scale(motion).max_half_width_s, 0.75, 1e-12);
+  EXPECT_NEAR(search_scale(motion).half_width_s, 60 * kMs, 1e-12);
+}
+
 class CheckedOffsets : public testing::Test {
  protected:
   static void expect_refused(const std::vector<OffsetRange>& ranges, const char* part_of_message) {
@@ -54,7 +61,7 @@ TEST_F(CheckedOffsets, ARangeOfAQuarterPeriodToEitherSideIsAccepted) {
 
 TEST_F(CheckedOffsets, AWiderRangeIsWrongUsageAndSaysWhy) {
   expect_refused({{-252 * kMs, 252 * kMs, 1 * kMs}}, "mirror image");
-  expect_refused({{0, 10 * kMs, 1 * kMs}, {500 * kMs, 511 * kMs, 1 * kMs}}, "a quarter of its period");
+  expect_refused({{0, 10 * kMs, 1 * kMs}, {500 * kMs, 511 * kMs, 1 * kMs}}, "this motor allows 250.0 ms");
 }
 
 TEST_F(CheckedOffsets, RangesWithoutACandidateAreWrongUsage) {
