@@ -163,24 +163,38 @@ Result<Estimate> with_turn_of_walk(const PreparedRecording& prepared, const Esti
   return with(std::move(found), std::make_shared<const SolvedRig>(std::move(solved)));
 }
 
+std::string from_standing_part(const MotionPart& part) {
+  return fmt::format(" The rig was solved for from {:.1f} to {:.1f} s, while it was stationary.",
+                     part.begin_s, part.end_s);
+}
+
 // A motor that turns one way at one speed: the rig at an offset of 0, which is as good as any other.
-Estimate with_rig_at_any_offset(const PreparedRecording& prepared, const EstimateOptions& options,
-                                Estimate found, const Job& job) {
+Result<Estimate> with_rig_at_any_offset(const PreparedRecording& prepared, const EstimateOptions& options,
+                                        Estimate found, const Job& job) {
   const OffsetProblem problem = problem_for(prepared, 0, 0);
   const KindDecision kind = decide_kind(test_motion(stationary_grid(problem), 0), options);
   found.kind = kind.kind;
   found.kind_reason = kind.reason;
   found.scans = std::size_t(std::ranges::count(problem.scan_used, 1));
   found.sweeps = problem.motor.sweeps.size();
-  if (kind.kind == RigKind::kMoving) {
-    found.warnings.push_back(
-        "The rig was not solved for: its motor turns one way at one speed, and the rig moved. Keep it stationary "
-        "for 8 s.");
-    return found;
-  }
   RigSolve what = options.solve;
   what.offset = false;
-  return with(std::move(found), std::make_shared<const SolvedRig>(solve_rig(problem, 0, what, job)));
+  const auto solve = [&](const OffsetProblem& stationary) {
+    return with(std::move(found), std::make_shared<const SolvedRig>(solve_rig(stationary, 0, what, job)));
+  };
+  if (kind.kind == RigKind::kStationary) return solve(problem);
+  const auto part = standing_part(prepared);
+  if (!part) {
+    found.warnings.push_back(
+        "The rig was not solved for: it moved, and its motor turns one way at one speed. Keep it stationary for "
+        "8 s.");
+    return found;
+  }
+  found.kind_reason += from_standing_part(*part);
+  const Recording stood = window(*prepared.recording, part->begin_s, part->end_s);
+  return prepare(stood, options.features, job).map([&](const PreparedRecording& of_part) {
+    return solve(problem_for(of_part, 0, 0));
+  });
 }
 
 }  // namespace
@@ -209,9 +223,7 @@ Result<Estimate> estimate_with_rig(const RecordingSource& source, const Estimate
   if (job.cancelled()) return found;
   if (solved)
     return with_rig_found(prepared, std::move(solved), offset).map([&](Estimate&& answer) {
-      answer.kind_reason +=
-          fmt::format(" The rig was solved for from {:.1f} to {:.1f} s, while it was stationary.",
-                      part->begin_s, part->end_s);
+      answer.kind_reason += from_standing_part(*part);
       return std::move(answer);
     });
   return with_turn_of_walk(prepared, options, std::move(*found), offset);

@@ -1,6 +1,8 @@
 // Offsets of motors that turn one way, against the truth of simulated recordings.
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+
 #include "core/map/offset_map.hpp"
 #include "core/offset/estimator.hpp"
 #include "core/offset/rig_estimate.hpp"
@@ -156,6 +158,34 @@ TEST(OneWay, AtOneSpeedMapsAreDrawnAtAnyOffset) {
     if ((turn * p_m - q_m).norm() > 0.002 * (1 + p_m.norm())) ++apart;
   }
   EXPECT_LT(apart, first.size() / 100);
+}
+
+// Root of the mean square distance of the positions, after the best rigid motion.
+double apart_m(const std::vector<StampedPose>& path, const std::vector<TruthPose>& truth) {
+  Eigen::Matrix3Xd from(3, Eigen::Index(path.size())), to = from;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const auto at = std::ranges::lower_bound(truth, path[i].time_s, {}, &TruthPose::time_s);
+    from.col(Eigen::Index(i)) = path[i].position_m;
+    to.col(Eigen::Index(i)) = (at == truth.end() ? truth.back() : *at).position_m;
+  }
+  const Eigen::Matrix4d to_from = Eigen::umeyama(from, to, false);
+  const Eigen::Matrix3Xd moved =
+      (to_from.topLeftCorner<3, 3>() * from).colwise() + to_from.topRightCorner<3, 1>();
+  return std::sqrt((moved - to).colwise().squaredNorm().mean());
+}
+
+// At an offset of 0 the base frame is turned by 8.5 deg about the motor's axis.
+TEST(OneWay, AtOneSpeedAWalkIsFollowedAtAnyOffset) {
+  SimulationOptions made = one_way("metro-station", 0, {350});
+  made.duration_s = 20;
+  const Simulation simulation = simulate(made, Job()).value();
+  for (const double offset_s : {made.offset_s, 0.0}) {
+    const auto maps = build_maps(simulation.recording, {&offset_s, 1}, {}, Job());
+    ASSERT_TRUE(maps) << maps.error().message;
+    EXPECT_TRUE(maps->front().moving);
+    EXPECT_FALSE(maps->front().lost) << offset_s;
+    EXPECT_LT(apart_m(maps->front().trajectory, simulation.truth), 0.05) << offset_s;
+  }
 }
 
 }  // namespace

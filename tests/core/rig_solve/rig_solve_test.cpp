@@ -223,8 +223,7 @@ TEST(RigSolve, AWalkTellsHowTheMountIsTurnedAndNothingElse) {
 }
 
 // The rig stands for 8 s, then walks: what the walk does not tell is found from the part before it.
-TEST(RigSolve, AWalkThatBeginsStandingTellsTheWholeMount) {
-  const test::ScratchFolder folder;
+SimulationOptions walk_that_begins_standing(const test::ScratchFolder& folder) {
   test::write_scene_mesh("metro-station", folder / "station.ply");
   std::vector<StampedPose> poses;
   for (double t_s = 0; t_s < 16; t_s += 0.05) {
@@ -233,13 +232,17 @@ TEST(RigSolve, AWalkThatBeginsStandingTellsTheWholeMount) {
                      {0.5 * std::sin(0.8 * s), 0.25 * (1 - std::cos(0.8 * s)), 0.05 * std::sin(3 * s)},
                      rotation_from_vector({0.03 * std::sin(2.3 * s), 0, 0.6 * std::sin(0.5 * s)})});
   }
-  ASSERT_TRUE(write_tum(folder / "walk.tum", poses));
+  EXPECT_TRUE(write_tum(folder / "walk.tum", poses));
   SimulationOptions simulated;
   simulated.own = {folder / "station.ply", folder / "walk.tum", {}, 0};
   simulated.own.placement.at_m = {0.4, -4.4, 1.5};
   simulated.offset_s = kOffset_s;
   simulated.mount_error_deg = {0, 1.2, -0.9};
   simulated.mount_error_m = {0, 0.02, 0.01};
+  return simulated;
+}
+
+void expect_mount_of_standing_part(const SimulationOptions& simulated) {
   const auto recorded = simulate(simulated, Job());
   ASSERT_TRUE(recorded) << recorded.error().message;
   const Estimate found = solved(recorded->recording, {.mount = true});
@@ -250,6 +253,18 @@ TEST(RigSolve, AWalkThatBeginsStandingTellsTheWholeMount) {
   const Mount& mount = found.rig->rig.mount;
   EXPECT_LT((mount.laser_in_motor_rpy_deg - simulated.mount_error_deg).norm(), 0.05);
   EXPECT_LT((mount.laser_in_motor_xyz_m - simulated.mount_error_m).norm(), 0.002);
+}
+
+TEST(RigSolve, AWalkThatBeginsStandingTellsTheWholeMount) {
+  const test::ScratchFolder folder;
+  expect_mount_of_standing_part(walk_that_begins_standing(folder));
+}
+
+TEST(RigSolve, AWalkOfAOneWayMotorThatBeginsStandingTellsItToo) {
+  const test::ScratchFolder folder;
+  SimulationOptions simulated = walk_that_begins_standing(folder);
+  simulated.motor = simulation::MotorKind::kOneWay;
+  expect_mount_of_standing_part(simulated);
 }
 
 // A prior as narrow as what the walk shows takes half of it back, however often the walk is solved.
