@@ -192,7 +192,7 @@ std::vector<DoubtfulTime> unfit_times(const std::vector<SweepPose>& poses, const
 }
 
 // Of the views [first, last], what the views beside them say about their speed: nothing at an end of the
-// recording, where a rig starts or stops.
+// recording, where a rig starts or stops, nor of two views alone, for as long as a rig stops in between.
 UndeterminedTime undetermined_time(const std::vector<WalkView>& views, std::size_t first, std::size_t last) {
   UndeterminedTime time;
   time.at_s = {views[first].middle_s(), views[last].middle_s()};
@@ -204,7 +204,7 @@ UndeterminedTime undetermined_time(const std::vector<WalkView>& views, std::size
     duration_s += view_s;
   }
   time.speed_mps = time.speed_beside_mps = moved_m / duration_s;
-  if (first > 0 && last + 1 < views.size())
+  if (first > 0 && last + 1 < views.size() && last - first > 1)
     time.speed_beside_mps = (views[first - 1].speed_mps + views[last + 1].speed_mps) / 2;
   time.missing_m = (time.speed_beside_mps - time.speed_mps) * duration_s;
   return time;

@@ -124,9 +124,9 @@ bool ViewPair::determined() const {
 
 bool ViewPair::coincides() const {
   const double all = double(features);
-  const bool clear =
-      apart_m < kOnSurface_m || double(gained) >= kMinGained + kGainedPerGivenUp * double(given_up);
-  return clear && determined() && double(moved.near) > kMinCoinciding * all &&
+  const bool better =
+      placed.misfit() > moved.misfit() && double(gained) >= kMinGained + kGainedPerGivenUp * double(given_up);
+  return (apart_m < kOnSurface_m || better) && determined() && double(moved.near) > kMinCoinciding * all &&
          kMaxMovedMisfit > moved.misfit() && double(placed.matched) > kMinPlaced * all;
 }
 
