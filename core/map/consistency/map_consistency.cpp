@@ -191,22 +191,21 @@ std::vector<DoubtfulTime> unfit_times(const std::vector<SweepPose>& poses, const
   return times;
 }
 
-// Of the views [first, last], what the views beside them say about their speed.
+// Of the views [first, last], what the views beside them say about their speed: nothing at an end of the
+// recording, where a rig starts or stops, nor of two views alone, for as long as a rig stops in between.
 UndeterminedTime undetermined_time(const std::vector<WalkView>& views, std::size_t first, std::size_t last) {
   UndeterminedTime time;
   time.at_s = {views[first].middle_s(), views[last].middle_s()};
   time.place_m = views[(first + last + 1) / 2].at.translation_m;
-  double moved_m = 0, duration_s = 0, beside_mps = 0;
+  double moved_m = 0, duration_s = 0;
   for (std::size_t i = first; i <= last; ++i) {
     const double view_s = views[i].end_s - views[i].begin_s;
     moved_m += views[i].speed_mps * view_s;
     duration_s += view_s;
   }
-  int beside = 0;
-  if (first > 0) ++beside, beside_mps += views[first - 1].speed_mps;
-  if (last + 1 < views.size()) ++beside, beside_mps += views[last + 1].speed_mps;
-  time.speed_mps = moved_m / duration_s;
-  time.speed_beside_mps = beside == 0 ? time.speed_mps : beside_mps / beside;
+  time.speed_mps = time.speed_beside_mps = moved_m / duration_s;
+  if (first > 0 && last + 1 < views.size() && last - first > 1)
+    time.speed_beside_mps = (views[first - 1].speed_mps + views[last + 1].speed_mps) / 2;
   time.missing_m = (time.speed_beside_mps - time.speed_mps) * duration_s;
   return time;
 }

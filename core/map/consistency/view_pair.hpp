@@ -41,6 +41,7 @@ struct SurfaceFit {
 struct ViewPair {
   std::size_t features = 0;
   SurfaceFit placed, moved;
+  std::size_t gained = 0, given_up = 0;   // features that the move brings onto their surfaces, or takes away
   std::vector<SurfaceFit> placed_sweeps;  // of each sweep of the view
   Pose move;                              // in the map frame; identity in directions that are not determined
   double apart_m = 0;  // by which it moves the features that then lie on their surfaces, mean
@@ -49,7 +50,8 @@ struct ViewPair {
 
   /// The surfaces determine all of the move.
   bool determined() const;
-  /// A move that makes most of what was seen coincide.
+  /// The move makes most of what was seen coincide, and is small or fits clearly better than none: scenes
+  /// that look alike along a direction fit at several places.
   bool coincides() const;
 };
 

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <nlohmann/json.hpp>
 
+#include "core/map/consistency/map_consistency.hpp"
 #include "render/comparison/comparison_json.hpp"
 #include "render/comparison/comparison_layout.hpp"
 #include "render/comparison/comparison_points.hpp"
@@ -265,6 +267,34 @@ TEST(Places, AreWrittenAsJsonWithTheMapsThatTheyCompare) {
                {"label": "B", "offset_ms": null, "thickness": null}],
       "places": [{"x_m": 1.25, "y_m": -2.0, "height_m": 4.0, "cells": [90, 60],
                   "sharpest": 1, "most_blurred": 0, "ratio": 1.5}]})"));
+}
+
+MapConsistency broken_map() {
+  MapConsistency broken;
+  broken.limit_m = 0.3;
+  broken.apart = {{12, 31.5, 0.84, {1, 2, 0.5}}};
+  broken.warnings = {"The map does not agree with itself: surfaces lie 0.8 m apart."};
+  return broken;
+}
+
+TEST(BrokenMaps, AreWrittenInTheJsonOfAComparison) {
+  std::vector<ComparedMap> maps(2);
+  maps[0].consistency = maps[1].consistency = std::make_shared<const MapConsistency>(broken_map());
+  const auto json = nlohmann::json::parse(comparison_json(maps, {}))["map_consistency"];
+  EXPECT_EQ(json["worst_m"], 0.84);
+  EXPECT_EQ(json["at_s"], nlohmann::json({12.0, 31.5}));
+  EXPECT_EQ(json["warned"], true);
+  EXPECT_EQ(json["warnings"], nlohmann::json({broken_map().warnings.front()}));
+}
+
+TEST(BrokenMaps, AreNamedBesideTheThicknessOfTheirSurfaces) {
+  ComparedMap map;
+  map.consistency = std::make_shared<const MapConsistency>(broken_map());
+  EXPECT_NE(in_words(map).find("; the map does not agree with itself: surfaces seen twice lie 0.8 m apart"),
+            std::string::npos)
+      << in_words(map);
+  map.consistency = std::make_shared<const MapConsistency>();
+  EXPECT_EQ(in_words(map).find("does not agree"), std::string::npos) << in_words(map);
 }
 
 using PngTest = test::FolderTest;

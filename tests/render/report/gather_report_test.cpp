@@ -2,10 +2,13 @@
 
 #include <atomic>
 #include <map>
+#include <memory>
 #include <mutex>
 
+#include "core/map/consistency/map_consistency.hpp"
 #include "tests/core/engine_fixtures.hpp"
 #include "tests/core/every_look.hpp"
+#include "tests/render/synthetic_maps.hpp"
 
 namespace sweepscope {
 namespace {
@@ -116,6 +119,28 @@ TEST(ReportPage, AWarningOfTheRecordingThatTheEstimateRepeatsStandsOnce) {
   ASSERT_NE(first, std::string::npos);
   EXPECT_EQ(page->find("<li>the motor is late</li>", first + 1), std::string::npos);
   EXPECT_NE(page->find("<li>few matches</li>"), std::string::npos);
+}
+
+TEST(ReportPage, ABrokenMapIsWarnedOfAndSaidBesideTheThicknessOfItsSurfaces) {
+  MapConsistency broken;
+  broken.limit_m = 0.3;
+  broken.apart = {{12, 31.5, 0.84, {1, 2, 0.5}}};
+  broken.warnings = {"The map does not agree with itself"};
+  ReportContent content;
+  content.estimate.offset_s = 0.024;
+  ComparedMap map;
+  map.offset_s = 0.024;
+  map.cloud = test::HallMap(0, 2'000).make();
+  SurfaceThickness thickness;
+  thickness.map.emplace();
+  map.thickness = std::make_shared<const SurfaceThickness>(thickness);
+  map.consistency = std::make_shared<const MapConsistency>(broken);
+  content.maps = {map, map};
+  const auto page = report_html(content);
+  ASSERT_TRUE(page) << page.error().message;
+  for (const char* part : {"<li>The map does not agree with itself</li>",
+                           "surfaces seen twice lie at most 0.840 m apart (at 12 and 32 s)"})
+    EXPECT_NE(page->find(part), std::string::npos) << part;
 }
 
 }  // namespace
