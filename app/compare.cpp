@@ -9,6 +9,7 @@
 #include "app/commands.hpp"
 #include "app/estimate_options.hpp"
 #include "app/look_texts.hpp"
+#include "app/memory.hpp"
 #include "app/progress.hpp"
 #include "app/recording_options.hpp"
 #include "app/say.hpp"
@@ -257,6 +258,7 @@ void add_compare(CLI::App& app, ExitCode& exit_code) {
   declare(*command, *options);
   command->callback([options, command, &exit_code] {
     options->given = deciding_options(*command);
+    reuse_memory();
     const auto threads = options->recording.limit_threads();
     if (const auto done = compare(*options); !done) exit_code = fail(done.error());
   });

@@ -9,6 +9,7 @@
 
 #include "app/commands.hpp"
 #include "app/estimate_options.hpp"
+#include "app/memory.hpp"
 #include "app/progress.hpp"
 #include "app/recording_options.hpp"
 #include "app/say.hpp"
@@ -59,6 +60,7 @@ Result<void> check_files(const ReportArguments& options) {
 }
 
 ExitCode run(const ReportArguments& options) {
+  reuse_memory();
   const auto threads = options.recording.limit_threads();
   if (const auto checked = check_files(options); !checked) return fail(checked.error());
   const auto content = make(options);

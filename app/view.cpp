@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <malloc.h>
 
 #include <charconv>
 #include <chrono>
@@ -9,6 +8,7 @@
 
 #include "app/commands.hpp"
 #include "app/interrupt.hpp"
+#include "app/memory.hpp"
 #include "app/recording_options.hpp"
 #include "app/say.hpp"
 #include "core/io/atomic_file.hpp"
@@ -168,15 +168,8 @@ Result<void> serve(const ViewOptions& options, ui::Ui::Options with, const ui::W
   return ui::run_served(std::move(with), std::move(served), first, scripts);
 }
 
-/// Clouds come and go by the hundred megabytes: what is let go goes back to the system at once.
-void return_memory() {
-  constexpr int kKept_bytes = 1 << 20, kMaxArenas = 4;
-  mallopt(M_MMAP_THRESHOLD, kKept_bytes);
-  mallopt(M_ARENA_MAX, kMaxArenas);
-}
-
 Result<void> view(const ViewOptions& options) {
-  return_memory();
+  return_memory();  // clouds come and go by the hundred megabytes
   auto size = parse_size(options.size);
   if (!size) return tl::unexpected(size.error());
   const auto scripts = scripts_of(options);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <system_error>
@@ -11,6 +12,7 @@
 #include "core/map/offset_map.hpp"
 #include "core/offset/kind/rig_motion.hpp"
 #include "core/offset/prepared/prepared.hpp"
+#include "core/offset/prepared/search_window.hpp"
 #include "core/offset/walk/walk.hpp"
 #include "core/recording/inspect.hpp"
 #include "core/results/estimate_json.hpp"
@@ -56,6 +58,15 @@ Result<void> add_maps(ReportContent& content, const PreparedRecording& prepared,
   return {};
 }
 
+/// The candidates of a walk's criteria: 5 units to either side of the answer, closer together near it. A
+/// parabola through them gives the extrema, so that finer steps would not move them.
+std::vector<OffsetRange> ranges_about(double offset_s, const SearchScale& scale) {
+  const double middle_s = scale.unit_s * std::round(offset_s / scale.unit_s),
+               half_s = std::min(5 * scale.unit_s, scale.max_half_width_s);
+  return {{middle_s - half_s, middle_s + half_s, scale.unit_s},
+          {middle_s - scale.unit_s, middle_s + scale.unit_s, scale.unit_s / 4}};
+}
+
 /// The paper's criteria of the same recording, along the same trajectory: evidence beside the answer.
 Result<void> add_criteria(ReportContent& content, const PreparedRecording& prepared, CandidateStore* kept,
                           const Job& job) {
@@ -63,6 +74,8 @@ Result<void> add_criteria(ReportContent& content, const PreparedRecording& prepa
   wanted.method = content.estimate.kind == RigKind::kMoving ? Method::kMoving : Method::kStationary;
   wanted.assume = content.estimate.kind;
   wanted.walk = content.estimate.walk;
+  if (wanted.method == Method::kMoving)
+    wanted.ranges = ranges_about(*content.estimate.offset_s, search_scale(prepared.motor));
   auto found = estimate(prepared, wanted, {kept, {}}, job);
   if (!found) return tl::unexpected(found.error());
   if (found->interrupted) return failure(ExitCode::kInterrupted, "interrupted while computing the criteria");

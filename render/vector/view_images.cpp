@@ -35,14 +35,35 @@ Surface part_of(cairo_surface_t* whole, int left, int top, int width, int height
   return part;
 }
 
-Picture scenes_of(const Picture& picture, int factor) {
+/// Where the views lie in the picture: what is drawn of it. At least as large as a picture may be.
+struct DrawnPart {
+  int left = 0, top = 0, right = 0, bottom = 0;
+};
+
+DrawnPart drawn_part(const Picture& picture) {
+  DrawnPart part{picture.width_px, picture.height_px, 0, 0};
+  for (const View& view : picture.views) {
+    part.left = std::min(part.left, static_cast<int>(std::floor(view.place.left)));
+    part.top = std::min(part.top, static_cast<int>(std::floor(view.place.top)));
+    part.right = std::max(part.right, static_cast<int>(std::ceil(view.place.right())));
+    part.bottom = std::max(part.bottom, static_cast<int>(std::ceil(view.place.bottom())));
+  }
+  part.left = std::clamp(part.left, 0, picture.width_px - kMinPictureSidePx);
+  part.top = std::clamp(part.top, 0, picture.height_px - kMinPictureSidePx);
+  part.right = std::clamp(part.right, part.left + kMinPictureSidePx, picture.width_px);
+  part.bottom = std::clamp(part.bottom, part.top + kMinPictureSidePx, picture.height_px);
+  return part;
+}
+
+Picture scenes_of(const Picture& picture, const DrawnPart& part, int factor) {
   Picture scenes = picture;
   scenes.marks = {};
-  scenes.width_px *= factor;
-  scenes.height_px *= factor;
+  scenes.width_px = factor * (part.right - part.left);
+  scenes.height_px = factor * (part.bottom - part.top);
   for (View& view : scenes.views) {
     const PixelRect& place = view.place;
-    view.place = {factor * place.left, factor * place.top, factor * place.width, factor * place.height};
+    view.place = {factor * (place.left - part.left), factor * (place.top - part.top), factor * place.width,
+                  factor * place.height};
     for (CloudLayer& cloud : view.scene.clouds) cloud.point_size_px *= factor;
     if (view.scene.lighting) {
       view.scene.lighting->radius_px *= factor;
@@ -67,20 +88,21 @@ Result<std::vector<ViewImage>> view_images(const Picture& picture) {
   if (picture.views.empty()) return images;
   const int longest = std::max(picture.width_px, picture.height_px),
             factor = 2 * longest <= kMaxPictureSidePx ? 2 : 1;
-  const Result<Image> drawn = draw(scenes_of(picture, factor));
+  const DrawnPart part = drawn_part(picture);
+  const Result<Image> drawn = draw(scenes_of(picture, part, factor));
   if (!drawn) return tl::unexpected(drawn.error());
   const Surface whole = to_surface(*drawn);
   for (const View& view : picture.views) {
     const auto in_image = [&](double px, int max_px) {
       return std::clamp(static_cast<int>(std::lround(factor * px)), 0, max_px);
     };
-    const int left = in_image(view.place.left, drawn->width_px),
-              right = in_image(view.place.right(), drawn->width_px),
-              top = in_image(view.place.top, drawn->height_px),
-              bottom = in_image(view.place.bottom(), drawn->height_px);
+    const int left = in_image(view.place.left - part.left, drawn->width_px),
+              right = in_image(view.place.right() - part.left, drawn->width_px),
+              top = in_image(view.place.top - part.top, drawn->height_px),
+              bottom = in_image(view.place.bottom() - part.top, drawn->height_px);
     if (left >= right || top >= bottom) continue;
     const double f = factor;
-    images.push_back({{left / f, top / f, (right - left) / f, (bottom - top) / f},
+    images.push_back({{part.left + left / f, part.top + top / f, (right - left) / f, (bottom - top) / f},
                       part_of(whole.get(), left, top, right - left, bottom - top)});
   }
   return images;

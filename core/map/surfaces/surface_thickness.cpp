@@ -25,9 +25,11 @@ constexpr std::size_t kBlock = 256;  // cubes
 struct Work {
   const VoxelGrid& grid;
   ColumnOptions options;
-  std::vector<LocalSurface> surfaces;  // in the order of the grid
-  std::vector<char> open;              // points that a smaller neighbourhood may give a surface
+  std::vector<LocalSurface> surfaces;  // in the order of the cloud
+  std::vector<char> open;              // in that of the grid: a smaller neighbourhood may give a surface
 
+  LocalSurface& surface(std::uint32_t i) { return surfaces[grid.index[i]]; }
+  const LocalSurface& surface(std::uint32_t i) const { return surfaces[grid.index[i]]; }
   Eigen::Vector3f point_m(std::uint32_t i) const { return {grid.x_m[i], grid.y_m[i], grid.z_m[i]}; }
   bool is_open(std::uint32_t i) const { return open[i] != 0; }
 };
@@ -139,9 +141,9 @@ void assign(Work& work, const std::vector<SurfacePatch>& patches, const VoxelLev
         if (!work.is_open(i)) continue;
         const LocalSurface found = surface_at(work.point_m(i), around, margin_m);
         if (found.kind == SurfaceKind::kFlat)
-          work.surfaces[i] = found;
+          work.surface(i) = found;
         else if (patches[cell].kind == SurfaceKind::kEdge)
-          work.surfaces[i].kind = SurfaceKind::kEdge;
+          work.surface(i).kind = SurfaceKind::kEdge;
         // Where there are too few points in a large neighbourhood there are too few in a small one.
         work.open[i] = found.kind != SurfaceKind::kFlat && patches[cell].kind != SurfaceKind::kUnknown;
       }
@@ -174,7 +176,7 @@ Cube cube_of(const Work& work, const VoxelLevel& level, std::uint32_t cell) {
   Cube cube;
   double sum_m = 0, count = 0;
   for (std::uint32_t i = level.begin(cell); i < level.begin(cell + 1); ++i) {
-    const LocalSurface& surface = work.surfaces[i];
+    const LocalSurface& surface = work.surface(i);
     if (surface.kind == SurfaceKind::kFlat) sum_m += double(surface.thickness_m), count += 1;
     if (surface.kind == SurfaceKind::kEdge) cube.kind = CubeKind::kEdge;
   }
@@ -225,9 +227,8 @@ SurfaceThickness surface_thickness(const MapCloud& cloud, const ThicknessOptions
     });
     assign(work, patches, level);
   }
-  found.surfaces.resize(cloud.size());
-  for (std::size_t i = 0; i < grid.size(); ++i) found.surfaces[grid.index[i]] = work.surfaces[i];
   found.map = thickness_of_map(work, grid.level(0));
+  found.surfaces = std::move(work.surfaces);
   return found;
 }
 
