@@ -14,6 +14,7 @@
 #include "app/recording_options.hpp"
 #include "app/say.hpp"
 #include "core/io/printable_text.hpp"
+#include "core/offset/rig_estimate.hpp"
 #include "render/gl/context.hpp"
 
 namespace sweepscope::app {
@@ -67,7 +68,7 @@ ExitCode run(const ReportArguments& options) {
   if (!content) return fail(content.error());
   print("{}\n", (std::filesystem::path(options.folder) / "report.html").string());
   for (const std::string& reason : content->estimate.reasons()) say("{}\n", reason);
-  return content->estimate.identifiable ? ExitCode::kDone : ExitCode::kNotIdentifiable;
+  return has_answer(content->estimate) ? ExitCode::kDone : ExitCode::kNotIdentifiable;
 }
 
 /// ReportArguments as a shell would take them, files by their names. What does not change the report is left

@@ -97,6 +97,25 @@ Result<void> add_over_time(ReportContent& content, const PreparedRecording& prep
   return {};
 }
 
+/// Of a motor whose offset is a gauge: the maps with the rig as given and as found.
+Result<void> add_maps_of_rigs(ReportContent& content, const Recording& given, const Job& job) {
+  MapOptions options;
+  options.assume = content.estimate.kind;
+  const auto add = [&](const Recording& recording, const char* label) -> Result<void> {
+    const double offset_s = 0;
+    const auto built = build_maps(recording, {&offset_s, 1}, options, job);
+    if (!built) return tl::unexpected(built.error());
+    ComparedMap& next = content.maps.emplace_back(compared_map(recording, built->front()));
+    next.label = label;
+    measure_thickness(next, job);
+    if (job.cancelled()) return failure(ExitCode::kInterrupted, "interrupted while measuring the map");
+    return {};
+  };
+  return add(given, "rig as given").and_then([&] {
+    return add(with_rig(given, *content.estimate.rig), "rig as found");
+  });
+}
+
 /// All that stands beside the answer; `prepared` has the rig that the answer was found with.
 Result<void> add_evidence(ReportContent& content, const PreparedRecording& prepared,
                           const ReportOptions& wanted, CandidateStore* kept, const Job& job) {
@@ -129,6 +148,8 @@ Result<ReportContent> gather_report(const PreparedRecording& prepared, const Rep
           return add_evidence(content, stationary, wanted, kept, job);
         })
         .map([&] { return std::move(content); });
+  if (content.estimate.rig && content.estimate.offset_is_gauge())
+    return add_maps_of_rigs(content, *prepared.recording, job).map([&] { return std::move(content); });
   if (!content.estimate.rig)
     return add_evidence(content, prepared, wanted, kept, job).map([&] { return std::move(content); });
   const Recording corrected = with_rig(*prepared.recording, *content.estimate.rig);
@@ -146,6 +167,7 @@ std::string report_json(const ReportContent& content) {
   for (const ComparedMap& map : content.maps) {
     if (!map.thickness || !map.thickness->map) continue;
     nlohmann::ordered_json thickness{{"offset_ms", std::round(*map.offset_s * 1e12) / 1e9}};
+    if (!map.label.empty()) thickness["label"] = map.label;
     thickness.update(thickness_json(*map.thickness->map));
     json["map_thickness"].push_back(std::move(thickness));
   }

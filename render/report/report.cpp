@@ -258,8 +258,10 @@ std::string thickness_table(const ReportContent& content) {
   for (const ComparedMap& map : content.maps) {
     if (!map.thickness || !map.thickness->map) continue;
     const char* chip = &map == &content.maps.front() ? "map-a" : "map-b";
-    rows += fmt::format("<tr><th><span class=\"{}\"></span>offset {} ms</th><td>{}</td></tr>\n", chip,
-                        offset_label_ms(*map.offset_s), html::escape(in_words(map)));
+    const std::string name =
+        map.label.empty() ? fmt::format("offset {} ms", offset_label_ms(*map.offset_s)) : map.label;
+    rows += fmt::format("<tr><th><span class=\"{}\"></span>{}</th><td>{}</td></tr>\n", chip, name,
+                        html::escape(in_words(map)));
   }
   if (rows.empty()) return rows;
   const auto& consistency = content.maps.back().consistency;
@@ -276,14 +278,18 @@ Result<std::string> maps(const ReportContent& content) {
   look.title = content.recording.name;
   look.width_px = 1800;
   look.height_px = 1100;
+  const bool of_rigs = content.estimate.offset_is_gauge();
   return comparison_picture(content.maps, nullptr, look).and_then(draw).map([&](const Image& image) {
-    return fmt::format("<h2 class=\"{}\">The map 5 ms off, and at the answer</h2>\n",
-                       stationary_class(content)) +
+    return fmt::format("<h2 class=\"{}\">{}</h2>\n", stationary_class(content),
+                       of_rigs ? "The map with the rig as given, and as found"
+                               : "The map 5 ms off, and at the answer") +
            thickness_table(content) +
            figure(
                stationary_class(content),
                html::png_image(encode_png(image), "Two maps from above, side by side"),
-               "Only the offset differs. If the right picture is sharper, the answer is the better offset.");
+               of_rigs
+                   ? "Only the rig differs. If the right picture is sharper, the rig that was found is better."
+                   : "Only the offset differs. If the right picture is sharper, the answer is the better offset.");
   });
 }
 

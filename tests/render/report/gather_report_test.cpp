@@ -109,6 +109,25 @@ TEST(GatherReport, ARigThatIsSolvedForIsShownAndItsMapsAreThoseOfTheRigFound) {
   EXPECT_EQ(report_html(with_file).value().find("<h2>The rig</h2>"), std::string::npos);
 }
 
+TEST(GatherReport, OfAMotorWhoseOffsetIsAGaugeItShowsTheMapsOfTheRigs) {
+  SimulationOptions made;
+  made.scene = "room-2";
+  made.motor = simulation::MotorKind::kOneWay;
+  made.duration_s = 6;
+  made.mount_error_deg = {0, 2, 1};
+  const Simulation simulation = simulate(made, Job()).value();
+  ReportOptions wanted;
+  wanted.solve.mount = true;
+  const auto prepared = prepare(simulation.recording, FeatureOptions(), Job()).value();
+  const ReportContent content = gather_report(prepared, wanted, nullptr, Job()).value();
+  ASSERT_EQ(content.maps.size(), 2U);
+  EXPECT_LT(content.maps[1].thickness->map->median_m, 0.5 * content.maps[0].thickness->map->median_m);
+  const std::string page = report_html(content).value();
+  for (const char* words : {"rig as given", "rig as found", "does not blur the map"})
+    EXPECT_NE(page.find(words), std::string::npos) << words;
+  EXPECT_EQ(page.find("5 ms off"), std::string::npos);
+}
+
 TEST(ReportPage, AWarningOfTheRecordingThatTheEstimateRepeatsStandsOnce) {
   ReportContent content;
   content.recording.warnings = {"the motor is late"};
