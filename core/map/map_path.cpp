@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "core/loam/path/given_motion.hpp"
@@ -10,6 +11,7 @@
 #include "core/numbers.hpp"
 #include "core/offset/judgement/identifiability.hpp"
 #include "core/offset/kind/stationary_motion.hpp"
+#include "core/offset/prepared/search_window.hpp"
 
 namespace sweepscope {
 namespace {
@@ -47,6 +49,15 @@ Result<void> check_scans(const OffsetProblem& problem, double offset_s) {
   return failure(
       ExitCode::kNotIdentifiable,
       fmt::format("{}: no scan is covered by the motor's samples at these offsets.", recording.name));
+}
+
+// Where a walk is searched for: in whole units, whatever the offsets that are asked for, so that it is
+// tracked at the same candidates as in an estimate.
+double middle_of_search_s(const OffsetProblem& problem, double from_s, double to_s) {
+  const double middle_s = (from_s + to_s) / 2;
+  if (problem.motor.one_way()) return middle_s;
+  const double unit_s = search_scale(problem.motor).unit_s;
+  return unit_s * std::round(middle_s / unit_s);
 }
 
 // The poses of all sweeps that a SweepPlacer has at an offset; those that the path lacks are lost.
@@ -115,7 +126,7 @@ Result<MapPath> find_map_path(const PreparedRecording& prepared, double from_s, 
   }
   if (!path.moving) return path;
   if (!path.walk) {
-    auto solved = find_walk(problem, (from_s + to_s) / 2, options.mapping, job);
+    auto solved = find_walk(problem, middle_of_search_s(problem, from_s, to_s), options.mapping, job);
     if (!solved) return failure(ExitCode::kInterrupted, "interrupted while building the map");
     path.walk = std::make_shared<const SolvedWalk>(std::move(*solved));
   }

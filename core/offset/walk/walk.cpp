@@ -95,10 +95,8 @@ std::optional<SolvedWalk> find_walk(const OffsetProblem& problem, double middle_
                                     const MappingOptions& mapping, const Job& job) {
   const SearchScale scale = search_scale(problem.motor);
   if (problem.motor.one_way()) return solve_walk(problem, middle_s, at_one_offset(mapping), job);
-  // Whole units, whatever the offsets that are asked for: an estimate starts at the same candidate.
-  const double about_s = scale.unit_s * std::round(middle_s / scale.unit_s);
   const CoarseSearch coarse =
-      search_coarsely(problem, about_s - scale.half_width_s, about_s + scale.half_width_s, scale, job);
+      search_coarsely(problem, middle_s - scale.half_width_s, middle_s + scale.half_width_s, scale, job);
   if (job.cancelled()) return std::nullopt;
   return solve_walk(problem, coarse.offset_or(middle_s), walk_options(mapping, scale), job);
 }
