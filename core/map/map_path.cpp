@@ -51,11 +51,11 @@ Result<void> check_scans(const OffsetProblem& problem, double offset_s) {
       fmt::format("{}: no scan is covered by the motor's samples at these offsets.", recording.name));
 }
 
-// Where a walk is searched for: in whole units, whatever the offsets that are asked for, so that it is
-// tracked at the same candidates as in an estimate.
+// Where a walk is searched for: at the one offset that is asked for; between several in whole units, as in an
+// estimate, since it would be tracked twice from half a unit beside the offset that fits.
 double middle_of_search_s(const OffsetProblem& problem, double from_s, double to_s) {
   const double middle_s = (from_s + to_s) / 2;
-  if (problem.motor.one_way()) return middle_s;
+  if (from_s == to_s || problem.motor.one_way()) return middle_s;
   const double unit_s = search_scale(problem.motor).unit_s;
   return unit_s * std::round(middle_s / unit_s);
 }

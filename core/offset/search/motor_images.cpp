@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/numbers.hpp"
-
 namespace sweepscope {
 namespace {
 
