@@ -149,7 +149,21 @@ void CampaignOptions::declare_recordings(CLI::App& command) {
 }
 
 void CampaignOptions::declare(CLI::App& command) {
-  constexpr const char* kGroup = "Many recordings, and expected offsets";
+  constexpr const char* kGroup = "Several recordings, and expected offsets";
+  command
+      .add_flag("--together", together,
+                "The recordings are of one rig: one offset from all of them, and with --solve one rig, each "
+                "recording weighted by what it determines; recordings that do not agree are refused")
+      ->group(kGroup);
+  command
+      .add_option_function<std::string>(
+          "--offsets", [this](const std::string& text) { own_offsets = text == "each"; },
+          "With --together: one offset for all recordings (one, the default), or one for each of them (each), "
+          "as where the rig was switched off in between")
+      ->check(CLI::IsMember({"one", "each"}))
+      ->needs("--together")
+      ->type_name("one|each")
+      ->group(kGroup);
   command
       .add_option_function<std::string>(
           "--expect",

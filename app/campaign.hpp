@@ -15,13 +15,17 @@ struct CampaignOptions {
   std::vector<std::filesystem::path> recordings;
   std::optional<ExpectedOffset> expected;
   std::string table, trend;  // empty: none
+  bool together = false;     // all are of one rig, and one answer is asked for
+  bool own_offsets = false;  // which then has an offset for each
 
   /// REC... The options write to this object.
   void declare_recordings(CLI::App& command);
-  /// --expect, --table and --trend.
+  /// --together and --offsets, --expect, --table and --trend.
   void declare(CLI::App& command);
-  /// Several recordings, or an output for several.
-  bool is_campaign() const { return recordings.size() > 1 || !table.empty() || !trend.empty(); }
+  /// Several recordings with an answer each, or an output for these.
+  bool is_campaign() const {
+    return !together && (recordings.size() > 1 || !table.empty() || !trend.empty());
+  }
 };
 
 /// The rows of a table are kept in this file beside it.

@@ -11,6 +11,7 @@
 #include "app/say.hpp"
 #include "core/io/trajectory_file.hpp"
 #include "core/results/found_rig.hpp"
+#include "core/together/estimate_together.hpp"
 
 namespace sweepscope::app {
 namespace {
@@ -119,6 +120,21 @@ Result<void> check_options(const EstimateArguments& options) {
   return {};
 }
 
+// What makes no sense for several recordings that have one answer.
+Result<void> check_together(const EstimateArguments& options) {
+  const auto refuse = [](const std::string& what) { return failure(ExitCode::kWrongUsage, what); };
+  if (options.campaign.recordings.size() < 2) return refuse("--together needs at least two recordings");
+  if (keeps(options)) return refuse("--together has no candidates: leave out --shard and --resume");
+  if (!options.campaign.table.empty() || !options.campaign.trend.empty())
+    return refuse("--table and --trend have a row for each recording: leave out --together");
+  if (!options.output.csv.empty()) return refuse("--csv is the curve of a single recording: use --json");
+  if (!options.poses.empty()) return refuse("--poses belongs to a single recording");
+  if (options.input.recording.window) return refuse("--window belongs to a single recording");
+  if (options.campaign.own_offsets && options.campaign.expected)
+    return refuse("--expect is about one offset: leave out --offsets each");
+  return {};
+}
+
 Result<std::optional<GivenPoses>> read_poses(const EstimateArguments& options, const Recording& recording) {
   if (options.poses.empty()) return std::nullopt;
   auto poses = read_tum(options.poses, recording.epoch_ns);
@@ -146,6 +162,40 @@ Result<void> check_campaign(const EstimateArguments& options) {
   if (!options.poses.empty()) return refuse("--poses", "");
   if (!options.rig_out.empty()) return refuse("--rig-out", "");
   return {};
+}
+
+Result<std::vector<RecordingFile>> open_all(const EstimateArguments& options, const Job& job) {
+  std::vector<RecordingFile> files;
+  for (const std::filesystem::path& path : options.campaign.recordings) {
+    RecordingOptions reading = options.input.recording;
+    reading.recording = path;
+    auto file = reading.open(job);
+    if (!file) return tl::unexpected(file.error());
+    files.push_back(std::move(*file));
+  }
+  return files;
+}
+
+ExitCode run_together(const EstimateArguments& options) {
+  std::vector<std::filesystem::path> inputs;
+  for (const std::filesystem::path& path : options.campaign.recordings) {
+    RecordingOptions reading = options.input.recording;
+    reading.recording = path;
+    for (const std::filesystem::path& file : reading.input_files()) inputs.push_back(file);
+  }
+  if (const auto checked = options.output.check(inputs, {options.rig_out}); !checked)
+    return fail(checked.error());
+  EstimateOptions estimate_options = options.input.estimate;
+  estimate_options.assume = options.input.recording.assumed_kind();
+  Result<Estimate> found;
+  {
+    const Progress progress;
+    const auto files = open_all(options, progress.job());
+    if (!files) return fail(files.error());
+    found = estimate_together({files->begin(), files->end()}, estimate_options, options.campaign.own_offsets,
+                              progress.job());
+  }
+  return found ? conclude_search(options, *found, nullptr, "") : fail(found.error());
 }
 
 ExitCode run_single(const EstimateArguments& options, std::vector<std::string> deciding) {
@@ -177,9 +227,13 @@ ExitCode run_single(const EstimateArguments& options, std::vector<std::string> d
 ExitCode run(EstimateArguments& options, std::vector<std::string> deciding) {
   const auto threads = options.input.recording.limit_threads();
   const bool campaign = options.campaign.is_campaign();
-  const auto checked =
-      check_options(options).and_then([&] { return campaign ? check_campaign(options) : Result<void>(); });
+  const auto checked = check_options(options).and_then([&] {
+    return campaign                    ? check_campaign(options)
+           : options.campaign.together ? check_together(options)
+                                       : Result<void>();
+  });
   if (!checked) return fail(checked.error());
+  if (options.campaign.together) return run_together(options);
   if (campaign) return run_campaign(options.campaign, options.input, deciding);
   options.input.recording.recording = options.campaign.recordings.front();
   return run_single(options, std::move(deciding));

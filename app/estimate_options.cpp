@@ -1,6 +1,7 @@
 #include "app/estimate_options.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -97,8 +98,33 @@ void print_over_time(const OffsetOverTime& over_time) {
           jump.begin_s, jump.end_s);
 }
 
-void print_answer(const Estimate& estimate) {
-  if (estimate.identifiable) {
+// What each of several recordings contributes, and how they agree.
+void print_together(const Together& together) {
+  for (const RecordingOfRig& recording : together.recordings) {
+    std::vector<std::string> parts;
+    if (recording.offset_s)
+      parts.push_back(
+          fmt::format("{:.3f} +- {:.3f} ms", *recording.offset_s * 1e3, *recording.sigma_s * 1e3));
+    if (recording.offset_s && !together.own_offsets)
+      parts.push_back(fmt::format("{:.0f} % of the offset", recording.share * 100));
+    if (recording.residual_after_m)
+      parts.push_back(fmt::format("surfaces {:.2f} mm thick before, {:.2f} mm after",
+                                  *recording.residual_before_m * 1e3, *recording.residual_after_m * 1e3));
+    if (recording.turn_sigma_rad)
+      parts.push_back(fmt::format("by itself the mount +- {:.3f} deg, +- {:.1f} mm",
+                                  *recording.turn_sigma_rad * kDegPerRad, *recording.shift_sigma_m * 1e3));
+    for (const std::string& reason : recording.reasons) parts.push_back(reason);
+    print("  {}: {}\n", recording.recording, fmt::format("{}", fmt::join(parts, "; ")));
+  }
+  if (together.degrees_of_freedom > 0)
+    print("agreement  chi-square {:.1f} for {} degrees of freedom\n", together.chi_square,
+          together.degrees_of_freedom);
+}
+
+void print_offset(const Estimate& estimate) {
+  if (estimate.together && estimate.together->own_offsets && estimate.identifiable) {
+    print("offset   one for each recording      t_motor = t_laser + offset\n");
+  } else if (estimate.identifiable) {
     const std::string sigma =
         estimate.sigma_s ? fmt::format(" +- {:.3f} ms (1 sigma)", *estimate.sigma_s * 1e3) : "";
     print("offset   {:.3f} ms{}      t_motor = t_laser + offset\n", *estimate.offset_s * 1e3, sigma);
@@ -107,6 +133,11 @@ void print_answer(const Estimate& estimate) {
                                                       : "cannot be determined from this recording");
     for (const std::string& reason : estimate.reasons()) print("  why: {}\n", reason);
   }
+}
+
+void print_answer(const Estimate& estimate) {
+  print_offset(estimate);
+  if (estimate.together) print_together(*estimate.together);
   if (estimate.over_time) print_over_time(*estimate.over_time);
   if (estimate.sample)
     print("sample   {} of {} sweeps, in {} groups spread evenly\n", estimate.sample->sweeps,

@@ -20,6 +20,25 @@ struct SweepSample {
   std::size_t groups = 0, sweeps = 0, of_sweeps = 0;  // `of_sweeps`: that the recording has
 };
 
+/// One of several recordings of one rig, in the estimate of all.
+struct RecordingOfRig {
+  std::string recording;
+  std::optional<double> offset_s, sigma_s;  // with the rig of all; absent if it does not determine the offset
+  double share = 0;                         // of the weight of the common offset
+  // What it says of the rig by itself, one standard deviation in the worst direction; absent if nothing.
+  std::optional<double> turn_sigma_rad, shift_sigma_m;
+  std::optional<double> residual_before_m, residual_after_m;  // of its flat surfaces
+  std::vector<std::string> reasons;  // why it does not determine the offset, or the rig
+};
+
+/// How several recordings of one rig agree, see estimate_together.
+struct Together {
+  std::vector<RecordingOfRig> recordings;
+  bool own_offsets = false;
+  double chi_square = 0;
+  int degrees_of_freedom = 0;  // 0: not compared
+};
+
 /// The answer to "what is the offset?", with its evidence and how it was found.
 struct Estimate : Answer {
   std::string recording;
@@ -39,6 +58,7 @@ struct Estimate : Answer {
   double wall_s = 0;
   /// What of the rig was solved for beside the offset; null where nothing was.
   std::shared_ptr<const SolvedRig> rig;
+  std::optional<Together> together;  // of several recordings
 
   /// The motor turns one way at one speed: any offset gives the same map but for a turn about the motor's
   /// axis, so that none is found, and none is needed for a map or for the rig.

@@ -16,6 +16,48 @@
 namespace sweepscope {
 namespace {
 
+// The offset of an estimate of a stationary rig, or, if the rig file is too wrong for one, the candidate with
+// the lowest cost.
+std::optional<double> offset_seen_s(const Estimate& found) {
+  if (!found.criteria.empty()) return found.criteria.front().offset_s;
+  const CurvePoint* best = nullptr;
+  for (const CurvePoint& point : found.curve)
+    if (point.capped_cost_m && (best == nullptr || *point.capped_cost_m < *best->capped_cost_m))
+      best = &point;
+  return best == nullptr ? std::nullopt : std::optional(best->offset_s);
+}
+
+// The longest part of a walk in which the rig was stationary, if it is long enough to solve for a rig.
+std::optional<MotionPart> standing_part(const PreparedRecording& prepared) {
+  constexpr double kMin_s = 6, kMinSweeps = 10;  // 8 s are advised
+  constexpr double kPairs = 64;                  // that are compared at most: the last may already be moving
+  const std::vector<MotionPart> parts = motion_over_time(prepared);
+  std::optional<MotionPart> longest;
+  const auto length_s = [](const MotionPart& part) { return part.end_s - part.begin_s; };
+  for (const MotionPart& part : parts)
+    if (!part.moved && (!longest || length_s(part) > length_s(*longest))) longest = part;
+  if (!longest) return longest;
+  if (longest->end_s < parts.back().end_s) longest->end_s -= parts.back().end_s / kPairs;
+  const MotorMotion& motor = prepared.motor;
+  if (length_s(*longest) < std::max(kMin_s, kMinSweeps * motor.median_sweep_s)) longest.reset();
+  return longest;
+}
+
+std::string from_standing_part(const MotionPart& part) {
+  return fmt::format(" The rig was solved for from {:.1f} to {:.1f} s, while it was stationary.",
+                     part.begin_s, part.end_s);
+}
+
+// The offset of a part; none where the rig moved in it after all.
+std::optional<double> offset_of_part_s(const PreparedRecording& part, const EstimateOptions& options,
+                                       const Job& job) {
+  EstimateOptions offset_only = options;
+  offset_only.solve = {};
+  offset_only.over_time_s.reset();
+  const auto found = estimate(part, offset_only, {}, job);
+  return found && found->kind == RigKind::kStationary ? offset_seen_s(*found) : std::nullopt;
+}
+
 // Estimates the offset alone.
 struct OffsetAlone {
   EstimateOptions options;
@@ -39,24 +81,9 @@ Estimate with(Estimate found, std::shared_ptr<const SolvedRig> solved) {
   return found;
 }
 
-// The offset of an estimate of a stationary rig, or, if the rig file is too wrong for one, the candidate with
-// the lowest cost.
-std::optional<double> offset_seen_s(const Estimate& found) {
-  if (!found.criteria.empty()) return found.criteria.front().offset_s;
-  const CurvePoint* best = nullptr;
-  for (const CurvePoint& point : found.curve)
-    if (point.capped_cost_m && (best == nullptr || *point.capped_cost_m < *best->capped_cost_m))
-      best = &point;
-  return best == nullptr ? std::nullopt : std::optional(best->offset_s);
-}
-
-// The rig of a stationary recording, from flat surfaces; null if there is no offset.
-std::shared_ptr<const SolvedRig> rig_of_surfaces(const PreparedRecording& prepared, const RigSolve& what,
-                                                 const Estimate& found, const Job& job) {
-  const auto offset_s = offset_seen_s(found);
-  if (!offset_s || job.cancelled()) return nullptr;
-  return std::make_shared<const SolvedRig>(
-      solve_rig(problem_for(prepared, *offset_s, *offset_s), *offset_s, what, job));
+std::shared_ptr<const SolvedRig> rig_of_part(const RigPart& part, const RigSolve& what, const Job& job) {
+  const OffsetProblem problem = part.problem();
+  return std::make_shared<const SolvedRig>(solve_rig({&problem, 1}, {.offset_s = part.offset_s}, what, job));
 }
 
 // The offset with a rig that was solved for.
@@ -65,39 +92,6 @@ Result<Estimate> with_rig_found(const PreparedRecording& prepared, std::shared_p
   return offset.of(with_rig(*prepared.recording, *solved)).map([&](Estimate&& answer) {
     return with(std::move(answer), std::move(solved));
   });
-}
-
-// The longest part of a walk in which the rig was stationary, if it is long enough to solve for a rig.
-std::optional<MotionPart> standing_part(const PreparedRecording& prepared) {
-  constexpr double kMin_s = 6, kMinSweeps = 10;  // 8 s are advised
-  constexpr double kPairs = 64;                  // that are compared at most: the last may already be moving
-  const std::vector<MotionPart> parts = motion_over_time(prepared);
-  std::optional<MotionPart> longest;
-  const auto length_s = [](const MotionPart& part) { return part.end_s - part.begin_s; };
-  for (const MotionPart& part : parts)
-    if (!part.moved && (!longest || length_s(part) > length_s(*longest))) longest = part;
-  if (!longest) return longest;
-  if (longest->end_s < parts.back().end_s) longest->end_s -= parts.back().end_s / kPairs;
-  const MotorMotion& motor = prepared.motor;
-  if (length_s(*longest) < std::max(kMin_s, kMinSweeps * motor.median_sweep_s)) longest.reset();
-  return longest;
-}
-
-// The rig from the part of a walk in which it was stationary; null if that does not determine the requested
-// mount.
-std::shared_ptr<const SolvedRig> rig_of_standing_part(const PreparedRecording& prepared,
-                                                      const MotionPart& part, const EstimateOptions& options,
-                                                      const Job& job) {
-  const Recording stood = window(*prepared.recording, part.begin_s, part.end_s);
-  EstimateOptions offset_only = options;
-  offset_only.solve = {};
-  offset_only.over_time_s.reset();
-  const auto of_part = prepare(stood, options.features, job);
-  if (!of_part) return nullptr;
-  const auto found = estimate(*of_part, offset_only, {}, job);
-  if (!found || found->kind != RigKind::kStationary) return nullptr;
-  auto solved = rig_of_surfaces(*of_part, options.solve, *found, job);
-  return solved && (solved->mount.identifiable || !options.solve.mount) ? solved : nullptr;
 }
 
 std::optional<WalkTurn> turn_seen(const Recording& recording, const Estimate& found) {
@@ -163,41 +157,53 @@ Result<Estimate> with_turn_of_walk(const PreparedRecording& prepared, const Esti
   return with(std::move(found), std::make_shared<const SolvedRig>(std::move(solved)));
 }
 
-std::string from_standing_part(const MotionPart& part) {
-  return fmt::format(" The rig was solved for from {:.1f} to {:.1f} s, while it was stationary.",
-                     part.begin_s, part.end_s);
-}
-
 // A motor that turns one way at one speed: the rig at an offset of 0, which is as good as any other.
-Result<Estimate> with_rig_at_any_offset(const PreparedRecording& prepared, const EstimateOptions& options,
-                                        Estimate found, const Job& job) {
-  const OffsetProblem problem = problem_for(prepared, 0, 0);
-  const KindDecision kind = decide_kind(test_motion(stationary_grid(problem), 0), options);
-  found.kind = kind.kind;
-  found.kind_reason = kind.reason;
-  found.scans = std::size_t(std::ranges::count(problem.scan_used, 1));
-  found.sweeps = problem.motor.sweeps.size();
-  RigSolve what = options.solve;
-  what.offset = false;
-  const auto solve = [&](const OffsetProblem& stationary) {
-    return with(std::move(found), std::make_shared<const SolvedRig>(solve_rig(stationary, 0, what, job)));
-  };
-  if (kind.kind == RigKind::kStationary) return solve(problem);
-  const auto part = standing_part(prepared);
+Estimate with_rig_at_any_offset(const PreparedRecording& prepared, const EstimateOptions& options,
+                                Estimate found, const Job& job) {
+  found = with_kind_of_gauge(prepared, options, std::move(found));
+  const auto part = part_for_rig(prepared, found, options, job);
   if (!part) {
     found.warnings.push_back(
         "The rig was not solved for: it moved, and its motor turns one way at one speed. Keep it stationary for "
         "8 s.");
     return found;
   }
-  found.kind_reason += from_standing_part(*part);
-  const Recording stood = window(*prepared.recording, part->begin_s, part->end_s);
-  return prepare(stood, options.features, job).map([&](const PreparedRecording& of_part) {
-    return solve(problem_for(of_part, 0, 0));
-  });
+  found.kind_reason += part->note;
+  RigSolve what = options.solve;
+  what.offset = false;
+  return with(std::move(found), rig_of_part(*part, what, job));
 }
 
 }  // namespace
+
+std::optional<RigPart> part_for_rig(const PreparedRecording& prepared, const Estimate& found,
+                                    const EstimateOptions& options, const Job& job) {
+  const bool gauge = found.offset_is_gauge();
+  if (found.kind == RigKind::kStationary) {
+    const auto offset_s = gauge ? std::optional(0.0) : offset_seen_s(found);
+    return offset_s ? std::optional(RigPart{prepared, *offset_s, ""}) : std::nullopt;
+  }
+  const auto standing = standing_part(prepared);
+  if (!standing) return std::nullopt;
+  auto of_part = prepare(
+      std::make_shared<const Recording>(window(*prepared.recording, standing->begin_s, standing->end_s)),
+      options.features, job);
+  if (!of_part) return std::nullopt;
+  const auto offset_s = gauge ? std::optional(0.0) : offset_of_part_s(*of_part, options, job);
+  if (!offset_s) return std::nullopt;
+  return RigPart{std::move(*of_part), *offset_s, from_standing_part(*standing)};
+}
+
+Estimate with_kind_of_gauge(const PreparedRecording& prepared, const EstimateOptions& options,
+                            Estimate found) {
+  const OffsetProblem problem = problem_for(prepared, 0, 0);
+  const KindDecision kind = decide_kind(test_motion(stationary_grid(problem), 0), options);
+  found.kind = kind.kind;
+  found.kind_reason = kind.reason;
+  found.scans = std::size_t(std::ranges::count(problem.scan_used, 1));
+  found.sweeps = problem.motor.sweeps.size();
+  return found;
+}
 
 Result<Estimate> estimate_with_rig(const RecordingSource& source, const EstimateOptions& options,
                                    const KeptCandidates& kept, const Job& job) {
@@ -214,19 +220,18 @@ Result<Estimate> estimate_with_rig(const RecordingSource& source, const Estimate
   if (!found || job.cancelled()) return found;
   if (found->offset_is_gauge()) return with_rig_at_any_offset(prepared, options, std::move(*found), job);
   if (!found->kind) return found;
-  if (found->kind == RigKind::kStationary) {
-    auto solved = rig_of_surfaces(prepared, options.solve, *found, job);
-    return solved && !job.cancelled() ? with_rig_found(prepared, std::move(solved), offset) : found;
-  }
-  const auto part = standing_part(prepared);
-  auto solved = part ? rig_of_standing_part(prepared, *part, options, job) : nullptr;
+  const bool moved = found->kind == RigKind::kMoving;
+  const auto part = part_for_rig(prepared, *found, options, job);
+  auto solved = part && !job.cancelled() ? rig_of_part(*part, options.solve, job) : nullptr;
   if (job.cancelled()) return found;
-  if (solved)
-    return with_rig_found(prepared, std::move(solved), offset).map([&](Estimate&& answer) {
-      answer.kind_reason += from_standing_part(*part);
-      return std::move(answer);
-    });
-  return with_turn_of_walk(prepared, options, std::move(*found), offset);
+  // A walk shows the turn of a mount that its stationary part does not determine.
+  if (moved && (!solved || (options.solve.mount && !solved->mount.identifiable)))
+    return with_turn_of_walk(prepared, options, std::move(*found), offset);
+  if (!solved) return found;
+  return with_rig_found(prepared, std::move(solved), offset).map([&](Estimate&& answer) {
+    answer.kind_reason += part->note;
+    return std::move(answer);
+  });
 }
 
 bool has_answer(const Estimate& found) {

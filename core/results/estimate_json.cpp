@@ -306,6 +306,29 @@ std::optional<FitEvidence> fit_from_json(const Json& document) {
   return fit;
 }
 
+Json number_or_none(const std::optional<double>& value, double scale = 1) {
+  return value ? number(*value * scale) : Json(nullptr);
+}
+
+/// "recordings", and how they agree.
+void write_together(const Together& together, Json& document) {
+  document["recordings"] = Json::array();
+  for (const RecordingOfRig& recording : together.recordings)
+    document["recordings"].push_back(
+        {{"recording", recording.recording},
+         {"offset_ms", milliseconds_or_null(recording.offset_s)},
+         {"sigma_ms", milliseconds_or_null(recording.sigma_s)},
+         {"share", number(recording.share)},
+         {"turn_sigma_deg", number_or_none(recording.turn_sigma_rad, kDegPerRad)},
+         {"shift_sigma_m", number_or_none(recording.shift_sigma_m)},
+         {"residual_before_m", number_or_none(recording.residual_before_m)},
+         {"residual_after_m", number_or_none(recording.residual_after_m)},
+         {"reasons", recording.reasons}});
+  document["offsets"] = together.own_offsets ? "each" : "one";
+  document["chi_square"] = number(together.chi_square);
+  document["degrees_of_freedom"] = together.degrees_of_freedom;
+}
+
 std::vector<CriterionOptimum> criteria_from_json(const Json& criteria) {
   if (!criteria.is_object()) throw BadValue("criteria is not an object");
   std::vector<CriterionOptimum> optima;
@@ -429,6 +452,7 @@ std::string estimate_to_json(const Estimate& estimate, Timing timing) {
   if (estimate.sample) document["sample"] = sample_to_json(*estimate.sample);
   if (estimate.offset_is_gauge()) document["offset_is_gauge"] = true;
   if (const auto& part = estimate.stationary_part) document["window_s"] = {part->begin_s, part->end_s};
+  if (estimate.together) write_together(*estimate.together, document);
   document["cpu_s"] = timing == Timing::kWritten ? Json(estimate.cpu_s) : Json(nullptr);
   document["wall_s"] = timing == Timing::kWritten ? Json(estimate.wall_s) : Json(nullptr);
   document["version"] = SWEEPSCOPE_VERSION;

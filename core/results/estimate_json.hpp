@@ -19,6 +19,7 @@ const char* to_text(RigKind kind);
 /// The estimate as a JSON object (schema "sweepscope.estimate/1"), keys in a fixed order, offsets in
 /// milliseconds, null where a value is absent, with a line end; "poses" only if a motion from another source
 /// was used, "fit" only for the direct method, "over_time" and the course only if that was asked for,
+/// "recordings" and how they agree only of several recordings together,
 /// "sample" only if a sample of the sweeps was used, "parameters" only if the rig was solved for. Offsets
 /// keep 1e-9 ms. An estimate that is not identifiable has offset_ms and sigma_ms null.
 std::string estimate_to_json(const Estimate& estimate, Timing timing = Timing::kWritten);

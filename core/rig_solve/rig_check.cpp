@@ -25,9 +25,9 @@ RigCheck check_rig(const OffsetProblem& problem, double offset_s, const Job& job
   RigLeastSquaresOptions options;
   options.max_points = 12'000;
   options.max_iterations = 20;
-  RigFit fit = solve_rig_planes(problem, first, priors, options, job);
+  RigFit fit = solve_rig_planes({&problem, 1}, first, priors, options, job);
   if (!fit.encoder_within_prior)
-    fit = solve_rig_planes(problem, first, priors_of({.mount = true}), options, job);
+    fit = solve_rig_planes({&problem, 1}, first, priors_of({.mount = true}), options, job);
   if (job.cancelled() || fit.on_planes < kMinPoints || fit.planes < kMinSurfaces) return check;
   if (!(fit.information(kOffset, kOffset) > 0)) return check;
   check.offset_per_tilt_s_rad =

@@ -34,10 +34,16 @@ struct Sums {
   }
 };
 
-// Normal equations h x = -g of the step x.
+// Normal equations h x = -g of the step x, over the variance of the residuals.
 struct Equations {
   RigMatrix h = RigMatrix::Zero();
   RigVector g = RigVector::Zero();
+
+  Equations& operator+=(const Equations& other) {
+    h += other.h;
+    g += other.g;
+    return *this;
+  }
 };
 
 Sums of_cell(const RigCloud& cloud, const PlaneCell& cell, const Surface& surface, double loss_width_m) {
@@ -95,6 +101,7 @@ Sums with_own_plane(const Sums& sums, const PlaneCell& cell, const Surface& surf
 
 // The flat surfaces of a placed cloud.
 struct Scene {
+  std::size_t points = 0;  // of the cloud
   std::vector<PlaneCell> cells;
   std::vector<Surface> surfaces;
   std::vector<Sums> sums;  // per cell
@@ -128,6 +135,7 @@ double cells_deviation_m(const Scene& scene, double noise_m, double points_per_i
 Scene scene_of(const RigCloud& cloud, const PlaneCellOptions& options, double reach_m, double loss_width_m,
                double points_per_independent) {
   Scene scene;
+  scene.points = cloud.p_m.size();
   scene.cells = plane_cells(cloud.p_m, options);
   scene.surfaces = surfaces_of(scene.cells, reach_m);
   std::vector<const Surface*> surface_of(scene.cells.size());
@@ -158,20 +166,54 @@ Equations equations_of(const Scene& scene, std::size_t first = 0, std::size_t la
     equations.h.noalias() += sums.xx - sums.xp * follows;
     equations.g.noalias() += sums.xr - follows.transpose() * sums.pr;
   }
+  if (scene.surfaces.empty()) return equations;
+  const double noise_m = scene.unevenness.noise_m;
+  equations.h /= noise_m * noise_m;
+  equations.g /= noise_m * noise_m;
   return equations;
 }
 
-// Minimises x' h x / 2 + g' x over the unknowns solved for; `noise_m` is the deviation of the residuals.
+// How an offset of its own follows the other unknowns: its step is first - follows * (step of the others).
+struct OwnOffset {
+  double first_s = 0;
+  RigVector follows = RigVector::Zero();
+
+  double step_s(const RigVector& others) const { return first_s - follows.dot(others); }
+};
+
+OwnOffset own_offset_of(const Equations& equations) {
+  OwnOffset own;
+  const double h = equations.h(kOffset, kOffset);
+  if (!(h > 0)) return own;
+  own.first_s = -equations.g[kOffset] / h;
+  own.follows = equations.h.col(kOffset) / h;
+  own.follows[kOffset] = 0;
+  return own;
+}
+
+// Marginalises the offset.
+Equations without_offset(const Equations& equations) {
+  const RigVector follows = own_offset_of(equations).follows;
+  Equations rest = equations;
+  rest.h.noalias() -= follows * equations.h.row(kOffset);
+  rest.g.noalias() -= follows * equations.g[kOffset];
+  rest.h.row(kOffset).setZero();
+  rest.h.col(kOffset).setZero();
+  rest.g[kOffset] = 0;
+  return rest;
+}
+
+// Minimises x' h x / 2 + g' x over the unknowns solved for.
 class Solver {
  public:
-  Solver(const RigPriors& priors, double noise_m) : priors_(priors), noise2_m2_(noise_m * noise_m) {
+  explicit Solver(const RigPriors& priors) : priors_(priors) {
     for (int i = 0; i < kRigUnknowns; ++i)
       if (priors[i] > 0) free_.push_back(i);
   }
 
   RigVector step(const Equations& sum, const RigVector& at) const {
     RigVector full = RigVector::Zero();
-    const Eigen::VectorXd pull = sum.g(free_) / noise2_m2_ + prior_pull(at);
+    const Eigen::VectorXd pull = sum.g(free_) + prior_pull(at);
     const Eigen::VectorXd solved = -factor(sum.h).solve(pull);
     for (std::size_t i = 0; i < free_.size(); ++i) full[free_[i]] = solved[Eigen::Index(i)];
     return full;
@@ -187,7 +229,7 @@ class Solver {
 
  private:
   Eigen::LDLT<Eigen::MatrixXd> factor(const RigMatrix& h) const {
-    Eigen::MatrixXd a = h(free_, free_) / noise2_m2_;
+    Eigen::MatrixXd a = h(free_, free_);
     for (std::size_t i = 0; i < free_.size(); ++i)
       a(Eigen::Index(i), Eigen::Index(i)) += 1 / (priors_[free_[i]] * priors_[free_[i]]);
     return Eigen::LDLT<Eigen::MatrixXd>(a);
@@ -203,21 +245,48 @@ class Solver {
   }
 
   RigPriors priors_;
-  double noise2_m2_;
   std::vector<int> free_;
 };
 
-// Jackknife over parts of the scene, since errors of neighbouring surfaces (uneven walls, range bias) are
+// The surfaces that each of the recordings shows, and what they say of the unknowns in common.
+struct Scenes {
+  std::vector<Scene> each;
+  bool own_offsets = false;
+
+  // Of one of them, without the cells in [first, last).
+  Equations equations(std::size_t i, std::size_t first = 0, std::size_t last = 0) const {
+    const Equations of_it = equations_of(each[i], first, last);
+    return own_offsets ? without_offset(of_it) : of_it;
+  }
+  std::vector<Equations> equations() const {
+    std::vector<Equations> of_each;
+    for (std::size_t i = 0; i < each.size(); ++i) of_each.push_back(equations(i));
+    return of_each;
+  }
+};
+
+Equations sum_of(const std::vector<Equations>& each, std::size_t without = SIZE_MAX) {
+  Equations sum;
+  for (std::size_t i = 0; i < each.size(); ++i)
+    if (i != without) sum += each[i];
+  return sum;
+}
+
+// Jackknife over parts of each scene, since errors of neighbouring surfaces (uneven walls, range bias) are
 // correlated.
-RigMatrix scatter(const Scene& scene, const Solver& solver, const RigVector& at) {
+RigMatrix scatter(const Scenes& scenes, const std::vector<Equations>& each, const Solver& solver,
+                  const RigVector& at) {
   constexpr std::size_t kParts = 12;  // a room has that many large surfaces
   RigMatrix sum = RigMatrix::Zero();
-  const RigVector from = solver.step(equations_of(scene), at);
-  for (std::size_t part = 0; part < kParts; ++part) {
-    const Equations rest =
-        equations_of(scene, part * scene.cells.size() / kParts, (part + 1) * scene.cells.size() / kParts);
-    const RigVector apart = solver.step(rest, at) - from;
-    sum += apart * apart.transpose();
+  const RigVector from = solver.step(sum_of(each), at);
+  for (std::size_t i = 0; i < scenes.each.size(); ++i) {
+    const Equations others = sum_of(each, i);
+    const std::size_t cells = scenes.each[i].cells.size();
+    for (std::size_t part = 0; part < kParts; ++part) {
+      Equations rest = scenes.equations(i, part * cells / kParts, (part + 1) * cells / kParts);
+      const RigVector apart = solver.step(rest += others, at) - from;
+      sum += apart * apart.transpose();
+    }
   }
   const double factor = student_factor(double(kParts - 1));
   return sum * (double(kParts - 1) / double(kParts)) * factor * factor;
@@ -229,6 +298,51 @@ bool small(const RigVector& step) {
   RigVector unit;
   unit << kOffset_s, kAngle_rad, kAngle_rad, kShift_m, kShift_m, kAngle_rad, kAngle_rad, kAngle_rad;
   return (step.cwiseAbs().array() < unit.array()).all();
+}
+
+// The priors of what the recordings have in common.
+RigPriors common_priors(RigPriors priors, const RigUnknowns& first) {
+  if (!first.apart_s.empty()) priors[kOffset] = 0;
+  return priors;
+}
+
+Scenes scenes_of(std::span<const OffsetProblem> recordings, const RigUnknowns& rig, bool near_reversals,
+                 const RigLeastSquaresOptions& options, double loss_width_m) {
+  PlaneCellOptions cells;
+  cells.levels = options.max_levels;
+  cells.flatness_m = options.flatness * loss_width_m;
+  Scenes scenes;
+  scenes.own_offsets = !rig.apart_s.empty();
+  for (std::size_t i = 0; i < recordings.size(); ++i)
+    scenes.each.push_back(scene_of(
+        place_with_rig(recordings[i], rig.of_recording(i), {near_reversals, options.max_points}), cells,
+        options.reach * loss_width_m, loss_width_m, points_per_independent(recordings[i].feature_options)));
+  return scenes;
+}
+
+void count_points(const Scenes& scenes, RigFit& fit) {
+  fit.points = fit.on_planes = fit.planes = 0;
+  fit.residual_m = fit.unevenness_m = 0;
+  for (const Scene& scene : scenes.each) {
+    fit.points += scene.points;
+    fit.planes += scene.surfaces.size();
+    for (const PlaneCell& cell : scene.cells) fit.on_planes += cell.points.size();
+    fit.residual_m = std::max(fit.residual_m, scene.unevenness.noise_m);
+    fit.unevenness_m = std::max(fit.unevenness_m, scene.unevenness.deviation_m);
+  }
+}
+
+// Makes a step of the unknowns in common, which offsets of their own follow.
+void make_step(RigFit& fit, const Scenes& scenes, const RigVector& step) {
+  std::vector<double> apart_s = std::move(fit.rig.apart_s);
+  fit.rig = RigUnknowns::from(fit.rig.vector() + step);
+  fit.offsets_follow.clear();
+  for (std::size_t i = 0; i < apart_s.size(); ++i) {
+    const OwnOffset own = own_offset_of(equations_of(scenes.each[i]));
+    apart_s[i] += own.step_s(step);
+    fit.offsets_follow.push_back(own.follows);
+  }
+  fit.rig.apart_s = std::move(apart_s);
 }
 
 bool within_prior(const Eigen::Vector2d& encoder_rad, const RigPriors& priors) {
@@ -248,38 +362,29 @@ double RigFit::squared_distance(RigUnknown first, int count) const {
   return x.dot(of_these.ldlt().solve(x));
 }
 
-RigFit solve_rig_planes(const OffsetProblem& problem, const RigUnknowns& first, const RigPriors& priors,
-                        const RigLeastSquaresOptions& options, const Job& job) {
+RigFit solve_rig_planes(std::span<const OffsetProblem> recordings, const RigUnknowns& first,
+                        const RigPriors& priors, const RigLeastSquaresOptions& options, const Job& job) {
   RigFit fit;
   fit.rig = first;
   double loss_width_m = options.first_loss_width_m;
   bool narrowed = false;
   // Few surfaces determine play and encoder, so these join once the rest has nearly converged.
-  RigPriors begun_with = priors;
+  RigPriors begun_with = common_priors(priors, first);
   begun_with.tail<3>().setZero();
   for (; fit.iterations < options.max_iterations && !job.cancelled(); ++fit.iterations) {
-    const RigCloud cloud = place_with_rig(problem, fit.rig, {priors[kPlay] > 0, options.max_points});
-    PlaneCellOptions cells_options;
-    cells_options.levels = options.max_levels;
-    cells_options.flatness_m = options.flatness * loss_width_m;
-    const Scene scene = scene_of(cloud, cells_options, options.reach * loss_width_m, loss_width_m,
-                                 points_per_independent(problem.feature_options));
-    fit.points = cloud.p_m.size();
-    fit.planes = scene.surfaces.size();
-    fit.on_planes = 0;
-    for (const PlaneCell& cell : scene.cells) fit.on_planes += cell.points.size();
-    if (scene.cells.empty()) return fit;
-    fit.residual_m = scene.unevenness.noise_m;
-    fit.unevenness_m = scene.unevenness.deviation_m;
-    const Equations sum = equations_of(scene);
-    const Solver solver(narrowed ? priors : begun_with, fit.residual_m);
+    const Scenes scenes = scenes_of(recordings, fit.rig, priors[kPlay] > 0, options, loss_width_m);
+    count_points(scenes, fit);
+    if (fit.planes == 0) return fit;
+    const std::vector<Equations> each = scenes.equations();
+    const Equations sum = sum_of(each);
+    const Solver solver(narrowed ? common_priors(priors, first) : begun_with);
     const RigVector x = fit.rig.vector(), step = solver.step(sum, x);
     fit.converged = narrowed && small(step);
-    fit.rig = RigUnknowns::from(x + step);
     fit.last_step = step;
+    make_step(fit, scenes, step);
     if (fit.converged || fit.iterations + 1 == options.max_iterations) {
-      fit.information = sum.h / (fit.residual_m * fit.residual_m);
-      fit.covariance = solver.covariance(sum) + scatter(scene, solver, x);
+      fit.information = sum.h;
+      fit.covariance = solver.covariance(sum) + scatter(scenes, each, solver, x);
       fit.encoder_within_prior = within_prior(fit.rig.encoder_rad, priors);
       break;
     }

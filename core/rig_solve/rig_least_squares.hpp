@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <vector>
 
 #include "core/job.hpp"
@@ -48,6 +49,8 @@ struct RigFit {
   RigMatrix covariance = RigMatrix::Zero();   // of the unknowns, from noise, priors and the scatter of the
                                               // parts of the scene
   RigMatrix information = RigMatrix::Zero();  // without priors
+  /// Of recordings with an offset each: by how much each offset follows the other unknowns, negative.
+  std::vector<RigVector> offsets_follow;
 
   /// How far `count` unknowns from `first` on lie from 0, their rig file's values: the squared Mahalanobis
   /// distance.
@@ -57,8 +60,10 @@ struct RigFit {
 /// How many points have one error in common: each comes from a line fitted to its neighbours.
 double points_per_independent(const FeatureOptions& options);
 
-/// Solves for the offset and the parts of a stationary rig whose priors are not 0, beginning at `first`.
-RigFit solve_rig_planes(const OffsetProblem& problem, const RigUnknowns& first, const RigPriors& priors,
-                        const RigLeastSquaresOptions& options, const Job& job);
+/// Solves for the offset and the parts of a stationary rig whose priors are not 0, beginning at `first`, from
+/// one recording of it or several: the information of each is added, with its own surfaces and noise. If
+/// `first` has an offset for each recording, these are solved for instead of the offset of all.
+RigFit solve_rig_planes(std::span<const OffsetProblem> recordings, const RigUnknowns& first,
+                        const RigPriors& priors, const RigLeastSquaresOptions& options, const Job& job);
 
 }  // namespace sweepscope

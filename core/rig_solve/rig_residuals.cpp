@@ -143,6 +143,13 @@ ResidualGrid grid_of(const Places& places, const std::vector<double>& residuals_
   return grid;
 }
 
+// Of those that are known.
+double deviation_of_known_m(std::vector<double> values_m) {
+  std::erase_if(values_m, [](double value_m) { return std::isnan(value_m); });
+  for (double& value_m : values_m) value_m = std::abs(value_m);
+  return kSigmaPerMedianDeviation * median(std::move(values_m));
+}
+
 }  // namespace
 
 double ResidualGrid::rms_m() const {
@@ -163,13 +170,10 @@ RigResiduals rig_residuals(const OffsetProblem& problem, const RigUnknowns& befo
       points_on_surfaces(with_before, with_after, options.loss_width_m);
   if (points.empty()) return {};
   const Places places = places_of(problem, with_after, points, options);
-  std::vector<double> before_m = residuals_m(with_before, points, &PointOnSurface::before);
-  RigResiduals residuals{grid_of(places, before_m, options),
-                         grid_of(places, residuals_m(with_after, points, &PointOnSurface::after), options)};
-  std::erase_if(before_m, [](double residual_m) { return std::isnan(residual_m); });
-  for (double& residual_m : before_m) residual_m = std::abs(residual_m);
-  residuals.before_m = kSigmaPerMedianDeviation * median(std::move(before_m));
-  return residuals;
+  const std::vector<double> before_m = residuals_m(with_before, points, &PointOnSurface::before),
+                            after_m = residuals_m(with_after, points, &PointOnSurface::after);
+  return {grid_of(places, before_m, options), grid_of(places, after_m, options),
+          deviation_of_known_m(before_m), deviation_of_known_m(after_m)};
 }
 
 }  // namespace sweepscope

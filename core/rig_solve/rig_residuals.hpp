@@ -33,7 +33,7 @@ struct ResidualGrid {
 /// The same points and surfaces with two rigs.
 struct RigResiduals {
   ResidualGrid before, after;
-  double before_m = 0;  // robust deviation of all points from their surfaces
+  double before_m = 0, after_m = 0;  // robust deviation of all points from their surfaces
 };
 
 struct ResidualGridOptions {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/numbers.hpp"
-#include "core/recording/sweeps.hpp"
+#include "core/rig_solve/rig_solution.hpp"
 #include "core/uncertainty.hpp"
 
 namespace sweepscope {
@@ -18,43 +18,34 @@ constexpr double kOffsetPrior_s = 0.1;  // none, in effect
 // offset: at one speed both turn the two directions against each other. Encoder steps and jitter make 1 %.
 constexpr double kMinSpeedSpread = 0.05;
 
-// Relative standard deviation of the speed over the steady parts of the sweeps, in pieces long enough that
-// the steps of the encoder average out.
-double speed_spread(const OffsetProblem& problem) {
+// The motor's speed in pieces of the steady parts of the sweeps, long enough that the steps of the encoder
+// average out.
+std::vector<double> speeds_rad_s(const OffsetProblem& problem) {
   constexpr int kPieces = 8;  // 22 deg each of the usual sweep: 250 steps of the encoder
   const MotorTrack& track = problem.recording->motor;
-  double sum = 0, squares = 0, count = 0;
+  std::vector<double> speeds;
   for (const Sweep& sweep : problem.motor.sweeps) {
     const double piece_s = (sweep.steady_end_s - sweep.steady_begin_s) / kPieces;
-    if (!(piece_s > 0)) continue;
-    for (int i = 0; i < kPieces; ++i) {
+    for (int i = 0; i < kPieces && piece_s > 0; ++i) {
       const double from_s = sweep.steady_begin_s + i * piece_s;
-      const double speed_rad_s =
-          std::abs(track.angle_at(from_s + piece_s) - track.angle_at(from_s)) / piece_s;
+      speeds.push_back(std::abs(track.angle_at(from_s + piece_s) - track.angle_at(from_s)) / piece_s);
+    }
+  }
+  return speeds;
+}
+
+// Its relative standard deviation.
+double speed_spread(RigRecordings recordings) {
+  double sum = 0, squares = 0, count = 0;
+  for (const OffsetProblem& problem : recordings)
+    for (const double speed_rad_s : speeds_rad_s(problem)) {
       sum += speed_rad_s;
       squares += speed_rad_s * speed_rad_s;
       count += 1;
     }
-  }
   if (count == 0 || sum == 0) return 0;
   const double mean = sum / count;
   return std::sqrt(std::max(0.0, squares / count - mean * mean)) / mean;
-}
-
-// The set of cells changes between iterations, so that the last steps may oscillate; below sigma that is
-// accepted.
-bool nearly_converged(const RigFit& fit) {
-  return fit.converged ||
-         (fit.last_step.cwiseAbs().array() <= fit.covariance.diagonal().cwiseMax(0).cwiseSqrt().array())
-             .all();
-}
-
-// A part is determined if its sigma is well below its prior.
-bool determined(const RigFit& fit, const RigPriors& priors, std::initializer_list<RigUnknown> unknowns) {
-  constexpr double kBetter = 0.5;  // then three quarters of the information come from the recording
-  if (fit.on_planes == 0 || !nearly_converged(fit)) return false;
-  return std::all_of(unknowns.begin(), unknowns.end(),
-                     [&](RigUnknown i) { return std::sqrt(fit.covariance(i, i)) < kBetter * priors[i]; });
 }
 
 RigFinding finding(bool solved, bool identifiable, const char* reason) {
@@ -82,173 +73,8 @@ void set_gear(Rig::Gear& gear, const Gear& found) {
   gear.encoder_phase_deg = total_deg.norm() > 0 ? std::atan2(total_deg[1], total_deg[0]) * kDegPerRad : 0.0;
 }
 
-// Priors with those of a usual encoder, for a mount that is solved for without it: both bend walls in the
-// same way.
-RigPriors with_usual_encoder(RigPriors priors) {
-  constexpr double kUsual_deg = 0.3;  // a disc of 40 mm that sits 0.1 mm off its centre
-  if (priors[kTurnU] > 0 && priors[kEncoderSine] == 0)
-    priors[kEncoderSine] = priors[kEncoderCosine] = kUsual_deg * kRadPerDeg;
-  return priors;
-}
-
-// If the fit did not converge, it is repeated from other shifts. The best is one that converged, and among
-// those the one with most points per surface: a wrong rig splits walls in two.
-RigFit solved_from_around(const OffsetProblem& problem, RigFit fit, const RigPriors& priors, const Job& job) {
-  constexpr double kApart_m = 0.15;  // within the 0.2 m that a start may be wrong by
-  const RigUnknowns begun = fit.rig;
-  const auto goodness = [](const RigFit& a) {
-    return std::pair(a.converged, double(a.on_planes) / double(std::max<std::size_t>(1, a.planes)));
-  };
-  for (const auto& shift_m : {Eigen::Vector2d(kApart_m, 0.0), Eigen::Vector2d(-kApart_m, 0.0),
-                              Eigen::Vector2d(0.0, kApart_m), Eigen::Vector2d(0.0, -kApart_m)}) {
-    RigUnknowns first = begun;
-    first.shift_m = shift_m;
-    const RigFit other = solve_rig_planes(problem, first, priors, {}, job);
-    if (goodness(other) > goodness(fit)) fit = other;
-  }
-  return fit;
-}
-
-// The scatter of the solutions of groups of sweeps. Errors of whole scans, such as those of their stamps, are
-// the same on all surfaces, and do not show when parts of the scene are left out.
-RigMatrix scatter_over_time(const OffsetProblem& problem, const RigFit& fit, const RigPriors& priors,
-                            const RigLeastSquaresOptions& options, const Job& job) {
-  constexpr std::size_t kGroups = 4;  // of pairs of sweeps, one of each direction: 2 pairs each in 8 s
-  const auto sweep_of = assign_sweeps(problem.recording->scans, problem.motor.sweeps, fit.rig.offset_s);
-  std::vector<RigVector> found;
-  for (std::size_t group = 0; group < kGroups && problem.motor.sweeps.size() >= 2 * kGroups; ++group) {
-    OffsetProblem part = problem;
-    for (std::size_t i = 0; i < sweep_of.size(); ++i)
-      if (sweep_of[i] == kNoSweep || sweep_of[i] / 2 % kGroups != group) part.scan_used[i] = 0;
-    const RigFit by_itself = solve_rig_planes(part, fit.rig, priors, options, job);
-    if (nearly_converged(by_itself)) found.push_back(by_itself.rig.vector());
-  }
-  RigMatrix sum = RigMatrix::Zero();
-  if (found.size() < 3) return sum;
-  const auto n = double(found.size());
-  RigVector mean = RigVector::Zero();
-  for (const RigVector& x : found) mean += x / n;
-  for (const RigVector& x : found) sum += (x - mean) * (x - mean).transpose();
-  const double factor = student_factor(n - 1);
-  return sum / (n * (n - 1)) * factor * factor;
-}
-
-RigLeastSquaresOptions near_the_solution() {
-  RigLeastSquaresOptions options;
-  options.first_loss_width_m = 0.03;
-  return options;
-}
-
-RigMatrix square(const RigVector& x) {
-  return x * x.transpose();
-}
-
-RigPriors without_encoder(RigPriors priors) {
-  priors[kEncoderSine] = priors[kEncoderCosine] = 0;
-  return priors;
-}
-
-// Bent walls look like a wrong rig, and more so in larger cells: the change of the solution with smaller
-// cells. An encoder that these do not determine is not changed.
-RigMatrix changes_by_smaller_cells(const OffsetProblem& problem, const RigFit& fit, const RigPriors& priors,
-                                   const Job& job) {
-  RigLeastSquaresOptions smaller = near_the_solution();
-  RigUnknowns first = fit.rig;
-  first.encoder_rad.setZero();
-  RigMatrix sum = RigMatrix::Zero();
-  for (const int levels : {2, 1}) {  // cells of at most 1 m and 0.5 m instead of 4 m
-    smaller.max_levels = levels;
-    RigFit other = solve_rig_planes(problem, first, priors, smaller, job);
-    if (!other.encoder_within_prior)
-      other = solve_rig_planes(problem, fit.rig, without_encoder(priors), smaller, job);
-    sum += square(other.rig.vector() - fit.rig.vector());
-  }
-  return sum;
-}
-
-// Whether the surfaces show an eccentric encoder that is not asked for. Perfect ones of
-// tests/benchmark/rig_table do not.
-bool shows_encoder(const RigFit& fit, const RigPriors& priors) {
-  constexpr double kMaxSquaredDistance = 60;
-  return determined(fit, priors, {kEncoderSine, kEncoderCosine}) &&
-         fit.squared_distance(kEncoderSine, 2) > kMaxSquaredDistance;
-}
-
-// The covariance of a fit without the encoder, for an encoder that may be off by its prior: the rest follows
-// it as the surfaces require.
-RigMatrix covariance_with_encoder(const RigFit& fit, const RigPriors& priors) {
-  std::vector<int> rest;
-  for (int i = 0; i < kEncoderSine; ++i)
-    if (priors[i] > 0) rest.push_back(i);
-  const std::vector<int> encoder{kEncoderSine, kEncoderCosine};
-  Eigen::MatrixXd of_rest = fit.information(rest, rest);
-  for (std::size_t i = 0; i < rest.size(); ++i)
-    of_rest(Eigen::Index(i), Eigen::Index(i)) += 1 / (priors[rest[i]] * priors[rest[i]]);
-  const Eigen::MatrixXd follows = -of_rest.ldlt().solve(Eigen::MatrixXd(fit.information(rest, encoder)));
-  const double variance = priors[kEncoderSine] * priors[kEncoderSine];
-  RigMatrix covariance = fit.covariance;
-  covariance(rest, rest) += variance * follows * follows.transpose();
-  covariance(rest, encoder) = variance * follows;
-  covariance(encoder, rest) = variance * follows.transpose();
-  covariance.block<2, 2>(kEncoderSine, kEncoderSine) = variance * Eigen::Matrix2d::Identity();
-  return covariance;
-}
-
-struct RigSolution {
-  RigFit fit;
-  RigPriors priors;                   // that it was found with
-  bool encoder_beyond_prior = false;  // and therefore held
-};
-
-// The fit with all scatter in its covariance.
-RigFit with_scatter(const OffsetProblem& problem, RigFit fit, const RigPriors& priors, const Job& job) {
-  fit.covariance += changes_by_smaller_cells(problem, fit, priors, job) +
-                    scatter_over_time(problem, fit, priors, near_the_solution(), job);
-  return fit;
-}
-
-// The fit from any start.
-RigFit solved_from(const OffsetProblem& problem, const RigUnknowns& first, const RigPriors& priors,
-                   const Job& job) {
-  RigFit fit = solve_rig_planes(problem, first, priors, {}, job);
-  if (!fit.converged && priors[kShiftU] > 0) fit = solved_from_around(problem, std::move(fit), priors, job);
-  return fit;
-}
-
-// The solution with the rig file's encoder, where surfaces do not determine another.
-RigFit with_undetermined_encoder(const OffsetProblem& problem, const RigUnknowns& first,
-                                 const RigPriors& priors, const Job& job) {
-  const RigPriors held = without_encoder(priors);
-  RigFit fit = with_scatter(problem, solved_from(problem, first, held, job), held, job);
-  fit.covariance = covariance_with_encoder(fit, priors);
-  return fit;
-}
-
-// A mount without its encoder is solved for with the rig file's encoder, unless the surfaces clearly show
-// another. The difference between the two enters the covariance.
-RigSolution solution_of(const OffsetProblem& problem, const RigUnknowns& first, const RigPriors& priors,
-                        const Job& job) {
-  const RigPriors usual = with_usual_encoder(priors);
-  RigFit fit = solved_from(problem, first, usual, job);
-  if (!fit.encoder_within_prior) return {with_undetermined_encoder(problem, first, usual, job), priors, true};
-  if (usual != priors && !shows_encoder(fit, usual)) {
-    RigUnknowns given = fit.rig;
-    given.encoder_rad.setZero();
-    RigFit held = solve_rig_planes(problem, given, priors, near_the_solution(), job);
-    held.covariance += square(fit.rig.vector() - held.rig.vector());
-    return {with_scatter(problem, std::move(held), priors, job), priors};
-  }
-  fit.covariance += changes_by_smaller_cells(problem, fit, usual, job);
-  const auto undetermined = [&] {
-    return priors[kEncoderSine] > 0 && !determined(fit, priors, {kEncoderSine, kEncoderCosine});
-  };
-  if (!undetermined()) fit.covariance += scatter_over_time(problem, fit, usual, near_the_solution(), job);
-  if (undetermined()) return {with_undetermined_encoder(problem, first, priors, job), priors};
-  return {std::move(fit), usual};
-}
-
 // The result of the fit, and which parts are determined.
-SolvedRig solved_with(const OffsetProblem& problem, const RigSolution& solution, const RigSolve& what) {
+SolvedRig solved_with(const Rig& given, const RigSolution& solution, const RigSolve& what) {
   const RigFit& fit = solution.fit;
   const RigPriors& priors = solution.priors;
   SolvedRig solved;
@@ -282,7 +108,7 @@ SolvedRig solved_with(const OffsetProblem& problem, const RigSolution& solution,
   solved.surfaces = fit.planes;
   solved.converged = fit.converged;
   solved.iterations = fit.iterations;
-  solved.given = solved.rig = problem.recording->rig;
+  solved.given = solved.rig = given;
   solved.rig.mount = changed(solved.rig.mount, solved.found);
   set_gear(solved.rig.gear, solved.found.gear());
   return solved;
@@ -310,29 +136,31 @@ RigPriors priors_of(const RigSolve& what) {
   return priors;
 }
 
-SolvedRig solve_rig(const OffsetProblem& problem, double first_offset_s, const RigSolve& what,
+SolvedRig solve_rig(RigRecordings recordings, const RigUnknowns& first, const RigSolve& what,
                     const Job& job) {
-  RigUnknowns first;
-  first.offset_s = first_offset_s;
   RigSolve nothing;
   nothing.offset = what.offset;
-  const RigFit before = solve_rig_planes(problem, first, priors_of(nothing), {}, job);
-  const bool one_speed = what.play && speed_spread(problem) < kMinSpeedSpread;
+  const RigFit before = solve_rig_planes(recordings, first, priors_of(nothing), {}, job);
+  const bool one_speed = what.play && speed_spread(recordings) < kMinSpeedSpread;
   RigSolve separable = what;
   separable.play = what.play && !one_speed;
-  const RigSolution solution = solution_of(problem, first, priors_of(separable), job);
+  const RigSolution solution = solution_of(recordings, first, priors_of(separable), job);
   const RigFit& fit = solution.fit;
-  SolvedRig solved = solved_with(problem, solution, what);
+  SolvedRig solved = solved_with(recordings.front().recording->rig, solution, what);
   ResidualGridOptions grid;
   grid.loss_width_m = RigLeastSquaresOptions().loss_width_m(fit.residual_m);
-  solved.residuals = rig_residuals(problem, before.rig, solved.found, grid);
+  solved.before = before.rig;
+  solved.residuals =
+      rig_residuals(recordings.front(), before.rig.of_recording(0), solved.found.of_recording(0), grid);
   // The surfaces that a wrong rig shows are often the flat halves of others.
   solved.residual_before_m = std::max(before.residual_m, solved.residuals.before_m);
   solved.offset_sigma_s = added_sigma_s(fit.covariance, solution.priors);
+  for (const RigVector& follows : fit.offsets_follow)
+    solved.own_offset_sigma_s.push_back(std::sqrt(std::max(0.0, follows.dot(fit.covariance * follows))));
   if (one_speed)
-    leave_play_open(solved, what.play_deg, problem.motor.median_speed_rad_s,
+    leave_play_open(solved, what.play_deg, recordings.front().motor.median_speed_rad_s,
                     "The motor turns at one speed only, at which gear play has the same effect as an offset. "
-                    "Record two sweep speeds in one recording to separate them.");
+                    "Record two sweep speeds to separate them.");
   return solved;
 }
 
@@ -367,7 +195,8 @@ SolvedRig rig_of_walk(const OffsetProblem& problem, const WalkTurn& turn, const 
 }
 
 Recording with_rig(Recording recording, const SolvedRig& solved) {
-  recording.rig = solved.rig;
+  recording.rig.mount = solved.rig.mount;
+  recording.rig.gear = solved.rig.gear;
   recording.motor = laser_angles(recording.motor, solved.found.gear());
   return recording;
 }

@@ -5,11 +5,13 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/job.hpp"
 #include "core/loam/sweep_features.hpp"
 #include "core/rig_solve/rig_least_squares.hpp"
 #include "core/rig_solve/rig_residuals.hpp"
+#include "core/rig_solve/rig_solution.hpp"
 #include "core/rig_solve/walk_turn.hpp"
 
 namespace sweepscope {
@@ -42,23 +44,25 @@ struct SolvedRig {
   Rig rig;    // the same with what was found
   RigFinding mount, play, encoder;
   RigUnknowns found;                         // about the recording's rig
+  RigUnknowns before;                        // the offset alone, with the rig as given
   RigPriors priors;                          // standard deviations; 0: not solved for
   RigMatrix covariance = RigMatrix::Zero();  // of `found`
   /// Contribution of the requested parts of the rig to the standard deviation of the offset, identifiable or
   /// not.
   double offset_sigma_s = 0;
+  std::vector<double> own_offset_sigma_s;              // the same of recordings with an offset each
   double residual_before_m = 0, residual_after_m = 0;  // robust deviation from flat surfaces
   double unevenness_m = 0;                             // deviation of the parts of a wall from its plane
-  RigResiduals residuals;                              // over the motor's angle and the beam
+  RigResiduals residuals;  // over the motor's angle and the beam; of several recordings the first's
   std::size_t points = 0, surfaces = 0;
   bool converged = false;
   int iterations = 0;
 };
 
-/// Solves for the offset and the requested parts of a stationary rig, beginning near the true offset. Parts
-/// that are not determined keep the value of the rig file.
-SolvedRig solve_rig(const OffsetProblem& problem, double first_offset_s, const RigSolve& what,
-                    const Job& job);
+/// Solves for the offset and the requested parts of a stationary rig, beginning near the true offset; from
+/// several recordings together, whose rig files are the same, as solve_rig_planes. Parts that are not
+/// determined keep the value of the rig file.
+SolvedRig solve_rig(RigRecordings recordings, const RigUnknowns& first, const RigSolve& what, const Job& job);
 
 /// The rig with the turn of its mount as a walk shows it, from the given rig on, and the priors taken into
 /// account. The mount's shift, gear play and encoder are not determined from a walk.

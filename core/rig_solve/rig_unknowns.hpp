@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
+#include <vector>
 
 #include "core/geometry/gear.hpp"
 
@@ -28,7 +29,17 @@ struct RigUnknowns {
   Eigen::Vector2d shift_m = Eigen::Vector2d::Zero();   // along the same axes
   double play_rad = 0;
   Eigen::Vector2d encoder_rad = Eigen::Vector2d::Zero();  // a and b; see Gear
+  // Of recordings with an offset each: what is added to offset_s for each of them. Empty: offset_s is that of
+  // all.
+  std::vector<double> apart_s = {};
 
+  /// The same with the offset of one of the recordings.
+  RigUnknowns of_recording(std::size_t i) const {
+    RigUnknowns of_it = *this;
+    if (!apart_s.empty()) of_it.offset_s += apart_s[i];
+    of_it.apart_s.clear();
+    return of_it;
+  }
   Gear gear() const { return {play_rad, encoder_rad}; }
   RigVector vector() const {
     RigVector x;
@@ -36,7 +47,8 @@ struct RigUnknowns {
     return x;
   }
   static RigUnknowns from(const RigVector& x) {
-    return {x[kOffset], x.segment<2>(kTurnU), x.segment<2>(kShiftU), x[kPlay], x.segment<2>(kEncoderSine)};
+    return {x[kOffset], x.segment<2>(kTurnU),       x.segment<2>(kShiftU),
+            x[kPlay],   x.segment<2>(kEncoderSine), {}};
   }
 };
 

@@ -240,7 +240,7 @@ struct Limits {
 void add_limit(const Recording& recording, const RigSolve& solve, const RigUnknowns& found, Limits& limits) {
   const auto prepared = prepare(recording, {}, Job());
   const OffsetProblem problem = problem_for(*prepared, found.offset_s, found.offset_s);
-  const RigFit fit = solve_rig_planes(problem, found, priors_of(solve), {}, Job());
+  const RigFit fit = solve_rig_planes({&problem, 1}, found, priors_of(solve), {}, Job());
   std::vector<int> unknowns;
   for (int i = 0; i < kRigUnknowns; ++i)
     if (priors_of(solve)[i] > 0) unknowns.push_back(i);

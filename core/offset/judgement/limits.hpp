@@ -48,6 +48,8 @@ struct Limits {
   double max_change_s = 1e-3;    // of the offset over the recording: blurs a map visibly
   double min_change_sigmas = 3;  // of the offset, and of the drift
   double min_window_sigmas = 5;  // of one window among ten
+  // Several recordings.
+  double max_chi_square = 8;  // per degree of freedom
 };
 inline constexpr Limits kLimits;
 

@@ -137,6 +137,9 @@ constexpr std::array kEntries{
         "The offset follows neither a constant, a rate nor jumps: at {:.1f} s it is {:.1f} ms, and {:.1f} "
         "ms by the best course through all windows."},
     RefusalEntry{kNoWindow, "no_window", kNoLimit, "", "No window determines the offset. The first: {}"},
+    RefusalEntry{
+        kRecordingsDiffer, "recordings_differ", kLimits.max_chi_square, "per degree of freedom",
+        "The recordings do not agree on one rig (chi-square {:.0f} for {} degrees of freedom): {}{}."},
     RefusalEntry{kListeningEnded, "listening_ended", kNoLimit, "", "{}"},
     RefusalEntry{kInterrupted, "interrupted", kNoLimit, "",
                  "Interrupted; the curve holds the candidates that were finished."},

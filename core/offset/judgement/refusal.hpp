@@ -66,6 +66,8 @@ enum class RefusalKind {
   kOffsetChanges,
   kNoCourse,
   kNoWindow,
+  // Several recordings.
+  kRecordingsDiffer,
   // No recording's fault.
   kListeningEnded,
   kInterrupted,
