@@ -194,10 +194,13 @@ void judge(const RigOfAll& rig, const OffsetAgreement& offsets, const EstimateOp
            Estimate& result) {
   Together& together = *result.together;
   const bool by_rig = !rig.agreement.recordings.empty();
+  if (!by_rig && together.own_offsets) return;  // nothing in common
   together.chi_square = by_rig ? rig.agreement.chi_square : offsets.chi_square;
   together.degrees_of_freedom = by_rig ? rig.agreement.degrees_of_freedom : offsets.degrees_of_freedom;
   if (together.degrees_of_freedom == 0) return;
-  if (together.chi_square <= kLimits.max_chi_square * together.degrees_of_freedom) return;
+  const double sigmas = (together.chi_square - together.degrees_of_freedom) /
+                        std::sqrt(2.0 * together.degrees_of_freedom);  // as chi-square is distributed
+  if (sigmas <= kLimits.max_chi_square_sigmas) return;
   std::string who = "it cannot be determined which one differs";
   if (const auto odd = by_rig ? rig.agreement.odd_one : offsets.odd_one) {
     const std::size_t member = by_rig ? rig.members[*odd] : *odd;
@@ -207,8 +210,7 @@ void judge(const RigOfAll& rig, const OffsetAgreement& offsets, const EstimateOp
                : fmt::format("{:.3f} ms", std::abs(offsets.odd_apart_s) * 1e3));
   }
   result.refusals.push_back(refusal(
-      RefusalKind::kRecordingsDiffer, together.chi_square / together.degrees_of_freedom, together.chi_square,
-      together.degrees_of_freedom, who,
+      RefusalKind::kRecordingsDiffer, sigmas, together.chi_square, together.degrees_of_freedom, who,
       together.own_offsets ? ""
                            : ". If the offset changed between them, solve for one of each (--offsets each)"));
 }

@@ -138,7 +138,7 @@ constexpr std::array kEntries{
         "ms by the best course through all windows."},
     RefusalEntry{kNoWindow, "no_window", kNoLimit, "", "No window determines the offset. The first: {}"},
     RefusalEntry{
-        kRecordingsDiffer, "recordings_differ", kLimits.max_chi_square, "per degree of freedom",
+        kRecordingsDiffer, "recordings_differ", kLimits.max_chi_square_sigmas, "sigma above its mean",
         "The recordings do not agree on one rig (chi-square {:.0f} for {} degrees of freedom): {}{}."},
     RefusalEntry{kListeningEnded, "listening_ended", kNoLimit, "", "{}"},
     RefusalEntry{kInterrupted, "interrupted", kNoLimit, "",
