@@ -96,8 +96,10 @@ std::string motor_text(const MotorSummary& motor) {
   std::string sweeps = fmt::format("{} whole", motor.whole_sweeps());
   if (motor.median_sweep_s > 0) sweeps += fmt::format(", {:.3f} s each", motor.median_sweep_s);
   sweeps += fmt::format("; {} reversals", motor.reversals);
-  return "motor\n" + row("joint", fmt::format("{} on {}, {} samples", motor.joint, motor.topic, motor.used)) +
-         stream_text(motor) + left_out_text(motor) +
+  const std::string joint = motor.topic.empty()
+                                ? std::string("by the rig file's profile")
+                                : fmt::format("{} on {}, {} samples", motor.joint, motor.topic, motor.used);
+  return "motor\n" + row("joint", joint) + stream_text(motor) + left_out_text(motor) +
          row("angle",
              fmt::format("{:.2f} to {:.2f} deg{}", motor.min_deg, motor.max_deg,
                          motor.unwrapped > 0 ? fmt::format(", unwrapped {} times", motor.unwrapped) : "")) +

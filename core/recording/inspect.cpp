@@ -82,7 +82,7 @@ MotorSummary inspect_motor(const Recording& recording, const MotorMotion& motion
   MotorSummary motor;
   take_stamps(report.motor_stamps, motor);
   motor.topic = recording.rig.motor.topic.value_or("");
-  motor.joint = recording.rig.motor.joint.value_or("");
+  motor.joint = recording.rig.motor.profile ? "profile" : recording.rig.motor.joint.value_or("");
   motor.used = track.time_s.size();
   motor.gaps = report.motor_gaps;
   motor.longest_gap_s = report.longest_motor_gap_s;

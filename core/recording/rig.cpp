@@ -54,25 +54,95 @@ void read_laser(const YAML::Node& node, Rig::Laser& laser) {
                  }}});
 }
 
+double read_positive(const YAML::Node& node, const std::string& name) {
+  const double value = read_number(node, name);
+  if (!(value > 0)) refuse(node, fmt::format("{} must be more than 0", name));
+  return value;
+}
+
+MotorProfile::Limits read_limits(const YAML::Node& node, const std::string& name) {
+  if (!node.IsSequence() || node.size() != 2) refuse(node, fmt::format("{} must be two angles", name));
+  const MotorProfile::Limits limits{read_number(node[0], name), read_number(node[1], name)};
+  if (std::abs(limits.to_deg - limits.from_deg) < 1)
+    refuse(node, fmt::format("{} must be at least 1 deg apart", name));
+  return limits;
+}
+
+std::optional<double> read_start(const YAML::Node& node, const std::string& name) {
+  if (node.IsScalar() && node.Scalar() == "unknown") return std::nullopt;
+  return read_number(node, name);
+}
+
+MotorProfile read_profile(const YAML::Node& node) {
+  MotorProfile profile;
+  const std::string name = "motor.profile";
+  const auto number = [&](const char* key, double& value) {
+    return [&value, full = name + "." + key](const YAML::Node& at) { value = read_positive(at, full); };
+  };
+  read_members(
+      node, name,
+      {{"turns_per_s",
+        [&](const YAML::Node& value) {
+          profile.turns_per_s = read_number(value, name + ".turns_per_s");
+          if (profile.turns_per_s == 0 || std::abs(profile.turns_per_s) > 20)
+            refuse(value, name + ".turns_per_s must lie between -20 and 20 and not be 0");
+        }},
+       {"between_deg",
+        [&](const YAML::Node& value) { profile.between = read_limits(value, name + ".between_deg"); }},
+       {"ramp_s", number("ramp_s", profile.ramp_s)},
+       {"steps_per_turn", number("steps_per_turn", profile.steps_per_turn)},
+       {"dwell_s", number("dwell_s", profile.dwell_s)},
+       {"start_s",
+        [&](const YAML::Node& value) { profile.start_s = read_start(value, name + ".start_s"); }}});
+  if (profile.turns_per_s == 0) refuse(node, name + " needs turns_per_s, the mean speed");
+  if (profile.between && profile.turns_per_s < 0)
+    refuse(node, name + ".turns_per_s is not negative between limits: it begins at the first of them");
+  if (profile.between && profile.ramp_s > profile.sweep_s() / 2)
+    refuse(node,
+           fmt::format("{}.ramp_s must be at most half of a sweep, {:.3g} s", name, profile.sweep_s() / 2));
+  if (profile.dwell_s > 0 && !(profile.steps_per_turn > 0))
+    refuse(node, name + ".dwell_s is the rest after a step: it needs steps_per_turn");
+  if (profile.steps_per_turn > 0 && profile.ramp_s > 0)
+    refuse(node, name + ": ramp_s and steps_per_turn exclude each other");
+  const double step_s = 1 / (std::abs(profile.turns_per_s) * profile.steps_per_turn);
+  if (profile.dwell_s > step_s)
+    refuse(node, fmt::format("{}.dwell_s is longer than a step with its rest, {:.3g} s", name, step_s));
+  return profile;
+}
+
+void read_index(const YAML::Node& node, Rig::Motor& motor) {
+  motor.index = true;
+  read_members(
+      node, "motor.index",
+      {{"topic", [&](const YAML::Node& value) { motor.topic = read_name(value, "motor.index.topic"); }},
+       {"field", [&](const YAML::Node& value) { motor.field = read_name(value, "motor.index.field"); }}});
+  if (!motor.topic) refuse(node, "motor.index needs topic");
+}
+
 void read_motor(const YAML::Node& node, Rig::Motor& motor) {
-  read_members(node, "motor",
-               {{"topic", [&](const YAML::Node& value) { motor.topic = read_name(value, "motor.topic"); }},
-                {"field", [&](const YAML::Node& value) { motor.field = read_name(value, "motor.field"); }},
-                {"joint", [&](const YAML::Node& value) { motor.joint = read_name(value, "motor.joint"); }},
-                {"stamp", [&](const YAML::Node& value) { motor.stamp = read_stamp(value, "motor.stamp"); }},
-                {"scale",
-                 [&](const YAML::Node& value) {
-                   motor.scale = read_number(value, "motor.scale");
-                   if (motor.scale == 0) refuse(value, "motor.scale must not be 0");
-                 }},
-                {"unit",
-                 [&](const YAML::Node& value) {
-                   motor.unit = read_choice<AngleUnit>(
-                       value, "motor.unit",
-                       {{"rad", AngleUnit::kRad}, {"deg", AngleUnit::kDeg}, {"turns", AngleUnit::kTurns}});
-                 }},
-                {"zero_deg",
-                 [&](const YAML::Node& value) { motor.zero_deg = read_number(value, "motor.zero_deg"); }}});
+  read_members(
+      node, "motor",
+      {{"topic", [&](const YAML::Node& value) { motor.topic = read_name(value, "motor.topic"); }},
+       {"field", [&](const YAML::Node& value) { motor.field = read_name(value, "motor.field"); }},
+       {"joint", [&](const YAML::Node& value) { motor.joint = read_name(value, "motor.joint"); }},
+       {"stamp", [&](const YAML::Node& value) { motor.stamp = read_stamp(value, "motor.stamp"); }},
+       {"scale",
+        [&](const YAML::Node& value) {
+          motor.scale = read_number(value, "motor.scale");
+          if (motor.scale == 0) refuse(value, "motor.scale must not be 0");
+        }},
+       {"unit",
+        [&](const YAML::Node& value) {
+          motor.unit = read_choice<AngleUnit>(
+              value, "motor.unit",
+              {{"rad", AngleUnit::kRad}, {"deg", AngleUnit::kDeg}, {"turns", AngleUnit::kTurns}});
+        }},
+       {"zero_deg", [&](const YAML::Node& value) { motor.zero_deg = read_number(value, "motor.zero_deg"); }},
+       {"index", [&](const YAML::Node& value) { read_index(value, motor); }},
+       {"profile", [&](const YAML::Node& value) { motor.profile = read_profile(value); }}});
+  if (motor.profile && (motor.topic || motor.joint || motor.field))
+    refuse(node,
+           "motor.profile stands for a motor without messages: leave out topic, joint, field and index");
 }
 
 /// `laser_in_motor` and `pose_in_base`.

@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/geometry/gear.hpp"
 #include "core/geometry/kinematics.hpp"
+#include "core/geometry/motor_profile.hpp"
 
 namespace sweepscope {
 
@@ -59,6 +60,9 @@ struct Rig {
     double scale = 1.0;  // in units for each value of the recording
     AngleUnit unit = AngleUnit::kRad;
     double zero_deg = 0.0;
+    /// The messages on `topic`, or the rises of `field` where it has two values, mark a turn each.
+    bool index = false;
+    std::optional<MotorProfile> profile;  // then no message of a motor is used
     double rad_per_value() const;  // angle_rad = rad_per_value * value - zero_deg * pi / 180
   };
   using Mount = sweepscope::Mount;

@@ -96,6 +96,8 @@ Result<void> check(const SimulationOptions& o) {
     if (!(speed_dps >= 1 && speed_dps <= 3600))
       return wrong(fmt::format("a speed of the motor is {:g} deg/s, but must lie between 1 and 3600 deg/s",
                                speed_dps));
+  if (o.motor_messages == MotorMessages::kIndex && o.motor != MotorKind::kOneWay)
+    return wrong("an index marks the turns of a motor that turns one way: use it with --motor one-way");
   if (!o.speeds_dps.empty() && o.motor != MotorKind::kOneWay)
     return wrong("speeds are those of a motor that turns one way: use it with --motor one-way");
   if (o.stamp_at == StampAt::kArrival) return wrong("a simulated scan is stamped at its first or last beam");
@@ -262,9 +264,31 @@ void fill_imu(Simulation& simulation, const Sensor& sensor) {
 
 }  // namespace
 
+std::string_view name_of(MotorMessages messages) {
+  constexpr std::array<std::string_view, 3> kNames{"joint-states", "index", "none"};
+  return kNames[static_cast<std::size_t>(messages)];
+}
+
 Eigen::Vector3d laser_in_motor_rpy_deg(const SimulationOptions& options) {
   const double roll_deg = (index_of(options.axis) == 2 ? 90 : 0) + (options.laser_upside_down ? 180 : 0);
   return options.mount_error_deg + roll_deg * Vector3d::UnitX();
+}
+
+// The motion that the motor is commanded to make; of a sine that of even accelerations.
+MotorProfile profile_of(const SimulationOptions& options) {
+  MotorProfile profile;
+  if (options.motor == MotorKind::kOneWay) {
+    const double dps = options.speeds_dps.empty() ? 180 / options.sweep_s : options.speeds_dps.front();
+    profile.turns_per_s = dps / 360;
+    return profile;
+  }
+  profile.between = MotorProfile::Limits{options.motor_middle_deg - options.swing_deg,
+                                         options.motor_middle_deg + options.swing_deg};
+  profile.turns_per_s = options.swing_deg / 180 / options.sweep_s;
+  if (options.motor == MotorKind::kTrapezoid)
+    profile.ramp_s = simulation::kReversalOfSweep / 2 * options.sweep_s;
+  if (options.motor == MotorKind::kSine) profile.ramp_s = options.sweep_s / 2;
+  return profile;
 }
 
 Rig rig_of(const SimulationOptions& options) {
@@ -278,6 +302,11 @@ Rig rig_of(const SimulationOptions& options) {
     rig.laser.time_increment_s = increment_s;
   rig.laser.stamp_at = options.stamp_at;
   if (options.motor_in_degrees) rig.motor.scale = radians(1);
+  if (options.motor_messages == MotorMessages::kNone) rig.motor.profile = profile_of(options);
+  if (options.motor_messages == MotorMessages::kIndex) {
+    rig.motor.index = true;
+    rig.motor.topic = "/index";
+  }
   rig.mount.axis = (is_negative(options.axis) ? -1 : 1) * Vector3d::Unit(index_of(options.axis));
   rig.mount.laser_in_motor_rpy_deg = laser_in_motor_rpy_deg(options) - options.mount_error_deg;
   return rig;

@@ -33,6 +33,11 @@ struct RandomWorld {
   std::uint64_t world_seed = 1, walk_seed = 1;
 };
 
+/// What tells of the motor's motion: its encoder, a signal once a turn (std_msgs/Float64 on /index), or
+/// nothing.
+enum class MotorMessages { kJointStates, kIndex, kNone };
+std::string_view name_of(MotorMessages messages);
+
 /// What to record. t_motor = t_laser + offset: at one true instant the laser's clock shows T and the motor's
 /// T + offset_s. Equal options give equal bytes, on every x86-64 machine and for any number of threads.
 struct SimulationOptions {
@@ -70,6 +75,7 @@ struct SimulationOptions {
   bool laser_upside_down = false;          // mounted so; turned by 180 deg about its forward axis
   std::uint32_t motor_repeats =
       1;  // each angle is sent this often before the next, under new stamps, 1 to 100
+  MotorMessages motor_messages = MotorMessages::kJointStates;
   bool motor_in_degrees = false;
 
   // Faults of real rigs, none by default.

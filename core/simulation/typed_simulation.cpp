@@ -38,6 +38,13 @@ tl::unexpected<Error> not_a_triple(const char* option, const std::string& text) 
                  fmt::format("{} needs three numbers separated by commas, not '{}'", option, text));
 }
 
+std::optional<MotorMessages> motor_messages(std::string_view name) {
+  for (const MotorMessages messages :
+       {MotorMessages::kJointStates, MotorMessages::kIndex, MotorMessages::kNone})
+    if (name_of(messages) == name) return messages;
+  return std::nullopt;
+}
+
 std::vector<SimulationOption> recording_options(TypedSimulation& typed) {
   SimulationOptions& options = typed.options;
   return {
@@ -104,17 +111,20 @@ std::vector<SimulationOption> own_scene_options(TypedSimulation& typed) {
 
 std::vector<SimulationOption> message_options(TypedSimulation& typed) {
   SimulationOptions& options = typed.options;
-  return {{"beam-times", &typed.beam_times,
-           "When the beams are fired: spread over the scan, instant (all at the stamp, time_increment 0) or "
-           "reversed (the last beam of the array first) (default: as the scanner's driver writes)",
-           "", "", false},
-          {"stamp-at", &typed.stamp_at, "The beam whose time is the stamp: first_beam or last_beam"},
-          {"no-time-increment", &options.no_time_increment, "Write a time_increment of 0"},
-          {"scan-time-factor", &options.scan_time_factor, "Write a scan_time that is wrong by this factor"},
-          {"parts", &typed.parts, "Write each turn of the mirror as this many messages"},
-          {"motor-repeats", &typed.motor_repeats,
-           "Write each motor angle this many times, under new stamps, before the next one"},
-          {"motor-in-degrees", &options.motor_in_degrees, "Write the motor's angles in degrees"}};
+  return {
+      {"beam-times", &typed.beam_times,
+       "When the beams are fired: spread over the scan, instant (all at the stamp, time_increment 0) or "
+       "reversed (the last beam of the array first) (default: as the scanner's driver writes)",
+       "", "", false},
+      {"stamp-at", &typed.stamp_at, "The beam whose time is the stamp: first_beam or last_beam"},
+      {"no-time-increment", &options.no_time_increment, "Write a time_increment of 0"},
+      {"scan-time-factor", &options.scan_time_factor, "Write a scan_time that is wrong by this factor"},
+      {"parts", &typed.parts, "Write each turn of the mirror as this many messages"},
+      {"motor-messages", &typed.motor_messages,
+       "What is recorded of the motor: joint-states, index (one message a turn), none; a rig file beside OUT says how it turns"},
+      {"motor-repeats", &typed.motor_repeats,
+       "Write each motor angle this many times, under new stamps, before the next one"},
+      {"motor-in-degrees", &options.motor_in_degrees, "Write the motor's angles in degrees"}};
 }
 
 std::vector<SimulationOption> faults(TypedSimulation& typed) {
@@ -157,6 +167,10 @@ Result<void> take_names(const TypedSimulation& typed, SimulationOptions& options
   const auto axis = simulation::motor_axis(typed.axis);
   if (!axis) return not_one_of("--axis", typed.axis, {"x", "y", "z", "-x", "-y", "-z"});
   options.axis = *axis;
+  const auto messages = motor_messages(typed.motor_messages);
+  if (!messages)
+    return not_one_of("--motor-messages", typed.motor_messages, {"joint-states", "index", "none"});
+  options.motor_messages = *messages;
   if (!typed.beam_times.empty()) options.beam_times = simulation::beam_times(typed.beam_times);
   if (!typed.beam_times.empty() && !options.beam_times)
     return not_one_of("--beam-times", typed.beam_times, simulation::beam_times_names());

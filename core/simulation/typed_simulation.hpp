@@ -17,7 +17,8 @@ namespace sweepscope {
 struct TypedSimulation {
   std::string scene;        // empty: a scene of one's own, or a world
   std::string world, walk;  // "yard" or "yard:7"; without a seed that of `options`
-  std::string motor{simulation::name_of(SimulationOptions{}.motor)}, axis{"x"};
+  std::string motor{simulation::name_of(SimulationOptions{}.motor)}, axis{"x"},
+      motor_messages{"joint-states"};
   std::string scanner{SimulationOptions{}.scanner.name}, beam_times,
       stamp_at{"first_beam"};  // empty: the scanner's
   SimulationOptions options;

@@ -80,12 +80,35 @@ RawLaser raw_laser(const Simulation& simulation) {
   return laser;
 }
 
+/// A message each time that the encoder passes a whole turn.
+RawJoint raw_index(const Simulation& simulation) {
+  const MotorTrack& motor = simulation.recording.motor;
+  RawJoint joint;
+  joint.topic = "/index";
+  joint.joint = "data";
+  joint.source = JointSource::kNumber;
+  const auto turn = [&](std::size_t i) { return std::floor(simulation::degrees(motor.angle_rad[i]) / 360); };
+  for (std::size_t i = 1; i < motor.time_s.size(); ++i) {
+    if (turn(i) == turn(i - 1)) continue;
+    const double from_deg = simulation::degrees(motor.angle_rad[i - 1]),
+                 to_deg = simulation::degrees(motor.angle_rad[i]);
+    const double at_deg = 360 * std::max(turn(i), turn(i - 1));
+    const double stamp_s = motor.time_s[i - 1] + (motor.time_s[i] - motor.time_s[i - 1]) *
+                                                     (at_deg - from_deg) / (to_deg - from_deg);
+    joint.positions.push_back(1);
+    joint.stamps.push_back({0, in_ns(simulation.recording, stamp_s + kMotorLatency_s)});
+  }
+  return joint;
+}
+
 RawJoint raw_joint(const Simulation& simulation) {
   const SimulationOptions& options = simulation.options;
+  if (options.motor_messages == MotorMessages::kIndex) return raw_index(simulation);
   const std::vector<double>& times_s = simulation.recording.motor.time_s;
   RawJoint joint;
   joint.topic = "/joint_states";
   joint.joint = "roll_motor";
+  if (options.motor_messages == MotorMessages::kNone) return joint;
   for (std::size_t i = 0; i < times_s.size(); ++i) {
     const double angle_rad = simulation.recording.motor.angle_rad[i];
     for (std::uint32_t repeat = 0; repeat < options.motor_repeats; ++repeat) {
@@ -182,7 +205,8 @@ Json recorded_as_json(const SimulationOptions& o) {
           {"motor_rest_at_s", tidy(o.motor_rest_at_s)},
           {"laser_upside_down", o.laser_upside_down},
           {"motor_repeats", o.motor_repeats},
-          {"motor_in_degrees", o.motor_in_degrees}};
+          {"motor_in_degrees", o.motor_in_degrees},
+          {"motor_messages", name_of(o.motor_messages)}};
 }
 
 /// The files that an own scene is made of, and how far its motion is from the recorded one.
@@ -207,8 +231,9 @@ Json own_json(const Simulation& simulation) {
 /// Whether the messages are read wrongly, or not with certainty, without a rig file.
 bool needs_rig_file(const SimulationOptions& options) {
   const Rig rig = rig_of(options), plain;
-  return rig.laser.time_increment_s || rig.laser.stamp_at != plain.laser.stamp_at ||
-         rig.motor.scale != plain.motor.scale || rig.mount.axis != plain.mount.axis ||
+  return rig.motor.profile || rig.motor.index || rig.laser.time_increment_s ||
+         rig.laser.stamp_at != plain.laser.stamp_at || rig.motor.scale != plain.motor.scale ||
+         rig.mount.axis != plain.mount.axis ||
          rig.mount.laser_in_motor_rpy_deg != plain.mount.laser_in_motor_rpy_deg;
 }
 

@@ -295,6 +295,7 @@ def simulate(
     no_time_increment: Optional[bool] = None,
     scan_time_factor: Optional[float] = None,
     parts: Optional[int] = None,
+    motor_messages: Optional[str] = None,
     motor_repeats: Optional[int] = None,
     motor_in_degrees: Optional[bool] = None,
     mixed_pixels: Optional[float] = None,

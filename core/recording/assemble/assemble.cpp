@@ -354,23 +354,31 @@ void correct_late(std::span<MessageStamps> stamps, const StreamStamps& stream, c
                   late.count, stamps.size(), topic, late.latest_s * 1e3));
 }
 
-/// The stamps of both streams, and the rig completed by them.
-void choose_both_stamps(RawLaser& laser, RawJoint& joint, std::optional<StampSource> stamps,
-                        Recording& recording) {
+StampSource stamps_wanted(const std::optional<StampSource>& of_rig, std::optional<StampSource> stamps) {
+  return stamps.value_or(of_rig.value_or(StampSource::kHeader));
+}
+
+/// The laser's stamps, and the rig completed by them.
+void choose_laser_stamps(RawLaser& laser, std::optional<StampSource> stamps, Recording& recording) {
   Rig& rig = recording.rig;
   ReadReport& report = recording.report;
   std::vector<MessageStamps> of_scans;
   for (const RawScan& scan : laser.scans) of_scans.push_back(scan.stamps);
-  const auto wanted = [&](const std::optional<StampSource>& of_rig) {
-    return stamps.value_or(of_rig.value_or(StampSource::kHeader));
-  };
-  report.laser_stamps = choose_stamps(of_scans, wanted(rig.laser.stamp), laser.topic, report.warnings);
-  report.motor_stamps = choose_stamps(joint.stamps, wanted(rig.motor.stamp), joint.topic, report.warnings);
+  report.laser_stamps =
+      choose_stamps(of_scans, stamps_wanted(rig.laser.stamp, stamps), laser.topic, report.warnings);
   correct_late(of_scans, report.laser_stamps, laser.topic, report.warnings);
   for (std::size_t i = 0; i < of_scans.size(); ++i) laser.scans[i].stamps = of_scans[i];
-  correct_late(joint.stamps, report.motor_stamps, joint.topic, report.warnings);
   rig.laser.topic = laser.topic;
   rig.laser.stamp = report.laser_stamps.used;
+}
+
+/// The same of the motor.
+void choose_motor_stamps(RawJoint& joint, std::optional<StampSource> stamps, Recording& recording) {
+  Rig& rig = recording.rig;
+  ReadReport& report = recording.report;
+  report.motor_stamps =
+      choose_stamps(joint.stamps, stamps_wanted(rig.motor.stamp, stamps), joint.topic, report.warnings);
+  correct_late(joint.stamps, report.motor_stamps, joint.topic, report.warnings);
   rig.motor.topic = joint.topic;
   rig.motor.joint = joint.joint;
   rig.motor.stamp = report.motor_stamps.used;
@@ -395,30 +403,39 @@ void take_mount_of_frames(const RawRecording& raw, const RawLaser& laser, const 
 Result<Recording> assemble(RawRecording raw, const Rig& rig, std::optional<StampSource> stamps) {
   const auto laser = choose_laser(raw, rig);
   if (!laser) return tl::unexpected(laser.error());
-  const auto joint = choose_joint(raw, rig);
-  if (!joint) return tl::unexpected(joint.error());
   RawLaser& raw_laser = raw.lasers[*laser];
   if (auto error = too_many_beams(raw, raw_laser)) return tl::unexpected(std::move(*error));
-  RawJoint& raw_joint = raw.joints[*joint];
+  RawJoint* raw_joint = nullptr;  // a motor without an encoder has none
+  if (!rig.motor.profile) {
+    const auto joint = choose_joint(raw, rig);
+    if (!joint) return tl::unexpected(joint.error());
+    raw_joint = &raw.joints[*joint];
+  }
 
   Recording recording;
   recording.name = raw.name;
   recording.rig = rig;
   recording.report.topics = std::move(raw.topics);
   recording.report.warnings = std::move(raw.warnings);
-  warn_of_source(raw_joint, recording);
+  if (raw_joint != nullptr && !rig.motor.index) warn_of_source(*raw_joint, recording);
   warn_of_frames(raw_laser, recording);
-  choose_both_stamps(raw_laser, raw_joint, stamps, recording);
+  choose_laser_stamps(raw_laser, stamps, recording);
+  if (raw_joint != nullptr) choose_motor_stamps(*raw_joint, stamps, recording);
   ScanAssembler scans(raw_laser, recording);
   if (!scans.assemble()) {
     return unreadable(fmt::format("{}: none of the {} scans on {} can be used: {}", raw.file,
                                   raw_laser.scans.size(), raw_laser.topic, scans.reason()));
   }
-  if (!assemble_motor(raw_joint, recording)) {
+  if (raw_joint == nullptr) {
+    recording.report.motor_stamps.used = recording.report.laser_stamps.used;
+    assemble_profile(recording);
+  } else if (!(rig.motor.index ? assemble_index(*raw_joint, recording)
+                               : assemble_motor(*raw_joint, recording))) {
     return unreadable(fmt::format("{}: joint {} on {} has {} usable samples; at least two are needed",
-                                  raw.file, raw_joint.joint, raw_joint.topic, recording.motor.time_s.size()));
+                                  raw.file, raw_joint->joint, raw_joint->topic,
+                                  recording.motor.time_s.size()));
   }
-  take_mount_of_frames(raw, raw_laser, raw_joint, recording);
+  if (raw_joint != nullptr) take_mount_of_frames(raw, raw_laser, *raw_joint, recording);
   compare_streams(recording);
   assemble_motion(raw, recording);
   return recording;

@@ -112,7 +112,8 @@ std::string no_joint(const RawRecording& raw, const Rig& rig) {
                        *rig.motor.topic, list_of_topics(raw)) +
            first_warning(raw);
   return nothing_usable(raw, "sensor_msgs/JointState", "/JointState",
-                        advice(raw, "motor", "the motor's angle", rig.laser.topic));
+                        advice(raw, "motor", "the motor's angle", rig.laser.topic)) +
+         "\n  If nothing measures it, state how the motor is driven in a rig file (motor: {profile: ...}).";
 }
 
 bool wanted(const RawJoint& joint, const Rig& rig) {

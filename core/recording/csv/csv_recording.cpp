@@ -170,7 +170,8 @@ Result<RawRecording> read_csv_recording(const std::filesystem::path& folder, con
   raw.file = folder.string();
   raw.name = (folder.has_filename() ? folder : folder.parent_path()).filename().string();
   if (auto read = read_scans(folder / kScansCsv, rig, raw, job); !read) return tl::unexpected(read.error());
-  if (auto read = read_motor(folder / kMotorCsv, rig, raw, job); !read) return tl::unexpected(read.error());
+  if (!rig.motor.profile)
+    if (auto read = read_motor(folder / kMotorCsv, rig, raw, job); !read) return tl::unexpected(read.error());
   for (const RawLaser& laser : raw.lasers)
     if (auto checked = check_unit(laser.scans, folder / kScansCsv, "scan"); !checked)
       return tl::unexpected(checked.error());

@@ -76,7 +76,7 @@ void note_motor(const RawJoint& joint, const MotorSummary& motor, DetectedRig& d
                                     motor.rate_hz(), motor.min_deg, motor.max_deg);
   if (motor.median_sweep_s > 0)
     detected.motor_note += fmt::format(", {:.3f} s a sweep", motor.median_sweep_s);
-  if (joint.source != JointSource::kNumber) return;
+  if (joint.source != JointSource::kNumber || joint.positions.empty()) return;
   const auto [min, max] = std::ranges::minmax(joint.positions);
   detected.scale_note = fmt::format(
       "plain numbers, {:.6g} to {:.6g}: 0.017453292519943295 where they are degrees; measured angles, or "
@@ -142,9 +142,11 @@ Result<DetectedRig> detect_rig(const std::filesystem::path& path, const ReadOpti
       raw = read_raw_recording(path, rig, job);
     if (!raw) return tl::unexpected(raw.error());
   }
-  const auto joint = choose_joint(*raw, rig);
-  if (!joint) return tl::unexpected(joint.error());
-  evidence->joint = raw->joints[*joint];
+  if (!rig.motor.profile) {
+    const auto joint = choose_joint(*raw, rig);
+    if (!joint) return tl::unexpected(joint.error());
+    evidence->joint = raw->joints[*joint];
+  }
   const auto recording = assemble(std::move(*raw), rig, options.stamps);
   if (!recording) return tl::unexpected(recording.error());
 

@@ -50,9 +50,29 @@ std::string laser_text(const DetectedRig& detected) {
   return text;
 }
 
+std::string profile_text(const MotorProfile& profile) {
+  std::string text = line(fmt::format("  profile: {{turns_per_s: {:.9g}", profile.turns_per_s), "");
+  text.pop_back();
+  if (profile.between)
+    text +=
+        fmt::format(", between_deg: [{:.9g}, {:.9g}]", profile.between->from_deg, profile.between->to_deg);
+  if (profile.ramp_s > 0) text += fmt::format(", ramp_s: {:.9g}", profile.ramp_s);
+  if (profile.steps_per_turn > 0) text += fmt::format(", steps_per_turn: {:.9g}", profile.steps_per_turn);
+  if (profile.dwell_s > 0) text += fmt::format(", dwell_s: {:.9g}", profile.dwell_s);
+  return text + ", start_s: " + (profile.start_s ? fmt::format("{}", *profile.start_s) : "unknown") + "}\n";
+}
+
+std::string index_text(const Rig::Motor& motor) {
+  const std::string field = motor.field ? ", field: " + yaml_name(*motor.field) : "";
+  return line("  index: {topic: " + yaml_name(motor.topic.value_or("")) + field + "}", "marks each turn");
+}
+
 std::string motor_text(const DetectedRig& detected) {
   const Rig::Motor& motor = detected.rig.motor;
   std::string text = "motor:\n";
+  const std::string zero = line(fmt::format("  zero_deg: {}", motor.zero_deg), "");
+  if (motor.profile) return text + profile_text(*motor.profile) + zero;
+  if (motor.index) return text + index_text(motor) + zero;
   if (motor.topic) text += line("  topic: " + yaml_name(*motor.topic), "");
   if (motor.field) text += line("  field: " + yaml_name(*motor.field), "that holds the angle");
   if (motor.joint) text += line("  joint: " + yaml_name(*motor.joint), detected.motor_note);
@@ -60,7 +80,7 @@ std::string motor_text(const DetectedRig& detected) {
   text += line(fmt::format("  scale: {}", motor.scale), "angle = scale * value in `unit`, less zero_deg");
   text += line("  unit: " + name_of(motor.unit), "rad | deg | turns");
   if (!detected.scale_note.empty()) text += "  # " + printable_line(detected.scale_note) + "\n";
-  return text + line(fmt::format("  zero_deg: {}", motor.zero_deg), "");
+  return text + zero;
 }
 
 std::string mount_text(const DetectedRig& detected) {

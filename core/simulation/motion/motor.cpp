@@ -11,7 +11,6 @@ namespace sweepscope::simulation {
 namespace {
 
 constexpr double kHalfTurn_rad = kPi;
-constexpr double kReversal = 0.16;  // of a sweep is spent on one reversal of the trapezoid
 constexpr std::uint64_t kUnevenPurpose = 7;
 
 constexpr std::array kNames = {
@@ -28,10 +27,10 @@ constexpr std::array<std::string_view, 6> kAxes{"x", "y", "z", "-x", "-y", "-z"}
 double trapezoid(double u) {
   // Straight up to r/2 before the reversal, a parabola from there; the speed follows from reaching 1 at u =
   // 1/2.
-  constexpr double kSpeed = 1 / (0.5 - kReversal / 4);
-  const double into_reversal = std::abs(u) - (0.5 - kReversal / 2);
+  constexpr double kSpeed = 1 / (0.5 - kReversalOfSweep / 4);
+  const double into_reversal = std::abs(u) - (0.5 - kReversalOfSweep / 2);
   double reached = kSpeed * std::abs(u);
-  if (into_reversal > 0) reached -= kSpeed / kReversal * into_reversal * into_reversal;
+  if (into_reversal > 0) reached -= kSpeed / kReversalOfSweep * into_reversal * into_reversal;
   return u < 0 ? -reached : reached;
 }
 

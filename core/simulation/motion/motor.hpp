@@ -20,6 +20,9 @@ std::optional<MotorKind> motor_kind(std::string_view name);
 std::string_view name_of(MotorKind kind);
 std::vector<std::string_view> motor_names();
 
+/// The part of a sweep that one reversal of the trapezoid takes.
+inline constexpr double kReversalOfSweep = 0.16;
+
 /// The axis that a motor turns about, in the base frame.
 enum class MotorAxis { kX, kY, kZ, kMinusX, kMinusY, kMinusZ };
 

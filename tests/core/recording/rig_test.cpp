@@ -68,7 +68,7 @@ TEST(Rig, KnowsWhetherItStatesAMount) {
 TEST(Rig, RefusesUnknownKeysWithTheirPlace) {
   EXPECT_EQ(
       refusal("laser: {topic: /scan}\nmotor: {joint: a, sclae: 2}\n"),
-      "2:19: unknown key \"sclae\" in motor; known are: field, joint, scale, stamp, topic, unit, zero_deg");
+      "2:19: unknown key \"sclae\" in motor; known are: field, index, joint, profile, scale, stamp, topic, unit, zero_deg");
   EXPECT_EQ(refusal("lidar: {}\n"),
             "1:1: unknown key \"lidar\" in the rig file; known are: encoder, imu, laser, motor, "
             "mount, odometry, play_deg");

@@ -131,9 +131,10 @@ TEST(ChooseJoint, RefusesAJointThatIsNotThereAndListsTheOthers) {
 }
 
 TEST(ChooseJoint, SaysWhatIsThereWhereThereAreNoJoints) {
-  EXPECT_EQ(refusal(choose_joint(with_lasers({"/scan"}), {})),
-            "a.bag: no sensor_msgs/JointState. Topics found:\n    /scan   sensor_msgs/LaserScan   "
-            "1 messages");
+  EXPECT_EQ(
+      refusal(choose_joint(with_lasers({"/scan"}), {})),
+      "a.bag: no sensor_msgs/JointState. Topics found:\n    /scan   sensor_msgs/LaserScan   "
+      "1 messages\n  If nothing measures it, state how the motor is driven in a rig file (motor: {profile: ...}).");
 }
 
 TEST(ChooseJoint, JointStatesComeBeforeNumbersAndThoseBeforeTransforms) {
