@@ -63,7 +63,7 @@ struct Rig {
     /// The messages on `topic`, or the rises of `field` where it has two values, mark a turn each.
     bool index = false;
     std::optional<MotorProfile> profile;  // then no message of a motor is used
-    double rad_per_value() const;  // angle_rad = rad_per_value * value - zero_deg * pi / 180
+    double rad_per_value() const;         // angle_rad = rad_per_value * value - zero_deg * pi / 180
   };
   using Mount = sweepscope::Mount;
   bool mount_in_file = false;  // the rig file has the key

@@ -49,7 +49,8 @@ struct Limits {
   double min_change_sigmas = 3;  // of the offset, and of the drift
   double min_window_sigmas = 5;  // of one window among ten
   // Several recordings.
-  double max_chi_square_sigmas = 6;  // above its mean; 1.6 of rigs at random, 4 to 80,000 with another (together)
+  double max_chi_square_sigmas =
+      6;  // above its mean; 1.6 of rigs at random, 4 to 80,000 with another (together)
 };
 inline constexpr Limits kLimits;
 

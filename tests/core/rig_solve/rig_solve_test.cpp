@@ -189,7 +189,8 @@ TEST(RigSolve, WithoutAnySurfaceNothingIsIdentifiable) {
   const PreparedRecording prepared = prepare(perfect_rig(), FeatureOptions(), Job()).value();
   OffsetProblem problem = problem_for(prepared, kOffset_s, kOffset_s);
   std::ranges::fill(problem.scan_used, 0);
-  const SolvedRig found = solve_rig({&problem, 1}, {.offset_s = kOffset_s}, {.mount = true, .encoder = true}, Job());
+  const SolvedRig found =
+      solve_rig({&problem, 1}, {.offset_s = kOffset_s}, {.mount = true, .encoder = true}, Job());
   EXPECT_FALSE(found.mount.identifiable);
   EXPECT_FALSE(found.encoder.identifiable);
 }
