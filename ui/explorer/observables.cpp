@@ -167,6 +167,8 @@ const std::vector<Observable> kObservables{
        const Estimate* found = e.estimating.found();
        return found && found->offset_s ? fmt::format("{:.4f}", *found->offset_s * 1e3) : std::string();
      }},
+    {"walls", "how thick walls are as recorded and at the offset found; empty until both are measured",
+     [](const Explorer& e) { return e.walls_in_words(); }},
     {"found-windows", "how many windows have an offset of their own; empty unless it was over time",
      [](const Explorer& e) { return windows_found(e.estimating.found()); }},
     {"found-rig", "what was solved for beside the offset: \"mount pitch 3.002 ± 0.004°; ...\"",
@@ -268,7 +270,7 @@ std::string command_line(const Explorer& explorer, int width_px, int height_px) 
     if (!read.poses.empty()) recording += fmt::format(" --poses {}", shell_word(read.poses));
     recording += shell_options(read, true);
   }
-  recording += assume_option(explorer.options().assume);
+  recording += assume_option(explorer.options().assume) + " --no-estimate";
   for (const std::string& line : lines_to_reach(settings)) lines += line + "; ";
   // Said even where it is the default: an estimate leaves alone what a person set.
   if (explorer.estimating.found() != nullptr)

@@ -218,6 +218,11 @@ void answer(const PaneContext& context, const Estimate& estimate) {
     ImGui::SameLine(0, context.pxf(6));
     ImGui::SetCursorPosY(ImGui::GetCursorPosY() + context.pxf(10));
     ImGui::TextDisabled("ms");
+    if (const std::string walls = context.explorer.walls_in_words(); !walls.empty()) {
+      ImGui::TextWrapped("%s", walls.c_str());
+      context.anchor_last("walls");
+      ImGui::Dummy({0, context.pxf(2)});
+    }
     criterion_rows(context, estimate);
     if (estimate.over_time) course_rows(context, *estimate.over_time);
     if (estimate.rig) rig_rows(context, *estimate.rig);

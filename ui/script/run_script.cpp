@@ -374,7 +374,8 @@ class Runner {
       return wait_until([&] { return !explorer.recording.is_opening() && !explorer.page.is_surveying(); },
                         what, max_s);
     if (what == "estimated")
-      return wait_until([&] { return !explorer.estimating.is_running(); }, what, max_s);
+      return wait_until([&] { return !explorer.recording.is_opening() && !explorer.estimating.is_running(); },
+                        what, max_s);
     if (what != "solved") return wrong("wait loaded, wait estimated or wait solved");
     frame({}, kFrame_s);
     return wait_until([&] { return explorer.at_rest() && ui_.pictures_done(); }, what, max_s);
