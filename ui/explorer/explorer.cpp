@@ -16,6 +16,22 @@ constexpr std::array kOfRecording{"offset-a", "offset-b", "time-window", "colour
                                   "box",      "time",     "profile",     "measure",
                                   "pick",     "scan",     "place",       "chart-range"};
 
+/// A range that ends before it begins, or is nothing, shows nothing.
+Result<void> check_range(const Call& call) {
+  struct Range {
+    std::string_view name, what, none;  // none: what equal ends mean; empty: they show nothing
+  };
+  constexpr std::array kRanges{
+      Range{"colour-range", "The colour range", "Equal values: found from the maps."},
+      Range{"slab", "The slab", ""}, Range{"time-window", "The time range", "Both 0: all."},
+      Range{"chart-range", "The range of offsets", "Both 0: all."}};
+  const auto range = std::ranges::find(kRanges, call.command->name, &Range::name);
+  if (range == kRanges.end()) return {};
+  const double from = call.number(0), to = call.number(1);
+  if (to > from || (to == from && !range->none.empty())) return {};
+  return not_now(fmt::format("{} must end above its beginning, {}. {}", range->what, from, range->none));
+}
+
 double rounded_ms(double offset_s) {
   return std::round(offset_s * 1e6) / 1e3;
 }
@@ -47,6 +63,7 @@ Result<void> Explorer::perform(const Call& call, const std::string& gesture) {
 }
 
 Result<void> Explorer::set(const Call& call, const std::string& gesture) {
+  if (auto allowed = check_range(call); !allowed) return allowed;
   Settings next = changed(settings_, call);
   if (auto allowed = check_offsets(next); !allowed) return allowed;
   for (const char* name : kOfRecording) {
@@ -167,6 +184,7 @@ void Explorer::answer() {
     first_colouring_ = false;
     return;
   }
+  answering_ = true;
   auto known = answers.of(*loaded());
   if (!known) return estimating.start(recording.loaded(), estimate_asked_for(Settings(), options_.assume));
   if (known->walk) loaded()->walk->keep(known->walk);
@@ -187,7 +205,7 @@ void Explorer::end_recording() {
   maps.close();
   places.close();
   walls_.reset();
-  first_colouring_ = false;
+  first_colouring_ = answering_ = false;
   view.moved_by_person = false;
   playing_ = false;
 }
@@ -235,6 +253,7 @@ void Explorer::update(double seconds_since_last) {
   if (maps.solved.take_first_solved()) refit_view();  // its extent is known now
   update_places();
   update_walls();
+  answering_ = answering_ && !at_rest();
   update_playback(seconds_since_last);
 }
 
@@ -261,7 +280,9 @@ void Explorer::update_walls() {
   maps.blur.measure(a, b);
   const SlowValues *before = maps.blur.at(a), *after = maps.blur.at(b);
   if (before == nullptr || after == nullptr || !before->thickness || !after->thickness) return;
-  const auto is_broken = [](const Pane& shown) { return shown.consistency && shown.consistency->warned(); };
+  const auto is_broken = [](const Pane& shown) {
+    return shown.lost || (shown.consistency && shown.consistency->warned());
+  };
   walls_ = {offset_s, *before->thickness, *after->thickness,
             is_broken(pane(Side::kA)) || is_broken(pane(Side::kB))};
   constexpr double kDiffer = 1.2;
@@ -277,7 +298,7 @@ std::string Explorer::walls_in_words() const {
   if (!walls_ || found == nullptr || found->offset_s != walls_->offset_s) return "";
   return fmt::format("Walls are {:.0f} mm thick as recorded, {:.0f} mm at {:.2f} ms{}.",
                      walls_->before.median_m * 1e3, walls_->after.median_m * 1e3, walls_->offset_s * 1e3,
-                     walls_->broken ? "; but a map does not agree with itself" : "");
+                     walls_->broken ? "; but a map's path is not right, see Notes" : "");
 }
 
 /// The best place is shown, or, where a person went to another one, the one nearest to it.

@@ -75,6 +75,11 @@ class Explorer {
   const Pane& pane(Side side) const { return maps.pane(side); }
   /// The place that the close-ups show; null without one.
   PlacePtr place() const { return settings_.close_up ? places.at(settings_.place) : nullptr; }
+  /// Whether the places listed are those of the maps that are shown.
+  bool places_hold() const { return maps.is_complete() && !maps.is_held() && !background.has("places"); }
+  /// Whether what opening began is not all there yet: the estimate, both maps, places and walls. Not while a
+  /// handle is held, since nothing is solved then.
+  bool is_answering() const { return answering_ && !maps.is_held(); }
   /// Whether the recording is being played.
   bool is_playing() const { return playing_; }
   /// The offsets that map A and map B can have. With a recording: as far as a search may go about 0, about
@@ -113,6 +118,7 @@ class Explorer {
   Side changed_side_ = Side::kB;
   std::set<std::string> set_since_opening_;  // the fields that a person set since it was asked for
   bool colouring_was_chosen_ = false;        // by a person, at any time
+  bool answering_ = false;                   // see is_answering
   bool first_colouring_ = false;             // it is still to be chosen for the recording's first picture
   struct Walls {
     double offset_s = 0;

@@ -270,13 +270,13 @@ std::string command_line(const Explorer& explorer, int width_px, int height_px) 
     if (!read.poses.empty()) recording += fmt::format(" --poses {}", shell_word(read.poses));
     recording += shell_options(read, true);
   }
-  recording += assume_option(explorer.options().assume) + " --no-estimate";
+  recording += assume_option(explorer.options().assume);
   for (const std::string& line : lines_to_reach(settings)) lines += line + "; ";
   // Said even where it is the default: an estimate leaves alone what a person set.
   if (explorer.estimating.found() != nullptr)
     lines += fmt::format("offset-b {}; estimate; ", settings.offset_b_ms);
-  return fmt::format("sweepscope view{} --headless --size {}x{} --run {}", recording, width_px, height_px,
-                     shell_word(lines + "wait solved; screenshot picture.png"));
+  return fmt::format("sweepscope view{} --headless --no-estimate --size {}x{} --run {}", recording, width_px,
+                     height_px, shell_word(lines + "wait solved; screenshot picture.png"));
 }
 
 }  // namespace sweepscope::ui

@@ -381,8 +381,10 @@ class Runner {
     return wait_until([&] { return explorer.at_rest() && ui_.pictures_done(); }, what, max_s);
   }
 
-  /// The interface as it is, its pictures drawn to the end.
+  /// The interface as it is, its pictures drawn to the end; with the whole answer of a recording that was
+  /// opened, or the picture would show how fast the machine is.
   Image picture() {
+    (void)wait_until([&] { return !ui_.explorer().is_answering(); }, "the answer", max_s_);
     for (int i = 0; i < 600 && !ui_.pictures_done(); ++i) frame({}, kFrame_s);
     frame({}, kFrame_s);
     return ui_.screenshot();
@@ -390,7 +392,10 @@ class Runner {
 
   Result<void> screenshot(Words& words) {
     const std::string path = words.take();
-    return ui_.explorer().files.check_outputs({path}).and_then([&] { return write_png(picture(), path); });
+    return ui_.explorer()
+        .files.check_outputs({path})
+        .and_then([&] { return check_type(path, kPictureTypes); })
+        .and_then([&] { return write_picture(picture(), path); });
   }
 
   Result<void> expect(Words& words) {
