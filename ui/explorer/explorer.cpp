@@ -249,10 +249,10 @@ void Explorer::update(double seconds_since_last) {
   background.take_finished();
   estimating.update();
   if (loaded() == nullptr) return;
+  update_walls();  // before the maps: what they were coloured by may change with it
   maps.update(settings_, seconds_since_last, estimating.is_running());
   if (maps.solved.take_first_solved()) refit_view();  // its extent is known now
   update_places();
-  update_walls();
   answering_ = answering_ && !at_rest();
   update_playback(seconds_since_last);
 }
@@ -265,11 +265,12 @@ void Explorer::update_places() {
   if (std::exchange(fitted_beside_, place() != nullptr) != (place() != nullptr)) refit_view();
 }
 
-/// Whether map A is as recorded and map B at the offset found, all of both.
+/// Whether the panes show map A as recorded and map B at the offset found, all of both.
 bool Explorer::shows_answer() const {
   const Estimate* found = estimating.found();
-  return found != nullptr && found->offset_s && settings_.offset_a_ms == 0 &&
-         settings_.offset_b_ms == rounded_ms(*found->offset_s) && maps.is_complete() && !maps.is_held();
+  if (found == nullptr || !found->offset_s || !maps.is_complete() || maps.is_held()) return false;
+  return pane(Side::kA).request->placement.offset_s == 0 &&
+         pane(Side::kB).request->placement.offset_s == rounded_ms(*found->offset_s) * 1e-3;
 }
 
 void Explorer::update_walls() {
