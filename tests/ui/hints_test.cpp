@@ -54,7 +54,7 @@ TEST_F(InARoom, AHintSetsTheSearchAndEstimates) {
 TEST_F(InARoom, AMapWithoutPointsSaysWhyAndOffersToShowMore) {
   EXPECT_EQ(empty_pane(explorer_, explorer_.pane(Side::kA)).why, "");
   perform(explorer_, "heights slab");
-  perform(explorer_, "slab 50 60");
+  perform(explorer_, "slab 40 45");
   rest(explorer_);
   const EmptyPane empty = empty_pane(explorer_, explorer_.pane(Side::kA));
   EXPECT_NE(empty.why, "");

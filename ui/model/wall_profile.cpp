@@ -24,8 +24,10 @@ void add(Chart& chart, const Profile& profile, double middle_mm, const char* nam
     const auto first = densities.begin() + static_cast<std::ptrdiff_t>(i);
     const auto last = densities.begin() + static_cast<std::ptrdiff_t>(std::min(i + stride, densities.size()));
     const auto densest = std::max_element(first, last);  // peaks stay as high as they are
-    series.x.push_back(profile.distances_mm[static_cast<std::size_t>(densest - densities.begin())] +
-                       profile.median_mm + middle_mm);
+    const double at_mm = profile.distances_mm[static_cast<std::size_t>(densest - densities.begin())] +
+                         profile.median_mm + middle_mm;
+    if (!chart.x_range->contains(at_mm)) continue;
+    series.x.push_back(at_mm);
     series.y.emplace_back(*densest);
   }
   chart.series.push_back(std::move(series));

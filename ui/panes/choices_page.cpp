@@ -312,7 +312,7 @@ void part_choice(const PaneContext& context, const ChoicesPage::Choosing& choosi
 
 void beginning(const PaneContext& context, const ChoicesPage::Choosing& choosing) {
   const std::filesystem::path file = choosing.choices.file;
-  const float lines_end = ImGui::GetCursorPosY() + 5 * ImGui::GetTextLineHeightWithSpacing();
+  const float lines_end = ImGui::GetCursorPosY() + 4.4f * ImGui::GetTextLineHeightWithSpacing();
   text_in(context.fonts.heading, printable_line("Open " + file.filename().string()));
   wrapped_text(context.style.faint_text, printable_line(file.string()));
   tooltip(context, whole_path(choosing.choices.file));
