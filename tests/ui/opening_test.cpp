@@ -107,7 +107,7 @@ TEST(Opening, AnOffsetOfMapBThatAPersonSetStays) {
 
 TEST(Opening, AWalksMapsLieAlongTheTrajectoryOfItsEstimate) {
   Explorer explorer(estimating());
-  load(explorer, "sample metro-station 8");
+  load(explorer, "sample metro-station 10");
   for (int i = 0; i < 20; ++i) explorer.update(0.02);
   EXPECT_TRUE(explorer.background.keys("solve ").empty() || explorer.estimating.found() != nullptr);
   rest(explorer);
