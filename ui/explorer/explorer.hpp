@@ -76,7 +76,7 @@ class Explorer {
   /// The place that the close-ups show; null without one.
   PlacePtr place() const { return settings_.close_up ? places.at(settings_.place) : nullptr; }
   /// Whether the places listed are those of the maps that are shown.
-  bool places_hold() const { return maps.is_complete() && !maps.is_held() && !background.has("places"); }
+  bool places_hold() const { return maps.is_complete() && !background.has("places"); }
   /// Whether what opening began is not all there yet: the estimate, both maps, places and walls. Not while a
   /// handle is held, since nothing is solved then.
   bool is_answering() const { return answering_ && !maps.is_held(); }

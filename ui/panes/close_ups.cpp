@@ -143,8 +143,9 @@ void place_field(const PaneContext& context) {
   const std::string now = any ? fmt::format("{} of {}", number_of(context.explorer), places.size()) : "None";
   if (ImGui::BeginCombo("##place", now.c_str())) {
     for (std::size_t i = 0; i < places.size(); ++i) {
-      const std::string words = fmt::format("{}   {}:  {}", i + 1, position_in_words(*places[i]),
-                                            difference_in_words(context.explorer, *places[i]));
+      const std::string words =
+          fmt::format("{0}   {1}:  {2}###place {0}", i + 1, position_in_words(*places[i]),
+                      difference_in_words(context.explorer, *places[i]));
       if (ImGui::Selectable(words.c_str(), places[i] == context.explorer.place()))
         context.perform(fmt::format("place {}", i + 1));
       context.anchor_last(fmt::format("place {}", i + 1));
