@@ -25,7 +25,7 @@ struct ViewOptions {
   RecordingOptions reading;
   std::string recording;  // or a session
   std::string poses;
-  bool headless = false, size_given = false;
+  bool headless = false, size_given = false, no_estimate = false;
   std::string size = "1600x1000", script, run, record;
   double scale = 0;
   bool served = false, once = false, listen_anywhere = false;
@@ -57,6 +57,7 @@ Result<Size> parse_size(const std::string& text) {
 Result<ui::Ui::Options> ui_options(const ViewOptions& options) {
   ui::Ui::Options out;
   out.explorer.assume = options.reading.assumed_kind();
+  out.explorer.estimates_on_opening = !options.no_estimate;
   ui::ReadingChoices& reading = out.explorer.reading;
   reading.streams = options.reading.streams;
   reading.stamps = options.reading.stamps;
@@ -239,6 +240,7 @@ void declare(CLI::App& command, ViewOptions& options) {
                   "Trajectory of the rig (TUM), used instead of solving for it; the maps are in its frame")
       ->type_name("F")
       ->needs(recording);
+  command.add_flag("--no-estimate", options.no_estimate, "Do not estimate recordings that are opened");
   CLI::Option* headless = command.add_flag("--headless", options.headless,
                                            "Run a script on the same interface without a display");
   headless->group(kScripts);

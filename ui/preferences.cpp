@@ -13,10 +13,10 @@
 namespace sweepscope::ui {
 namespace {
 
-constexpr std::array<std::string_view, 18> kFields{
-    "layout",        "linked",    "perspective", "table",    "point-size", "backdrop",
-    "theme",         "panels",    "criteria",    "ui-scale", "left-width", "right-width",
-    "charts-height", "map-share", "lighting",    "splats",   "grid",       "scanner"};
+constexpr std::array<std::string_view, 19> kFields{
+    "layout",   "linked",   "perspective", "table",      "point-size",         "backdrop",      "theme",
+    "panels",   "criteria", "ui-scale",    "left-width", "right-width",        "charts-height", "map-share",
+    "lighting", "splats",   "grid",        "scanner",    "estimate-on-opening"};
 constexpr int kMaxSide_px = 16000;
 
 bool is_preference(const Command& command) {

@@ -8,7 +8,7 @@
 
 namespace sweepscope::ui {
 
-/// What the explorer looks like, kept from one run to the next: theme, layout, panels and sizes, and the
+/// What is kept from one run to the next: theme, layout, panels and sizes, whether opening estimates, and the
 /// window's size.
 struct Preferences {
   Settings look;                    // the other settings are the default ones

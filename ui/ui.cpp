@@ -135,6 +135,7 @@ struct Ui::Parts final : Window {
 
 Result<void> Ui::Parts::export_picture(const std::string& file, const std::string& what,
                                        const std::string& size) {
+  if (auto right = check_type(file, kPictureTypes); !right) return right;
   if (!size.empty()) {
     if (what != "maps") return not_now("Only the maps can have a size: export-picture FILE maps 3840x2400");
     if (auto usable = size_of(size); !usable) return tl::unexpected(usable.error());
@@ -155,7 +156,7 @@ void Ui::Parts::export_maps(const AskedPicture& asked) {
                           .file = path,
                           .write = [picture = std::move(*picture), path](const Job&) {
                             return sweepscope::draw(picture).and_then(
-                                [&](const Image& image) { return write_png(image, path); });
+                                [&](const Image& image) { return ui::write_picture(image, path); });
                           }});
 }
 
@@ -198,7 +199,7 @@ void Ui::Parts::dismiss() {
   } else if (explorer.messages.shown()) {
     explorer.messages.dismiss();
   } else if (explorer.page.choosing() != nullptr) {
-    explorer.page.close();
+    explorer.page.leave();
   } else if (explorer.settings().tool != Tool::kLook || marked(explorer.settings())) {
     transient.measure_from_m.reset();
     const std::string gesture = "dismiss " + std::to_string(++transient.gestures);
@@ -357,7 +358,7 @@ void Ui::Parts::write_picture() {
       {.title = "Writing " + path,
        .done = "The picture is saved in " + whole_path(path) + ".",
        .file = path,
-       .write = [image = std::move(image), path](const Job&) { return write_png(image, path); }});
+       .write = [image = std::move(image), path](const Job&) { return ui::write_picture(image, path); }});
 }
 
 Ui::Ui(gl::Context& context, Options options)
@@ -393,6 +394,7 @@ void Ui::Parts::frame(std::span<const InputEvent> all_events, double seconds_sin
   host.begin_frame(events, seconds_since_last);
   anchors.clear();
   begin_number_boxes(transient);
+  transient.for_picture = picture_asked.has_value();
   const PaneContext panes{explorer,
                           transient,
                           host.fonts(),

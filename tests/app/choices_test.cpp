@@ -60,7 +60,8 @@ class Choices : public test::ProgramTest {
 
   void view(const std::string& script, int exit_code = 0, const std::string& options = "") const {
     std::ofstream(folder_ / "test.script") << script;
-    const Outcome outcome = run("view " + options + " --headless --size 1024x768 --script test.script");
+    const Outcome outcome =
+        run("view " + options + " --headless --no-estimate --size 1024x768 --script test.script");
     EXPECT_EQ(outcome.exit_code, exit_code) << outcome.err;
   }
 };
@@ -185,7 +186,8 @@ TEST_F(Choices, APartWithoutScansAndPosesThatDoNotFitStayOnThePage) {
 
 TEST_F(Choices, AScriptThatDoesNotChooseEndsWithTheReason) {
   add_laser();
-  const Outcome outcome = run("view rec --headless --run 'wait solved; screenshot picture.png'");
+  const Outcome outcome =
+      run("view rec --headless --no-estimate --run 'wait solved; screenshot picture.png'");
   EXPECT_EQ(outcome.exit_code, 3);
   EXPECT_NE(outcome.err.find("2 topics of scans"), std::string::npos) << outcome.err;
   EXPECT_FALSE(exists("picture.png"));

@@ -98,7 +98,7 @@ TEST_F(Limits, WithoutTheLibraryThatDrawsItIsSaidWhatToInstall) {
   fs::create_directory(folder_ / "bogus");
   std::ofstream(folder_ / "bogus/libOSMesa.so.8") << "no library";
   for (const char* arguments : {"compare room.bag --offsets-ms 19,24 -o out.png", "report room.bag -o out",
-                                "view room.bag --headless --run 'screenshot out.png'"}) {
+                                "view room.bag --headless --no-estimate --run 'screenshot out.png'"}) {
     const Outcome outcome = run(arguments, "LD_LIBRARY_PATH='" + (folder_ / "bogus").string() + "'");
     EXPECT_EQ(outcome.exit_code, 2) << arguments << ": " << outcome.err;
     EXPECT_EQ(outcome.err.rfind("sweepscope: Pictures cannot be drawn: install libOSMesa.so.8 (Debian's "

@@ -52,19 +52,24 @@ constexpr Slot kSlots[] = {
     {"calibrate_json", "calibrate - --rig {RIG} --json {OUT} <{REC}", ".json"},
     {"calibrate_record", "calibrate - --rig {RIG} --record {OUT} <{REC}", ".bag"},
     {"simulate", "simulate --mesh {MESH} --trajectory {POSES} -o {OUT}", ".bag"},
-    {"view_session", "view {REC} --rig {RIG} --poses {POSES} --headless --run 'save-session {OUT}'",
+    {"view_session",
+     "view {REC} --rig {RIG} --poses {POSES} --headless --no-estimate --run 'save-session {OUT}'",
      ".session"},
-    {"view_picture", "view {REC} --rig {RIG} --poses {POSES} --headless --run 'export-picture {OUT}'",
-     ".png"},
-    {"view_screenshot", "view {REC} --rig {RIG} --poses {POSES} --headless --run 'screenshot {OUT}'", ".png"},
-    {"view_cloud", "view {REC} --rig {RIG} --poses {POSES} --headless --run 'export-cloud a {OUT}'", ".ply"},
-    {"view_curve", "view {SESSION} --rig {RIG} --headless --script {SCRIPT} --run 'export-curve {OUT}'",
+    {"view_picture",
+     "view {REC} --rig {RIG} --poses {POSES} --headless --no-estimate --run 'export-picture {OUT}'", ".png"},
+    {"view_screenshot",
+     "view {REC} --rig {RIG} --poses {POSES} --headless --no-estimate --run 'screenshot {OUT}'", ".png"},
+    {"view_cloud",
+     "view {REC} --rig {RIG} --poses {POSES} --headless --no-estimate --run 'export-cloud a {OUT}'", ".ply"},
+    {"view_curve",
+     "view {SESSION} --rig {RIG} --headless --no-estimate --script {SCRIPT} --run 'export-curve {OUT}'",
      ".json"},
     {"view_rig",
-     "view {REC} --rig {RIG} --headless --run 'solve-for offset,mount; estimate; wait estimated; export-rig "
+     "view {REC} --rig {RIG} --headless --no-estimate --run 'solve-for offset,mount; estimate; wait estimated; export-rig "
      "{OUT}'",
      ".yaml"},
-    {"view_report", "view {REC} --rig {RIG} --headless --run 'export-report {OUT}'", "", "report.html"},
+    {"view_report", "view {REC} --rig {RIG} --headless --no-estimate --run 'export-report {OUT}'", "",
+     "report.html"},
 };
 
 class OutputsOntoInputs : public test::ProgramTest, public ::testing::WithParamInterface<Slot> {
@@ -93,7 +98,9 @@ class OutputsOntoInputs : public test::ProgramTest, public ::testing::WithParamI
                                               "figures: {scan: {kind: scan, recording: room, at_s: 1}}\n";
     std::ofstream(folder_ / "view.script") << "wait loaded\n";
     std::ofstream(folder_ / "mesh.ply") << "ply\n";
-    ASSERT_EQ(run("view room.bag --headless --run 'wait loaded; save-session session.json'").exit_code, 0);
+    ASSERT_EQ(run("view room.bag --headless --no-estimate --run 'wait loaded; save-session session.json'")
+                  .exit_code,
+              0);
   }
 
   inline static fs::path made_;  // the inputs, once for all
@@ -185,8 +192,10 @@ TEST_F(OutputFiles, AreNotTheSameFile) {
 }
 
 TEST_F(OutputFiles, ASessionIsSavedWhereItWasOpened) {
-  ASSERT_EQ(run("view room.bag --headless --run 'wait loaded; save-session s.json'").exit_code, 0);
-  const Outcome outcome = run("view s.json --headless --run 'wait loaded; offset-a 20; save-session s.json'");
+  ASSERT_EQ(run("view room.bag --headless --no-estimate --run 'wait loaded; save-session s.json'").exit_code,
+            0);
+  const Outcome outcome =
+      run("view s.json --headless --no-estimate --run 'wait loaded; offset-a 20; save-session s.json'");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_NE(test::contents_of(folder_ / "s.json").find("20"), std::string::npos);
 }

@@ -27,10 +27,10 @@ class View : public test::ProgramTest {
 };
 
 TEST_F(View, AWindowInTimeIsUsedAsByTheOtherCommands) {
-  const Outcome part =
-      run("view room.bag --window 0:3 --headless --run 'wait loaded; copy-command; expect message contains "
-          "--window 0:3; "
-          "save-session s.json'");
+  const Outcome part = run(
+      "view room.bag --window 0:3 --headless --no-estimate --run 'wait loaded; copy-command; expect message contains "
+      "--window 0:3; "
+      "save-session s.json'");
   EXPECT_EQ(part.exit_code, 0) << part.err;
   const Outcome info = run("info room.bag --window 0:3");
   EXPECT_EQ(info.exit_code, 0);
@@ -61,7 +61,7 @@ TEST_F(View, ACommandForARecordingThatCannotBeReadGivesItsReason) {
 
 TEST_F(View, TheMapsAreExportedAtASizeOfTheirOwn) {
   const Outcome exported =
-      run("view room.bag --headless --size 800x600 --run 'wait solved; export-picture all.png; "
+      run("view room.bag --headless --no-estimate --size 800x600 --run 'wait solved; export-picture all.png; "
           "export-picture maps.png maps; export-picture sized.png maps 1600x900; theme light; "
           "export-picture light.png maps 1600x900'");
   ASSERT_EQ(exported.exit_code, 0) << exported.err;
@@ -72,14 +72,17 @@ TEST_F(View, TheMapsAreExportedAtASizeOfTheirOwn) {
   EXPECT_EQ(size_of_png("light.png"), std::pair(1600, 900));
   EXPECT_NE(test::contents_of(folder_ / "sized.png"), test::contents_of(folder_ / "light.png"));
   for (const char* size : {"1600", "1600x", "axb", "0x900", "1600x900x2", "99999x99999"}) {
-    const Outcome refused = run(
-        std::string("view room.bag --headless --run 'wait solved; export-picture no.png maps ") + size + "'");
+    const Outcome refused =
+        run(std::string(
+                "view room.bag --headless --no-estimate --run 'wait solved; export-picture no.png maps ") +
+            size + "'");
     EXPECT_EQ(refused.exit_code, 2) << size << refused.err;
     EXPECT_FALSE(exists("no.png")) << size;
   }
-  EXPECT_EQ(run("view room.bag --headless --run 'wait solved; export-picture no.png everything 1600x900'")
-                .exit_code,
-            2);
+  EXPECT_EQ(
+      run("view room.bag --headless --no-estimate --run 'wait solved; export-picture no.png everything 1600x900'")
+          .exit_code,
+      2);
 }
 
 TEST_F(View, WhatIsRecordedReplacesNoInput) {

@@ -239,12 +239,15 @@ TEST(WallProfile, ALineAcrossATownIsDrawnAsFarAsAWallReachesAndWithAChartsWorthO
     profile.distances_mm.push_back(mm);
     profile.density_per_mm.push_back(mm == 7777 ? 0.5 : 1e-5);
   }
-  const Chart chart = profile_chart(profile, profile, style_of(sweepscope::Background::kDark));
+  const Chart chart = profile_chart(profile, profile, settings, "", style_of(sweepscope::Background::kDark));
+  ASSERT_TRUE(chart.x_range) << "the line, as far as points are taken: 25 m to either side of its middle";
+  EXPECT_EQ(chart.x_range->from, 3975000);
+  EXPECT_EQ(chart.x_range->to, 4025000);
   EXPECT_LE(chart.series[0].x.size(), 2001U);
   const auto& y = chart.series[0].y;
   const auto peak = std::max_element(y.begin(), y.end());
   EXPECT_EQ(*peak, 0.5);
-  EXPECT_EQ(chart.series[0].x[static_cast<std::size_t>(peak - y.begin())], 7777);
+  EXPECT_EQ(chart.series[0].x[static_cast<std::size_t>(peak - y.begin())], 4007777);
 }
 
 TEST(OnAWalk, WhatWasCancelledIsTakenUpWhenItIsAskedForOrTheOffsetMoves) {

@@ -17,6 +17,9 @@
 namespace sweepscope::ui {
 namespace {
 
+constexpr std::array<std::string_view, 1> kSessionTypes{"json"};
+constexpr std::array<std::string_view, 2> kRigTypes{"yaml", "yml"};
+
 /// What a pane shows, in the order of time.
 MapCloud cloud_of(const CloudRequest& request, const PlacedCloud& placed) {
   const Beams& beams = request.placement.loaded->beams;
@@ -49,6 +52,7 @@ Result<void> tell(const Explorer& explorer, Result<void> written, const std::str
 
 Result<void> save_session(Explorer& explorer, const Call& call) {
   const std::string path = call.text(0);
+  if (auto right = check_type(path, kSessionTypes); !right) return right;
   auto written = write_file(path, session_to_json(session_of(explorer)));
   if (written) explorer.files.set_session(path);
   return tell(explorer, std::move(written), path, "The session is saved");
@@ -81,6 +85,7 @@ Result<void> export_curve(Explorer& explorer, const Call& call) {
 
 Result<void> export_rig(Explorer& explorer, const Call& call) {
   const std::string path = call.text(0);
+  if (auto right = check_type(path, kRigTypes); !right) return right;
   const Estimate* found = explorer.estimating.found();
   if (found == nullptr || !found->rig)
     return not_now("No rig has been solved for: choose what to solve for, then estimate the offset.");
@@ -179,7 +184,7 @@ std::vector<Command> file_commands() {
           copy_command, Need::kRecording),
       window_action(
           {"export-picture", "Export the picture",
-           "As PNG: everything, or the maps alone; the maps also with a size, such as 3840x2400, with legend "
+           "As PNG or JPEG, by the file's ending: everything, or the maps alone; the maps also with a size, such as 3840x2400, with legend "
            "and scale, all points and smooth edges."},
           {written_file(".png"), optional_of(choice_of("WHAT", {"everything", "maps"})),
            optional_of(text_of("SIZE"))},

@@ -105,6 +105,7 @@ const std::vector<MenuItem> kMenuItems{
     {"Edit", ""},
     {"Edit", "palette", "All commands …"},
     {"Offset", "estimate", "Estimate"},
+    {"Offset", "estimate-on-opening", "Estimate when a recording is opened"},
     {"Offset", "take-found", "Use the found offset for B"},
     {"Offset", "swap"},
     {"Offset", "cancel", "Cancel running jobs"},

@@ -39,8 +39,20 @@ Result<void> look_at_place(Explorer& explorer, const Call&) {
   return {};
 }
 
-Result<void> estimate(Explorer& explorer, const Call&) {
+/// The search as a hint asks for it.
+Settings searching(Settings settings, const std::string& how) {
+  const Settings automatic;
+  settings.search = how == "over-time" ? Search::kOverTime : automatic.search;
+  settings.solve_for = how == "mount" || how == "encoder" ? "offset," + how : automatic.solve_for;
+  const bool method = how == "direct" || how == "stationary" || how == "moving";
+  settings.method = method ? how : automatic.method;
+  settings.fit = automatic.fit;
+  return settings;
+}
+
+Result<void> estimate(Explorer& explorer, const Call& call) {
   if (explorer.loaded() == nullptr) return not_now("There is no recording to estimate from.");
+  if (!call.values.empty()) explorer.change(searching(explorer.settings(), call.text(0)));
   explorer.estimating.start(explorer.recording.loaded(),
                             estimate_asked_for(explorer.settings(), explorer.options().assume));
   return {};
@@ -73,8 +85,11 @@ std::vector<Command> map_commands() {
             return explorer.play(call.values.empty() ? !explorer.is_playing() : call.text(0) == "on");
           },
           Need::kRecording),
-      action({"estimate", "Estimate the offset", "Searches for the offset in the background."}, {}, estimate,
-             Need::kRecording),
+      action({"estimate", "Estimate the offset",
+              "Searches for the offset in the background, as the search is set, or as is named here."},
+             {optional_of(choice_of(
+                 "HOW", {"automatic", "over-time", "mount", "encoder", "direct", "stationary", "moving"}))},
+             estimate, Need::kRecording),
       action({"cancel", "Cancel", "Stops everything that runs in the background."}, {},
              [](Explorer& explorer, const Call&) { explorer.cancel(); }),
       action(

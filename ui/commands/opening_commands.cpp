@@ -8,6 +8,7 @@
 #include "core/simulation/scenes/scene.hpp"
 #include "ui/commands/commands.hpp"
 #include "ui/explorer/explorer.hpp"
+#include "ui/explorer/hints.hpp"
 #include "ui/state/session.hpp"
 
 namespace sweepscope::ui {
@@ -91,12 +92,33 @@ Result<void> open_page(Explorer& explorer, const Call& call) {
     choices = loaded->choices;
   else
     return not_now("There is no recording to open with other choices: name its file.");
+  if (const ReadingChoices* left = explorer.page.left(choices.file)) choices = *left;
   if (auto inside = explorer.files.check_reading(choices); !inside) return inside;
   std::error_code failed;
   if (!std::filesystem::exists(choices.file, failed))
     return unreadable(fmt::format("{}: there is no such file or folder", choices.file));
   explorer.messages.dismiss();
   explorer.page.show(choices);
+  return {};
+}
+
+/// The recording that is open, with one choice changed.
+Result<void> reopen(Explorer& explorer, const Call& call) {
+  const Loaded* loaded = explorer.loaded();
+  if (loaded == nullptr || loaded->choices.file.empty())
+    return not_now("Only a recording from a file can be opened again otherwise.");
+  ReadingChoices choices = loaded->choices;
+  const std::string how = call.text(0);
+  if (how == "receive-stamps") choices.stamps = StampSource::kReceive;
+  if (how == "header-stamps") choices.stamps = StampSource::kHeader;
+  if (how == "without-rig-file") choices.rig_file.clear();
+  if (how == "whole") choices.window.reset();
+  if (how == "stationary-part") {
+    const auto part = stationary_part(explorer);
+    if (!part) return not_now("There is no part in which the rig was stationary for long enough.");
+    choices.window = TimeWindow{part->begin_s, part->end_s};
+  }
+  explorer.load(choices);
   return {};
 }
 
@@ -195,6 +217,12 @@ std::vector<Command> opening_commands() {
           [](Explorer& explorer, const Call& call) { explorer.load_sample(call.text(0), seconds_of(call)); }),
   };
   std::ranges::move(commands_of_page(), std::back_inserter(all));
+  all.push_back(action(
+      {"reopen", "Open again otherwise",
+       "The recording that is open, with other stamps, without its rig file, the part in "
+       "which the rig was stationary, or all of it."},
+      {choice_of("HOW", {"receive-stamps", "header-stamps", "without-rig-file", "stationary-part", "whole"})},
+      reopen, Need::kRecording));
   all.push_back(action({"close", "Close the recording", "Back to the start page."}, {},
                        [](Explorer& explorer, const Call&) { explorer.close(); }));
   return all;

@@ -52,6 +52,14 @@ void ChoicesPage::choose(const ReadingChoices& choices) {
 void ChoicesPage::close() {
   background_.cancel(kSurvey);
   choosing_.reset();
+  left_.reset();
+}
+
+void ChoicesPage::leave() {
+  if (!choosing_) return;
+  auto choices = choosing_->choices;
+  close();
+  left_ = std::move(choices);
 }
 
 void ChoicesPage::start_survey() {

@@ -30,8 +30,14 @@ class ChoicesPage {
   void show(const ReadingChoices& choices, ReadingSurvey survey, const std::string& problem);
   /// Other choices, while it is shown; looks at the file again where that is needed.
   void choose(const ReadingChoices& choices);
-  /// Leaves it as if it had not been opened.
+  /// The recording is opened, or another one: its choices end.
   void close();
+  /// By a person: its choices are there when it is shown again.
+  void leave();
+  /// Those that were left, of this file; null if there are none.
+  const ReadingChoices* left(const std::string& file) const {
+    return left_ && left_->file == file ? &*left_ : nullptr;
+  }
 
  private:
   void start_survey();
@@ -39,6 +45,7 @@ class ChoicesPage {
   Background& background_;
   Messages& messages_;
   std::optional<Choosing> choosing_;
+  std::optional<ReadingChoices> left_;
 };
 
 /// Why it cannot be opened with the choices at hand, as far as it is known: sentences. A missing laser or

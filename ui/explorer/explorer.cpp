@@ -5,9 +5,38 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/map/consistency/map_consistency.hpp"
 #include "core/offset/prepared/search_window.hpp"
 
 namespace sweepscope::ui {
+namespace {
+
+/// The fields that mean something for one recording alone.
+constexpr std::array kOfRecording{"offset-a", "offset-b", "time-window", "colour-range",
+                                  "box",      "time",     "profile",     "measure",
+                                  "pick",     "scan",     "place",       "chart-range"};
+
+/// A range that ends before it begins, or is nothing, shows nothing.
+Result<void> check_range(const Call& call) {
+  struct Range {
+    std::string_view name, what, none;  // none: what equal ends mean; empty: they show nothing
+  };
+  constexpr std::array kRanges{
+      Range{"colour-range", "The colour range", "Equal values: found from the maps."},
+      Range{"slab", "The slab", ""}, Range{"time-window", "The time range", "Both 0: all."},
+      Range{"chart-range", "The range of offsets", "Both 0: all."}};
+  const auto range = std::ranges::find(kRanges, call.command->name, &Range::name);
+  if (range == kRanges.end()) return {};
+  const double from = call.number(0), to = call.number(1);
+  if (to > from || (to == from && !range->none.empty())) return {};
+  return not_now(fmt::format("{} must end above its beginning, {}. {}", range->what, from, range->none));
+}
+
+double rounded_ms(double offset_s) {
+  return std::round(offset_s * 1e6) / 1e3;
+}
+
+}  // namespace
 
 Explorer::Explorer(Options options)
     : options_(std::move(options)),
@@ -15,8 +44,9 @@ Explorer::Explorer(Options options)
       recording(background, options_.assume, [this](const Opened& opened) { take(opened); }),
       page(background, messages),
       estimating(background, messages,
-                 [this] {
-                   if (!b_was_set_) use_found_offset();
+                 [this](bool computed) {
+                   if (computed) answers.keep(*loaded(), *estimating.found());
+                   if (!set_since_opening_.contains("offset-b")) use_found_offset();
                  }),
       maps(background),
       places(background, [this](std::vector<PlacePtr> found) { take(std::move(found)); }),
@@ -33,9 +63,14 @@ Result<void> Explorer::perform(const Call& call, const std::string& gesture) {
 }
 
 Result<void> Explorer::set(const Call& call, const std::string& gesture) {
+  if (auto allowed = check_range(call); !allowed) return allowed;
   Settings next = changed(settings_, call);
   if (auto allowed = check_offsets(next); !allowed) return allowed;
-  if (call.command->name == "offset-b") b_was_set_ = true;
+  for (const char* name : kOfRecording) {
+    const Command& field = *find_in(setting_commands(), name);
+    if (call.command == &field || field.get(next) != field.get(settings_)) set_since_opening_.insert(name);
+  }
+  if (call.command->name == "colouring") colouring_was_chosen_ = true;
   if (call.command->moves_view) view.moved_by_person = true;
   if (next.offset_a_ms != settings_.offset_a_ms) changed_side_ = Side::kA;
   if (next.offset_b_ms != settings_.offset_b_ms) changed_side_ = Side::kB;
@@ -94,12 +129,14 @@ void Explorer::load(ReadingChoices choices,
     return messages.error(inside.error());
   }
   files.add_inputs(choices);
+  if (loaded() != nullptr) set_since_opening_.clear();
   page.close();
   messages.dismiss();
   recording.read(choices, std::move(restored));
 }
 
 void Explorer::load_sample(const std::string& scene, double seconds, std::optional<Restored> restored) {
+  if (loaded() != nullptr) set_since_opening_.clear();
   page.close();
   messages.dismiss();
   recording.simulate(scene, seconds, std::move(restored));
@@ -109,34 +146,66 @@ void Explorer::take(const Opened& opened) {
   // Where there is something to choose from, the page says what is missing; else a message does.
   if (opened.survey) return page.show(opened.choices, *opened.survey, opened.loaded.error().message);
   if (!opened.loaded) return messages.error(opened.loaded.error());
-  close();
+  end_recording();
   recording.keep(*opened.loaded);
   maps.open(*opened.loaded, opened.first_map, options_.assume);
-  if (opened.restored) {
-    change(opened.restored->settings);
-    b_was_set_ = view.moved_by_person = true;
-    estimating.restore(opened.restored->estimate);
+  if (opened.restored)
+    restore(*opened.restored);
+  else
+    begin_anew();
+  answer();
+}
+
+void Explorer::restore(const Restored& restored) {
+  change(restored.settings);
+  set_since_opening_.insert("offset-b");
+  view.moved_by_person = true;
+  estimating.restore(restored.estimate);
+}
+
+/// What was asked of the recording before means nothing here; what was set since this one was asked for
+/// stays.
+void Explorer::begin_anew() {
+  Settings next = settings_;
+  for (const char* name : kOfRecording) {
+    const Command& field = *find_in(setting_commands(), name);
+    if (!set_since_opening_.contains(name)) next = changed(next, {&field, field.get(Settings())});
+  }
+  if (!colouring_was_chosen_) next.colouring = Settings().colouring;
+  settings_ = std::move(next);
+  settings_ = with_fitted_view();
+  history_ = {};  // its settings are those of the recording before
+  first_colouring_ = !colouring_was_chosen_;
+}
+
+/// The estimate that opening begins: by default, whatever the search is set to.
+void Explorer::answer() {
+  if (estimating.found() != nullptr || !options_.estimates_on_opening || !settings_.estimate_on_opening) {
+    first_colouring_ = false;
     return;
   }
-  Settings next = settings_;  // what was asked of the recording before means nothing here
-  next.asked_scan = next.asked_beam = -1;
-  next.time_s = -1;
-  next.box_from_m = next.box_to_m = {0, 0, 0};
-  next.colour_from = next.colour_to = 0;
-  next.profile_from_m = next.profile_to_m = {0, 0};
-  next.measure_from_m = next.measure_to_m = {0, 0, 0};
-  change(next);
-  change(with_fitted_view());
+  answering_ = true;
+  auto known = answers.of(*loaded());
+  if (!known) return estimating.start(recording.loaded(), estimate_asked_for(Settings(), options_.assume));
+  if (known->walk) loaded()->walk->keep(known->walk);
+  estimating.set(std::move(*known));
 }
 
 void Explorer::close() {
+  end_recording();
+  set_since_opening_.clear();
+  begin_anew();
+}
+
+void Explorer::end_recording() {
   background.cancel_all("");
   recording.close();
   estimating.restore({});
   messages.dismiss();
   maps.close();
   places.close();
-  b_was_set_ = false;
+  walls_.reset();
+  first_colouring_ = answering_ = false;
   view.moved_by_person = false;
   playing_ = false;
 }
@@ -150,7 +219,7 @@ void Explorer::use_found_offset() {
   const Estimate* found = estimating.found();
   if (found == nullptr || !found->offset_s) return;
   Settings next = settings_;
-  next.offset_b_ms = std::round(*found->offset_s * 1e6) / 1e3;
+  next.offset_b_ms = rounded_ms(*found->offset_s);
   change(std::move(next));
 }
 
@@ -180,9 +249,11 @@ void Explorer::update(double seconds_since_last) {
   background.take_finished();
   estimating.update();
   if (loaded() == nullptr) return;
-  maps.update(settings_, seconds_since_last);
+  update_walls();  // before the maps: what they were coloured by may change with it
+  maps.update(settings_, seconds_since_last, estimating.is_running());
   if (maps.solved.take_first_solved()) refit_view();  // its extent is known now
   update_places();
+  answering_ = answering_ && !at_rest();
   update_playback(seconds_since_last);
 }
 
@@ -192,6 +263,43 @@ void Explorer::update_places() {
     places.compare(pane(Side::kA).request->placement, pane(Side::kB).request->placement);
   maps.show_close_ups(place());
   if (std::exchange(fitted_beside_, place() != nullptr) != (place() != nullptr)) refit_view();
+}
+
+/// Whether the panes show map A as recorded and map B at the offset found, all of both.
+bool Explorer::shows_answer() const {
+  const Estimate* found = estimating.found();
+  if (found == nullptr || !found->offset_s || !maps.is_complete() || maps.is_held()) return false;
+  return pane(Side::kA).request->placement.offset_s == 0 &&
+         pane(Side::kB).request->placement.offset_s == rounded_ms(*found->offset_s) * 1e-3;
+}
+
+void Explorer::update_walls() {
+  if (!shows_answer()) return;
+  const double offset_s = *estimating.found()->offset_s;
+  if (walls_ && walls_->offset_s == offset_s) return;
+  const Placement &a = pane(Side::kA).request->placement, &b = pane(Side::kB).request->placement;
+  maps.blur.measure(a, b);
+  const SlowValues *before = maps.blur.at(a), *after = maps.blur.at(b);
+  if (before == nullptr || after == nullptr || !before->thickness || !after->thickness) return;
+  const auto is_broken = [](const Pane& shown) {
+    return shown.lost || (shown.consistency && shown.consistency->warned());
+  };
+  walls_ = {offset_s, *before->thickness, *after->thickness,
+            is_broken(pane(Side::kA)) || is_broken(pane(Side::kB))};
+  constexpr double kDiffer = 1.2;
+  const bool differ = before->thickness->median_m > kDiffer * after->thickness->median_m;
+  if (!std::exchange(first_colouring_, false) || !differ || colouring_was_chosen_) return;
+  Settings next = settings_;
+  next.colouring = ColourBy::kBlur;
+  change(std::move(next));
+}
+
+std::string Explorer::walls_in_words() const {
+  const Estimate* found = estimating.found();
+  if (!walls_ || found == nullptr || found->offset_s != walls_->offset_s) return "";
+  return fmt::format("Walls are {:.0f} mm thick as recorded, {:.0f} mm at {:.2f} ms{}.",
+                     walls_->before.median_m * 1e3, walls_->after.median_m * 1e3, walls_->offset_s * 1e3,
+                     walls_->broken ? "; but a map's path is not right, see Notes" : "");
 }
 
 /// The best place is shown, or, where a person went to another one, the one nearest to it.

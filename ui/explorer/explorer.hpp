@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -11,6 +12,7 @@
 #include "ui/explorer/exports.hpp"
 #include "ui/explorer/file_guard.hpp"
 #include "ui/explorer/fitted_view.hpp"
+#include "ui/explorer/kept_answers.hpp"
 #include "ui/explorer/map_pair.hpp"
 #include "ui/explorer/messages.hpp"
 #include "ui/explorer/open_recording.hpp"
@@ -34,6 +36,7 @@ class Explorer {
     std::optional<RigKind> assume;
     std::vector<std::filesystem::path> input_files;  // read before anything is opened: rig file, scripts
     FileRoots roots;                                 // what is opened and written lies below
+    bool estimates_on_opening = false;               // unless the settings forbid it
   };
   Explorer() : Explorer(Options()) {}
   explicit Explorer(Options options);
@@ -64,12 +67,19 @@ class Explorer {
   Result<void> fit_view();
   Result<void> play(bool on);
   void use_found_offset();
+  /// The thickness of walls at 0 and at the offset found, once both are measured: a sentence; else empty.
+  std::string walls_in_words() const;
 
   /// Null without a recording.
   const Loaded* loaded() const { return recording.loaded().get(); }
   const Pane& pane(Side side) const { return maps.pane(side); }
   /// The place that the close-ups show; null without one.
   PlacePtr place() const { return settings_.close_up ? places.at(settings_.place) : nullptr; }
+  /// Whether the places listed are those of the maps that are shown.
+  bool places_hold() const { return maps.is_complete() && !background.has("places"); }
+  /// Whether what opening began is not all there yet: the estimate, both maps, places and walls. Not while a
+  /// handle is held, since nothing is solved then.
+  bool is_answering() const { return answering_ && !maps.is_held(); }
   /// Whether the recording is being played.
   bool is_playing() const { return playing_; }
   /// The offsets that map A and map B can have. With a recording: as far as a search may go about 0, about
@@ -90,7 +100,13 @@ class Explorer {
   Result<void> check_offsets(const Settings& next) const;
   void take(const Opened& opened);
   void take(std::vector<PlacePtr> found);
+  void end_recording();
+  void restore(const Restored& restored);
+  void begin_anew();
+  void answer();
   void update_places();
+  void update_walls();
+  bool shows_answer() const;
   void update_playback(double seconds_since_last);
   Settings with_fitted_view() const;
   void refit_view();
@@ -100,7 +116,16 @@ class Explorer {
   History history_;
   bool playing_ = false;
   Side changed_side_ = Side::kB;
-  bool b_was_set_ = false;      // by a person, since the recording was opened
+  std::set<std::string> set_since_opening_;  // the fields that a person set since it was asked for
+  bool colouring_was_chosen_ = false;        // by a person, at any time
+  bool answering_ = false;                   // see is_answering
+  bool first_colouring_ = false;             // it is still to be chosen for the recording's first picture
+  struct Walls {
+    double offset_s = 0;
+    MapThickness before, after;
+    bool broken = false;  // a map does not agree with itself
+  };
+  std::optional<Walls> walls_;
   bool fitted_beside_ = false;  // whether the view leaves room for close-ups
 
  public:
@@ -112,6 +137,7 @@ class Explorer {
   RunningEstimate estimating;
   MapPair maps;
   PlaceList places;
+  KeptAnswers answers;
   Exports exports;
   Background background;  // last member: its threads end before the data that they use
 };

@@ -1,16 +1,27 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "render/images/image.hpp"
 #include "ui/explorer/messages.hpp"
 #include "ui/jobs/background.hpp"
 
 namespace sweepscope::ui {
+
+/// Refuses a name that ends as files of another type do: "x.png" for a session. `types`: such as {"json"}.
+Result<void> check_type(const std::string& file, std::span<const std::string_view> types);
+
+/// The endings of pictures that are written, and their file: as JPEG where its name says so, else as PNG.
+inline constexpr std::array<std::string_view, 3> kPictureTypes{"png", "jpg", "jpeg"};
+Result<void> write_picture(const Image& image, const std::filesystem::path& file);
 
 /// A file to be written in the background.
 struct Export {

@@ -28,7 +28,7 @@ void MapPair::open(LoadedPtr loaded, SolvedMapPtr first, std::optional<RigKind> 
 void MapPair::close() {
   background_.cancel(placing_);
   solved.close();
-  span_maps_ = {nullptr, nullptr};
+  blur.close();
   panes_ = {};
 }
 
@@ -36,11 +36,24 @@ SolvedMapPtr MapPair::map_in_view() const {
   return panes_[0].request ? panes_[0].request->placement.map : solved.nearest(0);
 }
 
+/// While a handle is held, the path is the one that the pane was placed along when the drag began.
+SolvedMapPtr MapPair::map_for(Side side, double offset_s) const {
+  const auto& shown = pane(side).request;
+  return held_ && shown && !shown->placement.map->provisional ? shown->placement.map
+                                                              : solved.nearest(offset_s);
+}
+
+ColourSpan MapPair::wanted_span(ColourBy by, const Placement& a, const Placement& b) const {
+  const SlowValues *at_a = blur.at(a), *at_b = blur.at(b);
+  if (by == ColourBy::kBlur && at_a && at_b && at_a->thickness && at_b->thickness)
+    return blur_span(*at_a->thickness, *at_b->thickness);
+  return colour_span(by, *a.loaded, a.map.get(), b.map.get());
+}
+
 CloudLook MapPair::wanted_look(const Settings& s, const Placement& a, const Placement& b) {
-  const std::array<const SolvedMap*, 2> maps{a.map.get(), b.map.get()};
-  if (span_maps_ != maps || span_colouring_ != s.colouring) {
-    span_ = colour_span(s.colouring, *a.loaded, maps[0], maps[1]);
-    span_maps_ = maps;
+  // Under the mouse colours hold still: a drag goes from map to map.
+  if (!held_ || span_colouring_ != s.colouring) {
+    span_ = wanted_span(s.colouring, a, b);
     span_colouring_ = s.colouring;
   }
   const bool given = s.colour_to > s.colour_from;
@@ -60,16 +73,17 @@ CloudLook MapPair::wanted_look(const Settings& s, const Placement& a, const Plac
           .on_light = on_light};
 }
 
-void MapPair::update(const Settings& settings, double seconds_since_last) {
+void MapPair::update(const Settings& settings, double seconds_since_last, bool estimating) {
   show_both(settings);
   rest_s_ += seconds_since_last;
   if (rest_s_ >= kRest_s && !held_) start_full();
-  solved.solve(offsets_s(settings), held_);
+  solved.solve(offsets_s(settings), held_ || (estimating && solved.is_first_to_come()));
 }
 
 void MapPair::show_both(const Settings& settings) {
   const auto [a_s, b_s] = offsets_s(settings);
-  const Placement a{solved.loaded(), solved.nearest(a_s), a_s}, b{solved.loaded(), solved.nearest(b_s), b_s};
+  const Placement a{solved.loaded(), map_for(Side::kA, a_s), a_s},
+      b{solved.loaded(), map_for(Side::kB, b_s), b_s};
   look_ = wanted_look(settings, a, b);
   CloudRequest at_a{a, look_, {}}, at_b{b, look_, {}};
   if (settings.layout == Layout::kDifference) {
@@ -104,6 +118,7 @@ void MapPair::show(Side side, CloudRequest request) {
   if (pane.state != PaneState::kSolved && solved.is_cancelled(offset_s))
     pane.problem = "Cancelled. Move the offset, or choose Solve the maps in the menu Offset.";
   if (pane.request == request) return;
+  if (request.look.colouring == ColourBy::kBlur) use_known_blur(pane, request.placement);
   // The thickness of a surface at another offset would be a false picture: those points stay grey.
   const bool known =
       pane.slow_colouring == request.look.colouring &&
@@ -117,10 +132,21 @@ void MapPair::show(Side side, CloudRequest request) {
   background_.cancel(placing_);
 }
 
-MapPair::PlacedAll MapPair::place_fully(const CloudRequest& request, const Job& job) {
+void MapPair::use_known_blur(Pane& pane, const Placement& placement) const {
+  const SlowValues* known = blur.at(placement);
+  if (known == nullptr) return;
+  pane.slow = known->values;
+  pane.thickness = known->thickness;
+  pane.slow_colouring = ColourBy::kBlur;
+  pane.slow_placement = placement;
+}
+
+MapPair::PlacedAll MapPair::place_fully(const CloudRequest& request, const SlowValues& known,
+                                        const Job& job) {
   const auto& [placement, look, other] = request;
   PlacedAll placed;
-  if (!other && is_slow(look.colouring)) {
+  placed.slow = known;
+  if (!other && !known.values && is_slow(look.colouring)) {
     const FeatureSet* features = placement.loaded->prepared.features.get();
     placed.slow = slow_values(placement, look.colouring, features, job);
     placed.coarse =
@@ -136,29 +162,37 @@ void MapPair::start_full() {
   if (!placing_.empty() && background_.has(placing_)) return;
   std::vector<Side> sides;
   std::vector<CloudRequest> requests;
+  std::vector<SlowValues> known;  // empty where it is not known
   for (const Side side : kBothSides) {
     if (pane(side).full || !pane(side).request) continue;
     sides.push_back(side);
     requests.push_back(*pane(side).request);
+    const auto& [placement, look, other] = requests.back();
+    const SlowValues* blurred = look.colouring == ColourBy::kBlur && !other ? blur.at(placement) : nullptr;
+    known.push_back(blurred != nullptr ? *blurred : SlowValues());
   }
   if (sides.empty()) return;
   placing_ = "place " + std::to_string(++placings_);
-  background_.start(
-      "place", placing_, "Placing all points", [this, sides, requests](const Job& job) -> Background::Finish {
-        std::vector<PlacedAll> placed;
-        for (const CloudRequest& request : requests) {
-          if (job.cancelled()) return {};
-          placed.push_back(place_fully(request, job));
-        }
-        if (job.cancelled()) return {};
-        return [this, sides, requests, placed = std::move(placed)] { take(sides, requests, placed); };
-      });
+  background_.start("place", placing_, "Placing all points",
+                    [this, sides, requests, known](const Job& job) -> Background::Finish {
+                      std::vector<PlacedAll> placed;
+                      for (std::size_t i = 0; i < requests.size(); ++i) {
+                        if (job.cancelled()) return {};
+                        placed.push_back(place_fully(requests[i], known[i], job));
+                      }
+                      if (job.cancelled()) return {};
+                      return [this, sides, requests, placed = std::move(placed)] {
+                        take(sides, requests, placed);
+                      };
+                    });
 }
 
 void MapPair::take(std::span<const Side> sides, std::span<const CloudRequest> requests,
                    std::span<const PlacedAll> placed) {
   for (std::size_t i = 0; i < sides.size(); ++i) {
     Pane& target = pane_of(sides[i]);
+    if (requests[i].look.colouring == ColourBy::kBlur && placed[i].slow.values)
+      blur.keep(requests[i].placement, placed[i].slow);
     if (target.request != requests[i]) continue;
     target.full = placed[i].full;
     target.slow = placed[i].slow.values;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "ui/explorer/known_blur.hpp"
 #include "ui/explorer/solved_maps.hpp"
 #include "ui/model/placed_cloud.hpp"
 #include "ui/model/places.hpp"
@@ -67,7 +68,7 @@ struct Pane {
 /// Map A and map B at the offsets of the settings: solved in the background, previewed until then.
 class MapPair {
  public:
-  explicit MapPair(Background& background) : solved(background), background_(background) {}
+  explicit MapPair(Background& background) : solved(background), blur(background), background_(background) {}
 
   void open(LoadedPtr loaded, SolvedMapPtr first, std::optional<RigKind> assume);
   void close();
@@ -80,7 +81,8 @@ class MapPair {
   void hold(bool held) { held_ = held; }
   bool is_held() const { return held_; }
   /// Once per frame with a recording: shows what the settings ask for, and starts the work for it.
-  void update(const Settings& settings, double seconds_since_last);
+  /// `estimating`: a walk's first map waits for the estimate, whose trajectory it is placed along.
+  void update(const Settings& settings, double seconds_since_last, bool estimating);
   /// Places the close-ups of a place, where they are not of it yet; null: none.
   void show_close_ups(const PlacePtr& place);
   /// Of what is being solved and placed.
@@ -96,6 +98,7 @@ class MapPair {
   bool at_rest() const;
 
   SolvedMaps solved;
+  KnownBlur blur;
 
  private:
   /// All points of a pane, and what came with them.
@@ -105,20 +108,22 @@ class MapPair {
   };
 
   Pane& pane_of(Side side) { return panes_[static_cast<std::size_t>(side)]; }
+  SolvedMapPtr map_for(Side side, double offset_s) const;
+  ColourSpan wanted_span(ColourBy by, const Placement& a, const Placement& b) const;
   CloudLook wanted_look(const Settings& settings, const Placement& a, const Placement& b);
   void show_both(const Settings& settings);
   void show(Side side, CloudRequest request);
+  void use_known_blur(Pane& pane, const Placement& placement) const;
   void place_close_up(Side side, const PlacePtr& place);
-  static PlacedAll place_fully(const CloudRequest& request, const Job& job);
+  static PlacedAll place_fully(const CloudRequest& request, const SlowValues& known, const Job& job);
   void start_full();
   void take(std::span<const Side> sides, std::span<const CloudRequest> requests,
             std::span<const PlacedAll> placed);
 
   Background& background_;
   CloudLook look_;
-  ColourSpan span_;  // of the colouring, for the two maps below
+  ColourSpan span_;  // of the colouring below, for both maps
   ColourBy span_colouring_ = ColourBy::kElevation;
-  std::array<const SolvedMap*, 2> span_maps_{nullptr, nullptr};
   std::array<Pane, 2> panes_;
   double rest_s_ = 0;    // since the coarse points of a pane changed
   std::string placing_;  // key of the job that places all points

@@ -167,6 +167,8 @@ const std::vector<Observable> kObservables{
        const Estimate* found = e.estimating.found();
        return found && found->offset_s ? fmt::format("{:.4f}", *found->offset_s * 1e3) : std::string();
      }},
+    {"walls", "how thick walls are as recorded and at the offset found; empty until both are measured",
+     [](const Explorer& e) { return e.walls_in_words(); }},
     {"found-windows", "how many windows have an offset of their own; empty unless it was over time",
      [](const Explorer& e) { return windows_found(e.estimating.found()); }},
     {"found-rig", "what was solved for beside the offset: \"mount pitch 3.002 ± 0.004°; ...\"",
@@ -273,8 +275,8 @@ std::string command_line(const Explorer& explorer, int width_px, int height_px) 
   // Said even where it is the default: an estimate leaves alone what a person set.
   if (explorer.estimating.found() != nullptr)
     lines += fmt::format("offset-b {}; estimate; ", settings.offset_b_ms);
-  return fmt::format("sweepscope view{} --headless --size {}x{} --run {}", recording, width_px, height_px,
-                     shell_word(lines + "wait solved; screenshot picture.png"));
+  return fmt::format("sweepscope view{} --headless --no-estimate --size {}x{} --run {}", recording, width_px,
+                     height_px, shell_word(lines + "wait solved; screenshot picture.png"));
 }
 
 }  // namespace sweepscope::ui

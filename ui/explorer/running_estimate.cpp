@@ -45,7 +45,7 @@ void RunningEstimate::start(LoadedPtr loaded, const EstimateOptions& options) {
         return [this, found] {
           if (!*found) return messages_.error(found->error());
           estimate_ = std::move(**found);
-          found_();
+          found_(true);
         };
       },
       steps_of_estimating());
@@ -58,7 +58,7 @@ bool RunningEstimate::is_running() const {
 void RunningEstimate::set(Estimate estimate) {
   background_.cancel(kEstimate);
   estimate_ = std::move(estimate);
-  found_();
+  found_(false);
 }
 
 void RunningEstimate::restore(std::optional<Estimate> estimate) {

@@ -19,14 +19,14 @@ EstimateOptions estimate_asked_for(const Settings& settings, std::optional<RigKi
 /// The estimate of the recording, and the one that runs.
 class RunningEstimate {
  public:
-  /// `found` is called with each new estimate.
-  RunningEstimate(Background& background, Messages& messages, std::function<void()> found)
+  /// `found` is called with each new estimate; whether it was computed, or else read from a file or kept.
+  RunningEstimate(Background& background, Messages& messages, std::function<void(bool computed)> found)
       : background_(background), messages_(messages), found_(std::move(found)) {}
 
   /// In place of one that runs. A failure gives a message.
   void start(LoadedPtr loaded, const EstimateOptions& options);
   bool is_running() const;
-  /// In place of one that runs as well: it was read from a file.
+  /// In place of one that runs as well: it was read from a file, or kept.
   void set(Estimate estimate);
   /// That of a session, or none. Nobody is told.
   void restore(std::optional<Estimate> estimate);
@@ -41,7 +41,7 @@ class RunningEstimate {
  private:
   Background& background_;
   Messages& messages_;
-  std::function<void()> found_;
+  std::function<void(bool computed)> found_;
   std::optional<Estimate> estimate_;
   std::shared_ptr<GrowingCurve> growing_;
   std::optional<Estimate> so_far_;  // of what grows; empty before its second candidate

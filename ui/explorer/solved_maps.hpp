@@ -31,6 +31,9 @@ class SolvedMaps {
   std::string problem_at(double offset_s) const;
   bool is_cancelled(double offset_s) const;
 
+  /// Whether nothing is solved of a walk yet.
+  bool is_first_to_come() const { return first_ && first_->provisional && solved_.empty(); }
+
   /// Solves these maps in the background, and no others. `held`: nothing is begun yet.
   void solve(std::span<const double> offsets_s, bool held);
   /// Whether the first map of this recording was solved since this was asked last.

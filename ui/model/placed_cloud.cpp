@@ -219,12 +219,21 @@ ColourSpan colour_span(ColourBy by, const Loaded& loaded, const SolvedMap* a, co
     case ColourBy::kDirection:
       return {-1.5, 1.5};  // the two directions stand well inside the table's ends
     case ColourBy::kBlur:
-      return {0, 150};  // mm: always the same, so that maps compare
+      return {0, 150};  // mm, until both maps are measured
     case ColourBy::kFeatures:
     case ColourBy::kDistance:
       break;
   }
   return {};
+}
+
+ColourSpan blur_span(const MapThickness& a, const MapThickness& b) {
+  constexpr double kMaxRatio = 4;  // beyond, the thinner map would have one colour
+  const auto [thin_m, thick_m] = std::minmax(a.median_m, b.median_m);
+  const double end_mm = 1e3 * std::min(thick_m, kMaxRatio * thin_m);
+  for (const double mm : {10, 20, 30, 50, 75, 100, 150, 200, 300})
+    if (end_mm <= mm) return {0, mm};
+  return {0, 400};
 }
 
 double difference_span_mm(const Placement& placement, const Placement& other) {

@@ -91,6 +91,9 @@ struct ColourSpan {
 };
 ColourSpan colour_span(ColourBy by, const Loaded& loaded, const SolvedMap* a, const SolvedMap* b);
 
+/// Of blur, over two maps: both the thinner and the thicker one are seen, in steps that compare.
+ColourSpan blur_span(const MapThickness& a, const MapThickness& b);
+
 /// Of edge points, plane points and others, when features colour the points.
 Colour colour_of_feature(FeatureKind kind);
 

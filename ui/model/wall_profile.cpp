@@ -11,7 +11,8 @@ namespace {
 constexpr double kMaxReach_m = 25;       // a wall is asked for, not a town
 constexpr std::size_t kMaxDrawn = 2000;  // more than a chart is pixels wide
 
-void add(Chart& chart, const Profile& profile, const char* name, Colour colour) {
+/// `middle_mm`: of the line, from its first end.
+void add(Chart& chart, const Profile& profile, double middle_mm, const char* name, Colour colour) {
   ChartSeries series;
   series.name = name;
   series.colour = colour;
@@ -23,14 +24,17 @@ void add(Chart& chart, const Profile& profile, const char* name, Colour colour) 
     const auto first = densities.begin() + static_cast<std::ptrdiff_t>(i);
     const auto last = densities.begin() + static_cast<std::ptrdiff_t>(std::min(i + stride, densities.size()));
     const auto densest = std::max_element(first, last);  // peaks stay as high as they are
-    series.x.push_back(profile.distances_mm[static_cast<std::size_t>(densest - densities.begin())] +
-                       profile.median_mm);
+    const double at_mm = profile.distances_mm[static_cast<std::size_t>(densest - densities.begin())] +
+                         profile.median_mm + middle_mm;
+    if (!chart.x_range->contains(at_mm)) continue;
+    series.x.push_back(at_mm);
     series.y.emplace_back(*densest);
   }
   chart.series.push_back(std::move(series));
   if (!profile.width_at_half_height_mm) return;
+  const double median_mm = profile.median_mm + middle_mm;
   const auto [from_mm, to_mm] = profile.half_height_mm;
-  chart.spans.push_back({profile.peak_per_mm / 2, from_mm + profile.median_mm, to_mm + profile.median_mm,
+  chart.spans.push_back({profile.peak_per_mm / 2, from_mm + median_mm, to_mm + median_mm,
                          fmt::format("{:.0f} mm", *profile.width_at_half_height_mm), colour});
 }
 
@@ -66,13 +70,18 @@ Profile profile_of(const PlacedCloud& cloud, const CrossSection& section) {
   return profile_across(near, section);
 }
 
-Chart profile_chart(const Profile& a, const Profile& b, const Style& style) {
+Chart profile_chart(const Profile& a, const Profile& b, const Settings& settings, const std::string& of,
+                    const Style& style) {
+  const double length_mm = 1e3 * (settings.profile_to_m - settings.profile_from_m).norm();
+  const double reach_mm = std::min(length_mm / 2, 1e3 * kMaxReach_m);
   Chart chart;
-  chart.title = "Profile: density of points [1/mm]";
-  chart.x_title = "along the line, from its middle [mm]";
+  chart.title = of.empty() ? "Profile: density of points [1/mm]"
+                           : fmt::format("Profile of {} so far: density [1/mm]", of);
+  chart.x_title = "along the line, from its first end [mm]";
   chart.with_zero = true;
-  add(chart, a, "A", style.maps[0]);
-  add(chart, b, "B", style.maps[1]);
+  chart.x_range = AxisRange{length_mm / 2 - reach_mm, length_mm / 2 + reach_mm};
+  add(chart, a, length_mm / 2, "A", style.maps[0]);
+  add(chart, b, length_mm / 2, "B", style.maps[1]);
   return chart;
 }
 

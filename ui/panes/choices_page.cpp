@@ -1,8 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
+#include <numeric>
 
 #include "core/io/printable_text.hpp"
 #include "ui/host/input.hpp"
@@ -21,13 +24,19 @@ void begin_choice(const PaneContext& context, const Command& command) {
   ImGui::SameLine(ImGui::GetWindowContentRegionMin().x + context.pxf(kTitles));
 }
 
-/// Under a widget: where its value comes from, or, marked, why there is none.
-void note(const PaneContext& context, const std::string& words, bool problem = false) {
-  if (words.empty()) return;
+/// Under a widget: where its value comes from, or, marked, why there is none. Its lines are kept free where
+/// there are fewer words: what comes below does not move under the mouse.
+void note(const PaneContext& context, const std::string& words, bool problem = false, int lines = 1) {
+  ImGui::PushFont(context.fonts.small);
+  const float end = ImGui::GetCursorPosY() + static_cast<float>(lines) * ImGui::GetTextLineHeight();
+  ImGui::PopFont();
   ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMin().x + context.pxf(kTitles));
   ImGui::PushFont(context.fonts.small);
-  wrapped_text(problem ? colour_of_a(context.style) : context.style.faint_text, printable_text(words));
+  wrapped_text(problem ? colour_of_a(context.style) : context.style.faint_text,
+               printable_text(words.empty() ? " " : words));
   ImGui::PopFont();
+  const float gap = ImGui::GetStyle().ItemSpacing.y;
+  if (ImGui::GetCursorPosY() < end + gap) ImGui::SetCursorPosY(end + gap);
 }
 
 std::string in_words(const LaserChoice& laser) {
@@ -43,6 +52,33 @@ std::string in_words(const JointChoice& joint) {
                                                                   : "";
   return fmt::format("{}   turns over {:.1f}°, {} samples on {}{}", printable_line(joint.joint),
                      joint.turned_deg, joint.samples, printable_line(joint.topic), source);
+}
+
+/// The numbers of the choices, the likeliest first; of equally likely ones in the order of the file.
+template <typename Choice, typename Likelihood>
+std::vector<std::size_t> likeliest_first(const std::vector<Choice>& choices, const Likelihood& likelihood) {
+  std::vector<std::size_t> order(choices.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t i) { return likelihood(choices[i]); });
+  return order;
+}
+
+/// A scanner of many beams that ran all the time; clouds are often made from its scans.
+double likelihood(const LaserChoice& laser) {
+  return static_cast<double>(laser.scans * laser.max_beams) * (laser.of_clouds ? 0.1 : 1);
+}
+
+/// A joint that turns, with a name as such motors have, often sampled. Wheels turn many times.
+std::array<double, 3> likelihood(const JointChoice& joint) {
+  constexpr std::array kNames{"laser", "lidar", "scan", "tilt", "servo", "hokuyo", "spin"};
+  constexpr double kTurns_deg = 1, kManyTurns_deg = 4 * 360;
+  std::string name = joint.joint + " " + joint.topic;
+  std::ranges::transform(name, name.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const bool named =
+      std::ranges::any_of(kNames, [&](const char* word) { return name.find(word) != name.npos; });
+  const double turns = joint.turned_deg < kTurns_deg ? 0 : joint.turned_deg > kManyTurns_deg ? 1 : 2;
+  return {turns, named ? 1.0 : 0.0, static_cast<double>(joint.samples)};
 }
 
 /// A list of choices, each with the line that it performs; `chosen` is marked.
@@ -67,24 +103,34 @@ void combo(const PaneContext& context, const char* command, const Entries& entri
   tooltip(context, find_command(command)->help);
 }
 
+std::string without(const PaneContext& context, bool none) {
+  if (context.explorer.page.is_surveying()) return "Reading its streams …";
+  return none ? "None in this recording" : "Not chosen yet";
+}
+
 void laser_choice(const PaneContext& context, const RecordingSurvey& streams) {
   begin_choice(context, *find_command("choose-laser"));
-  Entries entries{{}, streams.laser, streams.lasers.empty() ? "None in this recording" : "Not chosen yet"};
-  for (const LaserChoice& laser : streams.lasers)
-    entries.all.emplace_back(in_words(laser), "choose-laser " + ui::quoted(laser.topic));
+  Entries entries{{}, {}, without(context, streams.lasers.empty())};
+  for (const std::size_t i : likeliest_first(streams.lasers, [](const auto& l) { return likelihood(l); })) {
+    if (streams.laser == i) entries.chosen = entries.all.size();
+    entries.all.emplace_back(in_words(streams.lasers[i]),
+                             "choose-laser " + ui::quoted(streams.lasers[i].topic));
+  }
   combo(context, "choose-laser", entries);
   note(context, streams.laser_problem, true);
 }
 
 void motor_choice(const PaneContext& context, const RecordingSurvey& streams, const std::string& motor_note) {
   begin_choice(context, *find_command("choose-motor"));
-  Entries entries{{}, streams.joint, streams.joints.empty() ? "None in this recording" : "Not chosen yet"};
-  for (const JointChoice& joint : streams.joints)
+  Entries entries{{}, {}, without(context, streams.joints.empty())};
+  for (const std::size_t i : likeliest_first(streams.joints, [](const auto& j) { return likelihood(j); })) {
+    const JointChoice& joint = streams.joints[i];
+    if (streams.joint == i) entries.chosen = entries.all.size();
     entries.all.emplace_back(
         in_words(joint), fmt::format("choose-motor {} {}", ui::quoted(joint.joint), ui::quoted(joint.topic)));
+  }
   combo(context, "choose-motor", entries);
-  note(context, streams.joint_problem, true);
-  if (streams.joint) note(context, motor_note);
+  note(context, streams.joint ? motor_note : streams.joint_problem, !streams.joint);
 }
 
 void stamps_choice(const PaneContext& context, const ChoicesPage::Choosing& choosing) {
@@ -97,7 +143,7 @@ void stamps_choice(const PaneContext& context, const ChoicesPage::Choosing& choo
           {"Of receiving, for both", "choose-stamps receive"}},
          chosen,
          ""});
-  if (choosing.survey) note(context, choosing.survey->stamps_note);
+  note(context, choosing.survey ? choosing.survey->stamps_note : "");
 }
 
 /// A file, a button that asks for it, and one that takes it away.
@@ -123,6 +169,19 @@ void file_choice(const PaneContext& context, const char* command, const std::str
   button(context, "None", command, static_cast<double>(button_width));
 }
 
+/// With a rig file, where the recording's transforms say how the laser is mounted as well.
+void transforms_instead(const PaneContext& context, const ChoicesPage::Choosing& choosing) {
+  if (choosing.choices.rig_file.empty() || !choosing.survey) return;
+  const std::string& says = choosing.survey->streams.mount_note;
+  const std::size_t about = says.find(" about ");
+  if (about == says.npos) return;
+  std::string axis = says.substr(about + 1);
+  if (axis.ends_with('.')) axis.pop_back();
+  ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMin().x + context.pxf(kTitles));
+  button(context, fmt::format("Use the recording's transforms ({})", axis).c_str(), "choose-rig",
+         context.px(380));
+}
+
 /// The recording from end to end: when the rig was stationary and when it moved, and a handle at either end
 /// of the used part.
 class PartStrip {
@@ -144,17 +203,39 @@ class PartStrip {
     draw_parts();
     for (const double end_s : {from_s_, to_s_}) draw_handle(end_s);
   }
-  /// What is used, and what the colours mean.
+  /// What is used.
   std::string words() const {
     std::string text =
         all_ ? fmt::format("All of {:.1f} s. Drag the ends to use a part.", survey_.duration_s)
              : fmt::format("{:.1f} to {:.1f} s of {:.1f} s.", from_s_, to_s_, survey_.duration_s);
-    double moved_s = 0;
-    for (const MotionPart& part : survey_.motion) moved_s += part.moved ? part.end_s - part.begin_s : 0;
-    if (!survey_.motion.empty())
-      text += fmt::format(" The rig was stationary for {:.1f} s (faint) and moved for {:.1f} s (strong).",
-                          survey_.duration_s - moved_s, moved_s);
     return text;
+  }
+  /// What the colours of the strip mean, and for how long each.
+  void draw_legend() const {
+    double moved_s = 0, stationary_s = 0;
+    for (const MotionPart& part : survey_.motion)
+      (part.moved ? moved_s : stationary_s) += part.end_s - part.begin_s;
+    const double unknown_s = std::max(0.0, survey_.duration_s - moved_s - stationary_s);
+    ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMin().x + context_.pxf(kTitles));
+    ImGui::PushFont(context_.fonts.small);
+    const ImU32 colours[] = {colour_of(false), colour_of(true), to_imgui(context_.style.frame)};
+    const std::string words[] = {fmt::format("stationary {:.1f} s", stationary_s),
+                                 fmt::format("moved {:.1f} s", moved_s),
+                                 fmt::format("not known {:.1f} s", unknown_s)};
+    const float side = context_.pxf(9);
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (i == 2 && unknown_s < 0.05) continue;
+      const ImVec2 at = ImGui::GetCursorScreenPos();
+      const float top = at.y + (ImGui::GetTextLineHeight() - side) / 2;
+      ImGui::GetWindowDrawList()->AddRectFilled({at.x, top}, {at.x + side, top + side}, colours[i]);
+      ImGui::Dummy({side, side});
+      ImGui::SameLine(0, context_.pxf(5));
+      ImGui::TextDisabled("%s", words[i].c_str());
+      ImGui::SameLine(0, context_.pxf(16));
+    }
+    ImGui::NewLine();
+    ImGui::PopFont();
+    context_.anchor_last("legend of choose-part");
   }
 
  private:
@@ -165,6 +246,9 @@ class PartStrip {
     return at_.x + margin() + static_cast<float>(share) * (width_ - 2 * margin());
   }
   float margin() const { return context_.pxf(6); }
+  ImU32 colour_of(bool moved) const {
+    return to_imgui(moved ? colour_of_a(context_.style) : colour_of_b(context_.style), 0.75);
+  }
 
   void use_mouse() {
     const double room = static_cast<double>(width_ - 2 * margin());
@@ -190,8 +274,7 @@ class PartStrip {
       list.AddRectFilled({x_of(begin_s), top}, {x_of(end_s), bottom}, colour);
     };
     bar(0, survey_.duration_s, to_imgui(context_.style.frame));
-    for (const MotionPart& part : survey_.motion)
-      bar(part.begin_s, part.end_s, to_imgui(colour_of_b(context_.style), part.moved ? 0.85 : 0.3));
+    for (const MotionPart& part : survey_.motion) bar(part.begin_s, part.end_s, colour_of(part.moved));
     const ImU32 veil = to_imgui(context_.style.page, 0.72);
     bar(0, from_s_, veil);
     bar(to_s_, survey_.duration_s, veil);
@@ -218,6 +301,7 @@ void part_choice(const PaneContext& context, const ChoicesPage::Choosing& choosi
   if (known) {
     PartStrip strip(context, *choosing.survey, choosing.choices);
     strip.draw();
+    strip.draw_legend();
     return note(context, strip.words());
   }
   const auto& window = choosing.choices.window;
@@ -228,6 +312,7 @@ void part_choice(const PaneContext& context, const ChoicesPage::Choosing& choosi
 
 void beginning(const PaneContext& context, const ChoicesPage::Choosing& choosing) {
   const std::filesystem::path file = choosing.choices.file;
+  const float lines_end = ImGui::GetCursorPosY() + 4.4f * ImGui::GetTextLineHeightWithSpacing();
   text_in(context.fonts.heading, printable_line("Open " + file.filename().string()));
   wrapped_text(context.style.faint_text, printable_line(file.string()));
   tooltip(context, whole_path(choosing.choices.file));
@@ -241,8 +326,9 @@ void beginning(const PaneContext& context, const ChoicesPage::Choosing& choosing
     const std::string incomplete = nothing_to_choose ? "The marked items are missing in this recording."
                                                      : "Choose the marked items to continue.";
     wrapped_text(colour_of_a(context.style),
-                 streams.complete() ? printable_message(problems.front()) : incomplete);
+                 streams.complete() ? without_options(printable_message(problems.front())) : incomplete);
   }
+  ImGui::SetCursorPosY(std::max(ImGui::GetCursorPosY(), lines_end));
 }
 
 /// Enter opens, unless a list is open or something in front has the keyboard.
@@ -266,17 +352,14 @@ void draw_choices_page(const PaneContext& context, const PixelRect& place) {
   beginning(context, choosing);
   heading(context, "Streams");
   const RecordingSurvey streams = choosing.survey ? choosing.survey->streams : RecordingSurvey();
-  if (choosing.survey) {
-    laser_choice(context, streams);
-    motor_choice(context, streams, choosing.survey->motor_note);
-  }
+  laser_choice(context, streams);
+  motor_choice(context, streams, choosing.survey ? choosing.survey->motor_note : "");
   stamps_choice(context, choosing);
   heading(context, "Rig and trajectory");
   file_choice(context, "choose-rig", choosing.choices.rig_file, "No rig file");
-  if (choosing.survey) {
-    note(context, choosing.survey->mount_note);
-    note(context, choosing.survey->reading_note);
-  }
+  note(context, choosing.survey ? choosing.survey->mount_note : "");
+  note(context, choosing.survey ? choosing.survey->reading_note : "");
+  transforms_instead(context, choosing);
   file_choice(context, "choose-poses", choosing.choices.poses, "None: it is solved for");
   heading(context, "Time");
   part_choice(context, choosing);

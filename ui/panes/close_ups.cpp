@@ -26,7 +26,9 @@ std::string position_in_words(const PlaceToLook& place) {
   return fmt::format("x {}, y {}", metres(centre_m.x()), metres(centre_m.y()));
 }
 
-std::string difference_in_words(const PlaceToLook& place) {
+/// Of the maps that are compared: while others are being placed there are no such words.
+std::string difference_in_words(const Explorer& explorer, const PlaceToLook& place) {
+  if (!explorer.places_hold()) return "these maps are still being compared";
   return fmt::format("{} is {:.1f} times as blurred as {} here", name_of(place.found.most_blurred()),
                      place.found.ratio(), name_of(place.found.sharpest()));
 }
@@ -103,17 +105,17 @@ void draw_close_up(const PaneContext& context, Side side, const PixelRect& pictu
   ImGui::SetItemAllowOverlap();
   context.anchor(name, place);
   if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0)) context.perform("look-at-place");
-  tooltip(
-      context,
-      fmt::format("{:.1f} m of the map at {}, one of the places where the maps differ most: {}. A blurred "
-                  "surface fills more cells of 5 cm. N and Shift+N go to the other places, a double "
-                  "click looks at this one.",
-                  shown->width_m(), position_in_words(*shown), difference_in_words(*shown)));
+  tooltip(context,
+          fmt::format(
+              "{:.1f} m of the map at {}, one of the places where the maps differ most: {}. A blurred "
+              "surface fills more cells of 5 cm. N and Shift+N go to the other places, a double "
+              "click looks at this one.",
+              shown->width_m(), position_in_words(*shown), difference_in_words(context.explorer, *shown)));
   const ImVec2 from = corner(place), to = far_corner(place);
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddImage(picture_of(context, side, place, *shown), from, to, {0, 1}, {1, 0});
   const PixelRect bar{place.left, place.top, place.width, context.px(20)};
-  draw_bar(context, side, bar);
+  if (!context.transient.for_picture) draw_bar(context, side, bar);
   list.AddRect(from, to, to_imgui(colour_of(context, side)), 0, 0, context.pxf(1.5));
 }
 
@@ -142,7 +144,8 @@ void place_field(const PaneContext& context) {
   if (ImGui::BeginCombo("##place", now.c_str())) {
     for (std::size_t i = 0; i < places.size(); ++i) {
       const std::string words =
-          fmt::format("{}   {}:  {}", i + 1, position_in_words(*places[i]), difference_in_words(*places[i]));
+          fmt::format("{0}   {1}:  {2}###place {0}", i + 1, position_in_words(*places[i]),
+                      difference_in_words(context.explorer, *places[i]));
       if (ImGui::Selectable(words.c_str(), places[i] == context.explorer.place()))
         context.perform(fmt::format("place {}", i + 1));
       context.anchor_last(fmt::format("place {}", i + 1));

@@ -131,8 +131,15 @@ void draw_profile_chart(const PaneContext& context, const PixelRect& place) {
   const auto section = section_of(context.settings());
   if (!section)
     return hint(context, place, "Draw a line across a wall, on either map, to compare its width in both.");
-  const Chart chart = profile_chart(profile_now(context, Side::kA, *section),
-                                    profile_now(context, Side::kB, *section), context.style);
+  std::string unfinished;
+  for (const Side side : kBothSides) {
+    const Pane& pane = context.explorer.pane(side);
+    if (pane.state != PaneState::kSolved && pane.state != PaneState::kEmpty) unfinished = "previews";
+    if (!pane.full) unfinished = "thinned points";
+  }
+  const Chart chart =
+      profile_chart(profile_now(context, Side::kA, *section), profile_now(context, Side::kB, *section),
+                    context.settings(), unfinished, context.style);
   const bool any = std::any_of(chart.series.begin(), chart.series.end(),
                                [](const ChartSeries& s) { return !s.x.empty(); });
   if (!any) return hint(context, place, "No points lie along the line.");

@@ -71,6 +71,7 @@ std::string state_of_map(const PaneContext& context, Side side) {
       return job.running ? fmt::format("solving, {:.0f} %", std::floor(100 * job.fraction)) : "queued";
   }
   if (!pane.problem.empty() && pane.state != PaneState::kSolved) return "not solved";
+  if (pane.full && pane.full->beams.empty()) return "no points";
   switch (pane.state) {
     case PaneState::kEmpty:
       return "";
@@ -137,6 +138,11 @@ void draw_header(const PaneContext& context, Side side, const PixelRect& place) 
   ImGui::SameLine(0, context.pxf(10));
   ImGui::SetCursorScreenPos({ImGui::GetCursorScreenPos().x, middle - ImGui::GetFrameHeight() / 2});
   const double shown_ms = offset_ms(context.settings(), side);
+  if (context.transient.for_picture) {
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted(fmt::format("offset {} ms", offset_label_ms(shown_ms * 1e-3)).c_str());
+    return;
+  }
   ImGui::SetNextItemWidth(context.pxf(place.width < context.px(300) ? 84 : 104));
   const int decimals = std::abs(shown_ms * 10 - std::round(shown_ms * 10)) < 1e-6 ? 1 : 3;
   NumberBox box = box_of(*find_command(command), 0);
@@ -175,11 +181,36 @@ void take_mouse(const PaneContext& context, Side side, const PixelRect& picture)
   use_mouse(context, side, picture);
 }
 
+/// In a map without points: why it has none, and what may help.
+void draw_empty(const PaneContext& context, Side side, const PixelRect& picture) {
+  const EmptyPane empty = empty_pane(context.explorer, context.explorer.pane(side));
+  if (empty.why.empty()) return;
+  const std::string words = sentence(empty.why);
+  const double margin = context.px(24), width = std::min(picture.width - 2 * margin, context.px(340));
+  const double text_px =
+      static_cast<double>(ImGui::CalcTextSize(words.c_str(), nullptr, false, static_cast<float>(width)).y);
+  const auto left = static_cast<float>(picture.left + (picture.width - width) / 2);
+  ImGui::SetCursorScreenPos({left, static_cast<float>(picture.top + 0.4 * picture.height - text_px / 2)});
+  ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + static_cast<float>(width));
+  ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(ink_of(context)));
+  ImGui::TextUnformatted(words.c_str());
+  ImGui::PopStyleColor();
+  ImGui::PopTextWrapPos();
+  context.anchor_last(side == Side::kA ? "empty a" : "empty b");
+  for (const Hint& hint : empty.hints) {
+    ImGui::SetCursorScreenPos({left, ImGui::GetCursorScreenPos().y});
+    ImGui::PushID(side == Side::kA ? "A" : "B");
+    button(context, hint.title.c_str(), hint.line, width);
+    ImGui::PopID();
+  }
+}
+
 void draw_map(const PaneContext& context, Side side, const PixelRect& picture) {
   draw_ground(context, side, picture);
   show_texture(context, side, picture);
   draw_overlays(context, side, picture);
   draw_close_up(context, side, picture);
+  draw_empty(context, side, picture);
   draw_frame(context, picture);
 }
 
@@ -200,11 +231,12 @@ void divider(const PaneContext& context, const PixelRect& picture) {
   const auto fx = static_cast<float>(x), middle = static_cast<float>(picture.top + picture.height / 2);
   list.AddLine({fx, static_cast<float>(picture.top)}, {fx, static_cast<float>(picture.bottom())}, ink,
                context.pxf(1.5));
-  list.AddCircleFilled({fx, middle}, context.pxf(11), ink);
   const float r = context.pxf(4), gap = context.pxf(2.5);
+  if (!context.transient.for_picture) list.AddCircleFilled({fx, middle}, context.pxf(11), ink);
   for (const float way : {-1.0f, 1.0f})
-    list.AddTriangleFilled({fx + way * gap, middle - r}, {fx + way * gap, middle + r},
-                           {fx + way * (gap + r), middle}, to_imgui(backdrop_of(context)));
+    if (!context.transient.for_picture)
+      list.AddTriangleFilled({fx + way * gap, middle - r}, {fx + way * gap, middle + r},
+                             {fx + way * (gap + r), middle}, to_imgui(backdrop_of(context)));
   for (const auto& [letter, way, colour] : {std::tuple{"A", -1.0f, colour_of_a(context.style)},
                                             std::tuple{"B", 1.0f, colour_of_b(context.style)}}) {
     const ImVec2 size = ImGui::CalcTextSize(letter);

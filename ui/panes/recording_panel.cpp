@@ -33,7 +33,10 @@ void recording_rows(const PaneContext& context, const Loaded& loaded) {
                       : 0;
   row(context, "ranges", fmt::format("{:.0f} % usable, median {:.1f} m", usable, laser.median_range_m));
   row(context, "motor",
-      fmt::format("{:.0f}° to {:.0f}°, {} whole sweeps{}", motor.min_deg, motor.max_deg, motor.whole_sweeps(),
+      fmt::format("{:.0f}° to {:.0f}°, {}{}", motor.min_deg, motor.max_deg,
+                  motor.one_way
+                      ? fmt::format("turns one way: {} half turns", loaded.prepared.motor.sweeps.size())
+                      : fmt::format("{} whole sweeps", motor.whole_sweeps()),
                   motor.median_sweep_s > 0 ? fmt::format(" of {:.2f} s", motor.median_sweep_s) : ""));
   row(context, "speed",
       fmt::format("{:.0f} °/s: 1 ms is {:.2f}°", motor.median_speed_deg_s, motor.deg_per_ms()));
@@ -56,7 +59,8 @@ void notes(const PaneContext& context, const Loaded& loaded) {
   }
   if (all.empty()) return;
   heading(context, "Notes");
-  for (const std::string& note : all) small_print(context, without_options(printable_line(note)));
+  for (const std::string& note : all) small_print(context, sentence(note));
+  hint_buttons(context, hints_for(context.explorer, all));
 }
 
 /// Whether an estimate is one of the paper's: only these are fitted, and only the direct method solves for
@@ -218,6 +222,11 @@ void answer(const PaneContext& context, const Estimate& estimate) {
     ImGui::SameLine(0, context.pxf(6));
     ImGui::SetCursorPosY(ImGui::GetCursorPosY() + context.pxf(10));
     ImGui::TextDisabled("ms");
+    if (const std::string walls = context.explorer.walls_in_words(); !walls.empty()) {
+      ImGui::TextWrapped("%s", walls.c_str());
+      context.anchor_last("walls");
+      ImGui::Dummy({0, context.pxf(2)});
+    }
     criterion_rows(context, estimate);
     if (estimate.over_time) course_rows(context, *estimate.over_time);
     if (estimate.rig) rig_rows(context, *estimate.rig);
@@ -226,11 +235,11 @@ void answer(const PaneContext& context, const Estimate& estimate) {
     button(context, "Show in map B", "take-found");
   } else {
     text_in(context.fonts.heading, "Not determined");
-    for (const std::string& reason : estimate.reasons())
-      ImGui::TextWrapped("%s", without_options(printable_line(reason)).c_str());
+    for (const std::string& reason : estimate.reasons()) ImGui::TextWrapped("%s", sentence(reason).c_str());
   }
-  for (const std::string& warning : estimate.warnings)
-    small_print(context, without_options(printable_line(warning)));
+  for (const std::string& warning : estimate.warnings) small_print(context, sentence(warning));
+  ImGui::Dummy({0, context.pxf(2)});
+  hint_buttons(context, hints_for(context.explorer, estimate));
 }
 
 }  // namespace

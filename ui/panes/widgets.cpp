@@ -196,16 +196,13 @@ bool button(const PaneContext& context, const char* title, const std::string& li
   return pressed;
 }
 
-std::string without_options(std::string text) {
-  for (const std::string_view begin : {" (--", " (estimate --"})
-    for (std::size_t at = 0; (at = text.find(begin, at)) != text.npos;)
-      text.erase(at, text.find(')', at) - at + 1);
-  return text;
+void hint_buttons(const PaneContext& context, const std::vector<Hint>& hints) {
+  for (const Hint& hint : hints) button(context, hint.title.c_str(), hint.line);
 }
 
 void tooltip(const PaneContext& context, const std::string& text, TooltipPlace place) {
   constexpr float kDelay_s = 0.5f;
-  if (!ImGui::IsItemHovered() || context.transient.handle) return;
+  if (!ImGui::IsItemHovered() || context.transient.handle || context.transient.for_picture) return;
   // ImGui 1.86 has no delay of its own.
   ImGuiID& resting_on = context.transient.resting_on;
   double& since_s = context.transient.resting_since_s;

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "ui/explorer/hints.hpp"
 #include "ui/panes/pane_context.hpp"
 
 namespace sweepscope::ui {
@@ -64,9 +65,8 @@ void begin_field(const PaneContext& context, const Command& command);
 bool button(const PaneContext& context, const char* title, const std::string& line, double width_px = 0,
             bool primary = false);
 
-/// A message of the engine as a window shows it: without options of the command line, which stand in
-/// parentheses.
-std::string without_options(std::string text);
+/// A button for each.
+void hint_buttons(const PaneContext& context, const std::vector<Hint>& hints);
 
 /// A tooltip, shown while the mouse rests on the last widget: beside the mouse, or below the widget where
 /// that has to stay legible.

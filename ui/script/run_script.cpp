@@ -374,14 +374,17 @@ class Runner {
       return wait_until([&] { return !explorer.recording.is_opening() && !explorer.page.is_surveying(); },
                         what, max_s);
     if (what == "estimated")
-      return wait_until([&] { return !explorer.estimating.is_running(); }, what, max_s);
+      return wait_until([&] { return !explorer.recording.is_opening() && !explorer.estimating.is_running(); },
+                        what, max_s);
     if (what != "solved") return wrong("wait loaded, wait estimated or wait solved");
     frame({}, kFrame_s);
     return wait_until([&] { return explorer.at_rest() && ui_.pictures_done(); }, what, max_s);
   }
 
-  /// The interface as it is, its pictures drawn to the end.
+  /// The interface as it is, its pictures drawn to the end; with the whole answer of a recording that was
+  /// opened, or the picture would show how fast the machine is.
   Image picture() {
+    (void)wait_until([&] { return !ui_.explorer().is_answering(); }, "the answer", max_s_);
     for (int i = 0; i < 600 && !ui_.pictures_done(); ++i) frame({}, kFrame_s);
     frame({}, kFrame_s);
     return ui_.screenshot();
@@ -389,7 +392,10 @@ class Runner {
 
   Result<void> screenshot(Words& words) {
     const std::string path = words.take();
-    return ui_.explorer().files.check_outputs({path}).and_then([&] { return write_png(picture(), path); });
+    return ui_.explorer()
+        .files.check_outputs({path})
+        .and_then([&] { return check_type(path, kPictureTypes); })
+        .and_then([&] { return write_picture(picture(), path); });
   }
 
   Result<void> expect(Words& words) {

@@ -334,6 +334,10 @@ Commands fields_of_tools() {
 
 Commands fields_of_estimates() {
   return {
+      toggle({"estimate-on-opening", "Estimate on opening",
+              "A recording that is opened is estimated at once; map A stays as recorded, map B shows the "
+              "offset found."},
+             &Settings::estimate_on_opening),
       choice({"search", "Search",
               "Automatic: coarse to fine about 0 ms. Range: the candidates that you specify. Over time: the "
               "offset in windows, and its course: constant, drifting or with jumps."},

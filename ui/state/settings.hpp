@@ -65,6 +65,7 @@ struct Settings {
   bool close_up = true;  // of the place where the maps differ most, in a corner of each
   double place = 1;      // the number of that place in their list, best first
 
+  bool estimate_on_opening = true;
   Search search = Search::kAutomatic;
   double search_from_ms = 19, search_to_ms = 29, search_step_ms = 1;
   double window_s = 0;               // of a search over time; below 1: chosen by the program

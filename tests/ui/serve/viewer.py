@@ -109,7 +109,7 @@ def begin(program, folder, *more, address="127.0.0.1:0"):
     """The server, whose files are those of FOLDER/files, and the address that it prints."""
     environment = {**os.environ, "HOME": folder, "XDG_STATE_HOME": folder + "/state"}
     environment.pop("DISPLAY", None)
-    server = subprocess.Popen([program, "view", *more, "--serve", address, "--root", folder + "/files"],
+    server = subprocess.Popen([program, "view", "--no-estimate", *more, "--serve", address, "--root", folder + "/files"],
                               stdout=subprocess.PIPE, text=True, env=environment)
     for line in server.stdout:
         if found := re.search(r"http://\S+", line):
