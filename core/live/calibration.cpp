@@ -121,8 +121,6 @@ Result<ListeningEnd> listen(
   return ListeningEnd::kCancelled;
 }
 
-namespace {
-
 /// Streams that the rig does not name are not kept: others may well have been received.
 std::string none_received(const std::string& what, const std::optional<std::string>& topic,
                           const std::optional<std::string>& joint) {
@@ -130,11 +128,9 @@ std::string none_received(const std::string& what, const std::optional<std::stri
          (topic ? " on " + *topic : "") + ".";
 }
 
-}  // namespace
-
 Result<Estimate> calibrate(RawRecording heard, const CalibrationOptions& options, const Job& job) {
   const HeardSoFar so_far = heard_so_far(heard);
-  if (so_far.scans == 0) return refused(heard, none_received("scans", options.rig.laser.topic, {}));
+  if (so_far.scans == 0) return refused(heard, none_received("scans", options.rig.laser.topic));
   if (so_far.motor_samples == 0)
     return refused(heard, none_received("motor angles", options.rig.motor.topic, options.rig.motor.joint));
   const auto recording = assemble(std::move(heard), options.rig, options.stamps);

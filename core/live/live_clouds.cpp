@@ -129,9 +129,12 @@ Result<void> LiveClouds::choose(bool ended, LiveNews& news) {
         "{}: too much arrived before laser and motor could be chosen; name them in a rig file (--rig)",
         raw.file));
   if (!ended && heard.seconds < options_.choose_s) return {};
-  if (heard.scans == 0) return unreadable(fmt::format("{}: no scans were received", raw.file));
+  if (heard.scans == 0)
+    return unreadable(fmt::format("{}: {}", raw.file, none_received("scans", options_.rig.laser.topic)));
   if (heard.motor_samples == 0 && ended)
-    return unreadable(fmt::format("{}: no motor angles were received", raw.file));
+    return unreadable(
+        fmt::format("{}: {}", raw.file,
+                    none_received("motor angles", options_.rig.motor.topic, options_.rig.motor.joint)));
   const auto recording = assemble(window_.without_ranges(), options_.rig, options_.stamps);
   if (!recording && !ended && heard.seconds < kSoon_s) return {};
   if (!recording) return tl::unexpected(recording.error());

@@ -76,8 +76,7 @@ class RoscppLink : public RosLink {
   }
 
   std::size_t advertise(const RosPublishedTopic& topic) override {
-    constexpr std::uint32_t kQueued = 100;
-    ros::AdvertiseOptions options(topic.name, kQueued, topic.md5sum, topic.type, topic.definition);
+    ros::AdvertiseOptions options(topic.name, topic.max_queued, topic.md5sum, topic.type, topic.definition);
     options.latch = topic.latched;
     publishers_.push_back(node_.advertise(options));
     return publishers_.size() - 1;

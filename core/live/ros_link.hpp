@@ -27,7 +27,8 @@ struct RosTopic {
 /// A topic to publish, as the master and subscribers know it.
 struct RosPublishedTopic {
   std::string name, type, md5sum, definition;
-  bool latched = false;  // later subscribers get the last message
+  std::uint32_t max_queued = 1;  // of a subscriber; then the oldest are left out
+  bool latched = false;          // later subscribers get the last message
 };
 
 /// The only code that uses roscpp, whose headers do not support C++20. One at a time in a program.

@@ -66,10 +66,13 @@ class RosSource : public LiveSource {
 class RosPublisher : public LivePublisher {
  public:
   explicit RosPublisher(std::shared_ptr<RosLink> link) : link_(std::move(link)) {
+    // Those of the first seconds come together.
+    constexpr std::uint32_t kClouds = 200, kTransforms = 20'000;
     for (const StreamTopic& topic : live_topics()) {
-      const bool latched = topics_.size() == std::size_t(LiveTopic::kOffset);
-      topics_.push_back(
-          link_->advertise({topic.name, topic.type, topic.metadata_of("md5sum"), topic.definition, latched}));
+      const auto kind = LiveTopic(topics_.size());
+      topics_.push_back(link_->advertise(
+          {topic.name, topic.type, topic.metadata_of("md5sum"), topic.definition,
+           kind == LiveTopic::kTransform ? kTransforms : kClouds, kind == LiveTopic::kOffset}));
     }
   }
   void publish(const LiveMessage& message) override {

@@ -209,9 +209,10 @@ TEST_F(LiveCommand, WrongUseAndBadInputAreSaid) {
   expect("live - ws://127.0.0.1:9 --offset-ms 1 </dev/null", 2, "an address belongs to live foxglove");
   expect("live - --offset-ms 1 --serve 0.0.0.0:0 </dev/null", 2, "add --listen-anywhere");
   expect("live - --offset-ms 1 --serve nonsense </dev/null", 2, "ADDRESS:PORT is needed");
-  expect("live - --offset-ms 1 </dev/null", 3, "standard input: no scans were received");
-  expect("live - --offset-ms 1 <tables/scans.csv", 3, "standard input: no scans were received");
-  expect("live - --offset-ms 1 --joint wheel <stream.csv", 3, "wheel");
+  expect("live - --offset-ms 1 </dev/null", 3, "standard input: No scans were received.");
+  expect("live - --offset-ms 1 <tables/scans.csv", 3, "standard input: No scans were received.");
+  expect("live - --offset-ms 1 --joint wheel <stream.csv", 3,
+         "No motor angles of the joint wheel were received.");
   expect("live - --offset-ms 99999 </dev/null", 2, "--offset-ms");
 }
 

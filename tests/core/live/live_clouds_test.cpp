@@ -331,7 +331,7 @@ TEST(LiveClouds, WithoutAnOffsetNothingIsPlacedAndTheLastSecondsAreKept) {
 TEST(LiveClouds, TooLittleIsAnError) {
   const RawRecording raw = simulated_messages(options_of());
   LiveClouds nothing{LiveCloudOptions()};
-  EXPECT_EQ(nothing.finish().error().message, ": no scans were received");
+  EXPECT_EQ(nothing.finish().error().message, ": No scans were received.");
   LiveClouds scans{LiveCloudOptions()};
   for (const WrittenMessage& message : in_order(raw))
     if (message.is_scan) {
@@ -340,7 +340,7 @@ TEST(LiveClouds, TooLittleIsAnError) {
   const auto ended = scans.finish();
   ASSERT_FALSE(ended);
   EXPECT_EQ(ended.error().code, ExitCode::kUnreadableInput);
-  EXPECT_EQ(ended.error().message, "test: no motor angles were received");
+  EXPECT_EQ(ended.error().message, "test: No motor angles were received.");
 }
 
 }  // namespace
