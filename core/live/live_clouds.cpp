@@ -229,12 +229,15 @@ std::vector<LiveClouds::Piece> LiveClouds::ready_scans(const View& view, bool en
 
 std::vector<LiveClouds::Piece> LiveClouds::ready_sweeps(const View& view, bool ended) const {
   constexpr double kSame_s = 0.005;  // one reversal, found anew
+  constexpr double kEarly = 0.2;     // of a period: the next scan is not that much before its time
   const auto& scans = view.recording.scans;
+  const bool of_clouds = window_.raw().lasers.front().of_clouds;
+  const double next_scan_s = view.scans_until_s + (of_clouds ? 0 : (1 - kEarly) * view.period_s);
   double placed_s = view.time_s(placed_ns_);
   std::vector<Piece> pieces;
   for (const Sweep& sweep : view.motor.ended(ended)) {
     if (sweep.end_s <= placed_s) continue;
-    if (!ended && (view.scans_until_s <= sweep.end_s || view.samples_until_s < sweep.end_s)) break;
+    if (!ended && (next_scan_s <= sweep.end_s || view.samples_until_s < sweep.end_s)) break;
     const bool goes_on = std::abs(sweep.begin_s - placed_s) < kSame_s;
     const double from_s = goes_on ? placed_s : std::max(sweep.begin_s, placed_s);
     std::optional<Piece> piece;

@@ -210,7 +210,8 @@ TEST(LiveClouds, OfASweepComeWithin50MsOfItsEnd) {
   const RawRecording raw = simulated_messages(options_of());
   const Placed live = placed(raw, in_order(raw));
   ASSERT_GE(live.clouds.size(), 10U);
-  for (std::size_t i = 5; i < live.clouds.size(); ++i) EXPECT_LT(live.late_s[i], 0.05) << i;
+  // Those of the first two seconds come together; the last one ends with the input.
+  for (std::size_t i = 5; i + 1 < live.clouds.size(); ++i) EXPECT_LT(live.late_s[i], 0.05) << i;
 }
 
 TEST(LiveClouds, ComeWithThePosesOfTheLaser) {
@@ -297,8 +298,15 @@ TEST(LiveClouds, KeepNoMoreThanTheyNeed) {
   LiveClouds clouds{LiveCloudOptions()};
   clouds.set_offset(kOffset_s);
   std::size_t most_scans = 0, most_samples = 0;
+  const std::int64_t first_ns = raw.lasers.at(0).scans.front().stamps.header_ns;
+  const auto is_within = [&](const WrittenMessage& message) {
+    const std::int64_t ns = message.is_scan ? raw.lasers[0].scans[message.number].stamps.header_ns
+                                            : raw.joints[0].stamps[message.number].header_ns;
+    return ns >= first_ns && ns < first_ns + length_ns;
+  };
   for (int round = 0; round < 10; ++round)
     for (const WrittenMessage& message : in_order(raw)) {
+      if (!is_within(message)) continue;
       RawRecording one = message_of(raw, message);
       for (RawScan& scan : one.lasers[0].scans) scan.stamps.header_ns += round * length_ns;
       for (MessageStamps& stamps : one.joints[0].stamps) stamps.header_ns += round * length_ns;
