@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <memory>
 #include <vector>
 
@@ -135,6 +136,7 @@ class LiveRun {
       if (auto passed = pass_on(*news); !passed) return passed;
       if (follower_) say_all(follower_->follow(clouds_));
       if (!*more) return finish();
+      say_if_it_waits();
     }
     return failure(ExitCode::kInterrupted, fmt::format("interrupted; {}", words_of_counts()));
   }
@@ -147,6 +149,16 @@ class LiveRun {
     with.each_scan = options.every == "scan";
     with.keep_s = options.follow ? options.follow_s : 0;
     return with;
+  }
+
+  /// Once, if laser and motor are not there after 10 s.
+  void say_if_it_waits() {
+    constexpr std::chrono::seconds kSoon(10);
+    if (waited_ || clouds_.rig() || std::chrono::steady_clock::now() - began_ < kSoon) return;
+    waited_ = true;
+    const HeardSoFar heard = heard_so_far(clouds_.kept());
+    say_all({fmt::format("No clouds yet: {} scans and {} motor samples were received. Waiting for more.",
+                         heard.scans, heard.motor_samples)});
   }
 
   Result<void> finish() {
@@ -196,6 +208,8 @@ class LiveRun {
   std::optional<FollowedOffset> given_, told_;
   std::optional<OffsetFollower> follower_;
   std::size_t count_ = 0, points_ = 0;
+  std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
+  bool waited_ = false;  // was said
 };
 
 Result<void> run_live(const LiveArguments& options) {
