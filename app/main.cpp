@@ -80,7 +80,7 @@ void declare_subcommands(CLI::App& app, ExitCode& exit_code) {
   declare("Find the offset", app::add_estimate, app::add_calibrate, app::add_merge);
   declare("See what it does to the map", app::add_view, app::add_compare, app::add_map, app::add_report,
           app::add_figures);
-  declare("Recordings and rigs", app::add_info, app::add_rig, app::add_apply, app::add_convert,
+  declare("Recordings and rigs", app::add_info, app::add_rig, app::add_apply, app::add_live, app::add_convert,
           app::add_simulate);
   app.footer(kExamples);
 }

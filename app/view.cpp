@@ -100,17 +100,6 @@ Result<void> check_record(const ViewOptions& options) {
   return check_run_files({inputs, {options.record}, {}});
 }
 
-/// Where the server listens; elsewhere than on this machine only if that is asked for as well.
-Result<ui::ListenAddress> listen_address(const ViewOptions& options) {
-  auto address = ui::parse_listen_address(options.address);
-  if (!address || address->loopback || options.listen_anywhere) return address;
-  return failure(
-      ExitCode::kWrongUsage,
-      fmt::format("--serve {}: other machines would reach it without encryption. Use 127.0.0.1 and "
-                  "ssh -L, or add --listen-anywhere",
-                  options.address));
-}
-
 /// The folders for viewers; what the command line names may be read wherever it is.
 Result<ui::FileRoots> file_roots(const ViewOptions& options) {
   std::vector<std::filesystem::path> folders(options.roots.begin(), options.roots.end());
@@ -138,7 +127,7 @@ std::string first_line_of(const std::string& recording, const std::string& poses
 
 Result<void> serve(const ViewOptions& options, ui::Ui::Options with, const ui::WindowOptions& window,
                    std::span<const ui::Script> scripts) {
-  const auto address = listen_address(options);
+  const auto address = ui::allowed_listen_address(options.address, options.listen_anywhere);
   if (!address) return tl::unexpected(address.error());
   const auto roots = file_roots(options);
   if (!roots) return tl::unexpected(roots.error());

@@ -28,6 +28,13 @@ std::string cloud_message(Encoding encoding, std::int64_t stamp_ns, std::string_
   return encode(encoding, message);
 }
 
+Pose base_from_laser(const Mount& mount, double angle_rad) {
+  const Pose motor_from_laser{rotation_from_rpy(mount.laser_in_motor_rpy_deg), mount.laser_in_motor_xyz_m};
+  const Pose base_from_motor{rotation_from_vector(angle_rad * mount.axis.normalized()),
+                             Eigen::Vector3d::Zero()};
+  return base_from_motor * motor_from_laser;
+}
+
 std::string transform_message(Encoding encoding, std::int64_t stamp_ns, std::string_view parent,
                               std::string_view child, const Pose& parent_from_child) {
   return encode(encoding,

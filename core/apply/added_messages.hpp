@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/geometry/kinematics.hpp"
 #include "core/geometry/map_cloud.hpp"
 #include "core/geometry/pose.hpp"
 #include "core/recording/messages/messages.hpp"
@@ -14,6 +15,9 @@ namespace sweepscope {
 /// all float32. `begin_s` is the time of the stamp on the clock of the points' times.
 std::string cloud_message(Encoding encoding, std::int64_t stamp_ns, std::string_view frame,
                           const MapCloud& cloud, double begin_s);
+
+/// The laser's pose in the base frame at a motor angle.
+Pose base_from_laser(const Mount& mount, double angle_rad);
 
 /// One transform as tf2_msgs/TFMessage: p_in_parent = parent_from_child * p_in_child.
 std::string transform_message(Encoding encoding, std::int64_t stamp_ns, std::string_view parent,

@@ -52,13 +52,10 @@ AddedTopic added_transforms(const Recording& recording, const AddOptions& option
   added.topic = written_topic("/tf", "tf2_msgs/TFMessage", encoding);
   for (const double time_s : recording.motor.time_s) added.ready_ns.push_back(ns_of(recording, time_s));
   const Mount mount = recording.rig.mount;
-  const Pose motor_from_laser{rotation_from_rpy(mount.laser_in_motor_rpy_deg), mount.laser_in_motor_xyz_m};
   added.message = [=, times_ns = added.ready_ns, angles_rad = recording.motor.angle_rad,
                    base_frame = options.base_frame](std::size_t i) {
-    const Pose base_from_motor{rotation_from_vector(angles_rad[i] * mount.axis.normalized()),
-                               Eigen::Vector3d::Zero()};
     return transform_message(encoding, stamped(times_ns[i]), base_frame, laser_frame,
-                             base_from_motor * motor_from_laser);
+                             base_from_laser(mount, angles_rad[i]));
   };
   return added;
 }

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <future>
 #include <optional>
 
+#include "core/live/running_estimate.hpp"
 #include "core/offset/kind/rig_kind.hpp"
 #include "core/recording/assemble/assemble.hpp"
 
@@ -17,31 +17,6 @@ using Clock = std::chrono::steady_clock;
 std::int64_t any_stamp_ns(const MessageStamps& stamps) {
   return stamps.header_ns != 0 ? stamps.header_ns : stamps.receive_ns;
 }
-
-/// An answer being worked out beside the listening, about what was heard when it was begun.
-class RunningAnswer {
- public:
-  ~RunningAnswer() { job_.cancel(); }  // the future's destructor waits
-
-  bool idle() const { return !answer_.valid(); }
-  void begin(LiveSource& source, const CalibrationOptions& options) {
-    about_ = heard_so_far(source.so_far());
-    answer_ = std::async(std::launch::async, [this, &options, raw = source.heard()]() mutable {
-      return calibrate(std::move(raw), options, job_);
-    });
-  }
-  /// None where there is none, or it is not finished.
-  std::optional<Result<Estimate>> take() {
-    if (idle() || answer_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return std::nullopt;
-    return answer_.get();
-  }
-  const HeardSoFar& about() const { return about_; }
-
- private:
-  Job job_;
-  HeardSoFar about_;
-  std::future<Result<Estimate>> answer_;
-};
 
 std::size_t scan_bytes(const RawRecording& raw) {
   std::size_t bytes = 0;
@@ -122,7 +97,7 @@ Result<ListeningEnd> listen(
     LiveSource& source, const CalibrationOptions& options, const Job& job,
     const std::function<void(const HeardSoFar& heard, const Result<Estimate>& answer)>& tell) {
   constexpr std::chrono::milliseconds kAtATime(50);
-  RunningAnswer running;
+  RunningEstimate running;
   const HeardLimits limits = limits_of(options);
   Silence silence(options.now());
   double next_answer_s = options.every_s;
@@ -139,14 +114,12 @@ Result<ListeningEnd> listen(
     if (const auto end = silence.ended(options.silence_s, now)) return *end;
     if (const auto answer = running.take()) tell(running.about(), *answer);
     if (running.idle() && heard.seconds >= next_answer_s) {
-      running.begin(source, options);
+      running.begin(source.heard(), options);
       next_answer_s = heard.seconds + options.every_s;
     }
   }
   return ListeningEnd::kCancelled;
 }
-
-namespace {
 
 /// Streams that the rig does not name are not kept: others may well have been received.
 std::string none_received(const std::string& what, const std::optional<std::string>& topic,
@@ -155,11 +128,9 @@ std::string none_received(const std::string& what, const std::optional<std::stri
          (topic ? " on " + *topic : "") + ".";
 }
 
-}  // namespace
-
 Result<Estimate> calibrate(RawRecording heard, const CalibrationOptions& options, const Job& job) {
   const HeardSoFar so_far = heard_so_far(heard);
-  if (so_far.scans == 0) return refused(heard, none_received("scans", options.rig.laser.topic, {}));
+  if (so_far.scans == 0) return refused(heard, none_received("scans", options.rig.laser.topic));
   if (so_far.motor_samples == 0)
     return refused(heard, none_received("motor angles", options.rig.motor.topic, options.rig.motor.joint));
   const auto recording = assemble(std::move(heard), options.rig, options.stamps);

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <string>
 
 #include "core/error.hpp"
 #include "core/job.hpp"
@@ -33,6 +34,10 @@ struct HeardSoFar {
   std::size_t scans = 0, motor_samples = 0;
 };
 HeardSoFar heard_so_far(const RawRecording& raw);
+
+/// A sentence that says which scans or angles were not received: those that the rig names, if it names any.
+std::string none_received(const std::string& what, const std::optional<std::string>& topic,
+                          const std::optional<std::string>& joint = {});
 
 /// The limits of what is kept: far more than scanners and motors send in the requested time.
 struct HeardLimits {

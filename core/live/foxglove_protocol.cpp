@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cstring>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
@@ -69,6 +70,55 @@ std::string foxglove_subscribe_text(const std::vector<FoxgloveSubscription>& sub
   for (const FoxgloveSubscription& one : subscriptions)
     list.push_back({{"id", one.id}, {"channelId", one.channel}});
   return Json{{"op", "subscribe"}, {"subscriptions", list}}.dump();
+}
+
+std::optional<FoxgloveRequest> parse_foxglove_request(std::string_view text) {
+  FoxgloveRequest request;
+  const auto subscription_id = [](const Json& json) {
+    const std::uint64_t id = id_of(json);
+    if (id > std::numeric_limits<std::uint32_t>::max()) throw std::runtime_error("no id");
+    return static_cast<std::uint32_t>(id);
+  };
+  try {
+    const Json json = Json::parse(text);
+    const auto op = json.at("op").get<std::string>();
+    if (op == "subscribe")
+      for (const Json& one : json.at("subscriptions"))
+        request.subscribed.push_back({subscription_id(one.at("id")), id_of(one.at("channelId"))});
+    if (op == "unsubscribe")
+      for (const Json& id : json.at("subscriptionIds")) request.unsubscribed.push_back(subscription_id(id));
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
+  return request;
+}
+
+std::string foxglove_server_text(const std::string& name) {
+  return Json{{"op", "serverInfo"},
+              {"name", name},
+              {"capabilities", Json::array()},
+              {"supportedEncodings", Json::array()},
+              {"metadata", Json::object()}}
+      .dump();
+}
+
+std::string foxglove_advertise_text(const std::vector<StreamTopic>& topics) {
+  Json channels = Json::array();
+  for (std::size_t i = 0; i < topics.size(); ++i)
+    channels.push_back({{"id", i + 1},
+                        {"topic", topics[i].name},
+                        {"encoding", topics[i].encoding},
+                        {"schemaName", topics[i].type},
+                        {"schema", topics[i].definition},
+                        {"schemaEncoding", topics[i].schema_encoding}});
+  return Json{{"op", "advertise"}, {"channels", channels}}.dump();
+}
+
+std::string foxglove_message_head(std::uint32_t subscription, std::int64_t log_ns) {
+  std::string head(1 + sizeof subscription + sizeof log_ns, char(kMessageData));
+  std::memcpy(head.data() + 1, &subscription, sizeof subscription);
+  std::memcpy(head.data() + 1 + sizeof subscription, &log_ns, sizeof log_ns);
+  return head;
 }
 
 std::optional<FoxgloveAddress> parse_foxglove_address(std::string_view url) {

@@ -8,9 +8,11 @@
 #include <string_view>
 #include <vector>
 
+#include "core/recording/streams/message_stream.hpp"
+
 namespace sweepscope {
 
-/// The part of the Foxglove WebSocket protocol that a listener uses
+/// The part of the Foxglove WebSocket protocol that a listener uses, and a server of live clouds
 /// (https://github.com/foxglove/ws-protocol/blob/main/docs/spec.md). Its two subprotocols, foxglove.sdk.v1
 /// and foxglove.websocket.v1, have these messages in common.
 inline constexpr const char* kFoxgloveSubprotocols = "foxglove.sdk.v1, foxglove.websocket.v1";
@@ -48,6 +50,20 @@ struct FoxgloveSubscription {
 
 /// The text that asks for the messages of these channels.
 std::string foxglove_subscribe_text(const std::vector<FoxgloveSubscription>& subscriptions);
+
+/// What a client asks of a server; both empty for anything else that it may send.
+struct FoxgloveRequest {
+  std::vector<FoxgloveSubscription> subscribed;
+  std::vector<std::uint32_t> unsubscribed;
+};
+/// Nothing if the text is not what the protocol says.
+std::optional<FoxgloveRequest> parse_foxglove_request(std::string_view text);
+
+/// A server's first texts. The channel of topic i is i + 1.
+std::string foxglove_server_text(const std::string& name);
+std::string foxglove_advertise_text(const std::vector<StreamTopic>& topics);
+/// What stands before a message's bytes.
+std::string foxglove_message_head(std::uint32_t subscription, std::int64_t log_ns);
 
 /// The address of a server: ws://HOST[:PORT][/PATH], port 8765 by default.
 struct FoxgloveAddress {

@@ -60,6 +60,12 @@ class FoxgloveSource : public LiveSource {
                       heard.file, lost_, lost_ == 1 ? "" : "s"));
     return heard;
   }
+  RawRecording take() override {
+    RawRecording taken = messages_.take();
+    for (; told_ < lost_; ++told_)
+      taken.warnings.push_back(fmt::format("the connection to {} was lost; it is opened again", taken.file));
+    return taken;
+  }
 
  private:
   /// Waits for at most so long; whether there is a connection then.
@@ -119,7 +125,7 @@ class FoxgloveSource : public LiveSource {
   std::map<std::uint32_t, std::size_t> subscribed_;  // the topic of a subscription's id
   std::uint32_t next_id_ = 0;
   Backoff backoff_;
-  std::size_t lost_ = 0;
+  std::size_t lost_ = 0, told_ = 0;
 };
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "core/recording/take_messages.hpp"
+
 namespace sweepscope {
 
 Result<void> HeardMessages::add(std::size_t topic, std::int64_t receive_ns,
@@ -19,6 +21,11 @@ RawRecording HeardMessages::with_warnings() {
   RawRecording heard = raw_;
   raw_.warnings.resize(warnings);
   return heard;
+}
+
+RawRecording HeardMessages::take() {
+  collector_.forget_messages();
+  return take_messages(raw_);
 }
 
 }  // namespace sweepscope

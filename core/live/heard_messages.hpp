@@ -28,6 +28,8 @@ class HeardMessages {
   const RawRecording& so_far() const { return raw_; }
   /// A copy with warnings about what was skipped.
   RawRecording with_warnings();
+  /// See take_messages().
+  RawRecording take();
 
  private:
   RawRecording raw_;

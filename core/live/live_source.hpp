@@ -17,6 +17,8 @@ class LiveSource {
   virtual const RawRecording& so_far() const = 0;
   /// The same with warnings about what was skipped.
   virtual RawRecording heard() = 0;
+  /// Takes out the scans and samples received since the last call: see take_messages().
+  virtual RawRecording take() = 0;
 };
 
 }  // namespace sweepscope

@@ -3,6 +3,7 @@
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
 
+#include <cstring>
 #include <list>
 
 namespace sweepscope {
@@ -24,10 +25,12 @@ struct IsMessage<const sweepscope::AnyRosMessage> : TrueType {};
 template <>
 struct MD5Sum<sweepscope::AnyRosMessage> {
   static const char* value() { return "*"; }
+  static const char* value(const sweepscope::AnyRosMessage&) { return value(); }
 };
 template <>
 struct DataType<sweepscope::AnyRosMessage> {
   static const char* value() { return "*"; }
+  static const char* value(const sweepscope::AnyRosMessage&) { return value(); }
 };
 template <>
 struct Definition<sweepscope::AnyRosMessage> {
@@ -43,6 +46,14 @@ struct Serializer<sweepscope::AnyRosMessage> {
   static void read(Stream& stream, sweepscope::AnyRosMessage& message) {
     message.bytes.assign(stream.getData(), stream.getData() + stream.getLength());
     stream.advance(stream.getLength());
+  }
+  template <typename Stream>
+  static void write(Stream& stream, const sweepscope::AnyRosMessage& message) {
+    if (message.bytes.empty()) return;
+    std::memcpy(stream.advance(serializedLength(message)), message.bytes.data(), message.bytes.size());
+  }
+  static std::uint32_t serializedLength(const sweepscope::AnyRosMessage& message) {
+    return static_cast<std::uint32_t>(message.bytes.size());
   }
 };
 
@@ -64,8 +75,22 @@ class RoscppLink : public RosLink {
     return topics;
   }
 
+  std::size_t advertise(const RosPublishedTopic& topic) override {
+    ros::AdvertiseOptions options(topic.name, topic.max_queued, topic.md5sum, topic.type, topic.definition);
+    options.latch = topic.latched;
+    publishers_.push_back(node_.advertise(options));
+    return publishers_.size() - 1;
+  }
+
+  void publish(std::size_t topic, const std::string& bytes) override {
+    AnyRosMessage message;
+    message.bytes.assign(bytes.begin(), bytes.end());
+    publishers_[topic].publish(message);
+  }
+
   void subscribe(const std::string& topic, std::uint32_t max_queued) override {
     const boost::function<void(const Event&)> take = [this, topic](const Event& event) {
+      if (event.getPublisherName() == ros::this_node::getName()) return;
       const ros::M_string& said = event.getConnectionHeader();
       const auto value = [&](const char* key) {
         const auto found = said.find(key);
@@ -93,13 +118,14 @@ class RoscppLink : public RosLink {
   ros::CallbackQueue queue_;
   ros::NodeHandle node_;
   std::list<ros::Subscriber> subscribers_;
+  std::vector<ros::Publisher> publishers_;
   const std::function<void(const RosMessage&)>* take_ = nullptr;
 };
 
 }  // namespace
 
 std::unique_ptr<RosLink> RosLink::open(const std::string& master) {
-  // Signals stay the program's, and nothing is published. Without a name for its log roscpp makes ~/.ros.
+  // Signals stay the program's, and its log is not published. Without a name for its log roscpp makes ~/.ros.
   ros::init(
       ros::M_string{{"__master", master}, {"__log", "/dev/null"}}, "sweepscope",
       ros::init_options::NoSigintHandler | ros::init_options::AnonymousName | ros::init_options::NoRosout);

@@ -24,6 +24,13 @@ struct RosTopic {
   std::string name, type;
 };
 
+/// A topic to publish, as the master and subscribers know it.
+struct RosPublishedTopic {
+  std::string name, type, md5sum, definition;
+  std::uint32_t max_queued = 1;  // of a subscriber; then the oldest are left out
+  bool latched = false;          // later subscribers get the last message
+};
+
 /// The only code that uses roscpp, whose headers do not support C++20. One at a time in a program.
 class RosLink {
  public:
@@ -32,7 +39,11 @@ class RosLink {
   virtual ~RosLink() = default;
   /// The topics that are published now.
   virtual std::vector<RosTopic> topics() = 0;
-  /// The newest `max_queued` messages wait until they are taken.
+  /// The number of a topic, for publish().
+  virtual std::size_t advertise(const RosPublishedTopic& topic) = 0;
+  virtual void publish(std::size_t topic, const std::string& bytes) = 0;
+  /// The newest `max_queued` messages wait until they are taken. Those that this program publishes are left
+  /// out.
   virtual void subscribe(const std::string& topic, std::uint32_t max_queued) = 0;
   /// Passes on the messages that have arrived, waiting at most this long for the first.
   virtual void receive(std::chrono::milliseconds max_wait,

@@ -21,7 +21,10 @@ namespace {
 
 class RosSource : public LiveSource {
  public:
-  RosSource(std::unique_ptr<RosLink> link, const Rig& rig) : link_(std::move(link)), messages_("ROS", rig) {}
+  RosSource(std::shared_ptr<RosLink> link, const Rig& rig) : link_(std::move(link)), messages_("ROS", rig) {}
+
+  /// A topic that is not to be heard.
+  void leave_out(const std::string& topic) { subscribed_.insert(topic); }
 
   Result<bool> listen(std::chrono::milliseconds max_wait) override {
     constexpr std::chrono::milliseconds kBetweenLooks(500);
@@ -41,6 +44,7 @@ class RosSource : public LiveSource {
   }
   const RawRecording& so_far() const override { return messages_.so_far(); }
   RawRecording heard() override { return messages_.with_warnings(); }
+  RawRecording take() override { return messages_.take(); }
 
  private:
   void subscribe() {
@@ -53,10 +57,31 @@ class RosSource : public LiveSource {
     }
   }
 
-  std::unique_ptr<RosLink> link_;
+  std::shared_ptr<RosLink> link_;
   HeardMessages messages_;
   std::set<std::string> subscribed_;
   std::chrono::steady_clock::time_point looked_;
+};
+
+class RosPublisher : public LivePublisher {
+ public:
+  explicit RosPublisher(std::shared_ptr<RosLink> link) : link_(std::move(link)) {
+    // Those of the first seconds come together.
+    constexpr std::uint32_t kClouds = 200, kTransforms = 20'000;
+    for (const StreamTopic& topic : live_topics()) {
+      const auto kind = LiveTopic(topics_.size());
+      topics_.push_back(link_->advertise(
+          {topic.name, topic.type, topic.metadata_of("md5sum"), topic.definition,
+           kind == LiveTopic::kTransform ? kTransforms : kClouds, kind == LiveTopic::kOffset}));
+    }
+  }
+  void publish(const LiveMessage& message) override {
+    link_->publish(topics_[std::size_t(message.topic)], message.bytes);
+  }
+
+ private:
+  std::shared_ptr<RosLink> link_;
+  std::vector<std::size_t> topics_;
 };
 
 /// Whether it is http://HOST:PORT: roscpp ends the whole program at any other address.
@@ -75,13 +100,7 @@ bool is_address(std::string_view uri) {
   return error == std::errc() && behind == end && port > 0;
 }
 
-}  // namespace
-
-bool ros_source_is_built() {
-  return true;
-}
-
-Result<std::unique_ptr<LiveSource>> open_ros_source(const Rig& rig) {
+Result<std::shared_ptr<RosLink>> open_link() {
   const char* const given = std::getenv("ROS_MASTER_URI");
   const std::string master = given != nullptr ? given : "http://localhost:11311";
   if (!is_address(master))
@@ -89,18 +108,52 @@ Result<std::unique_ptr<LiveSource>> open_ros_source(const Rig& rig) {
         "ROS: ROS_MASTER_URI=\"{}\" is not the address of a master, such as http://localhost:11311", master));
   auto link = RosLink::open(master);
   if (!link) return unreadable(fmt::format("ROS: no master answers at {} (ROS_MASTER_URI)", master));
-  return std::make_unique<RosSource>(std::move(link), rig);
+  return std::shared_ptr<RosLink>(std::move(link));
+}
+
+}  // namespace
+
+bool ros_source_is_built() {
+  return true;
+}
+
+Result<std::unique_ptr<LiveSource>> open_ros_source(const Rig& rig) {
+  auto link = open_link();
+  if (!link) return tl::unexpected(link.error());
+  return std::make_unique<RosSource>(std::move(*link), rig);
+}
+
+Result<RosSystem> open_ros_system(const Rig& rig) {
+  const auto link = open_link();
+  if (!link) return tl::unexpected(link.error());
+  auto source = std::make_unique<RosSource>(*link, rig);
+  // The motor's angles may be on /tf.
+  for (const StreamTopic& topic : live_topics())
+    if (topic.name != "/tf") source->leave_out(topic.name);
+  return RosSystem{std::move(source), std::make_unique<RosPublisher>(*link)};
 }
 
 #else
+
+namespace {
+
+tl::unexpected<Error> not_built() {
+  return failure(ExitCode::kWrongUsage,
+                 "ROS: this build cannot listen to ROS 1; it was made without roscpp (libroscpp-dev)");
+}
+
+}  // namespace
 
 bool ros_source_is_built() {
   return false;
 }
 
 Result<std::unique_ptr<LiveSource>> open_ros_source(const Rig&) {
-  return failure(ExitCode::kWrongUsage,
-                 "ROS: this build cannot listen to ROS 1; it was made without roscpp (libroscpp-dev)");
+  return not_built();
+}
+
+Result<RosSystem> open_ros_system(const Rig&) {
+  return not_built();
 }
 
 #endif

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "core/live/live_messages.hpp"
 #include "core/live/live_source.hpp"
 #include "core/recording/rig.hpp"
 
@@ -14,5 +15,13 @@ bool ros_source_is_built();
 /// ones, whose type can be a laser's or a motor's and that the rig does not exclude. Fails if no master
 /// answers or this build has no ROS. The rig must outlive the source.
 Result<std::unique_ptr<LiveSource>> open_ros_source(const Rig& rig);
+
+/// A running ROS 1 system that is listened to and published to.
+struct RosSystem {
+  std::unique_ptr<LiveSource> source;
+  std::unique_ptr<LivePublisher> publisher;
+};
+/// The same, and publishes live_topics().
+Result<RosSystem> open_ros_system(const Rig& rig);
 
 }  // namespace sweepscope

@@ -17,6 +17,7 @@ class StreamSource : public LiveSource {
   Result<bool> listen(std::chrono::milliseconds max_wait) override;
   const RawRecording& so_far() const override { return stream_.so_far(); }
   RawRecording heard() override { return stream_.heard(); }
+  RawRecording take() override { return stream_.take_lines(); }
 
  private:
   Result<void> take_lines();

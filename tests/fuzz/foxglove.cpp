@@ -44,6 +44,7 @@ int fuzz_foxglove(const std::uint8_t* bytes, std::size_t size) {
     const std::string_view line = take_line(rest);
     if (line.empty()) break;
     (void)parse_foxglove_address(line);
+    (void)parse_foxglove_request(line);
     const auto news = parse_foxglove_text(line);
     if (!news) continue;
     const auto added = topics_of(*news, heard);

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "ui/serve/http/listen.hpp"
 #include "ui/serve/http/response.hpp"
 #include "ui/serve/upload_connection.hpp"
 #include "ui/serve/viewer_connection.hpp"
@@ -17,12 +18,6 @@ namespace {
 namespace beast = boost::beast;
 namespace http = beast::http;
 using Tcp = boost::asio::ip::tcp;
-
-constexpr std::uint32_t kMaxHeader_bytes = 8 * 1024;
-
-std::string_view view(beast::string_view text) {
-  return {text.data(), text.size()};
-}
 
 /// A request and its answer.
 class Exchange : public std::enable_shared_from_this<Exchange> {

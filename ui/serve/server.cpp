@@ -1,7 +1,5 @@
 #include "ui/serve/server.hpp"
 
-#include <fmt/format.h>
-
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
@@ -12,6 +10,7 @@
 #include <utility>
 
 #include "ui/serve/connection.hpp"
+#include "ui/serve/http/listen.hpp"
 
 namespace sweepscope::ui {
 namespace {
@@ -19,15 +18,6 @@ namespace {
 namespace asio = boost::asio;
 using Tcp = asio::ip::tcp;
 using Clock = std::chrono::steady_clock;
-
-constexpr int kMaxConnections = 64;
-
-tl::unexpected<Error> cannot_listen(const ListenAddress& address, const std::string& why) {
-  return failure(
-      ExitCode::kWrongUsage,
-      fmt::format("--serve: cannot listen on {}: {}. Use another port, or 0 for a free one: --serve {}",
-                  address.text(), why, ListenAddress{address.host, 0, address.loopback}.text()));
-}
 
 }  // namespace
 
@@ -37,19 +27,6 @@ struct Server::Parts {
     connections = std::make_shared<ConnectionContext>(
         ConnectionContext{hub, options.hosts, options.token, [this] { after(); }, disk, options.max_request});
     connections_mailbox = &mailbox;
-  }
-
-  Result<void> listen() {
-    boost::system::error_code failed;
-    const Tcp::endpoint place(asio::ip::make_address(options.address.host), options.address.port);
-    // Each returns `failed` as well.
-    (void)acceptor.open(place.protocol(), failed);
-    if (!failed) (void)acceptor.set_option(Tcp::acceptor::reuse_address(true), failed);
-    if (!failed) (void)acceptor.bind(place, failed);
-    if (!failed) (void)acceptor.listen(asio::socket_base::max_listen_connections, failed);
-    if (failed) return cannot_listen(options.address, failed.message());
-    options.address.port = acceptor.local_endpoint().port();
-    return {};
   }
 
   void accept() {
@@ -115,7 +92,8 @@ Server::Server(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
 
 Result<std::unique_ptr<Server>> Server::start(Options options, Mailbox& mailbox) {
   auto parts = std::make_unique<Parts>(std::move(options), mailbox);
-  if (const auto listens = parts->listen(); !listens) return tl::unexpected(listens.error());
+  if (const auto listens = listen(parts->acceptor, parts->options.address); !listens)
+    return tl::unexpected(listens.error());
   parts->accept();
   parts->thread = std::thread([&p = *parts] { p.context.run(); });
   return std::unique_ptr<Server>(new Server(std::move(parts)));

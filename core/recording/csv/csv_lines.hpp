@@ -56,6 +56,8 @@ class ScanLines {
   ScanLines(const CsvTable& table, const Rig& rig, RawRecording& raw);
   /// Reads the table's current line; returns its problem, or nothing.
   std::string take();
+  /// What was read so far was taken away and counts no longer against the limit.
+  void forget_lines() { beams_ = 0; }
 
  private:
   std::string take_beams(CsvCells& cells, RawScan& scan, RawLaser& laser);
@@ -78,6 +80,7 @@ class MotorLines {
   MotorLines(const CsvTable& table, const Rig& rig, RawRecording& raw);
   /// As of scans.
   std::string take();
+  void forget_lines() { samples_ = 0; }
 
  private:
   void add(const std::string& topic, const std::string& name, const MessageStamps& stamps, double position);

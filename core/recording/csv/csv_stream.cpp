@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "core/recording/csv/csv_beams.hpp"
 #include "core/recording/csv/csv_lines.hpp"
 #include "core/recording/csv/csv_table.hpp"
+#include "core/recording/take_messages.hpp"
 
 namespace sweepscope {
 namespace {
@@ -51,6 +53,14 @@ class CsvStream::Tables {
     return raw;
   }
   const RawRecording& so_far() const { return raw_; }
+  RawRecording take_lines() {
+    if (scans_.lines) scans_.lines->forget_lines();
+    if (motor_.lines) motor_.lines->forget_lines();
+    RawRecording taken = take_messages(raw_);
+    if (skipped_ > 0 && !std::exchange(told_, true))
+      taken.warnings.push_back(fmt::format("a line was skipped: {}", problem_));
+    return taken;
+  }
 
  private:
   template <typename Lines, typename Check>
@@ -82,6 +92,7 @@ class CsvStream::Tables {
   Table<MotorLines> motor_;
   std::size_t line_number_ = 0, skipped_ = 0;
   std::string problem_;
+  bool told_ = false;  // by take_lines
 };
 
 CsvStream::CsvStream(std::string name, const Rig& rig)
@@ -98,6 +109,10 @@ const RawRecording& CsvStream::so_far() const {
 
 RawRecording CsvStream::heard() const {
   return tables_->heard();
+}
+
+RawRecording CsvStream::take_lines() {
+  return tables_->take_lines();
 }
 
 }  // namespace sweepscope

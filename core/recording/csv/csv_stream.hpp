@@ -36,6 +36,8 @@ class CsvStream {
   const RawRecording& so_far() const;
   /// The same with a warning about the lines skipped.
   RawRecording heard() const;
+  /// Takes it out, as take_messages() does, with a warning about the first line skipped.
+  RawRecording take_lines();
 
  private:
   class Tables;

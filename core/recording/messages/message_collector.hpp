@@ -52,6 +52,8 @@ class MessageCollector {
                            const std::function<std::string()>& place, std::string_view publisher = {});
   /// Call once, last: warns of what was malformed.
   void finish();
+  /// What was added so far was taken away and counts no longer against the limits.
+  void forget_messages() { beams_ = scan_beams_ = joint_samples_ = cloud_bytes_ = 0; }
 
  private:
   struct Entry {

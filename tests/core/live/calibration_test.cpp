@@ -11,6 +11,7 @@
 #include <functional>
 #include <span>
 #include <thread>
+#include <utility>
 
 #include "core/live/stream_source.hpp"
 #include "tests/core/engine_fixtures.hpp"
@@ -75,6 +76,7 @@ class EndlessSource : public LiveSource {
   }
   const RawRecording& so_far() const override { return raw_; }
   RawRecording heard() override { return raw_; }
+  RawRecording take() override { return std::exchange(raw_, {}); }
 
  private:
   Piece piece_;

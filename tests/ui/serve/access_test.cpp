@@ -122,6 +122,8 @@ TEST(Access, TokensAreComparedWhole) {
 TEST(Addresses, AreReadWithAndWithoutAPort) {
   EXPECT_EQ(parse_listen_address("")->text(), "127.0.0.1:8717");
   EXPECT_EQ(parse_listen_address("9000")->text(), "127.0.0.1:9000");
+  EXPECT_EQ(parse_listen_address(":9000")->text(), "127.0.0.1:9000");
+  EXPECT_EQ(parse_listen_address("", 8766)->text(), "127.0.0.1:8766");
   EXPECT_EQ(parse_listen_address("localhost:0")->text(), "127.0.0.1:0");
   EXPECT_EQ(parse_listen_address("::1")->text(), "[::1]:8717");
   EXPECT_EQ(parse_listen_address("[::1]:9000")->text(), "[::1]:9000");

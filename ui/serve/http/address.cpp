@@ -57,21 +57,31 @@ std::string ListenAddress::text() const {
                                              : fmt::format("[{}]:{}", host, port);
 }
 
-Result<ListenAddress> parse_listen_address(std::string_view text) {
+Result<ListenAddress> parse_listen_address(std::string_view text, std::uint16_t default_port) {
   ListenAddress address;
+  address.port = default_port;
   const auto [host, port] = split(text);
   if (!host.empty()) address.host = host == "localhost" ? "127.0.0.1" : std::string(host);
   const Family family = family_of(address.host);
   const auto number = port.empty() ? std::optional(address.port) : port_of(port);
   if (family == Family::kNone || !number)
-    return failure(
-        ExitCode::kWrongUsage,
-        fmt::format("--serve {}: ADDRESS:PORT is needed, such as 127.0.0.1:8717, where ADDRESS is a "
-                    "number of this machine or localhost; a recording comes before --serve",
-                    printable_line(text)));
+    return failure(ExitCode::kWrongUsage,
+                   fmt::format("--serve {}: ADDRESS:PORT is needed, such as 127.0.0.1:{}, where ADDRESS is a "
+                               "number of this machine or localhost; other arguments come before --serve",
+                               printable_line(text), default_port));
   address.port = *number;
   address.loopback = family == Family::kV4 ? address.host.starts_with("127.") : address.host == "::1";
   return address;
+}
+
+Result<ListenAddress> allowed_listen_address(std::string_view text, bool anywhere, std::uint16_t port) {
+  auto address = parse_listen_address(text, port);
+  if (!address || address->loopback || anywhere) return address;
+  return failure(
+      ExitCode::kWrongUsage,
+      fmt::format("--serve {}: other machines would reach it without encryption. Use 127.0.0.1 and "
+                  "ssh -L, or add --listen-anywhere",
+                  printable_line(text)));
 }
 
 }  // namespace sweepscope::ui

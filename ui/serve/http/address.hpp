@@ -18,8 +18,11 @@ struct ListenAddress {
   std::string text() const;
 };
 
-/// "PORT", "ADDRESS", "ADDRESS:PORT" or "[ADDRESS]:PORT", where ADDRESS is numbers or "localhost"; "" is the
-/// default. Errors are ExitCode::kWrongUsage.
-Result<ListenAddress> parse_listen_address(std::string_view text);
+/// "PORT", ":PORT", "ADDRESS", "ADDRESS:PORT" or "[ADDRESS]:PORT", where ADDRESS is numbers or "localhost";
+/// "" is the default, with this port. Errors are ExitCode::kWrongUsage.
+Result<ListenAddress> parse_listen_address(std::string_view text, std::uint16_t port = ListenAddress().port);
+/// The same; an address that other machines can reach is refused unless `anywhere`.
+Result<ListenAddress> allowed_listen_address(std::string_view text, bool anywhere,
+                                             std::uint16_t port = ListenAddress().port);
 
 }  // namespace sweepscope::ui

@@ -13,6 +13,11 @@
 
 namespace sweepscope::ui {
 
+/// Beast's views of texts as the library's.
+inline std::string_view view(boost::beast::string_view text) {
+  return {text.data(), text.size()};
+}
+
 using TextResponse = boost::beast::http::response<boost::beast::http::span_body<const char>>;
 
 /// `body` must outlive it.
