@@ -394,7 +394,7 @@ void Ui::Parts::frame(std::span<const InputEvent> all_events, double seconds_sin
   host.begin_frame(events, seconds_since_last);
   anchors.clear();
   begin_number_boxes(transient);
-  transient.for_picture = picture_asked.has_value();
+  transient.for_picture = picture_asked && picture_asked->what == "maps";
   const PaneContext panes{explorer,
                           transient,
                           host.fonts(),

@@ -36,7 +36,7 @@ struct Transient {
   };
   Browsing browsing;         // of the dialog that opens
   std::string replaces;      // what exists, and is to be replaced if it is confirmed once more
-  bool for_picture = false;  // nothing is drawn that only hands need
+  bool for_picture = false;  // of the maps: nothing is drawn that only hands need
   bool just_opened = false;  // the window in front takes the keyboard
   std::optional<Eigen::Vector3d> measure_from_m;  // the first end, until there is a second
   std::optional<Eigen::Vector2d> profile_from_m;  // while a profile is drawn
