@@ -96,8 +96,7 @@ class PublishedOutput : public LiveOutput {
   explicit PublishedOutput(std::unique_ptr<LivePublisher> publisher) : publisher_(std::move(publisher)) {}
 
   Result<void> write(const LiveNews& news, const LiveFrames& frames) override {
-    for (const LivePose& pose : news.poses)
-      publisher_->publish(live_message(pose, frames.base, frames.laser));
+    if (!news.poses.empty()) publisher_->publish(live_message(news.poses, frames.base, frames.laser));
     for (const LiveCloud& cloud : news.clouds) publisher_->publish(live_message(cloud, frames.base));
     return {};
   }

@@ -19,10 +19,16 @@ LiveMessage live_message(const LiveCloud& cloud, const std::string& base_frame) 
           cloud_message(Encoding::kRos1, cloud.stamp_ns(), base_frame, cloud.points, cloud.begin_s)};
 }
 
-LiveMessage live_message(const LivePose& pose, const std::string& base_frame,
+LiveMessage live_message(std::span<const LivePose> poses, const std::string& base_frame,
                          const std::string& laser_frame) {
-  return {LiveTopic::kTransform, pose.stamp_ns,
-          transform_message(Encoding::kRos1, pose.stamp_ns, base_frame, laser_frame, pose.base_from_laser)};
+  // A list of ROS 1: its length, and the transforms one after the other.
+  const auto count = static_cast<std::uint32_t>(poses.size());
+  std::string bytes(sizeof count, '\0');
+  std::memcpy(bytes.data(), &count, sizeof count);
+  for (const LivePose& pose : poses)
+    bytes += transform_message(Encoding::kRos1, pose.stamp_ns, base_frame, laser_frame, pose.base_from_laser)
+                 .substr(sizeof count);
+  return {LiveTopic::kTransform, poses.back().stamp_ns, bytes};
 }
 
 LiveMessage live_offset_message(double offset_s, std::int64_t stamp_ns) {

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -23,7 +24,9 @@ struct LiveMessage {
   std::string bytes;
 };
 LiveMessage live_message(const LiveCloud& cloud, const std::string& base_frame);
-LiveMessage live_message(const LivePose& pose, const std::string& base_frame, const std::string& laser_frame);
+/// One message of all of them, at least one: subscribers' queues are short.
+LiveMessage live_message(std::span<const LivePose> poses, const std::string& base_frame,
+                         const std::string& laser_frame);
 LiveMessage live_offset_message(double offset_s, std::int64_t stamp_ns);
 
 /// Where live messages go.

@@ -276,6 +276,12 @@ class ServedClient {
     ASSERT_EQ(all.size(), 3U);
     ASSERT_TRUE(socket_->send(foxglove_subscribe_text(all)));
   }
+  /// The length of a list of ROS 1.
+  static std::uint32_t count_of(std::span<const std::byte> message) {
+    std::uint32_t count = 0;
+    std::memcpy(&count, message.data(), sizeof count);
+    return count;
+  }
   Served until(std::int64_t stamp_ns) {
     Served served;
     while (served.clouds.empty() || served.clouds.rbegin()->first < stamp_ns) {
@@ -284,7 +290,7 @@ class ServedClient {
       if (!data) continue;
       const std::string topic = topics_[data->subscription];
       if (topic == "/sweepscope/cloud") add_cloud(data->bytes, served.clouds);
-      if (topic == "/tf") ++served.transforms;
+      if (topic == "/tf") served.transforms += count_of(data->bytes);
       if (topic == "/sweepscope/offset_ms") std::memcpy(&served.offset_ms, data->bytes.data(), 8);
     }
     return served;
