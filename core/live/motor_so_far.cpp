@@ -1,8 +1,24 @@
 #include "core/live/motor_so_far.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace sweepscope {
+namespace {
+
+// A reversal is seen by so much of the range, and more than an encoder's steps and jitter. find_sweeps waits
+// for a twentieth, 20 ms longer.
+constexpr double kTurnsBack = 1.0 / 90, kMinTurn_rad = 0.0087;
+
+// How far the motor is from the farthest that it came in a sweep.
+double turned_back_rad(const MotorTrack& track, const Sweep& sweep) {
+  double farthest_rad = -std::numeric_limits<double>::infinity();
+  for (std::size_t i = track.time_s.size(); i-- > 0 && track.time_s[i] >= sweep.begin_s;)
+    farthest_rad = std::max(farthest_rad, sweep.direction * track.angle_rad[i]);
+  return farthest_rad - sweep.direction * track.angle_rad.back();
+}
+
+}  // namespace
 
 std::span<const Sweep> MotorSoFar::ended(bool all) const {
   const std::span<const Sweep> sweeps(motion.sweeps);
@@ -44,11 +60,13 @@ MotorSoFar motor_so_far(const MotorTrack& track) {
   if (so_far.last_ended || sweeps.size() < 2) return so_far;
   const auto [min, max] = std::ranges::minmax(track.angle_rad);
   const double angle_rad = track.angle_rad.back();
-  const double rest_rad = last.direction > 0 ? max - angle_rad : angle_rad - min;
+  const bool turns_back = turned_back_rad(track, last) > std::max(kTurnsBack * (max - min), kMinTurn_rad);
+  const bool upwards = (last.direction > 0) != turns_back;
+  const double rest_rad = upwards ? max - angle_rad : angle_rad - min;
   if (!(rest_rad > 0) || !(so_far.motion.median_speed_rad_s > 0)) return so_far;
   MotorTrack whole = track;
   whole.time_s.push_back(so_far.end_s + rest_rad / so_far.motion.median_speed_rad_s);
-  whole.angle_rad.push_back(last.direction > 0 ? max : min);
+  whole.angle_rad.push_back(upwards ? max : min);
   so_far.motion = find_sweeps(whole);
   return so_far;
 }

@@ -56,7 +56,8 @@ TEST_F(Help, OptionsOfEstimateHaveHeadingsWithTheCommonOnesFirst) {
                              "--rig-out",
                              "\nOutput:",
                              "--csv",
-                             "\nMany recordings",
+                             "\nSeveral recordings",
+                             "--together",
                              "--expect",
                              "--table"});
 }

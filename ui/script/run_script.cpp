@@ -384,7 +384,8 @@ class Runner {
   /// The interface as it is, its pictures drawn to the end; with the whole answer of a recording that was
   /// opened, or the picture would show how fast the machine is.
   Image picture() {
-    (void)wait_until([&] { return !ui_.explorer().is_answering(); }, "the answer", max_s_);
+    if (ui_.explorer().is_answering())
+      (void)wait_until([&] { return !ui_.explorer().is_answering(); }, "the answer", max_s_);
     for (int i = 0; i < 600 && !ui_.pictures_done(); ++i) frame({}, kFrame_s);
     frame({}, kFrame_s);
     return ui_.screenshot();
