@@ -52,13 +52,17 @@ Information information_of(const RigEvidence& evidence, const std::vector<int>& 
   return information;
 }
 
-// The squared distances of the recordings from the mean of those that count.
-double chi_square_of(const std::vector<Information>& each, const std::vector<char>& counts) {
-  Information sum{Eigen::MatrixXd::Zero(each[0].of.rows(), each[0].of.cols()),
-                  Eigen::VectorXd::Zero(each[0].times_x.size())};
+Information sum_of(const std::vector<Information>& each, const std::vector<char>& counts) {
+  const auto n = each[0].times_x.size();
+  Information sum{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n)};
   for (std::size_t i = 0; i < each.size(); ++i)
     if (counts[i]) sum += each[i];
-  const Eigen::VectorXd mean = sum.mean();
+  return sum;
+}
+
+// The squared distances of the recordings from the mean of those that count.
+double chi_square_of(const std::vector<Information>& each, const std::vector<char>& counts) {
+  const Eigen::VectorXd mean = sum_of(each, counts).mean();
   double chi_square = 0;
   for (std::size_t i = 0; i < each.size(); ++i) {
     if (!counts[i]) continue;
@@ -69,17 +73,9 @@ double chi_square_of(const std::vector<Information>& each, const std::vector<cha
 }
 
 // How far a recording lies from the mean of the others, with the uncertainty of both.
-void set_apart(RigEvidence& evidence, const Information& own, const std::vector<Information>& each,
-               const std::vector<char>& others, const std::vector<int>& unknowns) {
-  Information sum{Eigen::MatrixXd::Zero(own.of.rows(), own.of.cols()),
-                  Eigen::VectorXd::Zero(own.times_x.size())};
-  for (std::size_t i = 0; i < each.size(); ++i)
-    if (others[i]) sum += each[i];
-  const Eigen::VectorXd apart = own.mean() - sum.mean();
-  const auto n = Eigen::Index(unknowns.size());
-  const Eigen::MatrixXd covariance =
-      evidence.covariance(unknowns, unknowns) + sum.of.ldlt().solve(Eigen::MatrixXd::Identity(n, n));
-  evidence.squared_distance = apart.dot(covariance.ldlt().solve(apart));
+void set_apart(RigEvidence& evidence, const Information& own, const Information& others,
+               const std::vector<int>& unknowns) {
+  const Eigen::VectorXd apart = own.mean() - others.mean();
   RigVector x = RigVector::Zero();
   x(unknowns) = apart;
   evidence.apart = RigUnknowns::from(x);
@@ -101,7 +97,7 @@ void compare(RigAgreement& agreement, const std::vector<int>& unknowns) {
     if (!counts[i]) continue;
     std::vector<char> others = counts;
     others[i] = 0;
-    set_apart(agreement.recordings[i], each[i], each, others, unknowns);
+    set_apart(agreement.recordings[i], each[i], sum_of(each, others), unknowns);
     const double without = chi_square_of(each, others);
     if (counted < 3 || without >= min_without) continue;
     min_without = without;

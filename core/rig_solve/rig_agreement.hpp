@@ -15,7 +15,6 @@ struct RigEvidence {
   RigUnknowns found;
   RigMatrix covariance = RigMatrix::Zero();  // an unknown that it does not determine has its prior's variance
   RigUnknowns apart;                         // from what the others say together
-  double squared_distance = 0;               // of `apart`, Mahalanobis
   double residual_before_m = 0, residual_after_m = 0;  // robust deviation from its flat surfaces
 };
 

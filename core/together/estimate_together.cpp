@@ -158,7 +158,8 @@ RecordingOfRig evidence_of(const Member& member, double share) {
   return evidence;
 }
 
-void add_rig_evidence(const RigOfAll& rig, const RigSolve& asked, Together& together) {
+void add_rig_evidence(const RigOfAll& rig, const std::vector<Member>& members, const RigSolve& asked,
+                      Together& together) {
   std::vector<char> solved(together.recordings.size(), 0);
   for (std::size_t k = 0; k < rig.agreement.recordings.size(); ++k) {
     const RigEvidence& evidence = rig.agreement.recordings[k];
@@ -171,7 +172,7 @@ void add_rig_evidence(const RigOfAll& rig, const RigSolve& asked, Together& toge
     recording.shift_sigma_m = worst_sigma(evidence.covariance, kShiftU);
   }
   for (std::size_t i = 0; i < solved.size(); ++i)
-    if (!solved[i])
+    if (!solved[i] && members[i].found.kind == RigKind::kMoving)
       together.recordings[i].reasons.push_back(
           "The rig was not solved for from it: it has no part of 6 s in which it was stationary.");
 }
@@ -248,16 +249,24 @@ void set_offset(const std::vector<Member>& members, const CommonOffset& common, 
   result.sigma_parts = common.sigma_parts;
 }
 
-void add_rig(SolvedRig solved, Estimate& result) {
+// The rig of all, whose uncertainty every offset contains.
+void add_rig(const RigOfAll& rig, Estimate& result) {
+  const SolvedRig& solved = rig.solved;
   if (result.sigma_s) {
     result.sigma_s = std::hypot(*result.sigma_s, solved.offset_sigma_s);
     result.sigma_parts.push_back({"rig", solved.offset_sigma_s});
   }
   for (const RigFinding& part : {solved.mount, solved.play, solved.encoder})
     if (!part.reason.empty()) result.warnings.push_back(part.reason);
-  for (RecordingOfRig& recording : result.together->recordings)
-    if (recording.sigma_s) recording.sigma_s = std::hypot(*recording.sigma_s, solved.offset_sigma_s);
-  result.rig = std::make_shared<const SolvedRig>(std::move(solved));
+  // With an offset each, one that the rig was not solved for from follows it as the worst of the others.
+  const std::vector<double>& own_s = solved.own_offset_sigma_s;
+  std::vector<double> sigma_s(result.together->recordings.size(),
+                              own_s.empty() ? solved.offset_sigma_s : std::ranges::max(own_s));
+  for (std::size_t k = 0; k < own_s.size(); ++k) sigma_s[rig.members[k]] = own_s[k];
+  for (std::size_t i = 0; i < sigma_s.size(); ++i)
+    if (auto& offset_sigma_s = result.together->recordings[i].sigma_s)
+      offset_sigma_s = std::hypot(*offset_sigma_s, sigma_s[i]);
+  result.rig = std::make_shared<const SolvedRig>(solved);
 }
 
 }  // namespace
@@ -286,8 +295,8 @@ Result<Estimate> estimate_together(const std::vector<RecordingSource>& recording
     result.together->recordings.push_back(evidence_of((*members)[i], common.shares[i]));
   set_offset(*members, common, result);
   if (!rig.members.empty()) {
-    add_rig(rig.solved, result);
-    add_rig_evidence(rig, options.solve, *result.together);
+    add_rig(rig, result);
+    add_rig_evidence(rig, *members, options.solve, *result.together);
   }
   judge(rig, common.agreement, options, result);
   result.identifiable = result.refusals.empty() && (result.offset_s || own_offsets);

@@ -44,10 +44,6 @@ double turns_at(const std::vector<double>& marks_s, std::size_t i, double t_s) {
   return double(i) + u * (begins + u * (3 - 2 * begins - ends + u * (begins + ends - 2)));
 }
 
-void take_even_spacing(ReadReport& report) {
-  report.motor_stamps.median_period_s = kStep_s;
-}
-
 }  // namespace
 
 bool assemble_index(const RawJoint& raw, Recording& recording) {
@@ -66,7 +62,7 @@ bool assemble_index(const RawJoint& raw, Recording& recording) {
   }
   motor.time_s.push_back(at_s.back());
   motor.angle_rad.push_back(direction * kWholeTurn_rad * double(at_s.size() - 1) - zero_rad);
-  take_even_spacing(recording.report);
+  recording.report.motor_stamps.median_period_s = kStep_s;
   recording.report.warnings.push_back(fmt::format(
       "the motor's angle is known once a turn, from {} marks on {}: in between it is assumed to turn evenly",
       at_s.size(), raw.topic));
@@ -86,7 +82,7 @@ void assemble_profile(Recording& recording) {
     motor.time_s.push_back(t_s);
     motor.angle_rad.push_back(profile.angle_rad(t_s - start_s) - recording.rig.motor.zero_deg * kRadPerDeg);
   }
-  take_even_spacing(recording.report);
+  recording.report.motor_stamps.median_period_s = kStep_s;
   std::string text = "the motor's angle is that of the rig file's profile, not measured";
   if (profile.steps_per_turn > 0) {
     const auto resting = std::ranges::count_if(recording.scans, [&](const LaserScan& scan) {

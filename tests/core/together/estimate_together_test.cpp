@@ -95,6 +95,11 @@ TEST(EstimateTogether, WithAnOffsetEachTheRecordingsShareOneMount) {
     ASSERT_TRUE(one.offset_s);
     EXPECT_LT(std::abs(*one.offset_s - truth_s[i]), 3 * *one.sigma_s);
     EXPECT_LT(*one.sigma_s, 0.1 * kMs);
+    // It contains the uncertainty of the rig.
+    const Estimate with_given_rig =
+        estimate(with_rig(recordings[i], *found.rig), EstimateOptions(), Job()).value();
+    EXPECT_GT(found.rig->own_offset_sigma_s[i], 0);
+    EXPECT_NEAR(*one.sigma_s, std::hypot(*with_given_rig.sigma_s, found.rig->own_offset_sigma_s[i]), 1e-12);
     EXPECT_NEAR(found.rig->found.of_recording(i).offset_s, truth_s[i], 0.1 * kMs);
   }
   EXPECT_EQ(found.together->degrees_of_freedom, 8);  // turn and shift, twice
