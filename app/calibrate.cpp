@@ -122,9 +122,9 @@ Result<Estimate> run_calibration(CalibrateArguments& options, Result<void>& kept
                    options.address.empty()
                        ? "calibrate foxglove needs an address, such as ws://localhost:8765"
                        : "an address belongs to calibrate foxglove");
-  const auto rig = options.recording.rig_given();
+  const auto rig = options.recording.running_rig();
   if (!rig) return tl::unexpected(rig.error());
-  options.calibration.rig = rig->value_or(Rig());
+  options.calibration.rig = *rig;
   options.calibration.stamps = options.recording.stamps;
   auto format = options.record.empty() ? RecordingFormat::kCsv : record_format(options.record);
   if (!format) return tl::unexpected(format.error());

@@ -214,13 +214,12 @@ class LiveRun {
 
 Result<void> run_live(const LiveArguments& options) {
   if (auto checked = check_arguments(options); !checked) return checked;
-  const auto given = options.recording.rig_given();
-  if (!given) return tl::unexpected(given.error());
-  const Rig rig = given->value_or(Rig());
+  const auto rig = options.recording.running_rig();
+  if (!rig) return tl::unexpected(rig.error());
   const Progress progress;
-  auto ends = open_ends(options, rig);
+  auto ends = open_ends(options, *rig);
   if (!ends) return tl::unexpected(ends.error());
-  return LiveRun(options, rig, std::move(*ends), progress).run();
+  return LiveRun(options, *rig, std::move(*ends), progress).run();
 }
 
 void declare_offset(CLI::App& command, LiveArguments& options) {

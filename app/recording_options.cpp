@@ -50,6 +50,16 @@ void RigOptions::declare_rig(CLI::App& app, const std::string& help_of_rig) {
   name("--joint", streams.joint, "Joint that turns the laser, if several move (default: the rig file's)");
 }
 
+Result<Rig> RigOptions::running_rig() const {
+  return rig_given().and_then([](const std::optional<Rig>& given) -> Result<Rig> {
+    if (given && given->motor.profile)
+      return failure(
+          ExitCode::kWrongUsage,
+          "a running rig needs messages of its motor: motor.profile of a rig file is used for recordings only");
+    return given.value_or(Rig());
+  });
+}
+
 Result<std::optional<Rig>> RigOptions::rig_given() const {
   std::optional<Rig> given;
   if (rig) {

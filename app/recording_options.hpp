@@ -35,6 +35,8 @@ struct RigOptions {
   void declare_rig(CLI::App& app, const std::string& help_of_rig);
   /// The rig file's contents with the streams that are named; empty where nothing is given.
   Result<std::optional<Rig>> rig_given() const;
+  /// The same for a rig that is running, whose motor has to be heard.
+  Result<Rig> running_rig() const;
 };
 
 /// --stamps.

@@ -197,6 +197,12 @@ TEST_F(LiveCommand, SaysThatAWrongOffsetHasChanged) {
 }
 
 TEST_F(LiveCommand, WrongUseAndBadInputAreSaid) {
+  std::ofstream(folder_ / "profile.yaml") << "motor: {profile: {turns_per_s: 0.5}}";
+  for (const char* command : {"live - --offset-ms 17.3", "calibrate -"}) {
+    const Outcome of_profile = run(std::string(command) + " --rig profile.yaml </dev/null");
+    EXPECT_EQ(of_profile.exit_code, 2) << command;
+    EXPECT_NE(of_profile.err.find("needs messages of its motor"), std::string::npos) << of_profile.err;
+  }
   const auto expect = [&](const std::string& arguments, int code, const std::string& words) {
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.exit_code, code) << arguments;
