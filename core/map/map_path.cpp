@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
+#include <span>
 
+#include "core/loam/path/agreement.hpp"
 #include "core/loam/path/given_motion.hpp"
 #include "core/map/stamped_poses.hpp"
 #include "core/numbers.hpp"
@@ -105,6 +108,79 @@ Result<MapPath> checked(const OffsetProblem& problem, MapPath path, const Job& j
   return path;
 }
 
+Result<MapPath> along_walk(const OffsetProblem& problem, MapPath path, std::shared_ptr<const SolvedWalk> walk,
+                           const Job& job) {
+  path.walk = std::move(walk);
+  add_warning(path, pieces_warning(path.walk->sweeps, *problem.recording).value_or(""));
+  return checked(problem, std::move(path), job);
+}
+
+// Where two tracks of the same sweeps differ for the longest time; nothing where they agree.
+std::optional<std::string> difference_in_words(const SolvedWalk& a, const SolvedWalk& b,
+                                               const Recording& recording) {
+  if (a.sweeps.size() != b.sweeps.size()) return "The trajectory depends on how it is tracked.";
+  const std::vector<char> agreed = agreeing(a.sweeps, b.sweeps);
+  std::size_t first = 0, count = 0;
+  for (std::size_t from = 0; from < agreed.size(); ++from) {
+    const auto end = std::find(agreed.begin() + std::ptrdiff_t(from), agreed.end(), 1);
+    const auto run = std::size_t(end - agreed.begin()) - from;
+    if (run > count) first = from, count = run;
+    from += run;
+  }
+  if (count == 0) return std::nullopt;
+  const auto moved = [&](const SolvedWalk& walk) {
+    return walk.sweeps[first].begin().inverse() * walk.sweeps[first + count - 1].end();
+  };
+  const double begin_s = recording.scans.front().first_beam_s;
+  return fmt::format(
+      "From {:.0f} to {:.0f} s the surfaces hardly determine the motion: tracked in two ways, it ends {:.1f} m "
+      "apart. The trajectory may be wrong there.",
+      std::max(0.0, a.sweeps[first].begin_s - begin_s), a.sweeps[first + count - 1].end_s - begin_s,
+      (moved(a).translation_m - moved(b).translation_m).norm());
+}
+
+double doubt_of(const MapPath& path) {
+  return path.consistency ? path.consistency->doubt : std::numeric_limits<double>::infinity();
+}
+
+// The path along a walk. Where its map does not agree with itself it is tracked in two other ways, which
+// differ in directions that surfaces hardly determine, and the one whose map agrees best is taken: with a
+// warning if none of the others found the same motion.
+Result<MapPath> along_best_walk(const OffsetProblem& problem, const MapPath& path,
+                                const std::shared_ptr<const SolvedWalk>& walk, const MappingOptions& mapping,
+                                const Job& job) {
+  auto first = along_walk(problem, path, walk, job);
+  if (!first || !first->consistency || !first->consistency->warned() || walk->tracked_again) return first;
+  SolvedWalk known = *walk;
+  known.tracked_again = true;
+  first->walk = std::make_shared<const SolvedWalk>(std::move(known));
+  std::vector<MapPath> tried{std::move(*first)};
+  for (const double velocity_sigma : {5.0, 12.0}) {
+    MappingOptions other_way = mapping;
+    other_way.velocity_sigma = velocity_sigma;
+    auto again = solve_walk_at(problem, walk->tracked_at_s, other_way, job);
+    if (!again) return failure(ExitCode::kInterrupted, "interrupted while building the map");
+    again->tracked_again = true;
+    auto found = along_walk(problem, path, std::make_shared<const SolvedWalk>(std::move(*again)), job);
+    if (!found) return found;
+    tried.push_back(std::move(*found));
+  }
+  std::ranges::stable_sort(tried, {}, doubt_of);
+  MapPath& best = tried.front();
+  if (best.consistency->warned()) return best;
+  std::optional<std::string> difference;
+  for (const MapPath& other : std::span(tried).subspan(1)) {
+    auto from_this = difference_in_words(*best.walk, *other.walk, *problem.recording);
+    if (!from_this) return best;
+    if (!difference) difference = std::move(from_this);
+  }
+  MapConsistency doubtful = *best.consistency;
+  doubtful.warnings.push_back(*difference);
+  best.consistency = std::make_shared<const MapConsistency>(std::move(doubtful));
+  add_warning(best, *difference);
+  return best;
+}
+
 }  // namespace
 
 Result<MapPath> find_map_path(const PreparedRecording& prepared, double from_s, double to_s,
@@ -117,7 +193,6 @@ Result<MapPath> find_map_path(const PreparedRecording& prepared, double from_s, 
   path.sweeps = problem.motor.sweeps;
   path.poses = options.poses;
   path.warning = gauge_warning(problem);
-  if (path.moving) path.walk = options.walk;
   if (!path.poses.empty()) {
     auto covered = check_pose_coverage(*problem.recording, path.poses, path.used);
     if (!covered) return tl::unexpected(covered.error());
@@ -125,13 +200,13 @@ Result<MapPath> find_map_path(const PreparedRecording& prepared, double from_s, 
     return checked(problem, std::move(path), job, (from_s + to_s) / 2);
   }
   if (!path.moving) return path;
-  if (!path.walk) {
+  std::shared_ptr<const SolvedWalk> walk = options.walk;
+  if (!walk) {
     auto solved = find_walk(problem, middle_of_search_s(problem, from_s, to_s), options.mapping, job);
     if (!solved) return failure(ExitCode::kInterrupted, "interrupted while building the map");
-    path.walk = std::make_shared<const SolvedWalk>(std::move(*solved));
+    walk = std::make_shared<const SolvedWalk>(std::move(*solved));
   }
-  add_warning(path, pieces_warning(path.walk->sweeps, *problem.recording).value_or(""));
-  return checked(problem, std::move(path), job);
+  return along_best_walk(problem, path, walk, options.mapping, job);
 }
 
 MapPath path_without_solving(const PreparedRecording& prepared, std::vector<char> used,

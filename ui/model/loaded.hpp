@@ -25,9 +25,10 @@ class KnownWalk {
     const std::lock_guard lock(mutex_);
     return walk_;
   }
+  /// The first one, or the one that it was replaced by since its map did not agree with itself.
   void keep(std::shared_ptr<const SolvedWalk> walk) {
     const std::lock_guard lock(mutex_);
-    if (!walk_) walk_ = std::move(walk);
+    if (!walk_ || (walk && walk->tracked_again && !walk_->tracked_again)) walk_ = std::move(walk);
   }
 
  private:

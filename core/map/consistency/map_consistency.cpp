@@ -240,35 +240,48 @@ SurfacesApart closest_in_time(const std::vector<SurfacesApart>& apart) {
   return closest;
 }
 
-std::optional<std::string> apart_warning(const MapConsistency& found) {
-  if (found.apart.empty() || found.apart.front().apart_m <= found.limit_m) return std::nullopt;
+// What may be wrong with a map: how far it is beyond its limit, of 1, and what is then said.
+struct Finding {
+  double doubt = 0;
+  std::string warning;
+};
+
+Finding surfaces_that_lie_apart(const MapConsistency& found) {
+  if (found.apart.empty()) return {};
   const SurfacesApart shown = closest_in_time(found.apart);
-  return fmt::format(
-      "The map does not agree with itself: surfaces seen at {:.0f} s and again at {:.0f} s lie {:.1f} m apart "
-      "near {}. The trajectory is wrong between these times.",
-      shown.first_s, shown.again_s, shown.apart_m, place_in_words(shown.place_m));
+  return {
+      found.apart.front().apart_m / found.limit_m,
+      fmt::format("The map does not agree with itself: surfaces seen at {:.0f} s and again at {:.0f} s lie "
+                  "{:.1f} m apart near {}. The trajectory is wrong between these times.",
+                  shown.first_s, shown.again_s, shown.apart_m, place_in_words(shown.place_m))};
 }
 
-std::optional<std::string> unfit_warning(const std::vector<DoubtfulTime>& unfit) {
-  if (unfit.empty()) return std::nullopt;
+Finding sweeps_that_fit_nowhere(const std::vector<DoubtfulTime>& unfit) {
+  if (unfit.empty()) return {};
   const auto length_s = [](const DoubtfulTime& time) { return time.at_s.end_s - time.at_s.begin_s; };
   const DoubtfulTime& longest = *std::ranges::max_element(unfit, {}, length_s);
-  return fmt::format(
-      "The map does not agree with itself: what was seen from {:.1f} to {:.1f} s near {} does not fit the "
-      "surfaces that were seen before and after. The trajectory is wrong there.",
-      longest.at_s.begin_s, longest.at_s.end_s, place_in_words(longest.place_m));
+  double all_s = 0;
+  for (const DoubtfulTime& time : unfit) all_s += length_s(time);
+  constexpr double kShortest_s = 1e-3;
+  return {
+      1 + std::max(kShortest_s, all_s),
+      fmt::format(
+          "The map does not agree with itself: what was seen from {:.1f} to {:.1f} s near {} does not fit the "
+          "surfaces that were seen before and after. The trajectory is wrong there.",
+          longest.at_s.begin_s, longest.at_s.end_s, place_in_words(longest.place_m))};
 }
 
-std::optional<std::string> creep_warning(const std::vector<UndeterminedTime>& times) {
-  if (times.empty()) return std::nullopt;
+Finding creeping(const std::vector<UndeterminedTime>& times) {
+  if (times.empty()) return {};
   const UndeterminedTime& worst = *std::ranges::max_element(times, {}, &UndeterminedTime::missing_m);
   const double way_m = worst.missing_m + worst.speed_mps * (worst.at_s.end_s - worst.at_s.begin_s);
-  if (worst.missing_m < std::max(kMinMissing_m, kMissingOfWay * way_m)) return std::nullopt;
-  return fmt::format(
-      "From {:.0f} to {:.0f} s, near {}, the surfaces do not determine the motion, and the trajectory slows from "
-      "{:.1f} to {:.1f} m/s. If the rig did not, {:.0f} m are missing in the map.",
-      worst.at_s.begin_s, worst.at_s.end_s, place_in_words(worst.place_m), worst.speed_beside_mps,
-      worst.speed_mps, worst.missing_m);
+  return {
+      worst.missing_m / std::max(kMinMissing_m, kMissingOfWay * way_m),
+      fmt::format("From {:.0f} to {:.0f} s, near {}, the surfaces do not determine the motion, and the "
+                  "trajectory slows from {:.1f} to {:.1f} m/s. If the rig did not, {:.0f} m are missing in "
+                  "the map.",
+                  worst.at_s.begin_s, worst.at_s.end_s, place_in_words(worst.place_m), worst.speed_beside_mps,
+                  worst.speed_mps, worst.missing_m)};
 }
 
 // From times of the laser's clock to times since the recording's first scan.
@@ -295,9 +308,11 @@ std::optional<MapConsistency> map_consistency(const OffsetProblem& problem,
   found.unfit = unfit_times(poses, walk.views(), pairs);
   found.undetermined = undetermined_times(walk.views(), pairs);
   count_from(found, problem.recording->scans.front().first_beam_s);
-  for (const auto& warning :
-       {apart_warning(found), unfit_warning(found.unfit), creep_warning(found.undetermined)})
-    if (warning) found.warnings.push_back(*warning);
+  for (const Finding& finding :
+       {surfaces_that_lie_apart(found), sweeps_that_fit_nowhere(found.unfit), creeping(found.undetermined)}) {
+    found.doubt = std::max(found.doubt, finding.doubt);
+    if (finding.doubt > 1) found.warnings.push_back(finding.warning);
+  }
   return found;
 }
 

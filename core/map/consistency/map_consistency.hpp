@@ -42,6 +42,8 @@ struct MapConsistency {
   /// Absent if no surface was seen twice: the consistency is then not determined.
   std::optional<SurfacesApart> worst() const;
   bool warned() const { return !warnings.empty(); }
+  /// By what was seen, how far the map is from agreeing with itself: beyond 1 it is warned of.
+  double doubt = 0;
 };
 
 /// Compares what a rig saw in each two seconds with what it saw at other times. Both directions of turning

@@ -79,22 +79,19 @@ std::optional<SolvedWalk> solve_walk(const OffsetProblem& problem, double first_
   return job.cancelled() ? std::nullopt : std::move(walk);
 }
 
-namespace {
-
-WalkOptions at_one_offset(const MappingOptions& mapping) {
+std::optional<SolvedWalk> solve_walk_at(const OffsetProblem& problem, double offset_s,
+                                        const MappingOptions& mapping, const Job& job) {
   constexpr double kHeld_s = 1e-9;
   WalkOptions options;
   options.mapping = options.joint.mapping = mapping;
   options.joint.offset_sigma_s = kHeld_s;
-  return options;
+  return solve_walk(problem, offset_s, options, job);
 }
-
-}  // namespace
 
 std::optional<SolvedWalk> find_walk(const OffsetProblem& problem, double middle_s,
                                     const MappingOptions& mapping, const Job& job) {
   const SearchScale scale = search_scale(problem.motor);
-  if (problem.motor.one_way()) return solve_walk(problem, middle_s, at_one_offset(mapping), job);
+  if (problem.motor.one_way()) return solve_walk_at(problem, middle_s, mapping, job);
   const CoarseSearch coarse =
       search_coarsely(problem, middle_s - scale.half_width_s, middle_s + scale.half_width_s, scale, job);
   if (job.cancelled()) return std::nullopt;

@@ -37,6 +37,7 @@ struct SolvedWalk {
   double tracked_at_s = 0;         // the offset that the sweeps were placed with
   bool lost = false;               // too few sweeps could be tracked
   bool near = false;               // tracked at nearly the offset that fits
+  bool tracked_again = false;      // in other ways, since its map does not agree with itself
   std::optional<JointWalk> joint;  // absent where too few points match
 };
 
@@ -52,6 +53,10 @@ std::optional<SolvedWalk> solve_walk(const OffsetProblem& problem, double first_
 /// it.
 std::optional<SolvedWalk> find_walk(const OffsetProblem& problem, double middle_s,
                                     const MappingOptions& mapping, const Job& job);
+
+/// The walk as it is tracked at an offset that is not to be improved.
+std::optional<SolvedWalk> solve_walk_at(const OffsetProblem& problem, double offset_s,
+                                        const MappingOptions& mapping, const Job& job);
 
 /// The intervals in which sweeps are lost, in seconds since the recording's first scan.
 std::vector<Interval> lost_times(const std::vector<SweepPose>& sweeps, const Recording& recording);

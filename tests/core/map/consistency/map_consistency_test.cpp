@@ -117,6 +117,26 @@ TEST(MapConsistency, IsNotDeterminedWhereNoSurfaceWasSeenTwice) {
   EXPECT_EQ(consistency_json(path.consistency.get())["worst_m"], nullptr);
 }
 
+// A walk whose trajectory makes a step of its own is tracked again, and given back once it agrees with
+// itself.
+TEST(MapConsistency, AWalkThatDoesNotAgreeWithItselfIsTrackedInAnotherWay) {
+  const auto prepared = prepare(walk().recording, {}, Job()).value();
+  MapOptions options;
+  options.assume = RigKind::kMoving;
+  const MapPath good = find_map_path(prepared, kTruth_s, kTruth_s, options, Job()).value();
+  ASSERT_EQ(good.warning, "");
+  EXPECT_FALSE(good.walk->tracked_again);
+  SolvedWalk broken = *good.walk;
+  for (std::size_t i = broken.sweeps.size() / 2; i < broken.sweeps.size(); ++i)
+    for (Pose& knot : broken.sweeps[i].knots) knot.translation_m.y() += 0.6;
+  options.walk = std::make_shared<const SolvedWalk>(std::move(broken));
+  const MapPath again = find_map_path(prepared, kTruth_s, kTruth_s, options, Job()).value();
+  EXPECT_EQ(again.warning, "");
+  EXPECT_TRUE(again.walk->tracked_again);
+  const auto end_m = [](const MapPath& path) { return path.walk->sweeps.back().end().translation_m; };
+  EXPECT_LT((end_m(again) - end_m(good)).norm(), 0.1);
+}
+
 TEST(MapConsistency, AStationaryRigHasNone) {
   const auto prepared = prepare(test::room(kTruth_s), {}, Job()).value();
   EXPECT_FALSE(find_map_path(prepared, kTruth_s, kTruth_s, {}, Job()).value().consistency);
