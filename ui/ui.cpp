@@ -407,7 +407,7 @@ void Ui::frame(std::span<const InputEvent> events, double seconds_since_last) {
 void Ui::Parts::frame(std::span<const InputEvent> all_events, double seconds_since_last) {
   host.use(explorer.settings().theme, scale());
   input.add(all_events);
-  const std::vector<InputEvent> events = input.take();
+  const std::vector<InputEvent> events = input.take(!ImGui::GetIO().WantTextInput);
   use_keys(events);
   use_drops(events);
   transient.camera_moved_s += seconds_since_last;

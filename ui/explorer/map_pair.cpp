@@ -58,8 +58,8 @@ ColourSpan MapPair::wanted_span(const Settings& s, const Placement& a, const Pla
   if (by == ColourBy::kBlur && at_a && at_b && at_a->thickness && at_b->thickness)
     return blur_span(*at_a->thickness, *at_b->thickness);
   if (by == ColourBy::kElevation && s.heights == Heights::kBelowCeiling) {
-    const Box &at_a = a.map->low_box, &at_b = b.map->low_box;
-    return {std::min(at_a.from_m.z(), at_b.from_m.z()), std::max(at_a.to_m.z(), at_b.to_m.z())};
+    const Box &box_a = a.map->low_box, &box_b = b.map->low_box;
+    return {std::min(box_a.from_m.z(), box_b.from_m.z()), std::max(box_a.to_m.z(), box_b.to_m.z())};
   }
   return colour_span(by, *a.loaded, a.map.get(), b.map.get());
 }

@@ -88,7 +88,7 @@ void begin_pan(const PaneContext& context, const ChartLayout& layout, std::size_
 /// As far as there is something to see.
 void pan(const PaneContext& context, const AxisRange& all) {
   const Transient::ChartPan& from = *context.transient.chart_pan;
-  if (!is_dragged(context, 0) && !is_dragged(context, 1) && !is_dragged(context, 2)) return;
+  if (!is_dragged(context, held_button())) return;
   const double width_ms = from.to_ms - from.from_ms;
   if (width_ms >= all.length()) return;
   const double wanted_ms = from.from_ms - (mouse().x - from.mouse_px) / from.plot_width * width_ms;

@@ -36,11 +36,11 @@ Places lay_out(double width_px, double height_px, double scale, const Settings& 
                                         scale, 160 * scale, widest)
                               : 0;
   const double middle = height_px - menu - status - tabs;
-  const bool criteria = settings.criteria && has_recording && middle > 320 * scale;
+  const bool criteria = settings.criteria && has_recording && middle > 240 * scale;
   const double min_charts = std::min(190 * scale, 0.42 * middle);
   const double charts =
       criteria ? size_px(settings.charts_height_px, std::clamp(0.29 * middle, min_charts, 300 * scale), scale,
-                         120 * scale, 0.65 * middle)
+                         std::min(120 * scale, min_charts), (wide ? 0.65 : 0.45) * middle)
                : 0;
   const double playback = has_recording && settings.time_s >= 0 ? 34 * scale : 0;
   // A message takes its place from the charts, so that the maps keep their size as long as charts remain.
@@ -86,7 +86,7 @@ MapPlaces lay_out_maps(const PixelRect& maps, double scale, Layout layout, doubl
 }
 
 Layout shown_layout(Layout wanted, const PixelRect& maps, double scale) {
-  const bool as_a_phone = maps.width < 560 * scale && maps.height > 0.9 * maps.width;
+  const bool as_a_phone = maps.width < 480 * scale && maps.height > 0.9 * maps.width;
   return wanted == Layout::kSideBySide && as_a_phone ? Layout::kStacked : wanted;
 }
 

@@ -33,7 +33,7 @@ bool any_activated() {
 
 void drag_camera(const PaneContext& context, Side side, const PixelRect& picture) {
   if (any_activated()) context.begin_gesture();
-  const int button = ImGui::IsMouseDown(0) ? 0 : ImGui::IsMouseDown(1) ? 1 : 2;
+  const int button = held_button();
   if (!ImGui::IsItemActive() || !is_dragged(context, button)) return;
   // Since the press at first, and since the last frame from then on: nothing of a drag is lost.
   const ImVec2 delta = ImGui::GetMouseDragDelta(button, 0);

@@ -64,9 +64,14 @@ PixelPoint mouse() {
   return {static_cast<double>(at.x), static_cast<double>(at.y)};
 }
 
+int held_button() {
+  return ImGui::IsMouseDown(0) ? 0 : ImGui::IsMouseDown(1) ? 1 : 2;
+}
+
 bool is_dragged(const PaneContext& context, int button) {
   constexpr double kTremble = 4;
-  return ImGui::IsMouseDragging(button, context.pxf(kTremble));
+  const float tremble = context.pxf(kTremble);
+  return ImGui::GetIO().MouseDragMaxDistanceSqr[button] >= tremble * tremble;
 }
 
 void PaneContext::perform(const std::string& line, const std::string& gesture) const {

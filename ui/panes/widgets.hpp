@@ -29,8 +29,10 @@ inline Colour colour_of(const PaneContext& context, Side side) {
 /// Where the mouse is.
 PixelPoint mouse();
 
-/// Whether the mouse moved since this button was pressed: a hand that clicks trembles.
+/// Whether the mouse moved since this button was pressed last: a hand that clicks trembles.
 bool is_dragged(const PaneContext& context, int button);
+/// The button that is down, the left one first.
+int held_button();
 
 /// Opens a window at a fixed position without decoration, behind or above the others; `end_panel` closes it.
 /// What does not fit can be scrolled to, with a bar where the window is padded. `by_keys`: arrows and Space
