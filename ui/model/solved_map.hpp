@@ -6,8 +6,8 @@
 #include "core/map/map_path.hpp"
 #include "render/comparison/comparison.hpp"
 #include "ui/model/loaded.hpp"
-#include "ui/state/settings.hpp"
 #include "ui/model/spatial_order.hpp"
+#include "ui/state/settings.hpp"
 
 namespace sweepscope::ui {
 
