@@ -69,6 +69,7 @@ Result<ui::Ui::Options> ui_options(const ViewOptions& options) {
   if (const auto& part = options.reading.window) reading.window = TimeWindow{part->from_s, part->to_s};
   if (!options.script.empty()) out.explorer.input_files.emplace_back(options.script);
   if (options.scale > 0) out.display_scale = options.scale;
+  out.scale_given = options.scale > 0;
   return out;
 }
 

@@ -8,14 +8,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/comparison/look_options.hpp"
 #include "render/gl/default_framebuffer.hpp"
+#include "render/vector/vector_file.hpp"
 #include "ui/commands/commands.hpp"
 #include "ui/explorer/maps_picture.hpp"
 #include "ui/explorer/observables.hpp"
 #include "ui/host/imgui_host.hpp"
 #include "ui/host/input_queue.hpp"
-#include "ui/panes/file_dialog.hpp"
+#include "ui/panes/fronts/figure_preview.hpp"
+#include "ui/panes/fronts/file_dialog.hpp"
 #include "ui/panes/number_box.hpp"
 #include "ui/panes/pane_context.hpp"
 #include "ui/preferences.hpp"
@@ -28,14 +29,6 @@ namespace {
 /// Whether a tool left something on the maps.
 bool marked(const Settings& s) {
   return s.asked_scan >= 0 || s.measure_from_m != s.measure_to_m || s.profile_from_m != s.profile_to_m;
-}
-
-/// Of a picture that is exported at a size of its own.
-Result<ComparisonOptions> size_of(const std::string& size) {
-  ComparisonOptions options;
-  return set_look(options, *find_look_option("size"), size)
-      .and_then([&] { return check_size(options); })
-      .map([&] { return options; });
 }
 
 /// A key that was pressed, or a "?", which is on another key of every keyboard.
@@ -56,15 +49,20 @@ struct Ui::Parts final : Window {
         view_a(gl_context),
         view_b(gl_context),
         close_up_a(gl_context),
-        close_up_b(gl_context) {
+        close_up_b(gl_context),
+        preview(gl_context) {
     transient.recent = read_recent(options.recent_list);
-    explorer.begin_with(read_preferences(options.preferences).look);
+    Settings look = read_preferences(options.preferences).look;
+    kept_ui_scale = look.ui_scale;
+    if (options.scale_given) look.ui_scale = 0;
+    explorer.begin_with(look);
     explorer.window = this;
   }
 
   ~Parts() override {
-    write_preferences(options.preferences,
-                      {look_of(explorer.settings()), context.width_px(), context.height_px()});
+    Settings look = look_of(explorer.settings());
+    if (options.scale_given && look.ui_scale == 0) look.ui_scale = kept_ui_scale;  // it was of this run alone
+    write_preferences(options.preferences, {look, context.width_px(), context.height_px()});
   }
 
   double scale() const {
@@ -94,6 +92,8 @@ struct Ui::Parts final : Window {
   }
   Result<void> export_picture(const std::string& file, const std::string& what,
                               const std::string& size) override;
+  Result<void> export_figure(const std::string& file, const std::string& size,
+                             const std::string& parts) override;
 
   void clear_front();
   void show_alone(bool Transient::*front);
@@ -114,9 +114,12 @@ struct Ui::Parts final : Window {
   void write_picture();
   struct AskedPicture {
     std::string file, what, size;
+    FigureParts parts = {.close_up = false};
+    bool figure = false;
   };
   void export_maps(const AskedPicture& asked);
 
+  double kept_ui_scale = 0;  // of the preferences
   tbb::task_arena alone{1};
   Options options;
   gl::Context& context;
@@ -124,6 +127,7 @@ struct Ui::Parts final : Window {
   ImGuiHost host;
   InputQueue input;
   LiveView view_a, view_b, close_up_a, close_up_b;
+  FigurePreview preview;
   bool holds_recording = false;  // or what is left of one that was closed
   Transient transient;
   std::map<std::string, PixelRect> anchors;
@@ -138,23 +142,38 @@ Result<void> Ui::Parts::export_picture(const std::string& file, const std::strin
   if (auto right = check_type(file, kPictureTypes); !right) return right;
   if (!size.empty()) {
     if (what != "maps") return not_now("Only the maps can have a size: export-picture FILE maps 3840x2400");
-    if (auto usable = size_of(size); !usable) return tl::unexpected(usable.error());
+    if (auto usable = parse_figure_size(size); !usable) return tl::unexpected(usable.error());
   }
   picture_asked = {file, what, size};
   frames_until_picture = 2;
   return {};
 }
 
+Result<void> Ui::Parts::export_figure(const std::string& file, const std::string& size,
+                                      const std::string& parts) {
+  AskedPicture asked{file, "", size.empty() ? Transient::Figure().size : size};
+  asked.figure = true;
+  if (auto right = check_picture_path(file); !right) return right;
+  if (auto usable = parse_figure_size(asked.size); !usable) return tl::unexpected(usable.error());
+  const auto shown = parts.empty() ? Result<FigureParts>(FigureParts()) : parse_figure_parts(parts);
+  if (!shown) return tl::unexpected(shown.error());
+  asked.parts = *shown;
+  picture_asked = std::move(asked);
+  frames_until_picture = 2;
+  return {};
+}
+
 /// At a size of its own: drawn in the background, with a context of its own.
 void Ui::Parts::export_maps(const AskedPicture& asked) {
-  const ComparisonOptions size = *size_of(asked.size);
-  auto picture = maps_picture(explorer, size.width_px, size.height_px, picture_shape().aspect);
+  const auto [width_px, height_px] = *parse_figure_size(asked.size);
+  auto picture = maps_picture(explorer, width_px, height_px, picture_shape().aspect, asked.parts);
   if (!picture) return explorer.messages.error(picture.error());
   const std::string& path = asked.file;
   explorer.exports.start({.title = "Writing " + path,
                           .done = "The picture is saved in " + whole_path(path) + ".",
                           .file = path,
-                          .write = [picture = std::move(*picture), path](const Job&) {
+                          .write = [picture = std::move(*picture), path, figure = asked.figure](const Job&) {
+                            if (figure) return sweepscope::write_picture(path, picture);
                             return sweepscope::draw(picture).and_then(
                                 [&](const Image& image) { return ui::write_picture(image, path); });
                           }});
@@ -200,6 +219,8 @@ void Ui::Parts::dismiss() {
     explorer.messages.dismiss();
   } else if (explorer.page.choosing() != nullptr) {
     explorer.page.leave();
+  } else if (explorer.settings().sheet != Sheet::kNone) {
+    (void)explorer.perform("open-panel none");
   } else if (explorer.settings().tool != Tool::kLook || marked(explorer.settings())) {
     transient.measure_from_m.reset();
     const std::string gesture = "dismiss " + std::to_string(++transient.gestures);
@@ -281,13 +302,16 @@ void Ui::Parts::draw(const PaneContext& panes) {
   if (choosing) {
     draw_choices_page(panes, places.maps);
   } else if (open) {
-    draw_recording_panel(panes, places.left);
+    const Sheet sheet = places.sheet.width > 0 ? explorer.settings().sheet : Sheet::kNone;
+    draw_recording_panel(panes, sheet == Sheet::kRecording ? places.sheet : places.left,
+                         sheet != Sheet::kNone);
     draw_maps(panes, places.maps);
     draw_criteria(panes, places.criteria);
-    draw_display_panel(panes, places.right);
+    draw_display_panel(panes, sheet == Sheet::kDisplay ? places.sheet : places.right, sheet != Sheet::kNone);
     draw_cards(panes, places.maps);
     draw_playback(panes, places.playback);
-    if (!something_in_front()) draw_splitters(panes, places, whole);
+    draw_tabs(panes, places.tabs);
+    if (!something_in_front() && places.sheet.width == 0) draw_splitters(panes, places, whole);
   } else if (explorer.recording.is_opening()) {
     draw_loading_page(panes, places.maps);
   } else {
@@ -315,6 +339,7 @@ void Ui::Parts::let_go() {
   if (explorer.loaded() != nullptr || !holds_recording || !explorer.background.status().empty()) return;
   for (LiveView* view : {&view_a, &view_b, &close_up_a, &close_up_b}) view->show(nullptr, nullptr);
   transient.profiles = {};
+  preview.forget();
   malloc_trim(0);
   holds_recording = false;
 }
@@ -323,10 +348,11 @@ void Ui::Parts::let_go() {
 PictureShape Ui::Parts::picture_shape() const {
   const Settings& settings = explorer.settings();
   const PixelRect maps = lay_out(context.width_px(), context.height_px(), scale(), settings, true, 0).maps;
-  const MapPlaces places = lay_out_maps(maps, scale(), settings.layout, settings.map_share);
+  const Layout layout = shown_layout(settings.layout, maps, scale());
+  const MapPlaces places = lay_out_maps(maps, scale(), layout, settings.map_share);
   const PixelRect& picture = places.picture_b.width > 0 ? places.picture_b : places.picture_a;
   PictureShape shape{picture.width / std::max(picture.height, 1.0), 0, 0};
-  const auto close_ups = close_up_places(picture, scale(), settings.layout);
+  const auto close_ups = close_up_places(picture, scale(), settings.layout, explorer.view.spare_height());
   if (close_ups.empty()) return shape;
   shape.covered_width = (picture.right() - close_ups.front().left) / picture.width;
   shape.covered_height = (picture.bottom() - close_ups.front().top) / picture.height;
@@ -381,7 +407,7 @@ void Ui::frame(std::span<const InputEvent> events, double seconds_since_last) {
 void Ui::Parts::frame(std::span<const InputEvent> all_events, double seconds_since_last) {
   host.use(explorer.settings().theme, scale());
   input.add(all_events);
-  const std::vector<InputEvent> events = input.take();
+  const std::vector<InputEvent> events = input.take(!ImGui::GetIO().WantTextInput);
   use_keys(events);
   use_drops(events);
   transient.camera_moved_s += seconds_since_last;
@@ -390,10 +416,12 @@ void Ui::Parts::frame(std::span<const InputEvent> all_events, double seconds_sin
   remember_opened();
   let_go();
   // The keyboard is ImGui's in its menus and on the page of choices: elsewhere arrows move the view.
+  host.enter_chooses = menu_is_open();
   host.navigate_by_keys(menu_is_open() || (explorer.page.choosing() != nullptr && !something_in_front()));
   host.begin_frame(events, seconds_since_last);
   anchors.clear();
   begin_number_boxes(transient);
+  transient.pane_aspect = picture_shape().aspect;
   transient.for_picture = picture_asked && picture_asked->what == "maps";
   const PaneContext panes{explorer,
                           transient,
@@ -402,6 +430,7 @@ void Ui::Parts::frame(std::span<const InputEvent> all_events, double seconds_sin
                           scale(),
                           {&view_a, &view_b},
                           {&close_up_a, &close_up_b},
+                          preview,
                           options.draw_budget_s,
                           anchors};
   draw(panes);

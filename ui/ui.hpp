@@ -21,6 +21,7 @@ class Ui {
   struct Options {
     Explorer::Options explorer;
     double display_scale = 1;           // 1 at 100 %
+    bool scale_given = false;           // by a person: a window's display does not change it
     std::filesystem::path recent_list;  // empty: none is kept
     std::filesystem::path preferences;  // the same
     double draw_budget_s = 0.012;       // of each map and frame, for points beyond the coarse ones

@@ -120,7 +120,7 @@ double seconds_between(Clock::time_point from, Clock::time_point to) {
   return std::chrono::duration<double>(to - from).count();
 }
 
-void loop(gl::Window& window, Ui& ui, ScriptRecorder* recorder) {
+void loop(gl::Window& window, Ui& ui, ScriptRecorder* recorder, bool scale_given) {
   constexpr int kFramesAfterEvent = 4;  // ImGui needs at most these
   constexpr double kTooltip_s = 0.7;    // a tooltip comes while the mouse rests
   constexpr double kFrame_s = 1.0 / 60;
@@ -149,7 +149,7 @@ void loop(gl::Window& window, Ui& ui, ScriptRecorder* recorder) {
       continue;
     }
     last = now;
-    ui.set_display_scale(window.scale());
+    if (!scale_given) ui.set_display_scale(window.scale());
     const std::vector<InputEvent> events = queue.take();
     clipboard.before(window, ui, events);
     ui.frame(events, std::clamp(seconds, 1e-3, 0.25));
@@ -183,8 +183,8 @@ Result<void> run_explorer(gl::Window& window, Ui::Options options, const std::fi
                           const WindowHooks& hooks, const std::string& first_line,
                           std::span<const Script> scripts) {
   window.make_current();
-  const double wanted_scale = options.display_scale;
-  if (wanted_scale == 1) options.display_scale = window.scale();
+  const bool scale_given = options.scale_given;
+  if (!scale_given) options.display_scale = window.scale();
   Ui ui(window, std::move(options));
   if (hooks.started) hooks.started(ui);
   ui.explorer().background.on_progress(hooks.wake);
@@ -194,11 +194,11 @@ Result<void> run_explorer(gl::Window& window, Ui::Options options, const std::fi
     if (auto done = run_script(ui, script); !done) return done;
   }
   if (record.empty()) {
-    loop(window, ui, nullptr);
+    loop(window, ui, nullptr, scale_given);
     return {};
   }
   return ScriptRecorder::create(record).and_then([&](ScriptRecorder recorder) {
-    loop(window, ui, &recorder);
+    loop(window, ui, &recorder, scale_given);
     return recorder.end();
   });
 }

@@ -60,19 +60,24 @@ const touch = new Touch(canvas, keys, sender);
 const uploader = new Uploader(tell, element('sending'), say);
 let painter = null;
 
+/** What the buttons for fingers leave of the window. */
+const room = () => [innerWidth, Math.max(1, innerHeight - element('touch').offsetHeight)];
+
 function ratio() {
-  const area = Math.max(1, innerWidth * innerHeight);
+  const [width, height] = room();
+  const area = Math.max(1, width * height);
   return Math.max(1, Math.min(devicePixelRatio || 1, Math.sqrt(MAX_PX / area)));
 }
 
 function tellSize() {
-  const scale = ratio();
-  tell({type: 'size', width: Math.round(innerWidth * scale), height: Math.round(innerHeight * scale), scale});
+  const scale = ratio(), [width, height] = room();
+  tell({type: 'size', width: Math.round(width * scale), height: Math.round(height * scale), scale});
 }
 
 /** The driver's picture has the size of the window; another's is fitted into it. */
 function fit() {
-  const scale = Math.min(innerWidth / canvas.width, innerHeight / canvas.height);
+  const [width, height] = room();
+  const scale = Math.min(width / canvas.width, height / canvas.height);
   canvas.style.width = `${canvas.width * scale}px`;
   canvas.style.height = `${canvas.height * scale}px`;
 }
@@ -214,6 +219,7 @@ element('keyboard').onclick = () => keys.focus();
 const coarse = matchMedia('(pointer: coarse)');
 function showTouch() {
   element('touch').hidden = !coarse.matches;
+  tellSize();
   changed();
 }
 coarse.addEventListener('change', showTouch);

@@ -9,11 +9,24 @@ class Uploader {
     this.say = say;
     this.waiting = new Map();  // announced, by name
     window.addEventListener('dragover', (event) => event.preventDefault());
+    window.addEventListener('dragenter', (event) => this.hovered(event, 1));
+    window.addEventListener('dragleave', (event) => this.hovered(event, -1));
     window.addEventListener('drop', (event) => this.dropped(event));
+    this.over = 0;
+  }
+
+  /** While files are held over the page: where they will go. Its parts are entered and left one by one. */
+  hovered(event, change) {
+    event.preventDefault();
+    this.over = change === 0 ? 0 : Math.max(0, this.over + change);
+    const sign = document.getElementById('drop');
+    sign.hidden = this.over === 0;
+    sign.textContent = 'Drop one recording: it is sent to the machine that runs sweepscope, and opened.';
   }
 
   dropped(event) {
     event.preventDefault();
+    this.hovered(event, 0);
     const items = [...event.dataTransfer.items].filter((item) => item.kind === 'file');
     const folder = items.some((item) => item.webkitGetAsEntry && (item.webkitGetAsEntry() || {}).isDirectory);
     if (folder) return this.say('A folder cannot be dropped here. Copy it to the machine, and open it with Ctrl-O.');

@@ -118,11 +118,22 @@ class GlfwWindow final : public Window {
   std::array<GLFWcursor*, 4> cursors_{};
 };
 
+/// A size that fits the screen, below the window's title.
+void fit_screen(int& width_px, int& height_px) {
+  constexpr int kTitle_px = 36;
+  int x = 0, y = 0, width = 0, height = 0;
+  GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+  if (monitor != nullptr) glfwGetMonitorWorkarea(monitor, &x, &y, &width, &height);
+  if (width > 0 && width_px > width) width_px = width;
+  if (height > kTitle_px && height_px > height) height_px = height - kTitle_px;
+}
+
 }  // namespace
 
 Result<std::unique_ptr<Window>> make_window(int width_px, int height_px, const std::string& title) {
   if (glfwInit() == 0)
     return failure(ExitCode::kWrongUsage, fmt::format("No window can be opened: {}", last_error()));
+  fit_screen(width_px, height_px);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);

@@ -85,6 +85,28 @@ TEST_F(View, TheMapsAreExportedAtASizeOfTheirOwn) {
       2);
 }
 
+TEST_F(View, AFigureIsWrittenAsPngSvgOrPdfWithTheChosenParts) {
+  const Outcome exported =
+      run("view room.bag --headless --no-estimate --size 800x600 --run 'offset-b 24; wait solved; "
+          "export-figure all.png; export-figure all.svg 1600x1000; export-figure bare.svg 1600x1000 none; "
+          "export-figure all.pdf 1600x1000 offsets,legend'");
+  ASSERT_EQ(exported.exit_code, 0) << exported.err;
+  EXPECT_EQ(size_of_png("all.png"), std::pair(1920, 1200));
+  const std::string all = test::contents_of(folder_ / "all.svg"),
+                    bare = test::contents_of(folder_ / "bare.svg");
+  for (const char* words : {"offset 24.0 ms", ">elevation<"}) {
+    EXPECT_NE(all.find(words), std::string::npos) << words;
+    EXPECT_EQ(bare.find(words), std::string::npos) << words;
+  }
+  EXPECT_EQ(test::contents_of(folder_ / "all.pdf").substr(0, 5), "%PDF-");
+  for (const char* wrong : {"no.jpg", "no.png 1600x1000 legend,title"}) {
+    const Outcome refused =
+        run(std::string("view room.bag --headless --no-estimate --run 'wait solved; export-figure ") + wrong +
+            "'");
+    EXPECT_EQ(refused.exit_code, 2) << wrong << refused.err;
+  }
+}
+
 TEST_F(View, WhatIsRecordedReplacesNoInput) {
   const std::string before = read_file(folder_ / "room.bag").value();
   const Outcome recorded = run("view room.bag --record room.bag");

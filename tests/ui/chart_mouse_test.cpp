@@ -1,6 +1,7 @@
 // The charts by mouse: handles, zoom, pan, values, and the curve that grows.
 #include "ui/panes/chart_mouse.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "render/charts/curve_charts.hpp"
@@ -118,9 +119,50 @@ TEST_F(Charts, AClickOnAHandleChangesNothingAndADragMovesItByWhatTheMouseMoves) 
   EXPECT_LT(settings().offset_a_ms, 24);
 }
 
+TEST_F(Charts, AClickBesideTheHandlesBringsTheNearestAndADoubleClickNone) {
+  run("click \"chart 0\" at 0.1 0.3");
+  EXPECT_LT(settings().offset_a_ms, -40);
+  EXPECT_EQ(settings().offset_b_ms, 24);
+  const double a_ms = settings().offset_a_ms;
+  run("click \"chart 0\" at 0.9 0.3\nundo\nexpect offset-b is 24");
+  run("double-click \"chart 0\" at 0.7 0.8");
+  EXPECT_EQ(settings().offset_a_ms, a_ms);
+  EXPECT_EQ(settings().offset_b_ms, 24);
+}
+
+TEST_F(Charts, AHandleSnapsToTheOffsetFound) {
+  const double found_ms = *ui_.explorer().found_offset_ms();
+  run("offset-b 30\nframes 2");
+  const double px_per_ms = (ui_.anchor("handle b")->left - ui_.anchor("handle a")->left) / 20;
+  const double away_px = (found_ms - 30) * px_per_ms + 2;
+  run(fmt::format("drag \"handle b\" by {:.1f} 0", away_px));
+  EXPECT_EQ(settings().offset_b_ms, found_ms);
+  run("offset-b 30\nframes 2");
+  run(fmt::format("drag \"handle b\" by {:.1f} 0", away_px + 20));
+  EXPECT_NE(settings().offset_b_ms, found_ms);
+}
+
+/// One frame with all of these events, as a fast hand or a slow machine sends them.
+TEST_F(Charts, AClickTurnsNoMapAndMovesNoHandleHoweverFastTheMouseCame) {
+  const auto at = [&](const std::string& name) {
+    const PixelRect place = *ui_.anchor(name);
+    return std::pair{place.left + place.width / 2, place.top + 0.8 * place.height};
+  };
+  const Settings before = settings();
+  for (const std::string name : {"map a", "handle a", "handle b", "map b"}) {
+    const auto [x, y] = at(name);
+    const std::vector<InputEvent> all{InputEvent::move(x - 300, y - 40), InputEvent::move(x, y),
+                                      InputEvent::press(0, true, 0),     InputEvent::move(x + 2, y + 1),
+                                      InputEvent::press(0, false, 0),    InputEvent::move(x + 400, y + 90)};
+    ui_.frame(all, 1.0 / 60);
+    for (int frame = 0; frame < 10; ++frame) ui_.frame({}, 1.0 / 60);
+    EXPECT_EQ(settings(), before) << name;
+  }
+}
+
 TEST_F(Charts, TheAxisStaysWhileAHandleIsDragged) {
   const PixelRect a = *ui_.anchor("handle a"), b = *ui_.anchor("handle b");
-  run("mouse move \"handle a\"\nmouse down\nmouse move \"chart 0\" at 0.05 0.9");
+  run("mouse move \"handle a\"\nmouse down\nmouse move \"chart 0\" at 0.05 0.9\nframes 1");
   EXPECT_LT(ui_.anchor("handle a")->left, a.left - 50);
   EXPECT_EQ(ui_.anchor("handle b")->left, b.left);
   run("mouse up");

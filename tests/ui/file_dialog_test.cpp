@@ -6,7 +6,7 @@
 #include "core/io/atomic_file.hpp"
 #include "tests/folder_test.hpp"
 #include "ui/model/file_list.hpp"
-#include "ui/panes/file_dialog.hpp"
+#include "ui/panes/fronts/file_dialog.hpp"
 #include "ui/script/script.hpp"
 
 namespace sweepscope::ui {

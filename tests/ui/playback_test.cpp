@@ -189,7 +189,8 @@ TEST(ShownTable, OnLightGroundEndsBeforeTheBrightestColours) {
 TEST(LayOut, NothingOverlapsAtAnySizeScaleAndWidthOfThePanels) {
   for (const auto& [width, height, scale] :
        {std::tuple{1024.0, 768.0, 1.0}, std::tuple{1920.0, 1080.0, 2.0}, std::tuple{1024.0, 768.0, 2.0},
-        std::tuple{3840.0, 2160.0, 2.0}}) {
+        std::tuple{3840.0, 2160.0, 2.0}, std::tuple{1400.0, 900.0, 2.0}, std::tuple{390.0, 844.0, 1.0},
+        std::tuple{390.0, 640.0, 1.0}}) {
     for (const double given : {0.0, 50.0, 300.0, 4000.0}) {
       Settings settings;
       settings.left_width_px = settings.right_width_px = settings.charts_height_px = given;
@@ -201,7 +202,10 @@ TEST(LayOut, NothingOverlapsAtAnySizeScaleAndWidthOfThePanels) {
         EXPECT_LE(p.maps.right(), p.right.left);
         EXPECT_LE(p.maps.bottom(), p.playback.top);
         EXPECT_LE(p.playback.bottom(), p.criteria.top + 1);
-        EXPECT_LE(p.criteria.bottom(), p.status.top + 1);
+        EXPECT_LE(p.criteria.bottom(), (p.tabs.height > 0 ? p.tabs.top : p.status.top) + 1);
+        EXPECT_LE(p.tabs.bottom(), p.status.top + 1);
+        EXPECT_TRUE(p.left.width > 0 || p.tabs.height > 0) << "the panels can be reached";
+        EXPECT_GT(p.criteria.height, 80) << "the handles are there";
         const MapPlaces maps = lay_out_maps(p.maps, scale, layout, 0.5);
         for (const PixelRect& picture : {maps.picture_a, maps.picture_b}) {
           EXPECT_GT(picture.width, 60) << width << " " << scale << " " << given;

@@ -87,7 +87,7 @@ drag time-window at 0.97 0.5 to time-window at 0.6 0.5
 wait solved
 click "menu Tools"
 click "menu tool pick"
-click "map a" at 0.45 0.5
+click "map a" at 0.15 0.8
 click "menu Tools"
 click "menu tool profile"
 drag "map a" at 0.2 0.7 to "map a" at 0.25 0.75

@@ -57,6 +57,54 @@ TEST_F(Typing, WhatFollowsTheKeyOfADialogInTheSameFrameArrivesWholeInItsField) {
   expect_runs("expect theme is dark\nkey Enter\nexpect theme is light");
 }
 
+TEST_F(Typing, EnterAndSpaceChooseInLists) {
+  expect_runs("sample room-1\nwait solved\nclick layout\nkey Down\nkey Enter\nexpect layout is swipe");
+  expect_runs("click layout\nkey Up\nkey Space\nexpect layout is side-by-side");
+  expect_runs("click colouring\nkey Down\nkey Down\nkey Enter\nexpect colouring is time");
+  expect_runs("key Space\nexpect layout is a");
+}
+
+TEST_F(Typing, ThePaletteKnowsValuesAndOtherWordsForThem) {
+  expect_runs("sample room-1\nwait solved");
+  for (const auto& [words, line] :
+       {std::pair{"blur", "colouring blur"}, std::pair{"png", "ask export-figure"},
+        std::pair{"reset", "fit-view"}, std::pair{"sync", "linked"}, std::pair{"top view", "look top"},
+        std::pair{"cividis", "table cividis"}, std::pair{"dark mode", "theme"}}) {
+    expect_runs(std::string("key Ctrl+P\ntype \"") + words + "\"\nframes 3");
+    EXPECT_TRUE(ui_.anchor(std::string("palette ") + line)) << words;
+    expect_runs("key Escape");
+  }
+  expect_runs("key Ctrl+P\ntype blur\nkey Enter\nexpect colouring is blur");
+}
+
+TEST_F(Typing, AFigureIsExportedFromItsDialogByMouse) {
+  expect_runs(
+      "sample room-1\noffset-b 24\nwait solved\nkey Ctrl+Shift+E\nwait solved\nclick \"figure size\"\n"
+      "click \"figure size 1920x1080\"\nclick \"figure legend\"\nclick \"figure type.svg\"\nwait solved\n"
+      "click \"button ok\"\nwait solved\nexpect message contains room");
+  int count = 0;
+  for (const auto& file : std::filesystem::directory_iterator(folder_))
+    count += file.path().extension() == ".svg" ? 1 : 0;
+  EXPECT_EQ(count, 1);
+}
+
+TEST_F(Typing, ASmallWindowHasTabsForItsPanels) {
+  const auto context = *gl::make_offscreen_context(390, 844);
+  Ui phone(*context, Ui::Options());
+  const auto runs = [&](const std::string& lines) {
+    const auto done = run_script(phone, *parse_script(lines, "test"), 120);
+    EXPECT_TRUE(done) << done.error().message;
+  };
+  runs("sample room-1\nwait solved\nclick \"button estimate\"\nwait estimated\nwait solved");
+  EXPECT_GT(phone.anchor("map b")->top, phone.anchor("map a")->bottom()) << "one above the other";
+  EXPECT_TRUE(phone.anchor("close-up a"));
+  runs("click \"button open-panel recording\"\nframes 3");
+  EXPECT_TRUE(phone.anchor("answer"));
+  runs(
+      "click \"button open-panel display\"\nframes 3\nclick colouring\nclick \"colouring blur\"\n"
+      "expect colouring is blur\nkey Escape\nexpect open-panel is none");
+}
+
 TEST_F(Typing, LettersInAFieldAreNoShortcuts) {
   expect_runs("sample room-1\nwait solved\nclick offset-a");
   type_fast("17.5");

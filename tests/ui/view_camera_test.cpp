@@ -35,8 +35,9 @@ TEST(ViewCamera, MovingTakesThePlaceAlongWithTheMouse) {
 }
 
 /// Where the corners of a box are in a picture, as fractions of its width and height.
-std::pair<Eigen::Array2d, Eigen::Array2d> extent_of(const Box& box, const ViewPoint& view, double aspect) {
-  const Projection projection = projection_of(view, false, {0, 0, aspect, 1});
+std::pair<Eigen::Array2d, Eigen::Array2d> extent_of(const Box& box, const ViewPoint& view, double aspect,
+                                                    bool perspective) {
+  const Projection projection = projection_of(view, perspective, {0, 0, aspect, 1});
   Eigen::Array2d from(1e9, 1e9), to(-1e9, -1e9);
   for (int corner = 0; corner < 8; ++corner) {
     const Eigen::Vector3d p{((corner & 1) != 0 ? box.to_m : box.from_m).x(),
@@ -51,14 +52,20 @@ std::pair<Eigen::Array2d, Eigen::Array2d> extent_of(const Box& box, const ViewPo
 
 TEST(ViewCamera, AFittedViewShowsAllOfTheBoxAboveOrBesideWhatIsCovered) {
   const Box wide{{-30, -5, 0}, {30, 9, 4}}, high{{2, -40, 0}, {8, 40, 4}};
-  for (const double aspect : {0.6, 1.0, 2.5}) {
-    for (const double elevation_deg : {90.0, 35.0}) {
-      for (const Box& box : {wide, high}) {
-        const ViewPoint view = fitted({{0, 0, 0}, 1, 20, elevation_deg}, box, {aspect, 0.4, 0.3});
-        const auto [from, to] = extent_of(box, view, aspect);
-        EXPECT_GE(from.minCoeff(), 0);
-        EXPECT_LE(to.maxCoeff(), 1);
-        EXPECT_TRUE(to.x() <= 0.6 || to.y() <= 0.7) << to.transpose();
+  for (const bool perspective : {false, true}) {
+    for (const double aspect : {0.6, 1.0, 2.5}) {
+      for (const double elevation_deg : {90.0, 35.0}) {
+        for (const Box& box : {wide, high}) {
+          // Above or beside what is covered where the scale is the same everywhere; in perspective nothing is
+          // cut.
+          const PictureShape shape =
+              perspective ? PictureShape{aspect, 0, 0} : PictureShape{aspect, 0.4, 0.3};
+          const ViewPoint view = fitted({{0, 0, 0}, 1, 20, elevation_deg}, box, shape, perspective);
+          const auto [from, to] = extent_of(box, view, aspect, perspective);
+          EXPECT_GE(from.minCoeff(), 0);
+          EXPECT_LE(to.maxCoeff(), 1);
+          EXPECT_TRUE(perspective || to.x() <= 0.6 || to.y() <= 0.7) << to.transpose();
+        }
       }
     }
   }

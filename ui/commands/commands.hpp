@@ -67,6 +67,8 @@ struct Shortcut {
 std::span<const Shortcut> shortcuts();
 /// The first chord of a line; empty where it has none.
 std::string chord_of(std::string_view line);
+/// Other words for a line, for a search; empty without any.
+std::string_view synonyms_of(std::string_view line);
 
 /// An entry of the menu bar, in order; an empty line is a separator.
 struct MenuItem {
@@ -90,6 +92,9 @@ class Window {
   /// What is in front: it is shown in place of anything else, or taken away where it is shown already.
   virtual void toggle_palette() = 0;
   virtual void toggle_keys() = 0;
+  /// Empty size or parts: the usual ones.
+  virtual Result<void> export_figure(const std::string& file, const std::string& size,
+                                     const std::string& parts) = 0;
   /// The dialog that asks for the file of a command, and `what` of it.
   virtual void ask(const std::string& command, const std::string& what) = 0;
   virtual void dismiss() = 0;

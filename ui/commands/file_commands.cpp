@@ -166,6 +166,7 @@ std::string suggested_file(const Explorer& explorer, const std::string& command,
   if (command == "export-cloud")
     name += fmt::format("-{}ms", what == "a" ? settings.offset_a_ms : settings.offset_b_ms);
   if (command == "export-picture" && what == "maps") name += "-maps";
+  if (command == "export-figure") name += "-figure";
   for (const Parameter& parameter : find_command(command)->parameters)
     if (!parameter.ending.empty()) return name + parameter.ending;
   return "";
@@ -190,6 +191,15 @@ std::vector<Command> file_commands() {
            optional_of(text_of("SIZE"))},
           [](Explorer&, Window& window, const Call& call) {
             return window.export_picture(call.text(0), call.text(1), call.text(2));
+          },
+          Need::kRecording),
+      window_action(
+          {"export-figure", "Export a figure",
+           "The maps as PNG, SVG or PDF, by the file's ending. PARTS: offsets, legend, scale and close-up, "
+           "separated by commas, or none."},
+          {written_file(".png"), optional_of(text_of("SIZE")), optional_of(text_of("PARTS"))},
+          [](Explorer&, Window& window, const Call& call) {
+            return window.export_figure(call.text(0), call.text(1), call.text(2));
           },
           Need::kRecording),
       action({"export-cloud", "Export a map's points", "As PCD or PLY, by the file's ending."},

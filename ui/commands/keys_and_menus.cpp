@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <array>
+#include <string_view>
 
 #include "ui/commands/commands.hpp"
 
@@ -10,6 +12,7 @@ const std::vector<Shortcut> kShortcuts{
     {"Ctrl+Shift+O", "choose"},
     {"Ctrl+S", "ask save-session"},
     {"Ctrl+E", "ask export-picture"},
+    {"Ctrl+Shift+E", "ask export-figure"},
     {"Ctrl+R", "ask export-report"},
     {"Ctrl+C", "copy"},
     {"Ctrl+Shift+C", "copy-command"},
@@ -88,7 +91,7 @@ const std::vector<MenuItem> kMenuItems{
     {"File", "ask save-session", "Save the session …"},
     {"File", ""},
     {"File", "ask export-picture", "Export the picture …"},
-    {"File", "ask export-picture maps", "Export the maps' picture alone …"},
+    {"File", "ask export-figure", "Export a figure …"},
     {"File", "ask export-cloud a", "Export the points of map A …"},
     {"File", "ask export-cloud b", "Export the points of map B …"},
     {"File", "ask export-curve", "Export the criteria …"},
@@ -149,7 +152,55 @@ const std::vector<MenuItem> kMenuItems{
     {"Help", "help"},
 };
 
+struct Synonym {
+  const char *line, *words;
+};
+/// What people call a line, beside its title and its words. In small letters.
+constexpr std::array kSynonyms{
+    Synonym{"look top", "top view plan above bird's eye"},
+    Synonym{"look front", "front view side elevation"},
+    Synonym{"look right", "side view"},
+    Synonym{"look isometric", "3d view tilted"},
+    Synonym{"fit-view", "reset view zoom all extents home"},
+    Synonym{"chart-range", "reset chart zoom axis"},
+    Synonym{"linked", "sync synchronise cameras link lock"},
+    Synonym{"ask export-picture", "png jpg jpeg image screenshot save"},
+    Synonym{"ask export-figure", "png svg pdf image figure print paper save"},
+    Synonym{"export-figure", "png svg pdf image figure print paper save"},
+    Synonym{"export-picture", "png jpg jpeg image screenshot save"},
+    Synonym{"ask export-cloud a", "pcd ply cloud save"},
+    Synonym{"ask export-cloud b", "pcd ply cloud save"},
+    Synonym{"ask export-curve", "csv json curve save"},
+    Synonym{"ask export-report", "html save"},
+    Synonym{"colouring", "color colour thickness sharpness"},
+    Synonym{"colouring blur", "color sharpness thickness walls"},
+    Synonym{"colouring elevation", "color height z"},
+    Synonym{"table", "colormap color map palette"},
+    Synonym{"theme", "dark mode light mode night"},
+    Synonym{"backdrop", "color"},
+    Synonym{"ui-scale", "font size bigger text zoom dpi"},
+    Synonym{"layout swipe", "overlay slider before after"},
+    Synonym{"layout difference", "diff distance"},
+    Synonym{"perspective", "orthographic projection"},
+    Synonym{"lighting", "shading edl"},
+    Synonym{"trajectory", "path track"},
+    Synonym{"box-here", "crop clip region"},
+    Synonym{"box 0 0 0 0 0 0", "reset crop clip"},
+    Synonym{"take-found", "answer result snap apply"},
+    Synonym{"swap", "exchange"},
+    Synonym{"cancel", "stop abort"},
+    Synonym{"choose", "topic joint stamps rig import"},
+    Synonym{"help", "shortcuts keyboard hotkeys"},
+    Synonym{"tool measure", "distance ruler"},
+    Synonym{"tool pick", "select point query"},
+};
+
 }  // namespace
+
+std::string_view synonyms_of(std::string_view line) {
+  const auto found = std::ranges::find(kSynonyms, line, &Synonym::line);
+  return found == kSynonyms.end() ? std::string_view() : found->words;
+}
 
 std::span<const Shortcut> shortcuts() {
   return kShortcuts;

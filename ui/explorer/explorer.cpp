@@ -47,6 +47,7 @@ Explorer::Explorer(Options options)
                  [this](bool computed) {
                    if (computed) answers.keep(*loaded(), *estimating.found());
                    if (!set_since_opening_.contains("offset-b")) use_found_offset();
+                   if (computed) use_answered_part();
                  }),
       maps(background),
       places(background, [this](std::vector<PlacePtr> found) { take(std::move(found)); }),
@@ -71,6 +72,9 @@ Result<void> Explorer::set(const Call& call, const std::string& gesture) {
     if (call.command == &field || field.get(next) != field.get(settings_)) set_since_opening_.insert(name);
   }
   if (call.command->name == "colouring") colouring_was_chosen_ = true;
+  if (next.heights != settings_.heights || next.camera_a.turn_deg != settings_.camera_a.turn_deg ||
+      next.camera_a.elevation_deg != settings_.camera_a.elevation_deg)
+    view_was_chosen_ = true;
   if (call.command->moves_view) view.moved_by_person = true;
   if (next.offset_a_ms != settings_.offset_a_ms) changed_side_ = Side::kA;
   if (next.offset_b_ms != settings_.offset_b_ms) changed_side_ = Side::kB;
@@ -129,7 +133,7 @@ void Explorer::load(ReadingChoices choices,
     return messages.error(inside.error());
   }
   files.add_inputs(choices);
-  if (loaded() != nullptr) set_since_opening_.clear();
+  if (loaded() != nullptr && !(restored && restored->of_part)) set_since_opening_.clear();
   page.close();
   messages.dismiss();
   recording.read(choices, std::move(restored));
@@ -149,8 +153,10 @@ void Explorer::take(const Opened& opened) {
   end_recording();
   recording.keep(*opened.loaded);
   maps.open(*opened.loaded, opened.first_map, options_.assume);
-  if (opened.restored)
-    restore(*opened.restored);
+  const auto& restored = opened.restored;
+  if (restored && restored->of_part) answers.keep(*loaded(), *restored->estimate);
+  if (restored && !restored->of_part)
+    restore(*restored);
   else
     begin_anew();
   answer();
@@ -173,6 +179,7 @@ void Explorer::begin_anew() {
   }
   if (!colouring_was_chosen_) next.colouring = Settings().colouring;
   settings_ = std::move(next);
+  use_first_view();
   settings_ = with_fitted_view();
   history_ = {};  // its settings are those of the recording before
   first_colouring_ = !colouring_was_chosen_;
@@ -215,11 +222,17 @@ void Explorer::cancel() {
   maps.cancel(settings_);
 }
 
-void Explorer::use_found_offset() {
+std::optional<double> Explorer::found_offset_ms() const {
   const Estimate* found = estimating.found();
-  if (found == nullptr || !found->offset_s) return;
+  if (found == nullptr || !found->offset_s) return std::nullopt;
+  return rounded_ms(*found->offset_s);
+}
+
+void Explorer::use_found_offset() {
+  const auto found_ms = found_offset_ms();
+  if (!found_ms) return;
   Settings next = settings_;
-  next.offset_b_ms = rounded_ms(*found->offset_s);
+  next.offset_b_ms = *found_ms;
   change(std::move(next));
 }
 
@@ -230,9 +243,32 @@ Result<void> Explorer::fit_view() {
   return {};
 }
 
-Settings Explorer::with_fitted_view() const {
-  const SolvedMapPtr map = maps.map_in_view();
-  return map ? view.fitted(settings_, *map, place() != nullptr) : settings_;
+Settings Explorer::with_fitted_view() {
+  const auto box = maps.extent_in_view(settings_.heights);
+  return box ? view.fitted(settings_, *box, place() != nullptr) : settings_;
+}
+
+/// A room that was measured from one place is recognised from behind the scanner and without its ceiling, a
+/// walk from above.
+void Explorer::use_first_view() {
+  if (view_was_chosen_ || !options_.estimates_on_opening || !settings_.estimate_on_opening) return;
+  constexpr double kTurn_deg = -60, kElevation_deg = 32;
+  const bool room = loaded() != nullptr && was_stationary(*loaded(), options_.assume);
+  settings_.heights = room ? Heights::kBelowCeiling : Settings().heights;
+  for (ViewPoint* camera : {&settings_.camera_a, &settings_.camera_b}) {
+    camera->turn_deg = room ? kTurn_deg : Settings().camera_a.turn_deg;
+    camera->elevation_deg = room ? kElevation_deg : Settings().camera_a.elevation_deg;
+  }
+}
+
+/// The offset that opening found may be that of the part in which the rig was stationary: that part is then
+/// what the maps show.
+void Explorer::use_answered_part() {
+  const auto& part = estimating.found()->stationary_part;
+  if (!part || !answering_ || loaded()->choices.file.empty() || loaded()->choices.window) return;
+  ReadingChoices choices = loaded()->choices;
+  choices.window = TimeWindow{part->begin_s, part->end_s};
+  load(choices, Restored{settings_, *estimating.found(), true});
 }
 
 void Explorer::refit_view() {
@@ -250,8 +286,9 @@ void Explorer::update(double seconds_since_last) {
   estimating.update();
   if (loaded() == nullptr) return;
   update_walls();  // before the maps: what they were coloured by may change with it
-  maps.update(settings_, seconds_since_last, estimating.is_running());
-  if (maps.solved.take_first_solved()) refit_view();  // its extent is known now
+  maps.update(settings_, seconds_since_last, estimating.is_running() || recording.is_opening());
+  const bool first = maps.solved.take_first_solved(), any = maps.solved.take_solved();
+  if (first || (any && answering_)) refit_view();  // its extent is known now
   update_places();
   answering_ = answering_ && !at_rest();
   update_playback(seconds_since_last);
@@ -267,10 +304,10 @@ void Explorer::update_places() {
 
 /// Whether the panes show map A as recorded and map B at the offset found, all of both.
 bool Explorer::shows_answer() const {
-  const Estimate* found = estimating.found();
-  if (found == nullptr || !found->offset_s || !maps.is_complete() || maps.is_held()) return false;
+  const auto found_ms = found_offset_ms();
+  if (!found_ms || !maps.is_complete() || maps.is_held()) return false;
   return pane(Side::kA).request->placement.offset_s == 0 &&
-         pane(Side::kB).request->placement.offset_s == rounded_ms(*found->offset_s) * 1e-3;
+         pane(Side::kB).request->placement.offset_s == *found_ms * 1e-3;
 }
 
 void Explorer::update_walls() {

@@ -67,6 +67,8 @@ class Explorer {
   Result<void> fit_view();
   Result<void> play(bool on);
   void use_found_offset();
+  /// As it is set and shown, in whole microseconds; empty without one.
+  std::optional<double> found_offset_ms() const;
   /// The thickness of walls at 0 and at the offset found, once both are measured: a sentence; else empty.
   std::string walls_in_words() const;
 
@@ -108,7 +110,9 @@ class Explorer {
   void update_walls();
   bool shows_answer() const;
   void update_playback(double seconds_since_last);
-  Settings with_fitted_view() const;
+  Settings with_fitted_view();
+  void use_first_view();
+  void use_answered_part();
   void refit_view();
 
   Options options_;
@@ -118,6 +122,7 @@ class Explorer {
   Side changed_side_ = Side::kB;
   std::set<std::string> set_since_opening_;  // the fields that a person set since it was asked for
   bool colouring_was_chosen_ = false;        // by a person, at any time
+  bool view_was_chosen_ = false;             // its direction or heights: the same
   bool answering_ = false;                   // see is_answering
   bool first_colouring_ = false;             // it is still to be chosen for the recording's first picture
   struct Walls {

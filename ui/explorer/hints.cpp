@@ -17,6 +17,10 @@ bool has_rig_file(const Explorer& explorer) {
   return is_file(explorer) && !explorer.loaded()->choices.rig_file.empty();
 }
 
+bool is_part(const Explorer& explorer) {
+  return is_file(explorer) && explorer.loaded()->choices.window.has_value();
+}
+
 bool has_stationary_part(const Explorer& explorer) {
   return is_file(explorer) && stationary_part(explorer).has_value();
 }
@@ -47,6 +51,7 @@ const std::vector<HintEntry> kHints{
     {"long_sweeps", "Use the part in which it was stationary", "reopen stationary-part", has_stationary_part},
     {"in which the rig was stationary, is used", "Use the part in which it was stationary",
      "reopen stationary-part", has_stationary_part},
+    {"in which the rig was stationary, is used", "Show the whole recording", "reopen whole", is_part},
     {"rig_moved", "Use the method for moving rigs", "estimate moving"},
     {"one_way_at_one_speed", "Solve for the mount", "estimate mount"},
     {"(--solve offset,mount)", "Solve for the mount", "estimate mount"},

@@ -32,8 +32,17 @@ void MapPair::close() {
   panes_ = {};
 }
 
-SolvedMapPtr MapPair::map_in_view() const {
-  return panes_[0].request ? panes_[0].request->placement.map : solved.nearest(0);
+std::optional<Box> MapPair::extent_in_view(Heights heights) const {
+  std::optional<Box> all;
+  for (const Pane& pane : panes_) {
+    const SolvedMapPtr map =
+        pane.request ? solved.nearest(pane.request->placement.offset_s) : solved.nearest(0);
+    if (!map) continue;
+    const Box& box = map->extent(heights);
+    if (!all) all = box;
+    all = Box{all->from_m.cwiseMin(box.from_m), all->to_m.cwiseMax(box.to_m)};
+  }
+  return all;
 }
 
 /// While a handle is held, the path is the one that the pane was placed along when the drag began.
@@ -43,17 +52,22 @@ SolvedMapPtr MapPair::map_for(Side side, double offset_s) const {
                                                               : solved.nearest(offset_s);
 }
 
-ColourSpan MapPair::wanted_span(ColourBy by, const Placement& a, const Placement& b) const {
+ColourSpan MapPair::wanted_span(const Settings& s, const Placement& a, const Placement& b) const {
+  const ColourBy by = s.colouring;
   const SlowValues *at_a = blur.at(a), *at_b = blur.at(b);
   if (by == ColourBy::kBlur && at_a && at_b && at_a->thickness && at_b->thickness)
     return blur_span(*at_a->thickness, *at_b->thickness);
+  if (by == ColourBy::kElevation && s.heights == Heights::kBelowCeiling) {
+    const Box &box_a = a.map->low_box, &box_b = b.map->low_box;
+    return {std::min(box_a.from_m.z(), box_b.from_m.z()), std::max(box_a.to_m.z(), box_b.to_m.z())};
+  }
   return colour_span(by, *a.loaded, a.map.get(), b.map.get());
 }
 
 CloudLook MapPair::wanted_look(const Settings& s, const Placement& a, const Placement& b) {
   // Under the mouse colours hold still: a drag goes from map to map.
   if (!held_ || span_colouring_ != s.colouring) {
-    span_ = wanted_span(s.colouring, a, b);
+    span_ = wanted_span(s, a, b);
     span_colouring_ = s.colouring;
   }
   const bool given = s.colour_to > s.colour_from;

@@ -73,8 +73,8 @@ class MapPair {
   void open(LoadedPtr loaded, SolvedMapPtr first, std::optional<RigKind> assume);
   void close();
   const Pane& pane(Side side) const { return panes_[static_cast<std::size_t>(side)]; }
-  /// Whose extent the view is fitted to; null without a recording.
-  SolvedMapPtr map_in_view() const;
+  /// What of both maps these heights show: the view is fitted to it. Empty without a recording.
+  std::optional<Box> extent_in_view(Heights heights) const;
   ColourSpan shown_span() const { return {look_.from, look_.to}; }
 
   /// While a handle is held, offsets are previewed and nothing is solved.
@@ -109,7 +109,7 @@ class MapPair {
 
   Pane& pane_of(Side side) { return panes_[static_cast<std::size_t>(side)]; }
   SolvedMapPtr map_for(Side side, double offset_s) const;
-  ColourSpan wanted_span(ColourBy by, const Placement& a, const Placement& b) const;
+  ColourSpan wanted_span(const Settings& s, const Placement& a, const Placement& b) const;
   CloudLook wanted_look(const Settings& settings, const Placement& a, const Placement& b);
   void show_both(const Settings& settings);
   void show(Side side, CloudRequest request);

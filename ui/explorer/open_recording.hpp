@@ -15,6 +15,7 @@ namespace sweepscope::ui {
 struct Restored {
   Settings settings;
   std::optional<Estimate> estimate;
+  bool of_part = false;  // of a recording whose answer is that of a part, which is opened in its place
 };
 
 /// How opening a recording ended.

@@ -33,7 +33,7 @@ void SolvedMaps::close() {
   background_.cancel_all(kSolve);
   loaded_ = nullptr;
   first_ = nullptr;
-  first_solved_ = false;
+  first_solved_ = newly_solved_ = false;
   solved_.clear();
   order_.clear();
   retry();
@@ -97,6 +97,7 @@ void SolvedMaps::keep(std::int64_t offset_ns, const Result<SolvedMapPtr>& solved
     return;
   }
   first_solved_ = first_solved_ || solved_.empty();
+  newly_solved_ = true;
   solved_[offset_ns] = *solved;
   order_.push_back(offset_ns);
   if (order_.size() <= kMaxKept) return;

@@ -36,8 +36,9 @@ class SolvedMaps {
 
   /// Solves these maps in the background, and no others. `held`: nothing is begun yet.
   void solve(std::span<const double> offsets_s, bool held);
-  /// Whether the first map of this recording was solved since this was asked last.
+  /// Whether the first map of this recording, or any, was solved since this was asked last.
   bool take_first_solved() { return std::exchange(first_solved_, false); }
+  bool take_solved() { return std::exchange(newly_solved_, false); }
   /// By a person: what is not solved at these offsets is not begun again by itself.
   void cancel(std::span<const double> offsets_s);
   void forget_cancelled() { cancelled_.clear(); }
@@ -52,7 +53,7 @@ class SolvedMaps {
   LoadedPtr loaded_;
   SolvedMapPtr first_;
   std::optional<RigKind> assume_;
-  bool first_solved_ = false;
+  bool first_solved_ = false, newly_solved_ = false;
   std::map<std::int64_t, SolvedMapPtr> solved_;  // by the offset in nanoseconds
   std::map<std::int64_t, std::string> unsolvable_;
   std::set<std::int64_t> cancelled_;

@@ -39,7 +39,18 @@ void use_modifiers(ImGuiIO& io, unsigned modifiers) {
   io.KeyAlt = (modifiers & kAlt) != 0;
 }
 
-void feed(ImGuiIO& io, const InputEvent& event) {
+/// Enter comes as Space while a list is open. However it went down, it goes up as both.
+void feed_key(ImGuiIO& io, const InputEvent& event, bool enter_chooses) {
+  const auto set = [&](Key key) {
+    if (key >= 0 && key < IM_ARRAYSIZE(io.KeysDown)) io.KeysDown[key] = event.down;
+  };
+  const bool enter = event.key == keys::kEnter;
+  if (enter && (enter_chooses || !event.down)) set(keys::kSpace);
+  if (!enter || !enter_chooses || !event.down) set(event.key);
+  use_modifiers(io, event.modifiers);
+}
+
+void feed(ImGuiIO& io, const InputEvent& event, bool enter_chooses) {
   switch (event.what) {
     case InputEvent::What::kMove:
       io.MousePos = {static_cast<float>(event.x), static_cast<float>(event.y)};
@@ -52,8 +63,7 @@ void feed(ImGuiIO& io, const InputEvent& event) {
       io.MouseWheel += static_cast<float>(event.wheel);
       break;
     case InputEvent::What::kKey:
-      if (event.key >= 0 && event.key < IM_ARRAYSIZE(io.KeysDown)) io.KeysDown[event.key] = event.down;
-      use_modifiers(io, event.modifiers);
+      feed_key(io, event, enter_chooses);
       break;
     case InputEvent::What::kText:
       io.AddInputCharactersUTF8(event.text.c_str());
@@ -113,7 +123,7 @@ void ImGuiHost::begin_frame(std::span<const InputEvent> events, double seconds_s
   ImGuiIO& io = ImGui::GetIO();
   io.DisplaySize = {static_cast<float>(context_.width_px()), static_cast<float>(context_.height_px())};
   io.DeltaTime = static_cast<float>(std::max(seconds_since_last, 1e-4));
-  for (const InputEvent& event : events) feed(io, event);
+  for (const InputEvent& event : events) feed(io, event, enter_chooses);
   context_.make_current();
   ImGui_ImplOpenGL3_NewFrame();
   ImGui::NewFrame();

@@ -29,6 +29,8 @@ class ImGuiHost {
 
   /// Whether arrows, Enter and Escape move through what is in front.
   void navigate_by_keys(bool on);
+  /// Enter does what Space does there: it presses what the arrows went to.
+  bool enter_chooses = false;
   /// The events must fit into one frame: see InputQueue.
   void begin_frame(std::span<const InputEvent> events, double seconds_since_last);
   /// Draws what the panes made.

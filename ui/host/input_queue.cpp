@@ -37,7 +37,7 @@ bool moves_focus(const InputEvent& event) {
   return event.what == What::kKey && event.down && (key || is_chord(event));
 }
 
-bool needs_own_frame(const InputEvent& earlier, const InputEvent& later) {
+bool needs_own_frame(const InputEvent& earlier, const InputEvent& later, bool space_presses) {
   if (moves_focus(earlier) && types(later)) return true;
   switch (earlier.what) {
     case What::kButton:
@@ -47,7 +47,8 @@ bool needs_own_frame(const InputEvent& earlier, const InputEvent& later) {
     case What::kKey:
       // ImGui takes a frame's text before its keys, and none while Ctrl is down.
       if (later.what == What::kText) return is_chord(earlier) || (edits(earlier) && earlier.down);
-      return edits(earlier) && later.what == What::kKey && later.key == earlier.key;
+      return (edits(earlier) || (space_presses && earlier.key == keys::kSpace)) && later.what == What::kKey &&
+             later.key == earlier.key;
     case What::kText:
       return later.what == What::kButton || is_chord(later);
     default:
@@ -57,10 +58,10 @@ bool needs_own_frame(const InputEvent& earlier, const InputEvent& later) {
 
 }  // namespace
 
-std::size_t events_of_next_frame(std::span<const InputEvent> events) {
+std::size_t events_of_next_frame(std::span<const InputEvent> events, bool space_presses) {
   for (std::size_t i = 1; i < events.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      if (needs_own_frame(events[j], events[i])) return i;
+      if (needs_own_frame(events[j], events[i], space_presses)) return i;
     }
   }
   return events.size();
@@ -70,11 +71,12 @@ void InputQueue::add(std::span<const InputEvent> events) {
   waiting_.insert(waiting_.end(), events.begin(), events.end());
 }
 
-std::vector<InputEvent> InputQueue::take() {
+std::vector<InputEvent> InputQueue::take(bool space_presses) {
   const bool focused = frames_to_focus_ <= 0;
   frames_to_focus_ = std::max(0, frames_to_focus_ - 1);
   const auto held = focused ? waiting_.end() : std::find_if(waiting_.begin(), waiting_.end(), types);
-  const auto count = static_cast<std::ptrdiff_t>(events_of_next_frame({waiting_.begin(), held}));
+  const auto count =
+      static_cast<std::ptrdiff_t>(events_of_next_frame({waiting_.begin(), held}, space_presses));
   std::vector<InputEvent> now(waiting_.begin(), waiting_.begin() + count);
   waiting_.erase(waiting_.begin(), waiting_.begin() + count);
   if (std::any_of(now.begin(), now.end(), moves_focus)) frames_to_focus_ = kFramesToFocus;

@@ -14,7 +14,7 @@ class InputQueue {
  public:
   void add(std::span<const InputEvent> events);
   /// The events of the next frame, perhaps none yet.
-  std::vector<InputEvent> take();
+  std::vector<InputEvent> take(bool space_presses = false);
   bool empty() const { return waiting_.empty(); }
 
  private:
@@ -23,6 +23,6 @@ class InputQueue {
 };
 
 /// How many of the events fit into one frame.
-std::size_t events_of_next_frame(std::span<const InputEvent> events);
+std::size_t events_of_next_frame(std::span<const InputEvent> events, bool space_presses = false);
 
 }  // namespace sweepscope::ui

@@ -40,6 +40,7 @@ class Filter {
     const double above_m = static_cast<double>(place_m[2] - placement_.map->path_height_m[beams.scan[beam]]);
     if (look_.heights == Heights::kSlab) return above_m >= look_.slab_from_m && above_m <= look_.slab_to_m;
     const auto& slabs = placement_.map->sharp_heights;
+    if (look_.heights == Heights::kBelowCeiling) return slabs.empty() || above_m <= slabs.back().to_m;
     return std::any_of(slabs.begin(), slabs.end(), [&](const HeightRange& slab) {
       return above_m >= slab.from_m && above_m <= slab.to_m;
     });

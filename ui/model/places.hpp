@@ -20,6 +20,10 @@ struct PlaceToLook {
 
   double height_m() const { return found.region.height_m; }
   double width_m() const { return kAspect * height_m(); }
+  /// From above.
+  ViewPoint view() const {
+    return {{found.region.centre_m.x(), found.region.centre_m.y(), z_m}, height_m(), 0, 90};
+  }
 };
 using PlacePtr = std::shared_ptr<const PlaceToLook>;
 

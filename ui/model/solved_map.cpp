@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include "core/map/place_beams.hpp"
 #include "core/offset/prepared/prepared.hpp"
@@ -28,6 +29,19 @@ SolvedMap::Span span_of(std::span<const SlabPoints> points, std::size_t axis) {
   return {bounds.from, bounds.to};
 }
 
+Box box_of(const ComparedMap& map, std::span<const HeightRange> heights) {
+  constexpr double kStray = 0.001;
+  const std::vector<float> unused(map.cloud->size());
+  const std::array shown{points_in_slabs(map, unused, heights)};
+  Box box;
+  for (const std::size_t axis : {0, 1, 2}) {
+    const Bounds bounds = bounds_of(shown, axis, kStray);
+    box.from_m[static_cast<Eigen::Index>(axis)] = bounds.from;
+    box.to_m[static_cast<Eigen::Index>(axis)] = bounds.to;
+  }
+  return box;
+}
+
 /// Fills what follows from the path.
 void describe_points(const Loaded& loaded, SolvedMap& map) {
   map.path_height_m = path_heights(loaded.recording, {loaded.recording, map.path, map.offset_s});
@@ -52,6 +66,10 @@ void describe_points(const Loaded& loaded, SolvedMap& map) {
   map.x_m = span_of(shown, 0);
   map.y_m = span_of(shown, 1);
   map.z_m = span_of(shown, 2);
+  constexpr double kAny_m = std::numeric_limits<double>::infinity();
+  map.sharp_box = box_of(compared, map.sharp_heights);
+  map.low_box = box_of(compared, std::array{HeightRange{-kAny_m, map.sharp_heights.back().to_m}});
+  map.whole_box = box_of(compared, std::array{HeightRange{-kAny_m, kAny_m}});
 }
 
 }  // namespace

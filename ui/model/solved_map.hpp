@@ -7,6 +7,7 @@
 #include "render/comparison/comparison.hpp"
 #include "ui/model/loaded.hpp"
 #include "ui/model/spatial_order.hpp"
+#include "ui/state/settings.hpp"
 
 namespace sweepscope::ui {
 
@@ -24,6 +25,11 @@ struct SolvedMap {
     double from = 0, to = 1;
   };
   Span x_m, y_m, z_m;  // of nearly all points that sharp heights show
+  /// What a view is fitted to: all but stray points, with these heights.
+  const Box& extent(Heights heights) const {
+    return heights == Heights::kSharp ? sharp_box : heights == Heights::kBelowCeiling ? low_box : whole_box;
+  }
+  Box sharp_box, low_box, whole_box;
 };
 using SolvedMapPtr = std::shared_ptr<const SolvedMap>;
 

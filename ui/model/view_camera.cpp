@@ -9,6 +9,7 @@ namespace sweepscope::ui {
 namespace {
 
 constexpr double kViewAngle_deg = 30;
+constexpr double kRoom = 1.08;  // of a fitted view, about the box
 
 struct Axes {
   Eigen::Vector3d right, up, forward;
@@ -59,16 +60,24 @@ Eigen::Vector3d place_under(PixelPoint pixel, const ViewPoint& view, const Pixel
       .centre_m;
 }
 
-ViewPoint fitted(ViewPoint view, const Box& box, const PictureShape& shape) {
-  constexpr double kRoom = 1.08;
+ViewPoint fitted(ViewPoint view, const Box& box, const PictureShape& shape, bool perspective) {
   const Axes axes = axes_of(view);
   const Eigen::Vector3d half_m = (box.to_m - box.from_m) / 2;
-  const double half_width_m = half_m.dot(axes.right.cwiseAbs()),
-               half_height_m = half_m.dot(axes.up.cwiseAbs());
+  const double per_depth = perspective ? std::tan(kViewAngle_deg / 2 * kRadPerDeg) : 0;
   // Fractions of the picture that are free: all of its width above the close-up, or all of its height
-  // beside it.
+  // beside it. In perspective a corner needs the more room the nearer it is.
   const auto height_for = [&](double free_width, double free_height) {
-    return 2 * kRoom * std::max(half_height_m / free_height, half_width_m / (shape.aspect * free_width));
+    double half_height_m = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+      const Eigen::Vector3d sign((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1,
+                                 (corner & 4) != 0 ? 1 : -1);
+      const Eigen::Vector3d at_m = half_m.cwiseProduct(sign);
+      const double across_m = std::abs(at_m.dot(axes.right)) / (shape.aspect * free_width),
+                   upwards_m = std::abs(at_m.dot(axes.up)) / free_height;
+      half_height_m =
+          std::max(half_height_m, kRoom * std::max(across_m, upwards_m) - per_depth * at_m.dot(axes.forward));
+    }
+    return 2 * half_height_m;
   };
   const double above_m = height_for(1, 1 - shape.covered_height),
                beside_m = height_for(1 - shape.covered_width, 1);
@@ -79,6 +88,13 @@ ViewPoint fitted(ViewPoint view, const Box& box, const PictureShape& shape) {
   for (double* metre : {&view.centre_m.x(), &view.centre_m.y(), &view.centre_m.z(), &view.height_m})
     *metre = std::round(*metre * 100) / 100;
   return view;
+}
+
+double spare_height(const ViewPoint& view, const Box& box, double aspect) {
+  const Axes axes = axes_of(view);
+  const Eigen::Vector3d size_m = box.to_m - box.from_m;
+  const double width_m = size_m.dot(axes.right.cwiseAbs()), height_m = size_m.dot(axes.up.cwiseAbs());
+  return std::max(0.0, 1 - aspect * height_m / std::max(width_m, 1e-9) / kRoom);
 }
 
 ViewPoint turned(ViewPoint view, double right_px, double down_px) {

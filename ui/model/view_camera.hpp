@@ -26,7 +26,9 @@ struct PictureShape {
 
 /// The view from the same direction that shows the whole box with a small margin, above or beside what is
 /// covered. In whole centimetres.
-ViewPoint fitted(ViewPoint view, const Box& box, const PictureShape& shape);
+ViewPoint fitted(ViewPoint view, const Box& box, const PictureShape& shape, bool perspective = false);
+/// The fraction of the picture's height that stays free where the box fills its width; 0 where it does not.
+double spare_height(const ViewPoint& view, const Box& box, double aspect);
 
 /// The view after dragging by a number of pixels: turned, or moved with the mouse.
 ViewPoint turned(ViewPoint view, double right_px, double down_px);

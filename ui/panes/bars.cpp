@@ -53,13 +53,6 @@ bool equal_ignoring_case(std::string_view a, std::string_view b) {
                     [&](char x, char y) { return lower(x) == lower(y); });
 }
 
-/// Enter on the entry that has the focus: ImGui itself does nothing with it in a menu.
-bool chosen_by_key(bool makes_sense) {
-  if (!makes_sense || !ImGui::IsKeyPressed(keys::kEnter, false) || !ImGui::IsItemFocused()) return false;
-  ImGui::CloseCurrentPopup();
-  return true;
-}
-
 /// Recordings that were open before, each with its folder.
 void recent_items(const PaneContext& context) {
   const std::vector<std::string> recent = context.transient.recent;
@@ -71,7 +64,7 @@ void recent_items(const PaneContext& context) {
                       folder = fit_text(printable_line(file.parent_path().string()), context.px(13),
                                         context.px(320));
     const bool clicked = ImGui::MenuItem(fmt::format("{}##{}", title, path).c_str(), folder.c_str());
-    if (clicked || chosen_by_key(true)) context.perform("open " + ui::quoted(path));
+    if (clicked) context.perform("open " + ui::quoted(path));
     context.anchor_last("menu recent " + path);
     tooltip(context, path);
   }
@@ -94,7 +87,7 @@ void menu(const PaneContext& context, const std::string& name) {
     const bool enabled = makes_sense(context.explorer, item.line);
     const bool clicked =
         ImGui::MenuItem(item.title.c_str(), chord.c_str(), holds(context.settings(), item.line), enabled);
-    if (clicked || chosen_by_key(enabled)) context.perform(item.line);
+    if (clicked) context.perform(item.line);
     context.anchor_last("menu " + item.line);
     if (item.line == "ask open") recent_items(context);
   }
@@ -194,14 +187,80 @@ void draw_status_bar(const PaneContext& context, const PixelRect& place) {
   const auto y =
       static_cast<float>(place.top + (place.height - static_cast<double>(ImGui::GetFontSize())) / 2);
   const std::string words = status(context.explorer);
-  const double room = draw_tasks(context, place, place.right() - context.px(28) - equation_width) -
-                      place.left - context.px(14);
+  const double words_width = static_cast<double>(ImGui::CalcTextSize(words.c_str()).x);
+  const bool with_equation = words_width + equation_width + context.px(56) < place.width;
+  const double room =
+      draw_tasks(context, place,
+                 place.right() - context.px(14) - (with_equation ? equation_width + context.px(14) : 0)) -
+      place.left - context.px(14);
   list.PushClipRect(corner(place), vec(place.left + context.px(14) + room, place.bottom()));
   list.AddText({context.pxf(14), y}, to_imgui(context.style.text), words.c_str());
   list.PopClipRect();
-  list.AddText({static_cast<float>(place.right() - context.px(14) - equation_width), y},
-               to_imgui(context.style.faint_text), equation.c_str());
+  if (with_equation)
+    list.AddText({static_cast<float>(place.right() - context.px(14) - equation_width), y},
+                 to_imgui(context.style.faint_text), equation.c_str());
   ImGui::PopFont();
+  end_panel();
+}
+
+namespace {
+
+/// The estimate in a few words: what to press for it, how far it is, or its answer.
+std::string offset_in_words(const Explorer& explorer) {
+  const Estimate* found = explorer.estimating.found();
+  if (found == nullptr) return "Estimate";
+  if (!found->identifiable || !found->offset_s) return "Not determined";
+  return fmt::format("{:.2f}{} ms", *found->offset_s * 1e3,
+                     found->sigma_s ? fmt::format(" ± {:.2f}", *found->sigma_s * 1e3) : "");
+}
+
+struct Tab {
+  std::string title, line;
+  bool primary = false, open = false;
+};
+
+void draw_tab(const PaneContext& context, const Tab& tab, const PixelRect& place) {
+  ImGui::SetCursorScreenPos(corner(place));
+  if (tab.open) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding,
+                      vec(context.px(4), (place.height - static_cast<double>(ImGui::GetFontSize())) / 2));
+  const std::string title =
+      fit_text(tab.title, static_cast<double>(ImGui::GetFontSize()), place.width - context.px(8));
+  button(context, title.c_str(), tab.line, place.width, tab.primary);
+  ImGui::PopStyleVar();
+  if (tab.open) ImGui::PopStyleColor();
+}
+
+}  // namespace
+
+void draw_tabs(const PaneContext& context, const PixelRect& place) {
+  if (place.height <= 0) return;
+  const Explorer& explorer = context.explorer;
+  const Sheet sheet = context.settings().sheet;
+  const auto panel = [&](std::string title, Sheet which, const std::string& name) {
+    const bool open = sheet == which;
+    return Tab{std::move(title), "open-panel " + (open ? "none" : name), false, open};
+  };
+  const bool estimated = explorer.estimating.found() != nullptr;
+  Tab first = estimated ? panel(offset_in_words(explorer), Sheet::kRecording, "recording")
+                        : Tab{"Estimate", "estimate", true};
+  if (explorer.estimating.is_running()) first = {"Cancel the estimate", "cancel"};
+  std::vector<Tab> tabs{first};
+  if (!estimated || explorer.estimating.is_running())
+    tabs.push_back(panel("Recording", Sheet::kRecording, "recording"));
+  tabs.push_back(panel("Display", Sheet::kDisplay, "display"));
+  tabs.push_back({"More …", "palette"});
+  begin_panel(context, "tabs", place, false);
+  ImGui::GetWindowDrawList()->AddLine(corner(place), vec(place.right(), place.top),
+                                      to_imgui(context.style.frame));
+  const double gap = context.px(6), parts = static_cast<double>(tabs.size()) + 1;
+  const double part = (place.width - gap * (static_cast<double>(tabs.size()) + 1)) / parts;
+  double left = place.left + gap;
+  for (std::size_t i = 0; i < tabs.size(); ++i) {
+    const double width = (i == 0 ? 2 : 1) * part;
+    draw_tab(context, tabs[i], {left, place.top + gap, width, place.height - 2 * gap});
+    left += width + gap;
+  }
   end_panel();
 }
 

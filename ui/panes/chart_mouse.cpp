@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "render/charts/curve_charts.hpp"
 #include "ui/panes/widgets.hpp"
@@ -19,31 +20,63 @@ double value_at(const ChartLayout& layout, double px) {
 
 void begin_handle(const PaneContext& context, const ChartLayout& layout, Side side) {
   const double grab_ms = value_at(layout, mouse().x) - offset_ms(context.settings(), side);
-  context.transient.handle = Transient::HandleDrag{
-      side, layout.plot.left, layout.plot.width, layout.x.from, layout.x.to, grab_ms, false};
+  context.transient.handle =
+      Transient::HandleDrag{side, layout.plot.left, layout.plot.width, layout.x.from, layout.x.to, grab_ms};
   context.begin_gesture();
 }
 
-/// Once the mouse moved: a click alone changes nothing.
-void drag_handle(const PaneContext& context) {
-  Transient::HandleDrag& handle = *context.transient.handle;
-  handle.moved |= ImGui::GetIO().MouseDelta.x != 0;
-  if (!handle.moved) return;
-  const double share = (mouse().x - handle.plot_left) / handle.plot_width;
-  const double at_ms =
-      handle.from_ms + std::clamp(share, 0.0, 1.0) * (handle.to_ms - handle.from_ms) - handle.grab_ms;
-  const double step_ms = handle.to_ms - handle.from_ms > 20 ? 0.1 : 0.01;
-  const char* command = handle.side == Side::kA ? "offset-a" : "offset-b";
+/// Sets the offset of a map to one on the chart: in round steps, or near the offset found to that.
+void move_offset(const PaneContext& context, Side side, double at_ms, const AxisRange& shown,
+                 double plot_width) {
+  constexpr double kSnap = 4;  // pixels at 100 %
+  const double step_ms = shown.length() > 20 ? 0.1 : 0.01;
+  double stepped_ms = std::round(std::round(at_ms / step_ms) * step_ms * 1e4) / 1e4;
+  const std::optional<double> found_ms = context.explorer.found_offset_ms();
+  if (found_ms && std::abs(at_ms - *found_ms) < context.px(kSnap) / plot_width * shown.length())
+    stepped_ms = *found_ms;
   const auto [least_ms, greatest_ms] = context.explorer.offset_window_ms();
-  const double stepped_ms = std::round(std::round(at_ms / step_ms) * step_ms * 1e4) / 1e4;
-  context.perform(Call{find_command(command), {std::clamp(stepped_ms, least_ms, greatest_ms)}},
+  context.perform(Call{find_command(side == Side::kA ? "offset-a" : "offset-b"),
+                       {std::clamp(stepped_ms, least_ms, greatest_ms)}},
                   context.transient.gesture);
+}
+
+/// Once the mouse moved: a click on a handle changes nothing.
+void drag_handle(const PaneContext& context) {
+  const Transient::HandleDrag& handle = *context.transient.handle;
+  if (!is_dragged(context, 0)) return;
+  const AxisRange shown{handle.from_ms, handle.to_ms};
+  const double share = (mouse().x - handle.plot_left) / handle.plot_width;
+  move_offset(context, handle.side,
+              shown.from + std::clamp(share, 0.0, 1.0) * shown.length() - handle.grab_ms, shown,
+              handle.plot_width);
+}
+
+/// A click beside the handles brings the nearest one.
+void bring_handle(const PaneContext& context, const ChartLayout& layout) {
+  const double at_ms = value_at(layout, mouse().x);
+  if (!layout.x.contains(at_ms)) return;
+  const Settings& settings = context.settings();
+  const Side top = context.explorer.changed_side();
+  const auto apart_ms = [&](Side side) { return std::abs(offset_ms(settings, side) - at_ms); };
+  const Side side = apart_ms(top) <= apart_ms(other_side(top)) ? top : other_side(top);
+  context.transient.brought = Transient::Brought{side, offset_ms(settings, side)};
+  move_offset(context, side, at_ms, layout.x, layout.plot.width);
 }
 
 void show(const PaneContext& context, const std::optional<AxisRange>& range, const std::string& gesture) {
   const auto rounded = [](double ms) { return std::round(ms * 1e3) / 1e3; };
   const AxisRange shown = range.value_or(AxisRange{0, 0});
   context.perform(Call{find_command("chart-range"), {rounded(shown.from), rounded(shown.to)}}, gesture);
+}
+
+/// A double click shows the whole axis: its first click brought no handle.
+void show_all(const PaneContext& context) {
+  if (const auto brought = std::exchange(context.transient.brought, std::nullopt))
+    context.perform(
+        Call{find_command(brought->side == Side::kA ? "offset-a" : "offset-b"), {brought->from_ms}},
+        context.transient.gesture);
+  show(context, std::nullopt, {});
+  context.transient.handle.reset();
 }
 
 void begin_pan(const PaneContext& context, const ChartLayout& layout, std::size_t number) {
@@ -55,7 +88,7 @@ void begin_pan(const PaneContext& context, const ChartLayout& layout, std::size_
 /// As far as there is something to see.
 void pan(const PaneContext& context, const AxisRange& all) {
   const Transient::ChartPan& from = *context.transient.chart_pan;
-  if (mouse().x == from.mouse_px) return;
+  if (!is_dragged(context, held_button())) return;
   const double width_ms = from.to_ms - from.from_ms;
   if (width_ms >= all.length()) return;
   const double wanted_ms = from.from_ms - (mouse().x - from.mouse_px) / from.plot_width * width_ms;
@@ -141,8 +174,7 @@ void use_chart_mouse(const PaneContext& context, const Chart& chart, const Chart
   const auto under =
       handle_under(layout, context.settings(), context.explorer.changed_side(), mouse(), context.scale);
   if (hovered && ImGui::IsMouseDoubleClicked(0)) {
-    show(context, std::nullopt, {});
-    transient.handle.reset();
+    show_all(context);
   } else if (ImGui::IsItemActivated()) {
     if (under && ImGui::IsMouseDown(0))
       begin_handle(context, layout, *under);
@@ -151,7 +183,10 @@ void use_chart_mouse(const PaneContext& context, const Chart& chart, const Chart
   }
   const bool active = ImGui::IsItemActive();
   if (active && transient.handle) drag_handle(context);
-  if (!active && transient.chart_pan && transient.chart_pan->chart == number) transient.chart_pan.reset();
+  if (!active && transient.chart_pan && transient.chart_pan->chart == number) {
+    if (ImGui::IsMouseReleased(0) && hovered && !is_dragged(context, 0)) bring_handle(context, layout);
+    transient.chart_pan.reset();
+  }
   if (active && transient.chart_pan) pan(context, all);
   if (hovered && !active) zoom(context, layout, all);
   if ((hovered && under) || transient.handle) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);

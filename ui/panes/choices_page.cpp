@@ -95,6 +95,7 @@ void combo(const PaneContext& context, const char* command, const Entries& entri
     for (std::size_t i = 0; i < entries.all.size(); ++i) {
       const auto& [words, line] = entries.all[i];
       if (ImGui::Selectable(words.c_str(), entries.chosen == i)) context.perform(line);
+      if (entries.chosen == i) ImGui::SetItemDefaultFocus();
       context.anchor_last(line);
     }
     ImGui::EndCombo();
@@ -349,6 +350,9 @@ void draw_choices_page(const PaneContext& context, const PixelRect& place) {
                        std::round(place.top + (place.height - h) / 2.4), w, h};
   if (!context.transient.on_choices_page) ImGui::SetNextWindowFocus();
   begin_panel(context, "choices", page, true, false, true);
+  // The buttons stay in sight where the choices must be scrolled.
+  const float buttons = ImGui::GetFrameHeight() + context.pxf(8) + ImGui::GetStyle().ItemSpacing.y;
+  ImGui::BeginChild("all choices", {0, -buttons}, false, ImGuiWindowFlags_NavFlattened);
   beginning(context, choosing);
   heading(context, "Streams");
   const RecordingSurvey streams = choosing.survey ? choosing.survey->streams : RecordingSurvey();
@@ -363,7 +367,8 @@ void draw_choices_page(const PaneContext& context, const PixelRect& place) {
   file_choice(context, "choose-poses", choosing.choices.poses, "None: it is solved for");
   heading(context, "Time");
   part_choice(context, choosing);
-  ImGui::Dummy({0, context.pxf(6)});
+  ImGui::EndChild();
+  ImGui::Dummy({0, context.pxf(1)});
   const bool opens = entered(context.transient);
   button(context, "Open", "open-chosen", context.px(130), true);
   ImGui::SameLine();

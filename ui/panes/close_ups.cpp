@@ -43,11 +43,10 @@ ImTextureID picture_of(const PaneContext& context, Side side, const PixelRect& p
                        const PlaceToLook& shown) {
   LiveView& view = *context.close_ups[static_cast<std::size_t>(side)];
   const Pane& pane = context.explorer.pane(side);
-  const Eigen::Vector2d& centre_m = shown.found.region.centre_m;
   view.resize(static_cast<int>(place.width), static_cast<int>(place.height));
   view.set_background(backdrop_of(context));
   view.set_point_size(std::round(context.settings().point_size_px * context.scale));
-  view.set_camera(camera_of({{centre_m.x(), centre_m.y(), shown.z_m}, shown.height_m(), 0, 90}, false));
+  view.set_camera(camera_of(shown.view(), false));
   view.show(pane.close_up ? pane.close_up->points : nullptr, nullptr);
   view.draw(0);
   // ImGui keeps OpenGL's numbers as pointers.
@@ -94,10 +93,16 @@ void draw_bar(const PaneContext& context, Side side, const PixelRect& bar) {
 
 }  // namespace
 
+std::vector<PixelRect> close_ups_in(const PaneContext& context, const PixelRect& picture) {
+  if (!context.explorer.place()) return {};
+  return close_up_places(picture, context.scale, context.settings().layout,
+                         context.explorer.view.spare_height());
+}
+
 void draw_close_up(const PaneContext& context, Side side, const PixelRect& picture) {
   const PlacePtr shown = context.explorer.place();
   const Layout layout = context.settings().layout;
-  const std::vector<PixelRect> places = close_up_places(picture, context.scale, layout);
+  const std::vector<PixelRect> places = close_ups_in(context, picture);
   if (!shown || places.empty()) return;
   const PixelRect& place = layout == Layout::kSwipe && side == Side::kB ? places.back() : places.front();
   const char* name = side == Side::kA ? "close-up a" : "close-up b";
@@ -115,7 +120,10 @@ void draw_close_up(const PaneContext& context, Side side, const PixelRect& pictu
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddImage(picture_of(context, side, place, *shown), from, to, {0, 1}, {1, 0});
   const PixelRect bar{place.left, place.top, place.width, context.px(20)};
-  if (!context.transient.for_picture) draw_bar(context, side, bar);
+  if (!context.transient.for_picture) {
+    list.AddRectFilled(from, far_corner(bar), to_imgui(backdrop_of(context), 0.85));
+    draw_bar(context, side, bar);
+  }
   list.AddRect(from, to, to_imgui(colour_of(context, side)), 0, 0, context.pxf(1.5));
 }
 
@@ -148,6 +156,7 @@ void place_field(const PaneContext& context) {
                       difference_in_words(context.explorer, *places[i]));
       if (ImGui::Selectable(words.c_str(), places[i] == context.explorer.place()))
         context.perform(fmt::format("place {}", i + 1));
+      if (places[i] == context.explorer.place()) ImGui::SetItemDefaultFocus();
       context.anchor_last(fmt::format("place {}", i + 1));
     }
     if (places.empty()) ImGui::TextDisabled("The maps are not both solved, or they do not differ.");

@@ -1,8 +1,13 @@
 #pragma once
 
+#include <vector>
+
 #include "ui/panes/pane_context.hpp"
 
 namespace sweepscope::ui {
+
+/// Where they lie in a map's picture: see close_up_places. Empty without a place to show.
+std::vector<PixelRect> close_ups_in(const PaneContext& context, const PixelRect& picture);
 
 /// The close-up of a map in a corner of its picture: the place where the maps differ most, from above. Drawn
 /// over the picture; nothing if there is no place.

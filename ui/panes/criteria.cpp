@@ -130,8 +130,9 @@ void draw_one(const PaneContext& context, Chart chart, const PixelRect& place, s
   paint(*ImGui::GetWindowDrawList(), drawing, context.fonts);
   const ChartLayout layout = lay_out_chart(chart, place, scale);
   if (context.explorer.estimating.charted() == nullptr) draw_hint(context, layout.plot);
-  use_chart_mouse(context, chart, layout, all, number);
+  // Before the mouse moves them: line, grip and number show the same offset in every frame.
   if (number == 0) draw_grips(context, layout);
+  use_chart_mouse(context, chart, layout, all, number);
   invisible_button(fmt::format("chart title {}", number),
                    {place.left, place.top, place.width * 0.6, context.px(18)});
   context.anchor_last(fmt::format("chart title {}", number));

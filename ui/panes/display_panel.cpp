@@ -167,9 +167,9 @@ void clipping_box(const PaneContext& context) {
 
 }  // namespace
 
-void draw_display_panel(const PaneContext& context, const PixelRect& place) {
+void draw_display_panel(const PaneContext& context, const PixelRect& place, bool above) {
   if (place.width <= 0 || context.explorer.loaded() == nullptr) return;
-  begin_panel(context, "display", place);
+  begin_panel(context, above ? "display above" : "display", place, true, above);
   const Settings& settings = context.settings();
   heading(context, "Maps", true);
   field(context, "layout");

@@ -33,8 +33,11 @@ bool any_activated() {
 
 void drag_camera(const PaneContext& context, Side side, const PixelRect& picture) {
   if (any_activated()) context.begin_gesture();
-  if (!ImGui::IsItemActive()) return;
-  const ImVec2 delta = ImGui::GetIO().MouseDelta;
+  const int button = held_button();
+  if (!ImGui::IsItemActive() || !is_dragged(context, button)) return;
+  // Since the press at first, and since the last frame from then on: nothing of a drag is lost.
+  const ImVec2 delta = ImGui::GetMouseDragDelta(button, 0);
+  ImGui::ResetMouseDragDelta(button);
   if (delta.x == 0 && delta.y == 0) return;
   const double right = static_cast<double>(delta.x), down = static_cast<double>(delta.y);
   const ViewPoint& view = view_of(context.settings(), side);
@@ -154,26 +157,29 @@ void draw_path(const PaneContext& context, Side side, const Projection& projecti
                                           to_imgui(ink_of(context), 0.75), 0, context.pxf(1.2));
 }
 
-/// Bottom left: a round length. Only where all of the picture has one scale.
+/// Bottom left, above a close-up that reaches there: a round length. Only where all of the picture has one
+/// scale.
 void draw_scale_bar(const PaneContext& context, const PixelRect& picture, const Projection& projection) {
   if (context.settings().perspective) return;
   const double metres = round_length(0.22 * picture.width * projection.metres_per_px());
   const double length_px = metres / projection.metres_per_px();
-  const double x = picture.left + context.px(16), y = picture.bottom() - context.px(18);
   const std::string label =
       metres < 0.995 ? fmt::format("{:g} cm", metres * 100) : fmt::format("{:g} m", metres);
   const double text_px = text_width_px(label, context.px(11));
+  const double x = picture.left + context.px(16), end = x + length_px + text_px + context.px(18);
+  const auto close_ups = close_ups_in(context, picture);
+  const bool above = !close_ups.empty() && close_ups.front().left < end;
+  const double y = (above ? close_ups.front().top : picture.bottom()) - context.px(18);
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  list.AddRectFilled(vec(x - context.px(8), y - context.px(11)),
-                     vec(x + length_px + text_px + context.px(18), y + context.px(11)),
-                     IM_COL32(10, 12, 15, 170), context.pxf(3));
+  list.AddRectFilled(vec(x - context.px(8), y - context.px(11)), vec(end, y + context.px(11)),
+                     to_imgui(backdrop_of(context), 0.7), context.pxf(3));
   Drawing bar;
-  const Colour white{255, 255, 255};
-  bar.line({x, y}, {x + length_px, y}, context.px(1.5), white);
-  for (const double end : {x, x + length_px})
-    bar.line({end, y - context.px(4)}, {end, y + context.px(4)}, context.px(1.5), white);
+  const Colour ink = ink_of(context);
+  bar.line({x, y}, {x + length_px, y}, context.px(1.5), ink);
+  for (const double at : {x, x + length_px})
+    bar.line({at, y - context.px(4)}, {at, y + context.px(4)}, context.px(1.5), ink);
   bar.add(TextMark{
-      {x + length_px + context.px(8), y}, label, context.px(11), white, AlignX::kLeft, AlignY::kMiddle});
+      {x + length_px + context.px(8), y}, label, context.px(11), ink, AlignX::kLeft, AlignY::kMiddle});
   paint(list, bar, context.fonts);
 }
 

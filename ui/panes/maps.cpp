@@ -282,7 +282,8 @@ Colour ink_of(const PaneContext& context) {
 void draw_maps(const PaneContext& context, const PixelRect& place) {
   begin_panel(context, "maps", place, false);
   const Layout layout = context.settings().layout;
-  const MapPlaces places = lay_out_maps(place, context.scale, layout, context.settings().map_share);
+  const MapPlaces places = lay_out_maps(place, context.scale, shown_layout(layout, place, context.scale),
+                                        context.settings().map_share);
   const auto picture_of = [&](Side side) { return side == Side::kA ? places.picture_a : places.picture_b; };
   if (layout == Layout::kSwipe) {
     take_mouse(context, Side::kA, places.picture_b);

@@ -12,6 +12,7 @@
 #include "render/pictures/live_view.hpp"
 #include "ui/commands/commands.hpp"
 #include "ui/explorer/explorer.hpp"
+#include "ui/explorer/maps_picture.hpp"
 #include "ui/host/theme.hpp"
 #include "ui/model/file_list.hpp"
 #include "ui/panes/layout.hpp"
@@ -34,7 +35,13 @@ struct Transient {
     bool known = false, all = false, to_end = false;
     int choice = -1;  // among the entries that match what is typed; below 0: none
   };
-  Browsing browsing;         // of the dialog that opens
+  Browsing browsing;  // of the dialog that opens
+  struct Figure {     // of its dialog
+    std::string size = "1920x1200";
+    FigureParts parts;
+  };
+  Figure figure;
+  double pane_aspect = 1;    // of a map's picture: width over height
   std::string replaces;      // what exists, and is to be replaced if it is confirmed once more
   bool for_picture = false;  // of the maps: nothing is drawn that only hands need
   bool just_opened = false;  // the window in front takes the keyboard
@@ -46,9 +53,13 @@ struct Transient {
     Side side = Side::kA;
     double plot_left = 0, plot_width = 1, from_ms = 0, to_ms = 1;  // the axis as it was at the start
     double grab_ms = 0;                                            // of the mouse, from the offset
-    bool moved = false;
   };
   std::optional<HandleDrag> handle;
+  struct Brought {
+    Side side = Side::kA;
+    double from_ms = 0;
+  };
+  std::optional<Brought> brought;  // the handle that the last click in a chart moved
   struct ChartPan {
     double plot_width = 1, from_ms = 0, to_ms = 1, mouse_px = 0;  // as they were at the start
     std::size_t chart = 0;
@@ -79,6 +90,8 @@ struct Transient {
   std::vector<std::string> recent;
 };
 
+class FigurePreview;
+
 /// The context that every pane is drawn with.
 struct PaneContext {
   Explorer& explorer;
@@ -87,6 +100,7 @@ struct PaneContext {
   const Style& style;
   double scale;
   std::array<LiveView*, 2> views, close_ups;
+  FigurePreview& preview;
   double draw_budget_s;  // of each pane and frame; a slice of points may go beyond it
   /// Names of positions that scripts can click: "button estimate", "handle a", "map b", ...
   std::map<std::string, PixelRect>& anchors;
@@ -116,8 +130,11 @@ void draw_start_page(const PaneContext& context, const PixelRect& place);
 /// What decides how a recording is read, to choose from, each with what was detected.
 void draw_choices_page(const PaneContext& context, const PixelRect& place);
 void draw_loading_page(const PaneContext& context, const PixelRect& place);
-void draw_recording_panel(const PaneContext& context, const PixelRect& place);
-void draw_display_panel(const PaneContext& context, const PixelRect& place);
+/// `above`: over the maps, in a window without room for panels beside them.
+void draw_recording_panel(const PaneContext& context, const PixelRect& place, bool above);
+void draw_display_panel(const PaneContext& context, const PixelRect& place, bool above);
+/// What opens these panels, and the estimate.
+void draw_tabs(const PaneContext& context, const PixelRect& place);
 void draw_maps(const PaneContext& context, const PixelRect& place);
 void draw_criteria(const PaneContext& context, const PixelRect& place);
 /// Where the recording is played: the time, and how fast it goes on.

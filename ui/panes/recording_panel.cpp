@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "core/io/printable_text.hpp"
 #include "core/results/rig_parameters.hpp"
@@ -17,15 +18,25 @@ double rate_hz(const StreamSummary& stream) {
   return static_cast<double>(stream.used - 1) / stream.duration_s;
 }
 
-void recording_rows(const PaneContext& context, const Loaded& loaded) {
+/// Whether what is open is the part that the answer is of.
+bool is_answered_part(const PaneContext& context) {
+  const Estimate* found = context.explorer.estimating.found();
+  return found != nullptr && found->stationary_part && context.explorer.loaded()->choices.window;
+}
+
+void recording_rows(const PaneContext& context, const Loaded& loaded, bool first) {
   const RecordingSummary& summary = loaded.summary;
   const LaserSummary& laser = summary.laser;
   const MotorSummary& motor = summary.motor;
-  heading(context, "Recording", true);
+  heading(context, "Recording", first);
   row(context, "file", summary.name);
+  if (const auto& part = loaded.choices.window)
+    row(context, "part", fmt::format("{:.1f} to {:.1f} s", part->from_s, part->to_s));
   row(context, "length",
       fmt::format("{:.1f} s, the rig {}", laser.duration_s,
-                  summary.motion ? "was " + *summary.motion : "may have moved"));
+                  summary.motion              ? "was " + *summary.motion
+                  : is_answered_part(context) ? "was stationary"
+                                              : "may have moved"));
   row(context, "laser",
       fmt::format("{} scans of {} beams, {:.1f} Hz", laser.used, laser.max_beams, rate_hz(laser)));
   const double usable =
@@ -46,6 +57,24 @@ void recording_rows(const PaneContext& context, const Loaded& loaded) {
   if (loaded.truth_s) row(context, "truth", offset_label_ms(*loaded.truth_s) + " ms, as simulated");
 }
 
+/// Remarks under a title of their own, beside a line in their tone.
+void remarks(const PaneContext& context, const char* title, const std::vector<std::string>& all,
+             const Colour& tone) {
+  if (all.empty()) return;
+  ImGui::Dummy({0, context.pxf(3)});
+  const ImVec2 from = ImGui::GetCursorScreenPos();
+  ImGui::Indent(context.pxf(12));
+  ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(tone));
+  text_in(context.fonts.bold, all.size() == 1 ? std::string(title).substr(0, std::strlen(title) - 1) : title);
+  ImGui::PopStyleColor();
+  ImGui::PushFont(context.fonts.small);
+  for (const std::string& remark : all) wrapped_text(context.style.text, sentence(remark));
+  ImGui::PopFont();
+  ImGui::Unindent(context.pxf(12));
+  const float to = ImGui::GetCursorScreenPos().y - ImGui::GetStyle().ItemSpacing.y;
+  ImGui::GetWindowDrawList()->AddRectFilled(from, {from.x + context.pxf(3), to}, to_imgui(tone));
+}
+
 void notes(const PaneContext& context, const Loaded& loaded) {
   std::vector<std::string> all = loaded.summary.warnings;
   for (const Side side : kBothSides) {
@@ -58,8 +87,7 @@ void notes(const PaneContext& context, const Loaded& loaded) {
     if (!warning.empty() && std::ranges::find(all, warning) == all.end()) all.push_back(warning);
   }
   if (all.empty()) return;
-  heading(context, "Notes");
-  for (const std::string& note : all) small_print(context, sentence(note));
+  remarks(context, "Notes", all, context.style.faint_text);
   hint_buttons(context, hints_for(context.explorer, all));
 }
 
@@ -237,20 +265,26 @@ void answer(const PaneContext& context, const Estimate& estimate) {
     text_in(context.fonts.heading, "Not determined");
     for (const std::string& reason : estimate.reasons()) ImGui::TextWrapped("%s", sentence(reason).c_str());
   }
-  for (const std::string& warning : estimate.warnings) small_print(context, sentence(warning));
+  remarks(context, "Warnings", estimate.warnings, colour_of_a(context.style));
   ImGui::Dummy({0, context.pxf(2)});
   hint_buttons(context, hints_for(context.explorer, estimate));
 }
 
 }  // namespace
 
-void draw_recording_panel(const PaneContext& context, const PixelRect& place) {
+void draw_recording_panel(const PaneContext& context, const PixelRect& place, bool above) {
   if (place.width <= 0 || context.explorer.loaded() == nullptr) return;
-  begin_panel(context, "recording", place);
-  recording_rows(context, *context.explorer.loaded());
-  search(context);
-  if (const Estimate* estimate = context.explorer.estimating.found()) answer(context, *estimate);
-  notes(context, *context.explorer.loaded());
+  begin_panel(context, above ? "recording above" : "recording", place, true, above);
+  const Loaded& loaded = *context.explorer.loaded();
+  const Estimate* estimate = context.explorer.estimating.found();
+  // What was opened for the answer begins with it.
+  if (above && estimate != nullptr) answer(context, *estimate);
+  if (above) notes(context, loaded);
+  if (above) search(context);
+  recording_rows(context, loaded, !above);
+  if (!above) search(context);
+  if (!above && estimate != nullptr) answer(context, *estimate);
+  if (!above) notes(context, loaded);
   end_panel();
 }
 

@@ -50,10 +50,9 @@ void use(const PaneContext& context, const Splitter& splitter, const Places& pla
   }
   end_panel();
   const ImVec2 mouse = ImGui::GetIO().MousePos;
-  const bool moved = ImGui::GetIO().MouseDelta.x != 0 || ImGui::GetIO().MouseDelta.y != 0;
   const bool is_share = std::string(splitter.command) == "map-share";
   if (reset) return context.perform(Call{&command, {is_share ? 0.5 : 0.0}});
-  if (!held || !moved) return;
+  if (!held || !is_dragged(context, 0)) return;
   const double wanted = value_at(context, splitter, places, whole,
                                  {static_cast<double>(mouse.x), static_cast<double>(mouse.y)});
   const double rounded = is_share ? std::round(wanted * 1e3) / 1e3 : std::round(wanted);
@@ -79,10 +78,11 @@ void draw_splitters(const PaneContext& context, const Places& places, const Pixe
          {places.criteria.left, places.criteria.top - reach, places.criteria.width, 2 * reach}},
         places, whole);
   const Settings& settings = context.settings();
-  const MapPlaces maps = lay_out_maps(places.maps, context.scale, settings.layout, settings.map_share);
-  if (settings.layout == Layout::kSideBySide)
+  const Layout layout = shown_layout(settings.layout, places.maps, context.scale);
+  const MapPlaces maps = lay_out_maps(places.maps, context.scale, layout, settings.map_share);
+  if (layout == Layout::kSideBySide)
     upright("splitter maps", "map-share", (maps.picture_a.right() + maps.picture_b.left) / 2, maps.picture_a);
-  if (settings.layout == Layout::kStacked)
+  if (layout == Layout::kStacked)
     use(context,
         {"splitter maps",
          "map-share",

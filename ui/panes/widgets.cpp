@@ -11,22 +11,14 @@
 namespace sweepscope::ui {
 namespace {
 
-/// "heights" for a person: choices are words of the command, shown with a capital, and lists with spaces.
-std::string capital(std::string word) {
-  if (word == "sharp") return "Blur shows";  // as much as the field is wide
-  std::replace(word.begin(), word.end(), '-', ' ');
-  for (std::size_t at = 0; (at = word.find(',', at)) != word.npos; at += 2) word.replace(at, 1, ", ");
-  if (!word.empty() && word[0] >= 'a' && word[0] <= 'z') word[0] = static_cast<char>(word[0] - 'a' + 'A');
-  return word;
-}
-
 void choice_field(const PaneContext& context, const Command& command) {
   begin_field(context, command);
   const std::string now = to_word(command.get(context.settings())[0]);
-  if (ImGui::BeginCombo(("##" + command.name).c_str(), capital(now).c_str())) {
+  if (ImGui::BeginCombo(("##" + command.name).c_str(), choice_in_words(now).c_str())) {
     for (const std::string& choice : command.parameters[0].choices) {
-      if (ImGui::Selectable(capital(choice).c_str(), choice == now))
+      if (ImGui::Selectable(choice_in_words(choice).c_str(), choice == now))
         context.perform(command.name + " " + choice);
+      if (choice == now) ImGui::SetItemDefaultFocus();  // where the arrows begin
       context.anchor_last(command.name + " " + choice);
     }
     ImGui::EndCombo();
@@ -59,9 +51,27 @@ void number_field(const PaneContext& context, const Command& command) {
 
 }  // namespace
 
+std::string choice_in_words(std::string word) {
+  if (word == "sharp") return "Blur shows";  // as much as the field is wide
+  std::replace(word.begin(), word.end(), '-', ' ');
+  for (std::size_t at = 0; (at = word.find(',', at)) != word.npos; at += 2) word.replace(at, 1, ", ");
+  if (!word.empty() && word[0] >= 'a' && word[0] <= 'z') word[0] = static_cast<char>(word[0] - 'a' + 'A');
+  return word;
+}
+
 PixelPoint mouse() {
   const ImVec2 at = ImGui::GetIO().MousePos;
   return {static_cast<double>(at.x), static_cast<double>(at.y)};
+}
+
+int held_button() {
+  return ImGui::IsMouseDown(0) ? 0 : ImGui::IsMouseDown(1) ? 1 : 2;
+}
+
+bool is_dragged(const PaneContext& context, int button) {
+  constexpr double kTremble = 4;
+  const float tremble = context.pxf(kTremble);
+  return ImGui::GetIO().MouseDragMaxDistanceSqr[button] >= tremble * tremble;
 }
 
 void PaneContext::perform(const std::string& line, const std::string& gesture) const {

@@ -29,6 +29,11 @@ inline Colour colour_of(const PaneContext& context, Side side) {
 /// Where the mouse is.
 PixelPoint mouse();
 
+/// Whether the mouse moved since this button was pressed last: a hand that clicks trembles.
+bool is_dragged(const PaneContext& context, int button);
+/// The button that is down, the left one first.
+int held_button();
+
 /// Opens a window at a fixed position without decoration, behind or above the others; `end_panel` closes it.
 /// What does not fit can be scrolled to, with a bar where the window is padded. `by_keys`: arrows and Space
 /// reach its widgets while the interface is navigated by keys.
@@ -53,6 +58,9 @@ void heading(const PaneContext& context, const char* text, bool first = false);
 
 /// A name at the left and a value at a fixed distance from it; the value wraps.
 void row(const PaneContext& context, const char* name, const std::string& value);
+
+/// A value of a choice for a person: "Side by side" of "side-by-side".
+std::string choice_in_words(std::string word);
 
 /// A widget for a field command: a slider, a switch, or a list of choices, with its title and tooltip. A
 /// change by the person is performed as that command.

@@ -221,8 +221,8 @@ Commands fields_of_points() {
              &Settings::table, names_of(colour_table_names())),
       choice({"heights", "Heights",
               "Blur shows: at least 0.8 m above or below the sensor's path, without the ceiling. "
-              "All: everything. Slab: between two heights above the path."},
-             &Settings::heights, {"sharp", "all", "slab"}),
+              "All: everything. Slab: between two heights above the path. No ceiling: everything below it."},
+             &Settings::heights, {"sharp", "all", "slab", "no-ceiling"}),
       range({"slab", "Slab", "The visible range of heights above the sensor's path."}, &Settings::slab_from_m,
             &Settings::slab_to_m, number_of("FROM", "m", -50, 50, 0.1), number_of("TO", "m", -50, 50, 0.1)),
       number({"point-size", "Point size", "In pixels, before the display's scale."}, &Settings::point_size_px,
@@ -284,6 +284,10 @@ Commands fields_of_interface() {
       choice({"theme", "Theme", "Dark for the screen, light for paper and bright rooms."}, &Settings::theme,
              {"dark", "light"}),
       toggle({"panels", "Side panels", "The panels to the left and right of the maps."}, &Settings::panels),
+      choice(
+          {"open-panel", "Open panel",
+           "In a small window, which has no room for panels beside the maps: the one that lies over them."},
+          &Settings::sheet, {"none", "recording", "display"}),
       toggle({"criteria", "Criteria", "The criteria over the offset, below the maps."}, &Settings::criteria),
       range({"chart-range", "Offsets shown",
              "The part of the offset axis that the charts show, in milliseconds. Both 0: all. The "

@@ -22,7 +22,9 @@ struct ViewPoint {
 };
 
 enum class Layout { kSideBySide, kSwipe, kOnlyA, kOnlyB, kDifference, kStacked };
-enum class Heights { kSharp, kAll, kSlab };
+enum class Heights { kSharp, kAll, kSlab, kBelowCeiling };
+/// The side panel that is open where the window has no room for panels beside the maps.
+enum class Sheet { kNone, kRecording, kDisplay };
 enum class Theme { kDark, kLight };
 enum class Backdrop { kTheme, kBlack, kWhite };
 enum class Tool { kLook, kPick, kMeasure, kProfile };
@@ -77,6 +79,7 @@ struct Settings {
 
   Theme theme = Theme::kDark;
   bool panels = true;  // to the left and right of the maps
+  Sheet sheet = Sheet::kNone;
   bool criteria = true;
   double chart_from_ms = 0, chart_to_ms = 0;  // the offsets that the charts show; both the same: all
   double ui_scale = 0;                        // 0: the display's scale

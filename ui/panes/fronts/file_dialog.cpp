@@ -1,4 +1,4 @@
-#include "ui/panes/file_dialog.hpp"
+#include "ui/panes/fronts/file_dialog.hpp"
 
 #include <fmt/format.h>
 #include <imgui_stdlib.h>
@@ -7,7 +7,7 @@
 
 #include "core/io/printable_text.hpp"
 #include "ui/host/input.hpp"
-#include "ui/panes/fronts.hpp"
+#include "ui/panes/fronts/fronts.hpp"
 #include "ui/panes/widgets.hpp"
 
 namespace sweepscope::ui {

@@ -8,8 +8,9 @@
 
 #include "core/io/printable_text.hpp"
 #include "ui/host/input.hpp"
-#include "ui/panes/file_dialog.hpp"
-#include "ui/panes/fronts.hpp"
+#include "ui/panes/fronts/figure_dialog.hpp"
+#include "ui/panes/fronts/file_dialog.hpp"
+#include "ui/panes/fronts/fronts.hpp"
 #include "ui/panes/widgets.hpp"
 
 namespace sweepscope::ui {
@@ -38,6 +39,19 @@ struct Entry {
   bool takes_words = false;  // the line is completed in the palette before it is run
 };
 
+/// A line for each value of a choice that no menu has.
+void add_choices(std::vector<Entry>& entries, const Command& command) {
+  constexpr std::size_t kMaxChoices = 6;  // of more, the command alone
+  const auto& choices = command.parameters[0].choices;
+  if (choices.size() > kMaxChoices) return;
+  for (const std::string& choice : choices) {
+    const std::string line = command.name + " " + choice;
+    const bool known = std::ranges::any_of(entries, [&](const Entry& entry) { return entry.line == line; });
+    if (!known)
+      entries.push_back({command.title + ": " + choice_in_words(choice), line, chord_of(line), false});
+  }
+}
+
 std::vector<Entry> all_entries(const std::vector<std::string>& recent) {
   std::vector<Entry> entries;
   for (const std::string& path : recent)
@@ -54,6 +68,7 @@ std::vector<Entry> all_entries(const std::vector<std::string>& recent) {
     std::string usage;
     for (const Parameter& parameter : command.parameters) usage += " " + parameter.name;
     entries.push_back({command.title + usage, command.name, chord_of(command.name), !plain});
+    if (command.is_field() && command.parameters.size() == 1) add_choices(entries, command);
   }
   return entries;
 }
@@ -64,13 +79,22 @@ std::string lower(std::string text) {
   return text;
 }
 
-/// Every word of the query occurs in the entry.
-bool matches(const Entry& entry, const std::string& query) {
-  const std::string text = lower(entry.title + " " + entry.line);
+bool has_words(const std::string& text, const std::vector<std::string>& words) {
+  return std::ranges::all_of(words,
+                             [&](const std::string& word) { return text.find(lower(word)) != text.npos; });
+}
+
+/// The entries in which every word of the query occurs; first those that it names, then those that have
+/// another name like it.
+std::vector<Entry> matching(std::vector<Entry> entries, const std::string& query) {
   const auto words = split_words(query);
-  if (!words) return false;
-  return std::all_of(words->begin(), words->end(),
-                     [&](const std::string& word) { return text.find(lower(word)) != std::string::npos; });
+  if (!words) return {};
+  const auto name = [](const Entry& entry) { return lower(entry.title + " " + entry.line); };
+  std::erase_if(entries, [&](const Entry& entry) {
+    return !has_words(name(entry) + " " + std::string(synonyms_of(entry.line)), *words);
+  });
+  std::ranges::stable_partition(entries, [&](const Entry& entry) { return has_words(name(entry), *words); });
+  return entries;
 }
 
 void run_entry(const PaneContext& context, const Entry& entry) {
@@ -163,11 +187,8 @@ void draw_palette(const PaneContext& context, const PixelRect& whole) {
   Transient& transient = context.transient;
   if (!transient.palette) return;
   begin_front(context, "palette", whole, 660, 420, 0.1);
-  std::vector<Entry> found;
   const std::string before = transient.palette_query;
-  for (const Entry& entry : all_entries(transient.recent)) {
-    if (matches(entry, before)) found.push_back(entry);
-  }
+  const std::vector<Entry> found = matching(all_entries(transient.recent), before);
   const int last = std::max(0, static_cast<int>(found.size()) - 1);
   if (ImGui::IsKeyPressed(keys::kDown)) ++transient.palette_choice;
   if (ImGui::IsKeyPressed(keys::kUp)) --transient.palette_choice;
@@ -262,9 +283,13 @@ void draw_ask(const PaneContext& context, const PixelRect& whole) {
   if (!transient.asks_for) return;
   const Transient::Asked asked = *transient.asks_for;
   if (is_opening(asked.command)) return draw_open_dialog(context, whole);
-  begin_front(context, "ask", whole, 560, 206, 0.22);
+  const bool figure = asked.command == "export-figure";
+  begin_front(context, "ask", whole, figure ? 880 : 560, figure ? 560 : 206, figure ? 0.08 : 0.22);
   text_in(context.fonts.heading, title_of_asking(asked));
-  wrapped_text(context.style.faint_text, find_command(asked.command)->help);
+  if (figure)
+    draw_figure_options(context);
+  else
+    wrapped_text(context.style.faint_text, find_command(asked.command)->help);
   const bool confirmed = ask_for_file(context, asked);
   ImGui::SameLine();
   const bool dismissed = ImGui::Button("Cancel", {context.pxf(100), 0});
@@ -272,7 +297,9 @@ void draw_ask(const PaneContext& context, const PixelRect& whole) {
   ImGui::End();
   if (dismissed) return context.perform("dismiss");
   if (!confirmed || transient.asked_text.empty() || !transient.asks_for) return;
-  const std::string line = line_of_asking(asked, transient.asked_text);
+  const std::string line =
+      figure ? figure_line(transient, ui::quoted(without_tilde(transient.asked_text, home_folder())))
+             : line_of_asking(asked, transient.asked_text);
   const auto call = parse_call(line);
   if (call && transient.replaces.empty()) {
     transient.replaces = context.explorer.files.replaced_by(*call);
