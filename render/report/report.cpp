@@ -346,6 +346,8 @@ std::vector<Chart> evidence_charts(const ReportContent& content) {
     std::ranges::move(curve_charts(beside, {}, style), std::back_inserter(charts));
   }
   std::ranges::transform(charts, charts.begin(), with_own_best);
+  if (content.criteria && !charts.empty() && content.estimate.offset_s)
+    charts.front().title += fmt::format(": found {}", offset_text(*content.estimate.offset_s, {}));
   return charts;
 }
 
