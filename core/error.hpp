@@ -20,18 +20,20 @@ enum class ExitCode : int {
 /// An expected failure: the exit code, and one sentence that names the file and the place in it. Programming
 /// errors are exceptions instead.
 struct Error {
-  ExitCode code = ExitCode::kUnreadableInput;
-  std::string message;
+  ExitCode code = ExitCode::kUnreadableInput;  // that the program ends with
+  std::string message;                         // for a person
 };
 
 /// A value, or the error that prevented it.
 template <typename T>
 using Result = tl::expected<T, Error>;
 
+/// An error, as a function that returns a Result returns it.
 inline tl::unexpected<Error> failure(ExitCode code, std::string message) {
   return tl::unexpected<Error>(Error{code, std::move(message)});
 }
 
+/// The same for an input that cannot be read.
 inline tl::unexpected<Error> unreadable(std::string message) {
   return failure(ExitCode::kUnreadableInput, std::move(message));
 }

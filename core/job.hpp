@@ -11,8 +11,11 @@ namespace sweepscope {
 /// moment at which the work checks; a clock hits only some of them.
 class LookCount {
  public:
+  /// Counts from 1: 1 cancels at once.
   explicit LookCount(std::uint64_t cancel_at) : cancel_at_(cancel_at) {}
+  /// Counts a call, and tells whether it is cancelled.
   bool cancels() { return ++looks_ >= cancel_at_; }
+  /// The calls so far.
   std::uint64_t looks() const { return looks_; }
 
  private:
@@ -28,13 +31,16 @@ class Job {
   using Sink = std::function<void(std::string_view phase, double fraction)>;
 
   Job() = default;
+  /// A job that reports its progress to `sink`.
   explicit Job(Sink sink) : sink_(std::move(sink)) {}
   /// A part of a job: it reports nothing and is cancelled together with the job, which must outlive it.
   static Job part_of(const Job& whole) { return Job(&whole); }
 
+  /// Reports progress, see Sink.
   void report(std::string_view phase, double fraction) const {
     if (sink_) sink_(phase, fraction);
   }
+  /// From any thread.
   void cancel() { cancelled_ = true; }
   /// True from the moment at which the work has to stop. Cancelled work returns an Error with
   /// ExitCode::kInterrupted or, where it returns a plain value, an unfinished one: check cancelled() before

@@ -16,6 +16,7 @@ struct Gear {
   /// phi - encoder_rad[0] sin(phi) - encoder_rad[1] cos(phi).
   Eigen::Vector2d encoder_rad = Eigen::Vector2d::Zero();
 
+  /// Neither play nor an eccentric disc.
   bool perfect() const { return play_rad == 0 && encoder_rad.isZero(0); }
 };
 

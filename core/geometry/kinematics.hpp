@@ -19,6 +19,7 @@ struct Mount {
   // The laser's pose in the frame that turns with the motor: p_in_motor = R(rpy) * p_in_laser + xyz,
   // R = Rz(yaw) Ry(pitch) Rx(roll).
   Eigen::Vector3d laser_in_motor_xyz_m = Eigen::Vector3d::Zero();
+  // See laser_in_motor_xyz_m.
   Eigen::Vector3d laser_in_motor_rpy_deg = Eigen::Vector3d::Zero();
 };
 
@@ -26,6 +27,7 @@ struct Mount {
 /// factor depends on the offset, so points are stored in the motor frame, which turns with the motor.
 class Kinematics {
  public:
+  /// The axis is normalised.
   explicit Kinematics(const Mount& mount)
       : axis_(mount.axis.normalized()),
         motor_from_laser_{rotation_from_rpy(mount.laser_in_motor_rpy_deg), mount.laser_in_motor_xyz_m} {}
@@ -48,7 +50,9 @@ class Kinematics {
   double distance_to_axis_m(const Eigen::Vector3d& p_in_motor) const {
     return axis_.cross(p_in_motor).norm();
   }
+  /// The motor's axis in the base frame, unit length.
   const Eigen::Vector3d& axis() const { return axis_; }
+  /// Where the laser is in the motor frame.
   Eigen::Vector3d laser_in_motor_m() const { return motor_from_laser_.translation_m; }
 
  private:
@@ -58,8 +62,8 @@ class Kinematics {
 
 /// The motor's angle over its own clock, linear between samples. Times are strictly ascending.
 struct MotorTrack {
-  std::vector<double> time_s;  // motor clock, seconds since Recording::epoch_ns
-  std::vector<double> angle_rad;
+  std::vector<double> time_s;     // motor clock, seconds since Recording::epoch_ns
+  std::vector<double> angle_rad;  // one for each time
 
   /// The angle at a time, which must lie within [time_s.front(), time_s.back()].
   double angle_at(double t_s) const;
@@ -71,8 +75,10 @@ struct MotorTrack {
 /// Times outside the track get the angle of the nearest end.
 class MotorReader {
  public:
+  /// The track must outlive the reader.
   explicit MotorReader(const MotorTrack& track) : track_(&track) {}
 
+  /// The angle in rad.
   double angle_at(double motor_time_s) {
     const auto& times = track_->time_s;
     if (times.size() < 2) return times.empty() ? 0.0 : track_->angle_rad.front();
@@ -92,8 +98,10 @@ class MotorReader {
 /// ascending times.
 class MotorSpeedReader {
  public:
+  /// The track must outlive the reader.
   explicit MotorSpeedReader(const MotorTrack& track) : before_(track), after_(track) {}
 
+  /// The mean speed about a time.
   double speed_rad_s(double motor_time_s) {
     constexpr double kSpan_s = 0.010;
     return (after_.angle_at(motor_time_s + kSpan_s) - before_.angle_at(motor_time_s - kSpan_s)) /

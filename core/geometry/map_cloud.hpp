@@ -12,10 +12,10 @@ namespace sweepscope {
 /// (laser clock, seconds since Recording::epoch_ns) and the number of its sweep. Consecutive sweeps turn in
 /// opposite directions.
 struct EIGEN_ALIGN16 MapPoint {
-  PCL_ADD_POINT4D;
-  float intensity;
-  std::uint32_t sweep;
-  double time_s;
+  PCL_ADD_POINT4D;      // x, y, z in m
+  float intensity;      // 0 if the laser has none
+  std::uint32_t sweep;  // the number of its sweep
+  double time_s;        // laser clock, seconds since Recording::epoch_ns
 };
 
 /// Points in order of time.

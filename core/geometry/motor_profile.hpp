@@ -7,8 +7,9 @@ namespace sweepscope {
 /// The motion of a motor without an encoder, as it was commanded. It turns one way, or back and forth between
 /// two angles; evenly, or in steps with a rest after each.
 struct MotorProfile {
+  /// The angles between which it turns back and forth.
   struct Limits {
-    double from_deg = 0, to_deg = 0;
+    double from_deg = 0, to_deg = 0;  // from < to
   };
   double turns_per_s = 0;         // mean, > 0 where the angle grows; of both directions between limits: > 0
   std::optional<Limits> between;  // absent: it turns one way

@@ -7,17 +7,21 @@
 
 namespace sweepscope {
 
+/// The six unknowns of a motion.
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 
 /// A rigid transform: p_in_a = a_from_b * p_in_b.
 struct Pose {
-  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
-  Eigen::Vector3d translation_m = Eigen::Vector3d::Zero();
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();  // of b's axes in a
+  Eigen::Vector3d translation_m = Eigen::Vector3d::Zero();       // of b's origin in a
 
+  /// p_in_a of p_in_b.
   Eigen::Vector3d operator*(const Eigen::Vector3d& p) const { return rotation * p + translation_m; }
+  /// a_from_b * b_from_c is a_from_c.
   Pose operator*(const Pose& other) const {
     return {(rotation * other.rotation).normalized(), *this * other.translation_m};
   }
+  /// b_from_a.
   Pose inverse() const {
     const Eigen::Quaterniond back = rotation.conjugate();
     return {back, -(back * translation_m)};
@@ -26,8 +30,8 @@ struct Pose {
 
 /// The pose of the rig's base frame in the map frame at a time of the laser's clock.
 struct StampedPose {
-  double time_s = 0;  // seconds since Recording::epoch_ns
-  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
+  double time_s = 0;                                                // seconds since Recording::epoch_ns
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();             // of the base frame's origin
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  // map_from_base
 };
 

@@ -20,6 +20,7 @@ namespace sweepscope {
 struct MapConsistency;
 struct MapPath;
 
+/// How to build a map. The defaults are those of `sweepscope map`.
 struct MapOptions {
   std::optional<RigKind> assume;  // instead of the motion test
   /// The trajectory of the base frame, used instead of LOAM's; ascending in time. Poses are interpolated
@@ -28,19 +29,19 @@ struct MapOptions {
   std::vector<StampedPose> poses;
   /// A moving rig's trajectory if it is already known, such as an estimate's; null: it is solved for.
   std::shared_ptr<const SolvedWalk> walk;
-  FeatureOptions features;
-  MappingOptions mapping;
+  FeatureOptions features;  // of scans
+  MappingOptions mapping;   // of tracking a moving rig
 };
 
 /// The map at an offset, with the trajectory of the base frame. The map frame is the base frame at the first
 /// sweep's begin.
 struct OffsetMap {
-  double offset_s = 0;
-  MapCloud::Ptr cloud;
-  std::vector<StampedPose> trajectory;     // two poses a sweep, ascending in time
-  std::vector<SweepPose> sweeps;           // the poses that the beams were placed along
-  std::shared_ptr<const SolvedWalk> walk;  // of a moving rig whose trajectory was solved for
-  bool moving = false;
+  double offset_s = 0;                                // t_motor = t_laser + offset
+  MapCloud::Ptr cloud;                                // in m, in the map frame
+  std::vector<StampedPose> trajectory;                // two poses a sweep, ascending in time
+  std::vector<SweepPose> sweeps;                      // the poses that the beams were placed along
+  std::shared_ptr<const SolvedWalk> walk;             // of a moving rig whose trajectory was solved for
+  bool moving = false;                                // by the motion test or MapOptions::assume
   bool lost = false;                                  // LOAM lost track: the map is not to be trusted
   std::shared_ptr<const MapConsistency> consistency;  // of the path; see MapPath
   std::string warning;                                // also of the path; else empty

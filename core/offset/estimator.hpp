@@ -30,6 +30,7 @@ namespace sweepscope {
 /// On interruption the Estimate says so in `interrupted` and holds the candidates that were finished.
 Result<Estimate> estimate(const RecordingSource& source, const EstimateOptions& options,
                           const KeptCandidates& kept, const Job& job);
+/// The same without kept candidates.
 Result<Estimate> estimate(const RecordingSource& source, const EstimateOptions& options, const Job& job);
 
 }  // namespace sweepscope

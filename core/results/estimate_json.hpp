@@ -14,6 +14,7 @@ enum class Timing { kWritten, kNull };
 
 /// As they are written in JSON and on command lines: "direct", "stationary", "moving".
 const char* to_text(Method method);
+/// As it is written in JSON: "stationary", "moving".
 const char* to_text(RigKind kind);
 
 /// The estimate as a JSON object (schema "sweepscope.estimate/1"), keys in a fixed order, offsets in
@@ -28,8 +29,11 @@ std::string estimate_to_json(const Estimate& estimate, Timing timing = Timing::k
 /// messages, which also name the key.
 Result<Estimate> parse_estimate_json(std::string_view text, std::string_view name);
 
+/// Writes estimate_to_json; the file appears when it is complete. ExitCode::kWrongUsage if it cannot be
+/// written.
 Result<void> write_estimate_json(const std::filesystem::path& path, const Estimate& estimate,
                                  Timing timing = Timing::kWritten);
+/// Reads such a file.
 Result<Estimate> read_estimate_json(const std::filesystem::path& path);
 
 /// The curve as a table: a header line that names columns and units, then one line per offset; absent values
@@ -38,6 +42,7 @@ std::string curve_to_csv(const Estimate& estimate);
 /// The windows of an offset over time and the course at their times as a table, one line per window; empty
 /// if a window does not determine the offset.
 std::string over_time_to_csv(const OffsetOverTime& over_time);
+/// Writes curve_to_csv, as write_estimate_json does.
 Result<void> write_curve_csv(const std::filesystem::path& path, const Estimate& estimate);
 
 }  // namespace sweepscope

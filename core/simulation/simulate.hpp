@@ -23,19 +23,20 @@ struct OwnScene {
   std::filesystem::path mesh;  // .ply or .obj; empty: none
   std::filesystem::path
       trajectory;  // TUM; empty: the rig is stationary at placement.at_m, turned by placement.yaw_deg
-  simulation::PathPlacement placement;
-  double from_s = 0;  // the trajectory's first seconds are left out
+  simulation::PathPlacement placement;  // of the trajectory in the mesh
+  double from_s = 0;                    // the trajectory's first seconds are left out
 };
 
 /// A world and a walk drawn at random; see simulation::world_names() and simulation::walk_names().
 struct RandomWorld {
-  std::string world, walk = "brisk";  // no world: none
-  std::uint64_t world_seed = 1, walk_seed = 1;
+  std::string world, walk = "brisk";            // no world: none
+  std::uint64_t world_seed = 1, walk_seed = 1;  // equal seeds give equal worlds and walks
 };
 
 /// What tells of the motor's motion: its encoder, a signal once a turn (std_msgs/Float64 on /index), or
 /// nothing.
 enum class MotorMessages { kJointStates, kIndex, kNone };
+/// As --motor-messages spells them.
 std::string_view name_of(MotorMessages messages);
 
 /// What to record. t_motor = t_laser + offset: at one true instant the laser's clock shows T and the motor's
@@ -47,20 +48,19 @@ struct SimulationOptions {
   std::optional<double> duration_s;  // the first seconds of the walk; none: all of it, 4.5 s in a
                                      // room, 60 s in a random world, whose walks last as long as asked
 
-  simulation::Scanner scanner = {};
+  simulation::Scanner scanner = {};    // beams, ranges and noise; a UTM-30LX
   std::optional<double> noise_m = {};  // standard deviation of a range, 0 to 1; none: the scanner's
   double dropout = 0.002;              // fraction of the beams without a return, 0 to 1
   double sweep_s = 0.5;                // one half turn of the motor, 0.05 to 60
-  simulation::MotorKind motor = simulation::MotorKind::kTrapezoid;
-  simulation::MotorAxis axis = simulation::MotorAxis::kX;
+  simulation::MotorKind motor = simulation::MotorKind::kTrapezoid;  // how it turns
+  simulation::MotorAxis axis = simulation::MotorAxis::kX;           // of the base frame
   double swing_deg = 90;        // by which the motor swings to either side, 1 to 180
   double motor_middle_deg = 0;  // about which the motor swings, within +-180; 0: the scanner is level there
-  double motor_rest_s = 0,
-         motor_rest_at_s = 0;  // how long the motor stands still, and from when on; 0 to 1e6
+  double motor_rest_s = 0, motor_rest_at_s = 0;  // how long the motor rests, and from when on; 0 to 1e6
   /// Of a motor that turns one way, instead of sweep_s: each for an equal part of the recording, or with
   /// speed_ramp evenly from one to the next. 1 to 3600 each; empty: one speed, half a turn in sweep_s.
   std::vector<double> speeds_dps = {};
-  bool speed_ramp = false;
+  bool speed_ramp = false;           // see speeds_dps
   double encoder_step_deg = 0.088;   // above 0, up to 10
   double encoder_hz = 100;           // 5 to 2000
   double encoder_jitter_s = 0.0005;  // standard deviation of the sampling instants, up to 0.3 / encoder_hz
@@ -75,8 +75,8 @@ struct SimulationOptions {
   bool laser_upside_down = false;          // mounted so; turned by 180 deg about its forward axis
   std::uint32_t motor_repeats =
       1;  // each angle is sent this often before the next, under new stamps, 1 to 100
-  MotorMessages motor_messages = MotorMessages::kJointStates;
-  bool motor_in_degrees = false;
+  MotorMessages motor_messages = MotorMessages::kJointStates;  // what tells the motor's angle
+  bool motor_in_degrees = false;                               // its angles, instead of rad
 
   // Faults of real rigs, none by default.
   double mixed_pixels = 0;     // fraction of the beams at an edge that return a range in between, 0 to 1
@@ -108,9 +108,9 @@ struct SimulationOptions {
 
 /// The base frame in the world.
 struct TruthPose {
-  double time_s = 0;  // laser clock, seconds since Recording::epoch_ns
-  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
-  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
+  double time_s = 0;                                     // laser clock, seconds since Recording::epoch_ns
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  // of the base frame's origin
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  // world_from_base
 };
 
 /// When the beams are fired.
@@ -132,10 +132,10 @@ struct Simulation {
   std::vector<TruthPose> truth;  // every 10 ms from the first beam to the last; every 5 ms in an own scene
   TurnRates imu;                 // if requested: 200 Hz, with a bias and noise, on its own clock
   SimulationOptions options;     // with the duration filled in
-  bool moving = false;
-  double length_m = 0;  // of the path, from the truth, including sway; the maxima too
-  double top_speed_mps = 0;
-  double top_angular_rate_radps = 0;
+  bool moving = false;           // the scene has a walk
+  double length_m = 0;           // of the path, from the truth, including sway; the maxima too
+  double top_speed_mps = 0;      // along the path
+  double top_angular_rate_radps = 0;       // of the base frame
   std::size_t triangles = 0;               // of the scene
   std::string mesh_hash, trajectory_hash;  // content_hash of the files of an own scene
   simulation::SplineDeviation deviation;   // of the spline from an own trajectory's poses

@@ -189,9 +189,7 @@ Json json_of(const Chart& chart) {
 
 Json charts_json(const LiveMap& live) {
   Json list = Json::array();
-  if (!live.criteria) return list;
-  for (const Chart& chart : curve_charts(*live.criteria, {}, style_of(Background::kWhite)))
-    list.push_back(json_of(chart));
+  for (const Chart& chart : live.charts) list.push_back(json_of(chart));
   return list;
 }
 
@@ -304,6 +302,7 @@ LiveMap live_map(const PreparedRecording& prepared, std::shared_ptr<const Solved
   }
   live.still = std::move(still);
   live.criteria = std::move(criteria);
+  if (live.criteria) live.charts = curve_charts(*live.criteria, {}, style_of(Background::kWhite));
   live.colours = beam_colours(*prepared.features, drawn, live, job);
   return live;
 }

@@ -11,6 +11,7 @@
 #include "core/job.hpp"
 #include "core/map/turnable_map.hpp"
 #include "core/offset/estimate.hpp"
+#include "render/charts/chart.hpp"
 #include "render/comparison/compared_map.hpp"
 #include "render/comparison/comparison.hpp"
 #include "render/page/beam_colours.hpp"
@@ -39,6 +40,7 @@ struct LiveMap {
   /// that stands for the live map on paper.
   std::vector<ComparedMap> still;
   std::optional<Estimate> criteria;
+  std::vector<Chart> charts;  // over the offset; at first those of `criteria`
   BeamColours colours;
 };
 

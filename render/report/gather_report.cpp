@@ -47,6 +47,7 @@ Result<void> add_maps(ReportContent& content, const PreparedRecording& prepared,
   }
   if (live_points > 0) {
     content.live = live_map(prepared, built->front().walk, content.maps, content.criteria, live_points, job);
+    content.live->charts = evidence_charts(content);
     if (job.cancelled()) return failure(ExitCode::kInterrupted, "interrupted while measuring the map");
   }
   for (const ComparedMap& map : content.maps)

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string_view>
 
 #include "core/io/printable_text.hpp"
@@ -82,7 +83,7 @@ std::string criteria_table(const ReportContent& content) {
     criteria.insert(criteria.end(), content.criteria->criteria.begin(), content.criteria->criteria.end());
   if (criteria.empty()) return "";
   std::string rows =
-      "<tr><th>criterion</th><th></th><th class=\"number-cell\">offset</th><th "
+      "<tr><th>criterion</th><th></th><th class=\"number-cell\">best offset</th><th "
       "class=\"number-cell\">value</th></tr>\n";
   for (const CriterionOptimum& one : criteria) {
     const std::string value = one.name == "n"   ? fmt::format("{:.0f} matches", one.value)
@@ -167,12 +168,20 @@ const char* stationary_class(const ReportContent& content) {
   return content.live ? "still" : "alone";
 }
 
+/// A chart whose title says where its criterion by itself is best: "Matches n [10³]: most at 24.02 ms".
+Chart with_own_best(Chart chart) {
+  if (chart.markers.empty()) return chart;
+  const ChartMarker& best = chart.markers.front();
+  const auto& curve = chart.series.front().y;
+  const auto first = std::ranges::find_if(curve, [](const auto& value) { return value.has_value(); });
+  const bool is_max = first != curve.end() && best.y > **first;
+  chart.title += fmt::format(": {} at {}", is_max ? "most" : "least", offset_text(best.x * 1e-3, {}));
+  return chart;
+}
+
 Result<std::string> curves(const ReportContent& content) {
-  const Style style = style_of(Background::kWhite);
-  std::vector<MarkedOffset> answer;
-  if (content.estimate.offset_s) answer = {{*content.estimate.offset_s, style.maps[1]}};
   std::string pictures;
-  for (const Chart& chart : curve_charts(content.criteria.value_or(content.estimate), answer, style)) {
+  for (const Chart& chart : evidence_charts(content)) {
     ComparisonOptions look;
     look.background = Background::kWhite;
     look.width_px = 520;
@@ -184,8 +193,8 @@ Result<std::string> curves(const ReportContent& content) {
   if (pictures.empty()) return pictures;
   return fmt::format(
       "<section class=\"{}\">{}<div class=\"charts\">{}</div>\n<p class=\"caption\">Each point is one "
-      "candidate "
-      "offset; a larger mark is the criterion's best; the blue line is the answer.</p></section>\n",
+      "candidate offset; a larger mark is the best value of that criterion by itself; the dashed line is "
+      "the offset found, the same in all charts.</p></section>\n",
       stationary_class(content), html::element("h2", "The criteria over the offset"), pictures);
 }
 
@@ -324,6 +333,22 @@ Result<std::string> profile(const ReportContent& content) {
 
 std::string report_command(const std::string& recording_name, const std::string& options) {
   return fmt::format("sweepscope report {}{} -o report", shell_word(recording_name), options);
+}
+
+std::vector<Chart> evidence_charts(const ReportContent& content) {
+  const Style style = style_of(Background::kWhite);
+  std::vector<Chart> charts = curve_charts(content.estimate, {}, style);
+  if (content.criteria) {
+    Estimate beside = *content.criteria;
+    beside.identifiable = content.estimate.identifiable;
+    beside.offset_s = content.estimate.offset_s;
+    beside.sigma_s = content.estimate.sigma_s;
+    std::ranges::move(curve_charts(beside, {}, style), std::back_inserter(charts));
+  }
+  std::ranges::transform(charts, charts.begin(), with_own_best);
+  if (content.criteria && !charts.empty() && content.estimate.offset_s)
+    charts.front().title += fmt::format(": found {}", offset_text(*content.estimate.offset_s, {}));
+  return charts;
 }
 
 Result<std::string> report_html(const ReportContent& content) {

@@ -26,6 +26,10 @@ struct ReportContent {
   std::optional<CrossSection> section;  // the face that shows the offset best, if there is one
 };
 
+/// The charts of a report: that of the criterion that answered, then those of the paper's criteria. All have
+/// the same line at the offset found; titles say where a criterion by itself has its best value.
+std::vector<Chart> evidence_charts(const ReportContent& content);
+
 /// The command that makes a report, quoted for a shell. It names files without their folders, and always the
 /// folder "report": the page does not depend on where files lie. `options` begin with a space.
 std::string report_command(const std::string& recording_name, const std::string& options);

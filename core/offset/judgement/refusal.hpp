@@ -76,14 +76,15 @@ enum class RefusalKind {
 
 /// A kind as it is declared once. `limit` is of Limits, in `unit`; `text` is fmt's format of the sentence.
 struct RefusalEntry {
-  RefusalKind kind;
-  const char* code;
-  std::optional<double> limit;
-  const char* unit;
-  const char* text;
+  RefusalKind kind;             // what it declares
+  const char* code;             // in JSON
+  std::optional<double> limit;  // absent: it has no number
+  const char* unit;             // of value and limit
+  const char* text;             // with places for what is shown
 };
 /// All kinds, in their order.
 std::span<const RefusalEntry> refusal_entries();
+/// The declaration of a kind.
 const RefusalEntry& entry_of(RefusalKind kind);
 /// kUnknown for a code that is not known.
 RefusalKind refusal_kind_of(std::string_view code);
@@ -91,10 +92,11 @@ RefusalKind refusal_kind_of(std::string_view code);
 /// Why an offset is not given, as data: what was measured, in the unit of its kind, and what it would have to
 /// keep to. Both are absent where the kind has no number.
 struct Refusal {
-  RefusalKind kind = RefusalKind::kUnknown;
-  std::optional<double> value, limit;
-  std::string text;  // a sentence
+  RefusalKind kind = RefusalKind::kUnknown;  // its code is that of entry_of
+  std::optional<double> value, limit;        // what was measured, and what it had to keep to
+  std::string text;                          // a sentence
 };
+/// In the order in which they were found.
 using Refusals = std::vector<Refusal>;
 
 /// A refusal of a kind whose limit is the entry's; `shown` are what its sentence shows.
@@ -108,6 +110,7 @@ Refusal refusal(RefusalKind kind, std::optional<double> value, const Shown&... s
 inline void add(Refusals& to, std::optional<Refusal> one) {
   if (one) to.push_back(std::move(*one));
 }
+/// The same for a remark.
 inline void add(std::vector<std::string>& to, const std::optional<std::string>& remark) {
   if (remark) to.push_back(*remark);
 }

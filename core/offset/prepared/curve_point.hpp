@@ -8,7 +8,7 @@ namespace sweepscope {
 /// What was computed at one candidate offset. A value is absent if the method has no such criterion or the
 /// registration failed; a failed candidate never wins.
 struct CurvePoint {
-  double offset_s = 0;
+  double offset_s = 0;                        // the candidate
   std::optional<double> d;                    // equation 3, mean over the pairs of sweeps
   std::optional<double> translation_m;        // equation 1, mean over the pairs of sweeps
   std::optional<double> rotation_rad;         // equation 2, mean over the pairs of sweeps
@@ -21,9 +21,9 @@ struct CurvePoint {
 
 /// Where one criterion has its extremum, and its value there.
 struct CriterionOptimum {
-  std::string name;  // "d", "n", "e", "capped_cost" or "direct"
-  double offset_s = 0;
-  double value = 0;
+  std::string name;     // "d", "n", "e", "capped_cost" or "direct"
+  double offset_s = 0;  // of the extremum, between candidates if it was fitted
+  double value = 0;     // in the unit of CurvePoint
 };
 
 }  // namespace sweepscope

@@ -13,7 +13,9 @@ namespace sweepscope {
 class CandidateStore {
  public:
   virtual ~CandidateStore() = default;
+  /// What was computed at an offset before; absent: nothing.
   virtual std::optional<CurvePoint> find(double offset_s) = 0;
+  /// Keeps what was computed.
   virtual void keep(const CurvePoint& point) = 0;
   /// The error if keeping a candidate failed, which ends the search.
   virtual std::optional<Error> failed() const = 0;
@@ -21,8 +23,9 @@ class CandidateStore {
 
 /// Part `number` of `count`, from 1: of the candidates of a search, ascending, each count-th from there on.
 struct Shard {
-  int number = 1, count = 1;
+  int number = 1, count = 1;  // 1 <= number <= count
 
+  /// Those of a list that belong to it.
   template <typename T>
   std::vector<T> part_of(const std::vector<T>& all) const {
     std::vector<T> part;

@@ -24,32 +24,34 @@ inline constexpr RigKind kUnknownKind = RigKind::kStationary;
 /// and 3.3 at candidate offsets.
 enum class Method { kDirect, kStationary, kMoving };
 
+/// How an extremum is found among candidates: the best of them, or a parabola through those about it.
 enum class Fit { kNone, kParabola };
+/// How n and e are counted: along one solved trajectory, or at LOAM's own poses as the paper did.
 enum class Scoring { kTwoStage, kLoam };
 
 /// Where an offset is searched for, in seconds.
 struct SearchRange {
-  double from_s = 0, to_s = 0;
+  double from_s = 0, to_s = 0;  // from <= to
 };
 
 /// How an offset is searched for. Empty members are decided from the recording.
 struct EstimateOptions {
-  std::optional<Method> method;     // none: see method_of
-  std::optional<RigKind> assume;    // instead of the motion test
-  std::vector<OffsetRange> ranges;  // none, and no `around`: coarse to fine over the default window
-  std::optional<OffsetsAround> around;
-  std::optional<SearchRange> search;  // none: all that can be distinguished, about 0 first
+  std::optional<Method> method;         // none: see method_of
+  std::optional<RigKind> assume;        // instead of the motion test
+  std::vector<OffsetRange> ranges;      // none, and no `around`: coarse to fine over the default window
+  std::optional<OffsetsAround> around;  // candidates about an offset, besides `ranges`
+  std::optional<SearchRange> search;    // none: all that can be distinguished, about 0 first
   std::optional<Fit> fit;  // none: a parabola for moving rigs and slow motors, else the best candidate
   std::optional<Scoring> scoring;      // none: two-stage
   std::optional<double> weight_c;      // c of equation 3; none: 1
   std::optional<double> edge_gate_m;   // delta_E of equation 4; none: that of `mapping`
   std::optional<double> plane_gate_m;  // delta_H of equation 5; none: that of `mapping`
   RigSolve solve;                      // of the rig, beside the offset
-  FeatureOptions features;
-  OdometryOptions odometry;
-  MappingOptions mapping;
-  std::optional<double> over_time_s;  // the offset in windows of at least this length; 0: default_window_s
-  std::optional<GivenPoses> poses;    // of a moving rig, for the direct method
+  FeatureOptions features;             // of scans
+  OdometryOptions odometry;            // of sweeps, for the paper's criteria
+  MappingOptions mapping;              // of a moving rig
+  std::optional<double> over_time_s;   // the offset in windows of at least this length; 0: default_window_s
+  std::optional<GivenPoses> poses;     // of a moving rig, for the direct method
   /// The trajectory that an estimate of the same recording was judged by: criteria along it cost no tracking.
   std::shared_ptr<const SolvedWalk> walk;
 };

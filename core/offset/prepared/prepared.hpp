@@ -13,11 +13,11 @@ namespace sweepscope {
 /// What is computed from a recording once, for all later work: nothing in it depends on the offset. Motion
 /// test, estimates, maps, report and calibration share it. Copies share the features.
 struct PreparedRecording {
-  std::shared_ptr<const Recording> recording;
-  FeatureOptions feature_options{};
-  std::shared_ptr<const FeatureSet> features;
-  MotorMotion motor;
-  double line_spacing_rad = 0;  // by which the motor turns from one scan to the next
+  std::shared_ptr<const Recording> recording;  // what it was computed from
+  FeatureOptions feature_options{};            // that the features were computed with
+  std::shared_ptr<const FeatureSet> features;  // of all scans
+  MotorMotion motor;                           // sweeps, speed and period
+  double line_spacing_rad = 0;                 // by which the motor turns from one scan to the next
 };
 
 /// Fails only where the job is cancelled (ExitCode::kInterrupted).

@@ -12,8 +12,11 @@ namespace sweepscope {
 /// it is made of must outlive it.
 class RecordingSource {
  public:
+  /// A recording in memory.
   RecordingSource(const Recording& whole) : whole_(borrowed(whole)) {}
+  /// A recording in memory with its features.
   RecordingSource(const PreparedRecording& whole) : whole_(whole.recording), prepared_(&whole) {}
+  /// A recording in a file.
   RecordingSource(const RecordingFile& file) : file_(&file) {
     if (file.is_whole()) whole_ = borrowed(file.outline());
   }

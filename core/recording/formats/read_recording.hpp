@@ -9,6 +9,7 @@
 
 namespace sweepscope {
 
+/// How to read a recording. The defaults detect everything.
 struct ReadOptions {
   std::optional<Rig> rig;             // empty: everything is detected, and the motor rolls the laser about x
   std::optional<StampSource> stamps;  // for both streams, overrides the rig

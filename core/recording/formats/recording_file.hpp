@@ -29,6 +29,7 @@ class RecordingFile {
   const Recording& outline() const { return outline_; }
   /// What is known of the file beyond what reading found.
   ReadReport& report() { return outline_.report; }
+  /// The outline is the whole recording.
   bool is_whole() const { return !outline_.ranges_m.empty() || outline_.scans.empty(); }
 
   /// The scans of some parts of the recording and its first and last scan: the result of parts_of without the

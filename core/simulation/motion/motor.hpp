@@ -8,6 +8,7 @@
 
 namespace sweepscope::simulation {
 
+/// How a motor turns.
 enum class MotorKind {
   kTriangle,   // constant speed, reversed at once
   kTrapezoid,  // constant speed, reversed with a finite acceleration
@@ -16,8 +17,11 @@ enum class MotorKind {
   kStuck,   // does not move
 };
 
+/// The kind of that name, as --motor spells it; absent: there is none.
 std::optional<MotorKind> motor_kind(std::string_view name);
+/// As --motor spells it.
 std::string_view name_of(MotorKind kind);
+/// All of them.
 std::vector<std::string_view> motor_names();
 
 /// The part of a sweep that one reversal of the trapezoid takes.
@@ -28,19 +32,21 @@ enum class MotorAxis { kX, kY, kZ, kMinusX, kMinusY, kMinusZ };
 
 /// "x", "-x" and so on.
 std::optional<MotorAxis> motor_axis(std::string_view name);
+/// "x", "-x" and so on.
 std::string_view name_of(MotorAxis axis);
 /// 0 for x, 1 for y, 2 for z, whichever way round.
 constexpr int index_of(MotorAxis axis) {
   return static_cast<int>(axis) % 3;
 }
+/// Whether it points against x, y or z.
 constexpr bool is_negative(MotorAxis axis) {
   return axis >= MotorAxis::kMinusX;
 }
 
 /// A motor whose speed varies slowly (0.05 to 1 Hz) and at random, by at most the fraction `part`.
 struct Unevenness {
-  double part = 0;
-  std::uint64_t seed = 1;
+  double part = 0;         // 0 to 1
+  std::uint64_t seed = 1;  // equal seeds vary alike
 };
 
 /// The speeds of a motor that turns one way, over a recording of `duration_s`: each for an equal part of it,
@@ -48,13 +54,13 @@ struct Unevenness {
 /// last at its end. Before and after it keeps the first and the last.
 struct SpeedCourse {
   std::vector<double> speeds_radps;  // empty: half a turn in sweep_s
-  bool ramp = false;
-  double duration_s = 0;
+  bool ramp = false;                 // evenly from one speed to the next
+  double duration_s = 0;             // of the recording
 };
 
 /// A time in which a motor stands still; it goes on where it stopped.
 struct Rest {
-  double from_s = 0, to_s = 0;
+  double from_s = 0, to_s = 0;  // true time
 };
 
 /// The motor's true angle over true time. It swings by reach_rad to either side of 0 deg, from one end to the
@@ -62,6 +68,7 @@ struct Rest {
 /// long after a passage through 0 deg, upwards, true time 0 falls.
 class Motor {
  public:
+  /// See the class.
   Motor(MotorKind kind, double sweep_s, double phase_s, const Unevenness& uneven = {},
         const SpeedCourse& course = {}, double reach_rad = std::numbers::pi / 2, const Rest& rest = {});
 

@@ -22,10 +22,11 @@ struct PathPlacement {
 
 /// A recorded motion as a walk through a scene; true time 0 is `start_s` on the path's clock.
 struct RecordedPath {
-  std::shared_ptr<const SplinePath> path;
-  double start_s = 0, duration_s = 0;
-  SplineDeviation deviation;
+  std::shared_ptr<const SplinePath> path;  // through the placed poses
+  double start_s = 0, duration_s = 0;      // of the part that is used
+  SplineDeviation deviation;               // of the spline from the poses
 
+  /// The pose at a true time.
   Pose at(double t_s) const { return path->at(start_s + t_s); }
 };
 

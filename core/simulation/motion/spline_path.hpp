@@ -22,7 +22,9 @@ class SplinePath {
   /// Before the first pose and after the last one it rests.
   Pose at(double time_s) const;
 
+  /// The time of the first pose, and the end of the last interval.
   double first_s() const { return first_s_; }
+  /// See first_s.
   double last_s() const { return first_s_ + knot_s_ * static_cast<double>(intervals_); }
 
  private:
@@ -41,9 +43,10 @@ class SplinePath {
 
 /// The root mean square deviation of a spline from the poses that it was fitted to.
 struct SplineDeviation {
-  double position_m = 0, rotation_rad = 0;
+  double position_m = 0, rotation_rad = 0;  // of distances and of angles
 };
 
+/// That of a spline from these poses.
 SplineDeviation deviation(const SplinePath& path, std::span<const StampedPose> poses);
 
 }  // namespace sweepscope::simulation

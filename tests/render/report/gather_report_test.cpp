@@ -86,6 +86,21 @@ TEST(GatherReport, ItsAnswerIsThatOfAnEstimateAndTheCriteriaStandBesideIt) {
   ASSERT_EQ(content.maps.size(), 2U);
 }
 
+TEST(GatherReport, TheChartsBeginWithTheCriterionThatAnsweredAndAllHaveTheOffsetFound) {
+  const PreparedRecording prepared =
+      prepare(test::simulated("room-1", 0.024, 4.5).recording, FeatureOptions(), Job()).value();
+  const ReportContent content = gather_report(prepared, {}, nullptr, Job()).value();
+  const std::vector<Chart> charts = evidence_charts(content);
+  ASSERT_GE(charts.size(), 2U);
+  EXPECT_TRUE(charts[0].title.starts_with("Distance between sweeps c [mm]: found 2")) << charts[0].title;
+  EXPECT_TRUE(charts[1].title.starts_with("Motion between sweeps d [m]")) << charts[1].title;
+  for (const Chart& chart : charts) {
+    ASSERT_EQ(chart.verticals.size(), 1U) << chart.title;
+    EXPECT_EQ(chart.verticals[0].x, *content.estimate.offset_s * 1e3) << chart.title;
+    EXPECT_EQ(chart.verticals[0].label, charts[0].verticals[0].label);
+  }
+}
+
 TEST(GatherReport, ARigThatIsSolvedForIsShownAndItsMapsAreThoseOfTheRigFound) {
   SimulationOptions tilted;
   tilted.scene = "room-2";
