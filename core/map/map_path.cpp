@@ -115,28 +115,28 @@ Result<MapPath> along_walk(const OffsetProblem& problem, MapPath path, std::shar
   return checked(problem, std::move(path), job);
 }
 
-// Where two tracks of the same sweeps differ for the longest time; nothing where they agree.
-std::optional<std::string> difference_in_words(const SolvedWalk& a, const SolvedWalk& b,
+// Where two tracks of the same sweeps differ most; nothing where that is within a limit.
+std::optional<std::string> difference_in_words(const SolvedWalk& a, const SolvedWalk& b, double limit_m,
                                                const Recording& recording) {
   if (a.sweeps.size() != b.sweeps.size()) return "The trajectory depends on how it is tracked.";
   const std::vector<char> agreed = agreeing(a.sweeps, b.sweeps);
-  std::size_t first = 0, count = 0;
-  for (std::size_t from = 0; from < agreed.size(); ++from) {
-    const auto end = std::find(agreed.begin() + std::ptrdiff_t(from), agreed.end(), 1);
-    const auto run = std::size_t(end - agreed.begin()) - from;
-    if (run > count) first = from, count = run;
-    from += run;
-  }
-  if (count == 0) return std::nullopt;
-  const auto moved = [&](const SolvedWalk& walk) {
-    return walk.sweeps[first].begin().inverse() * walk.sweeps[first + count - 1].end();
-  };
   const double begin_s = recording.scans.front().first_beam_s;
-  return fmt::format(
-      "From {:.0f} to {:.0f} s the surfaces hardly determine the motion: tracked in two ways, it ends {:.1f} m "
-      "apart. The trajectory may be wrong there.",
-      std::max(0.0, a.sweeps[first].begin_s - begin_s), a.sweeps[first + count - 1].end_s - begin_s,
-      (moved(a).translation_m - moved(b).translation_m).norm());
+  std::optional<std::string> difference;
+  for (std::size_t first = 0, end = 0; first < agreed.size(); first = std::max(end, first + 1)) {
+    end = std::size_t(std::find(agreed.begin() + std::ptrdiff_t(first), agreed.end(), 1) - agreed.begin());
+    if (end == first) continue;
+    const auto moved_m = [&](const SolvedWalk& walk) {
+      return (walk.sweeps[first].begin().inverse() * walk.sweeps[end - 1].end()).translation_m;
+    };
+    const double apart_m = (moved_m(a) - moved_m(b)).norm();
+    if (apart_m <= limit_m) continue;
+    limit_m = apart_m;
+    difference = fmt::format(
+        "From {:.0f} to {:.0f} s the surfaces hardly determine the motion: tracked in two ways, it ends {:.1f} m "
+        "apart. The trajectory may be wrong there.",
+        std::max(0.0, a.sweeps[first].begin_s - begin_s), a.sweeps[end - 1].end_s - begin_s, apart_m);
+  }
+  return difference;
 }
 
 double doubt_of(const MapPath& path) {
@@ -170,7 +170,8 @@ Result<MapPath> along_best_walk(const OffsetProblem& problem, const MapPath& pat
   if (best.consistency->warned()) return best;
   std::optional<std::string> difference;
   for (const MapPath& other : std::span(tried).subspan(1)) {
-    auto from_this = difference_in_words(*best.walk, *other.walk, *problem.recording);
+    auto from_this =
+        difference_in_words(*best.walk, *other.walk, best.consistency->limit_m, *problem.recording);
     if (!from_this) return best;
     if (!difference) difference = std::move(from_this);
   }

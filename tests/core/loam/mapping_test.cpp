@@ -159,24 +159,6 @@ TEST_F(SteadyWalk, WhatFitsNowhereStaysAPieceOfItsOwn) {
   EXPECT_EQ(pieces.back().stretch, 2U);
 }
 
-TEST(Track, FollowsATurnThatComesWithoutWarning) {
-  constexpr double kAt_s = 5.0, kLasts_s = 0.25, kTurn_rad = 0.6;
-  test::Bench bench;
-  bench.mesh = test::hall();
-  bench.duration_s = 9;
-  bench.noise_m = 0.01;
-  bench.world_from_base = [&](double t_s) {
-    const double turned = std::clamp((t_s - kAt_s) / kLasts_s, 0.0, 1.0);
-    return Eigen::Translation3d(-2 + 0.4 * std::min(t_s, kAt_s), 0.3, 0) *
-           Eigen::Isometry3d(Eigen::AngleAxisd(kTurn_rad * turned, Vector3d::UnitZ()));
-  };
-  const Recording recording = bench.record();
-  const TrackedWalk walk = track(test::problem_of(recording), 0, MappingOptions(), Job()).value();
-  EXPECT_EQ(walk.tracked(), walk.sweeps.size());
-  const Pose way = walk.sweeps.front().begin().inverse() * walk.sweeps.back().end();
-  EXPECT_NEAR(vector_from_rotation(way.rotation).z(), kTurn_rad, 0.02);
-}
-
 TEST(PiecesWarning, NamesWhereStretchesBeginThatDoNotFit) {
   Recording recording;
   recording.scans.resize(1);
