@@ -274,6 +274,8 @@ void answer(const PaneContext& context, const Estimate& estimate) {
 
 void draw_recording_panel(const PaneContext& context, const PixelRect& place, bool above) {
   if (place.width <= 0 || context.explorer.loaded() == nullptr) return;
+  // Lines are as long with a scroll bar as without: otherwise what fits only without one may show either.
+  ImGui::SetNextWindowContentSize({static_cast<float>(place.width) - 2 * context.pxf(kPanelMargin), 0});
   begin_panel(context, above ? "recording above" : "recording", place, true, above);
   const Loaded& loaded = *context.explorer.loaded();
   const Estimate* estimate = context.explorer.estimating.found();

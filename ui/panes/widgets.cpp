@@ -96,7 +96,7 @@ void begin_panel(const PaneContext& context, const char* name, const PixelRect& 
                  bool above, bool by_keys) {
   ImGui::SetNextWindowPos(corner(place));
   ImGui::SetNextWindowSize(extent(place));
-  const float margin = padded ? context.pxf(14) : 0;
+  const float margin = padded ? context.pxf(kPanelMargin) : 0;
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(margin, padded ? context.pxf(10) : 0));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
   // The frame begins with the background of what lies at its bottom: to fill it again takes milliseconds.

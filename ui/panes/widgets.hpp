@@ -34,6 +34,9 @@ bool is_dragged(const PaneContext& context, int button);
 /// The button that is down, the left one first.
 int held_button();
 
+/// Of padded panels, to the left and to the right, at a scale of 1.
+inline constexpr double kPanelMargin = 14;
+
 /// Opens a window at a fixed position without decoration, behind or above the others; `end_panel` closes it.
 /// What does not fit can be scrolled to, with a bar where the window is padded. `by_keys`: arrows and Space
 /// reach its widgets while the interface is navigated by keys.
