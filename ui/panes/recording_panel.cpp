@@ -277,6 +277,9 @@ void draw_recording_panel(const PaneContext& context, const PixelRect& place, bo
   // Lines are as long with a scroll bar as without: otherwise what fits only without one may show either.
   ImGui::SetNextWindowContentSize({static_cast<float>(place.width) - 2 * context.pxf(kPanelMargin), 0});
   begin_panel(context, above ? "recording above" : "recording", place, true, above);
+  const ImVec2 from = ImGui::GetWindowDrawList()->GetClipRectMin(),
+               to = ImGui::GetWindowDrawList()->GetClipRectMax();
+  ImGui::PushClipRect(from, {far_corner(place).x, to.y}, false);
   const Loaded& loaded = *context.explorer.loaded();
   const Estimate* estimate = context.explorer.estimating.found();
   // What was opened for the answer begins with it.
@@ -287,6 +290,7 @@ void draw_recording_panel(const PaneContext& context, const PixelRect& place, bo
   if (!above) search(context);
   if (!above && estimate != nullptr) answer(context, *estimate);
   if (!above) notes(context, loaded);
+  ImGui::PopClipRect();
   end_panel();
 }
 
