@@ -37,7 +37,6 @@ class Tracker {
   struct Attempt {
     double acceleration_factor;  // how far the motion may change, against what is usual
     double carried;              // part of the velocity that is kept
-    bool wide = false;           // first with matches from farther away, of which fewer count as wrong
   };
   struct Solved {
     std::vector<Pose> path;
@@ -48,12 +47,10 @@ class Tracker {
   bool begin_along_given(const PlacedSweep& sweep, std::size_t steps);
   Pose given_move(double from_s, double to_s) const;
   Solved solved(const PlacedSweep& sweep, std::size_t steps) const;
-  Solved attempt(const PlacedSweep& sweep, std::size_t steps, const Attempt& attempt) const;
-  std::vector<Pose> knot_by_knot(SweepMatcher& matcher, std::size_t steps, const Attempt& attempt) const;
-  MatchCount improve(std::vector<Pose>& path, SweepMatcher& matcher, const SweepMatcher::Share& share,
-                     int iterations, double tolerance, double acceleration_factor) const;
-  double step(std::vector<Pose>& path, PathEquations& equations, double acceleration_factor,
-              const Eigen::Vector3d& pivot_m) const;
+  Solved attempt(const PlacedSweep& sweep, std::size_t steps, const SearchRule& rule,
+                 const Attempt& attempt) const;
+  double improve(std::vector<Pose>& path, PathEquations& equations, double acceleration_factor,
+                 const Eigen::Vector3d& pivot_m) const;
   std::vector<Pose> extrapolated(std::vector<Pose> path, double carried) const;
   void judge(const MatchCount& count);
   void learn_acceleration(const SweepPose& pose);

@@ -1,47 +1,23 @@
 #include "core/offset/prepared/prepared.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/numbers.hpp"
 
 namespace sweepscope {
-namespace {
 
-// The first beams of each turn of the scanner, or of 3D scanners of the first ring.
-std::vector<double> turns_s(const Recording& recording) {
-  std::vector<double> stamps_s;
-  for (const LaserScan& scan : recording.scans)
-    if (scan.ring == recording.scans.front().ring) stamps_s.push_back(scan.first_beam_s);
-  return stamps_s;
-}
-
-// Of sweeps of few beams one in two plane points is matched, or each, instead of one in three: as many as in
-// a sweep of the paper's. The lists of features stay the same.
-FeatureOptions with_enough_to_match(FeatureOptions options, double beams_per_sweep) {
-  constexpr double kOfThePaper = 20 * 721;
-  if (!(beams_per_sweep > 0)) return options;
-  const int sparsest = std::max(1, options.plane_spacing / options.map_spacing);
-  const double wanted = std::min(double(sparsest), sparsest * beams_per_sweep / kOfThePaper);
-  options.plane_spacing = options.map_spacing * std::max(1, int(std::lround(wanted)));
-  return options;
-}
-
-}  // namespace
-
-Result<PreparedRecording> prepare(std::shared_ptr<const Recording> recording, const FeatureOptions& wanted,
+Result<PreparedRecording> prepare(std::shared_ptr<const Recording> recording, const FeatureOptions& options,
                                   const Job& job) {
-  PreparedRecording prepared;
-  prepared.motor = find_sweeps(recording->motor);
-  const std::vector<double> stamps_s = turns_s(*recording);
-  const double turn_s = median(spacings(stamps_s));
-  const double beams = double(recording->ranges_m.size()) / double(stamps_s.size());
-  const FeatureOptions options = with_enough_to_match(wanted, beams * prepared.motor.median_sweep_s / turn_s);
   auto features = extract_features(*recording, options, job);
   if (!features) return tl::unexpected(features.error());
+  PreparedRecording prepared;
   prepared.feature_options = options;
   prepared.features = std::make_shared<const FeatureSet>(std::move(*features));
-  prepared.line_spacing_rad = prepared.motor.median_speed_rad_s * turn_s;
+  prepared.motor = find_sweeps(recording->motor);
+  std::vector<double> stamps_s;
+  for (const LaserScan& scan : recording->scans)
+    if (scan.ring == recording->scans.front().ring) stamps_s.push_back(scan.first_beam_s);
+  prepared.line_spacing_rad = prepared.motor.median_speed_rad_s * median(spacings(stamps_s));
   prepared.recording = std::move(recording);
   return prepared;
 }
