@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <span>
 
 #include "core/loam/path/agreement.hpp"
 #include "core/loam/path/given_motion.hpp"
@@ -103,6 +102,7 @@ Result<MapPath> checked(const OffsetProblem& problem, MapPath path, const Job& j
   if (path.walk) offset_s = path.walk->tracked_at_s;
   auto found = map_consistency(problem, poses_of_sweeps(problem, path, offset_s), offset_s, job);
   if (!found) return failure(ExitCode::kInterrupted, "interrupted while building the map");
+  if (path.walk && !path.walk->contradiction.empty()) found->warnings.push_back(path.walk->contradiction);
   for (const std::string& warning : found->warnings) add_warning(path, warning);
   path.consistency = std::make_shared<const MapConsistency>(std::move(*found));
   return path;
@@ -115,13 +115,12 @@ Result<MapPath> along_walk(const OffsetProblem& problem, MapPath path, std::shar
   return checked(problem, std::move(path), job);
 }
 
-// Where two tracks of the same sweeps differ most; nothing where that is within a limit.
-std::optional<std::string> difference_in_words(const SolvedWalk& a, const SolvedWalk& b, double limit_m,
-                                               const Recording& recording) {
-  if (a.sweeps.size() != b.sweeps.size()) return "The trajectory depends on how it is tracked.";
+// Where two tracks of the same sweeps differ most; empty where that is within a limit.
+std::string contradiction_of(const SolvedWalk& a, const SolvedWalk& b, double limit_m,
+                             const Recording& recording) {
   const std::vector<char> agreed = agreeing(a.sweeps, b.sweeps);
   const double begin_s = recording.scans.front().first_beam_s;
-  std::optional<std::string> difference;
+  std::string contradiction;
   for (std::size_t first = 0, end = 0; first < agreed.size(); first = std::max(end, first + 1)) {
     end = std::size_t(std::find(agreed.begin() + std::ptrdiff_t(first), agreed.end(), 1) - agreed.begin());
     if (end == first) continue;
@@ -131,54 +130,49 @@ std::optional<std::string> difference_in_words(const SolvedWalk& a, const Solved
     const double apart_m = (moved_m(a) - moved_m(b)).norm();
     if (apart_m <= limit_m) continue;
     limit_m = apart_m;
-    difference = fmt::format(
+    contradiction = fmt::format(
         "From {:.0f} to {:.0f} s the surfaces hardly determine the motion: tracked in two ways, it ends {:.1f} m "
         "apart. The trajectory may be wrong there.",
         std::max(0.0, a.sweeps[first].begin_s - begin_s), a.sweeps[end - 1].end_s - begin_s, apart_m);
   }
-  return difference;
+  return contradiction;
+}
+
+Result<SolvedWalk> tracked_with(const OffsetProblem& problem, double offset_s, MappingOptions mapping,
+                                double velocity_sigma, const Job& job) {
+  mapping.velocity_sigma = velocity_sigma;
+  auto walk = solve_walk_at(problem, offset_s, mapping, job);
+  if (!walk) return failure(ExitCode::kInterrupted, "interrupted while building the map");
+  walk->tracked_again = true;
+  return std::move(*walk);
 }
 
 double doubt_of(const MapPath& path) {
   return path.consistency ? path.consistency->doubt : std::numeric_limits<double>::infinity();
 }
 
-// The path along a walk. Where its map does not agree with itself it is tracked in two other ways, which
-// differ in directions that surfaces hardly determine, and the one whose map agrees best is taken: with a
-// warning if none of the others found the same motion.
+// The path along a walk. Where its map does not agree with itself, the walk is tracked in two other ways,
+// which differ in directions that surfaces hardly determine, and the one whose map agrees best is taken. What
+// the other of the two says is kept with it.
 Result<MapPath> along_best_walk(const OffsetProblem& problem, const MapPath& path,
                                 const std::shared_ptr<const SolvedWalk>& walk, const MappingOptions& mapping,
                                 const Job& job) {
-  auto first = along_walk(problem, path, walk, job);
-  if (!first || !first->consistency || !first->consistency->warned() || walk->tracked_again) return first;
+  auto best = along_walk(problem, path, walk, job);
+  if (!best || !best->consistency || !best->consistency->warned() || walk->tracked_again) return best;
   SolvedWalk known = *walk;
   known.tracked_again = true;
-  first->walk = std::make_shared<const SolvedWalk>(std::move(known));
-  std::vector<MapPath> tried{std::move(*first)};
-  for (const double velocity_sigma : {5.0, 12.0}) {
-    MappingOptions other_way = mapping;
-    other_way.velocity_sigma = velocity_sigma;
-    auto again = solve_walk_at(problem, walk->tracked_at_s, other_way, job);
-    if (!again) return failure(ExitCode::kInterrupted, "interrupted while building the map");
-    again->tracked_again = true;
+  best->walk = std::make_shared<const SolvedWalk>(std::move(known));
+  auto one = tracked_with(problem, walk->tracked_at_s, mapping, 5, job);
+  if (!one) return tl::unexpected(one.error());
+  auto other = tracked_with(problem, walk->tracked_at_s, mapping, 12, job);
+  if (!other) return tl::unexpected(other.error());
+  one->contradiction = other->contradiction =
+      contradiction_of(*one, *other, best->consistency->limit_m, *problem.recording);
+  for (SolvedWalk* again : {&*one, &*other}) {
     auto found = along_walk(problem, path, std::make_shared<const SolvedWalk>(std::move(*again)), job);
     if (!found) return found;
-    tried.push_back(std::move(*found));
+    if (doubt_of(*found) < doubt_of(*best)) best = std::move(found);
   }
-  std::ranges::stable_sort(tried, {}, doubt_of);
-  MapPath& best = tried.front();
-  if (best.consistency->warned()) return best;
-  std::optional<std::string> difference;
-  for (const MapPath& other : std::span(tried).subspan(1)) {
-    auto from_this =
-        difference_in_words(*best.walk, *other.walk, best.consistency->limit_m, *problem.recording);
-    if (!from_this) return best;
-    if (!difference) difference = std::move(from_this);
-  }
-  MapConsistency doubtful = *best.consistency;
-  doubtful.warnings.push_back(*difference);
-  best.consistency = std::make_shared<const MapConsistency>(std::move(doubtful));
-  add_warning(best, *difference);
   return best;
 }
 

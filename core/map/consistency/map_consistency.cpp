@@ -262,9 +262,8 @@ Finding sweeps_that_fit_nowhere(const std::vector<DoubtfulTime>& unfit) {
   const DoubtfulTime& longest = *std::ranges::max_element(unfit, {}, length_s);
   double all_s = 0;
   for (const DoubtfulTime& time : unfit) all_s += length_s(time);
-  constexpr double kShortest_s = 1e-3;
   return {
-      1 + std::max(kShortest_s, all_s),
+      1 + all_s,
       fmt::format(
           "The map does not agree with itself: what was seen from {:.1f} to {:.1f} s near {} does not fit the "
           "surfaces that were seen before and after. The trajectory is wrong there.",

@@ -37,7 +37,8 @@ struct SolvedWalk {
   double tracked_at_s = 0;         // the offset that the sweeps were placed with
   bool lost = false;               // too few sweeps could be tracked
   bool near = false;               // tracked at nearly the offset that fits
-  bool tracked_again = false;      // in other ways, since its map does not agree with itself
+  bool tracked_again = false;      // in other ways, since its map did not agree with itself
+  std::string contradiction;       // what another of these ways says; empty where one says the same
   std::optional<JointWalk> joint;  // absent where too few points match
 };
 
