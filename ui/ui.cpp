@@ -9,9 +9,8 @@
 #include <cmath>
 
 #include "render/gl/default_framebuffer.hpp"
-#include "render/vector/vector_file.hpp"
+#include "ui/asked_pictures.hpp"
 #include "ui/commands/commands.hpp"
-#include "ui/explorer/maps_picture.hpp"
 #include "ui/explorer/observables.hpp"
 #include "ui/host/imgui_host.hpp"
 #include "ui/host/input_queue.hpp"
@@ -91,9 +90,13 @@ struct Ui::Parts final : Window {
     return ui::command_line(explorer, context.width_px(), context.height_px());
   }
   Result<void> export_picture(const std::string& file, const std::string& what,
-                              const std::string& size) override;
+                              const std::string& size) override {
+    return pictures.ask(file, what, size);
+  }
   Result<void> export_figure(const std::string& file, const std::string& size,
-                             const std::string& parts) override;
+                             const std::string& parts) override {
+    return pictures.ask_figure(file, size, parts);
+  }
 
   void clear_front();
   void show_alone(bool Transient::*front);
@@ -109,16 +112,7 @@ struct Ui::Parts final : Window {
   PictureShape picture_shape() const;
   void remember_opened();
   bool shows_all_points() const;
-  bool picture_is_whole() const { return !maps_are_shown() || shows_all_points(); }
   bool maps_are_shown() const { return explorer.loaded() != nullptr && explorer.page.choosing() == nullptr; }
-  void write_picture();
-  struct AskedPicture {
-    std::string file, what, size;
-    FigureParts parts = {.close_up = false};
-    bool figure = false;
-  };
-  void export_maps(const AskedPicture& asked);
-
   double kept_ui_scale = 0;  // of the preferences
   tbb::task_arena alone{1};
   Options options;
@@ -133,51 +127,8 @@ struct Ui::Parts final : Window {
   std::map<std::string, PixelRect> anchors;
   std::string remembered;  // the source that the recent list knows already
   PixelRect maps_place;    // as drawn last
-  std::optional<AskedPicture> picture_asked;
-  int frames_until_picture = 0;  // what asked for it, a dialog or the palette, is to be gone by then
+  AskedPictures pictures{explorer};
 };
-
-Result<void> Ui::Parts::export_picture(const std::string& file, const std::string& what,
-                                       const std::string& size) {
-  if (auto right = check_type(file, kPictureTypes); !right) return right;
-  if (!size.empty()) {
-    if (what != "maps") return not_now("Only the maps can have a size: export-picture FILE maps 3840x2400");
-    if (auto usable = parse_figure_size(size); !usable) return tl::unexpected(usable.error());
-  }
-  picture_asked = {file, what, size};
-  frames_until_picture = 2;
-  return {};
-}
-
-Result<void> Ui::Parts::export_figure(const std::string& file, const std::string& size,
-                                      const std::string& parts) {
-  AskedPicture asked{file, "", size.empty() ? Transient::Figure().size : size};
-  asked.figure = true;
-  if (auto right = check_picture_path(file); !right) return right;
-  if (auto usable = parse_figure_size(asked.size); !usable) return tl::unexpected(usable.error());
-  const auto shown = parts.empty() ? Result<FigureParts>(FigureParts()) : parse_figure_parts(parts);
-  if (!shown) return tl::unexpected(shown.error());
-  asked.parts = *shown;
-  picture_asked = std::move(asked);
-  frames_until_picture = 2;
-  return {};
-}
-
-/// At a size of its own: drawn in the background, with a context of its own.
-void Ui::Parts::export_maps(const AskedPicture& asked) {
-  const auto [width_px, height_px] = *parse_figure_size(asked.size);
-  auto picture = maps_picture(explorer, width_px, height_px, picture_shape().aspect, asked.parts);
-  if (!picture) return explorer.messages.error(picture.error());
-  const std::string& path = asked.file;
-  explorer.exports.start({.title = "Writing " + path,
-                          .done = "The picture is saved in " + whole_path(path) + ".",
-                          .file = path,
-                          .write = [picture = std::move(*picture), path, figure = asked.figure](const Job&) {
-                            if (figure) return sweepscope::write_picture(path, picture);
-                            return sweepscope::draw(picture).and_then(
-                                [&](const Image& image) { return ui::write_picture(image, path); });
-                          }});
-}
 
 /// For what comes in front in place of it.
 void Ui::Parts::clear_front() {
@@ -368,25 +319,6 @@ void Ui::Parts::remember_opened() {
     transient.recent = remember_recent(options.recent_list, transient.recent, call->text(0));
 }
 
-void Ui::Parts::write_picture() {
-  const AskedPicture asked = *std::exchange(picture_asked, std::nullopt);
-  if (!asked.size.empty() && explorer.loaded() != nullptr) return export_maps(asked);
-  Image image = gl::read_default_framebuffer(context);
-  if (asked.what == "maps" && maps_are_shown()) {
-    Image part(static_cast<int>(maps_place.width), static_cast<int>(maps_place.height));
-    for (int y = 0; y < part.height_px; ++y)
-      std::copy_n(image.pixel(static_cast<int>(maps_place.left), static_cast<int>(maps_place.top) + y),
-                  Image::kChannels * static_cast<std::size_t>(part.width_px), part.pixel(0, y));
-    image = std::move(part);
-  }
-  const std::string& path = asked.file;
-  explorer.exports.start(
-      {.title = "Writing " + path,
-       .done = "The picture is saved in " + whole_path(path) + ".",
-       .file = path,
-       .write = [image = std::move(image), path](const Job&) { return ui::write_picture(image, path); }});
-}
-
 Ui::Ui(gl::Context& context, Options options)
     : parts_(std::make_unique<Parts>(context, std::move(options))) {}
 Ui::~Ui() = default;
@@ -422,7 +354,7 @@ void Ui::Parts::frame(std::span<const InputEvent> all_events, double seconds_sin
   anchors.clear();
   begin_number_boxes(transient);
   transient.pane_aspect = picture_shape().aspect;
-  transient.for_picture = picture_asked && picture_asked->what == "maps";
+  transient.for_picture = pictures.waits_for_maps();
   const PaneContext panes{explorer,
                           transient,
                           host.fonts(),
@@ -437,7 +369,9 @@ void Ui::Parts::frame(std::span<const InputEvent> all_events, double seconds_sin
   host.end_frame(style().page);
   // A software renderer would let frames pile up, hundreds of megabytes of them, until one must wait for all.
   gl::finish_drawing(context);
-  if (picture_asked && frames_until_picture-- <= 0 && picture_is_whole()) write_picture();
+  const bool with_maps = maps_are_shown();
+  pictures.take(context, {!with_maps || shows_all_points(),
+                          with_maps ? std::optional(maps_place) : std::nullopt, transient.pane_aspect});
 }
 
 Image Ui::screenshot() {
@@ -450,7 +384,7 @@ bool Ui::wants_quit() const {
 
 bool Ui::pictures_done() const {
   const Parts& p = *parts_;
-  if (p.picture_asked) return false;
+  if (p.pictures.waits()) return false;
   if (p.transient.camera_moved_s < 0.5) return false;
   if (!p.maps_are_shown()) return true;
   const auto sides = sides_of(p.explorer.settings().layout);
@@ -474,7 +408,7 @@ bool Ui::has_input() const {
 }
 
 bool Ui::is_exporting() const {
-  return parts_->picture_asked || parts_->explorer.exports.is_running();
+  return parts_->pictures.waits() || parts_->explorer.exports.is_running();
 }
 
 bool Ui::animates() const {

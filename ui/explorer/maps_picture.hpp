@@ -18,6 +18,7 @@ struct FigureParts {
 Result<FigureParts> parse_figure_parts(const std::string& words);
 std::string to_words(const FigureParts& parts);
 
+inline constexpr const char* kUsualFigureSize = "1920x1200";
 /// "3840x2400", as `compare --size` takes it.
 Result<std::pair<int, int>> parse_figure_size(const std::string& size);
 

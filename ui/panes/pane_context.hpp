@@ -37,7 +37,7 @@ struct Transient {
   };
   Browsing browsing;  // of the dialog that opens
   struct Figure {     // of its dialog
-    std::string size = "1920x1200";
+    std::string size = kUsualFigureSize;
     FigureParts parts;
   };
   Figure figure;

@@ -17,7 +17,7 @@ namespace {
 struct FigureSize {
   const char *title, *size;
 };
-constexpr std::array kSizes{FigureSize{"Slide", "1920x1080"}, FigureSize{"Page", "1920x1200"},
+constexpr std::array kSizes{FigureSize{"Slide", "1920x1080"}, FigureSize{"Page", kUsualFigureSize},
                             FigureSize{"Two columns", "2067x1200"}, FigureSize{"Poster", "3840x2400"}};
 
 void draw_preview(const PaneContext& context, double width, double height) {
