@@ -24,6 +24,11 @@ class View : public test::ProgramTest {
     };
     return {number(16), number(20)};
   }
+  /// Of a recording whose maps are solved.
+  void expect_wrong(const std::string& line) const {
+    const Outcome refused = run("view room.bag --headless --no-estimate --run 'wait solved; " + line + "'");
+    EXPECT_EQ(refused.exit_code, 2) << line << refused.err;
+  }
 };
 
 TEST_F(View, AWindowInTimeIsUsedAsByTheOtherCommands) {
@@ -72,17 +77,10 @@ TEST_F(View, TheMapsAreExportedAtASizeOfTheirOwn) {
   EXPECT_EQ(size_of_png("light.png"), std::pair(1600, 900));
   EXPECT_NE(test::contents_of(folder_ / "sized.png"), test::contents_of(folder_ / "light.png"));
   for (const char* size : {"1600", "1600x", "axb", "0x900", "1600x900x2", "99999x99999"}) {
-    const Outcome refused =
-        run(std::string(
-                "view room.bag --headless --no-estimate --run 'wait solved; export-picture no.png maps ") +
-            size + "'");
-    EXPECT_EQ(refused.exit_code, 2) << size << refused.err;
+    expect_wrong(std::string("export-picture no.png maps ") + size);
     EXPECT_FALSE(exists("no.png")) << size;
   }
-  EXPECT_EQ(
-      run("view room.bag --headless --no-estimate --run 'wait solved; export-picture no.png everything 1600x900'")
-          .exit_code,
-      2);
+  expect_wrong("export-picture no.png everything 1600x900");
 }
 
 TEST_F(View, AFigureIsWrittenAsPngSvgOrPdfWithTheChosenParts) {
@@ -99,12 +97,8 @@ TEST_F(View, AFigureIsWrittenAsPngSvgOrPdfWithTheChosenParts) {
     EXPECT_EQ(bare.find(words), std::string::npos) << words;
   }
   EXPECT_EQ(test::contents_of(folder_ / "all.pdf").substr(0, 5), "%PDF-");
-  for (const char* wrong : {"no.jpg", "no.png 1600x1000 legend,title"}) {
-    const Outcome refused =
-        run(std::string("view room.bag --headless --no-estimate --run 'wait solved; export-figure ") + wrong +
-            "'");
-    EXPECT_EQ(refused.exit_code, 2) << wrong << refused.err;
-  }
+  expect_wrong("export-figure no.jpg");
+  expect_wrong("export-figure no.png 1600x1000 legend,title");
 }
 
 TEST_F(View, WhatIsRecordedReplacesNoInput) {

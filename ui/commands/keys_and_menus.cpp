@@ -155,7 +155,7 @@ const std::vector<MenuItem> kMenuItems{
 struct Synonym {
   const char *line, *words;
 };
-/// What people call a line, beside its title and its words. In small letters.
+/// What people call a line, asked for in a dialog or not, beside its title and its words. In small letters.
 constexpr std::array kSynonyms{
     Synonym{"look top", "top view plan above bird's eye"},
     Synonym{"look front", "front view side elevation"},
@@ -164,14 +164,12 @@ constexpr std::array kSynonyms{
     Synonym{"fit-view", "reset view zoom all extents home"},
     Synonym{"chart-range", "reset chart zoom axis"},
     Synonym{"linked", "sync synchronise cameras link lock"},
-    Synonym{"ask export-picture", "png jpg jpeg image screenshot save"},
-    Synonym{"ask export-figure", "png svg pdf image figure print paper save"},
     Synonym{"export-figure", "png svg pdf image figure print paper save"},
     Synonym{"export-picture", "png jpg jpeg image screenshot save"},
-    Synonym{"ask export-cloud a", "pcd ply cloud save"},
-    Synonym{"ask export-cloud b", "pcd ply cloud save"},
-    Synonym{"ask export-curve", "csv json curve save"},
-    Synonym{"ask export-report", "html save"},
+    Synonym{"export-cloud a", "pcd ply cloud save"},
+    Synonym{"export-cloud b", "pcd ply cloud save"},
+    Synonym{"export-curve", "csv json curve save"},
+    Synonym{"export-report", "html save"},
     Synonym{"colouring", "color colour thickness sharpness"},
     Synonym{"colouring blur", "color sharpness thickness walls"},
     Synonym{"colouring elevation", "color height z"},
@@ -198,6 +196,8 @@ constexpr std::array kSynonyms{
 }  // namespace
 
 std::string_view synonyms_of(std::string_view line) {
+  constexpr std::string_view kAsk = "ask ";
+  if (line.starts_with(kAsk)) line.remove_prefix(kAsk.size());
   const auto found = std::ranges::find(kSynonyms, line, &Synonym::line);
   return found == kSynonyms.end() ? std::string_view() : found->words;
 }

@@ -83,10 +83,8 @@ View view_of(const Explorer& explorer, Side side, const PixelRect& place, double
   const double until_s = scanner_time_s(recording, s);
   const SolvedMap& map = *placement.map;
   return with_depth(std::move(view),
-                    {s.cues,
-                     {{map.x_m.from, map.y_m.from, map.z_m.from}, {map.x_m.to, map.y_m.to, map.z_m.to}},
-                     scanner_pose(recording, map.trajectory, placement.offset_s, until_s),
-                     layout.scale},
+                    {s.cues, map.main_box,
+                     scanner_pose(recording, map.trajectory, placement.offset_s, until_s), layout.scale},
                     style);
 }
 

@@ -211,7 +211,8 @@ ColourSpan colour_span(ColourBy by, const Loaded& loaded, const SolvedMap* a, co
     case ColourBy::kElevation: {
       if (a == nullptr && b == nullptr) return {};
       const SolvedMap &first = a != nullptr ? *a : *b, &second = b != nullptr ? *b : *a;
-      return {std::min(first.z_m.from, second.z_m.from), std::max(first.z_m.to, second.z_m.to)};
+      return {std::min(first.main_box.from_m.z(), second.main_box.from_m.z()),
+              std::max(first.main_box.to_m.z(), second.main_box.to_m.z())};
     }
     case ColourBy::kIntensity:
       return {loaded.min_intensity, loaded.max_intensity};

@@ -44,7 +44,7 @@ SlabPoints above_the_path(const Heights3d& all, double ceiling_m) {
 }
 
 double extent_m(const SolvedMap& map) {
-  return std::max(map.x_m.to - map.x_m.from, map.y_m.to - map.y_m.from);
+  return (map.main_box.to_m - map.main_box.from_m).head<2>().maxCoeff();
 }
 
 bool lies_in(const PlaceToLook& place, const Heights3d& all, std::size_t beam, double margin_m) {

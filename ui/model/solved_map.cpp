@@ -24,20 +24,12 @@ std::vector<float> path_heights(const Recording& recording, const ScanPoses& pos
   return heights_m;
 }
 
-SolvedMap::Span span_of(std::span<const SlabPoints> points, std::size_t axis) {
-  const Bounds bounds = bounds_of(points, axis, 0.01);
-  return {bounds.from, bounds.to};
-}
-
-Box box_of(const ComparedMap& map, std::span<const HeightRange> heights) {
-  constexpr double kStray = 0.001;
-  const std::vector<float> unused(map.cloud->size());
-  const std::array shown{points_in_slabs(map, unused, heights)};
+Box box_of(std::span<const SlabPoints> points, double stray_part) {
   Box box;
-  for (const std::size_t axis : {0, 1, 2}) {
-    const Bounds bounds = bounds_of(shown, axis, kStray);
-    box.from_m[static_cast<Eigen::Index>(axis)] = bounds.from;
-    box.to_m[static_cast<Eigen::Index>(axis)] = bounds.to;
+  for (const Eigen::Index axis : {0, 1, 2}) {
+    const Bounds bounds = bounds_of(points, static_cast<std::size_t>(axis), stray_part);
+    box.from_m[axis] = bounds.from;
+    box.to_m[axis] = bounds.to;
   }
   return box;
 }
@@ -61,15 +53,17 @@ void describe_points(const Loaded& loaded, SolvedMap& map) {
   compared.cloud = cloud;
   const std::array all{compared};
   map.sharp_heights = choose_slabs(all, ComparisonOptions());
+  constexpr double kAny_m = std::numeric_limits<double>::infinity(), kFew = 0.01, kStray = 0.001;
+  const double ceiling_m = map.sharp_heights.empty() ? kAny_m : map.sharp_heights.back().to_m;
   const std::vector<float> unused(cloud->size());
-  const std::array shown{points_in_slabs(compared, unused, map.sharp_heights)};
-  map.x_m = span_of(shown, 0);
-  map.y_m = span_of(shown, 1);
-  map.z_m = span_of(shown, 2);
-  constexpr double kAny_m = std::numeric_limits<double>::infinity();
-  map.sharp_box = box_of(compared, map.sharp_heights);
-  map.low_box = box_of(compared, std::array{HeightRange{-kAny_m, map.sharp_heights.back().to_m}});
-  map.whole_box = box_of(compared, std::array{HeightRange{-kAny_m, kAny_m}});
+  const auto seen_with = [&](std::span<const HeightRange> heights) {
+    return std::array{points_in_slabs(compared, unused, heights)};
+  };
+  const auto sharp = seen_with(map.sharp_heights);
+  map.main_box = box_of(sharp, kFew);
+  map.sharp_box = box_of(sharp, kStray);
+  map.low_box = box_of(seen_with(std::array{HeightRange{-kAny_m, ceiling_m}}), kStray);
+  map.whole_box = box_of(seen_with(std::array{HeightRange{-kAny_m, kAny_m}}), kStray);
 }
 
 }  // namespace

@@ -21,10 +21,7 @@ struct SolvedMap {
   std::vector<StampedPose> trajectory;
   DrawOrder order;
   std::vector<HeightRange> sharp_heights;  // above the path: where an offset shows, without the ceiling
-  struct Span {
-    double from = 0, to = 1;
-  };
-  Span x_m, y_m, z_m;  // of nearly all points that sharp heights show
+  Box main_box;  // of nearly all points that sharp heights show: for the grid, and for colours by elevation
   /// What a view is fitted to: all but stray points, with these heights.
   const Box& extent(Heights heights) const {
     return heights == Heights::kSharp ? sharp_box : heights == Heights::kBelowCeiling ? low_box : whole_box;

@@ -281,9 +281,7 @@ void draw_ground(const PaneContext& context, Side side, const PixelRect& picture
   if (!cues_in(camera, context.settings().cues).grid || !request) return;
   const Projection projection(camera, picture);
   const SolvedMap& map = *request->placement.map;
-  GroundGrid grid =
-      ground_grid({{map.x_m.from, map.y_m.from, map.z_m.from}, {map.x_m.to, map.y_m.to, map.z_m.to}},
-                  projection, context.px(60));
+  GroundGrid grid = ground_grid(map.main_box, projection, context.px(60));
   grid.line_px = context.px(1);
   grid.text_px = context.px(11);
   grid.lines = grid.text = ink_of(context);
