@@ -203,7 +203,7 @@ std::vector<Command> file_commands() {
           },
           Need::kRecording),
       action({"export-cloud", "Export a map's points", "As PCD or PLY, by the file's ending."},
-             {choice_of("MAP", {"a", "b"}), written_file(".pcd")}, export_cloud, Need::kPoints),
+             {choice_of("MAP", {"a", "b"}), written_file(".pcd")}, export_cloud, Need::kMaps),
       action({"export-curve", "Export the criteria", "As CSV or JSON, by the file's ending."},
              {written_file("-criteria.csv")}, export_curve, Need::kEstimate),
       action({"export-rig", "Export the rig found",

@@ -74,9 +74,9 @@ std::vector<Command> map_commands() {
           [](Explorer& explorer, const Call&) { return explorer.fit_view(); }, Need::kRecording),
       action({"next-place", "Next place",
               "Moves the close-up to the next place of the list; \"back\": to the previous one."},
-             {optional_of(choice_of("WAY", {"back"}))}, next_place, Need::kPlaces),
+             {optional_of(choice_of("WAY", {"back"}))}, next_place, Need::kMaps),
       action({"look-at-place", "Look at the place", "Moves both cameras to the close-up's place."}, {},
-             look_at_place, Need::kPlaces),
+             look_at_place, Need::kMaps),
       action(
           {"play", "Play or pause",
            "Plays the recording: the current scan is drawn in the maps. At the end it starts again."},

@@ -125,7 +125,7 @@ class Runner {
   }
 
   /// A line waits for the work that it needs and that is under way: a recording that is still being opened,
-  /// an estimate, all points of a map.
+  /// an estimate, both maps solved and with all their points.
   Result<void> wait_for_need(const std::string& line) {
     const auto call = parse_call(line);
     if (!call || call->command->needs == Need::kNothing) return {};
@@ -138,10 +138,8 @@ class Runner {
     if (const auto& why = explorer.recording.failure()) return tl::unexpected(*why);
     if (need == Need::kEstimate && explorer.estimating.is_running())
       return wait_until([&] { return !explorer.estimating.is_running(); }, "the estimate", max_s_);
-    if (need == Need::kPlaces && explorer.loaded() != nullptr)
+    if (need == Need::kMaps && explorer.loaded() != nullptr)
       return wait_until([&] { return explorer.at_rest(); }, "both maps", max_s_);
-    if (need == Need::kPoints && explorer.loaded() != nullptr)
-      return wait_until([&] { return explorer.maps.has_all_points(); }, "all points of the maps", max_s_);
     return {};
   }
 

@@ -46,7 +46,7 @@ struct WindowAction {
 using Handler = std::variant<Field, Edit, Action, WindowAction>;
 
 /// What must be there before a command makes sense. A script waits for it where it is under way.
-enum class Need { kNothing, kRecording, kEstimate, kPoints, kPlaces };
+enum class Need { kNothing, kRecording, kEstimate, kMaps };
 
 /// A command of the explorer, for clicks, keys, the palette and scripts. Declared once, with its handler.
 struct Command {
