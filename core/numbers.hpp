@@ -10,8 +10,11 @@
 
 namespace sweepscope {
 
+/// Degrees times this are radians.
 inline constexpr double kRadPerDeg = std::numbers::pi / 180;
+/// Radians times this are degrees.
 inline constexpr double kDegPerRad = 180 / std::numbers::pi;
+/// Nanoseconds in a second.
 inline constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
 /// The normal distribution's standard deviation as a multiple of its median absolute deviation.

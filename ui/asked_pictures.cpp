@@ -1,10 +1,8 @@
 #include "ui/asked_pictures.hpp"
 
 #include <algorithm>
-#include <functional>
 #include <utility>
 
-#include "render/gl/default_framebuffer.hpp"
 #include "render/vector/vector_file.hpp"
 
 namespace sweepscope::ui {
@@ -56,11 +54,11 @@ void AskedPictures::wait_for(Asked asked) {
   frames_to_wait_ = 2;
 }
 
-void AskedPictures::take(gl::Context& context, const Frame& frame) {
+void AskedPictures::take(const std::function<Image()>& screenshot, const Frame& frame) {
   if (!asked_ || frames_to_wait_-- > 0 || !frame.is_whole) return;
   const Asked asked = *std::exchange(asked_, std::nullopt);
   if (!asked.size.empty() && explorer_.loaded() != nullptr) return write_maps(asked, frame.pane_aspect);
-  Image image = gl::read_default_framebuffer(context);
+  Image image = screenshot();
   if (asked.what == "maps" && frame.maps) image = part_of(image, *frame.maps);
   write_in_background(explorer_, asked.file, [image = std::move(image), path = asked.file](const Job&) {
     return ui::write_picture(image, path);

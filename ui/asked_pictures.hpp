@@ -1,10 +1,11 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 
 #include "render/drawing/drawing.hpp"
-#include "render/gl/context.hpp"
+#include "render/images/image.hpp"
 #include "ui/explorer/maps_picture.hpp"
 
 namespace sweepscope::ui {
@@ -31,8 +32,8 @@ class AskedPictures {
     std::optional<PixelRect> maps;  // where they are, if they are shown
     double pane_aspect = 1;         // width over height of a map
   };
-  /// Takes the picture that waits, if it is time, of the frame that the context shows.
-  void take(gl::Context& context, const Frame& frame);
+  /// Takes the picture that waits, if it is time. `screenshot` draws the frame.
+  void take(const std::function<Image()>& screenshot, const Frame& frame);
 
  private:
   struct Asked {

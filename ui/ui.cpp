@@ -107,6 +107,8 @@ struct Ui::Parts final : Window {
   void use_keys(std::span<const InputEvent> events);
   void use_drops(std::span<const InputEvent> events);
   void frame(std::span<const InputEvent> all_events, double seconds_since_last);
+  void paint();
+  Image screenshot();
   void draw(const PaneContext& panes);
   void let_go();
   PictureShape picture_shape() const;
@@ -370,12 +372,27 @@ void Ui::Parts::frame(std::span<const InputEvent> all_events, double seconds_sin
   // A software renderer would let frames pile up, hundreds of megabytes of them, until one must wait for all.
   gl::finish_drawing(context);
   const bool with_maps = maps_are_shown();
-  pictures.take(context, {!with_maps || shows_all_points(),
-                          with_maps ? std::optional(maps_place) : std::nullopt, transient.pane_aspect});
+  pictures.take([&] { return screenshot(); },
+                {!with_maps || shows_all_points(), with_maps ? std::optional(maps_place) : std::nullopt,
+                 transient.pane_aspect});
+}
+
+void Ui::Parts::paint() {
+  host.paint();
+  gl::finish_drawing(context);
+}
+
+Image Ui::Parts::screenshot() {
+  paint();
+  return gl::read_default_framebuffer(context);
+}
+
+void Ui::paint() {
+  parts_->alone.execute([&] { parts_->paint(); });
 }
 
 Image Ui::screenshot() {
-  return gl::read_default_framebuffer(parts_->context);
+  return parts_->screenshot();
 }
 
 bool Ui::wants_quit() const {

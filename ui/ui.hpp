@@ -35,9 +35,11 @@ class Ui {
   Explorer& explorer();
   const Explorer& explorer() const;
 
-  /// Draws the interface into the context's default framebuffer. Events that do not fit into one frame wait
+  /// Takes the events and places everything, without drawing it. Events that do not fit into one frame wait
   /// for the next ones.
   void frame(std::span<const InputEvent> events, double seconds_since_last);
+  /// Draws the last frame into the context's default framebuffer.
+  void paint();
   /// The picture of the last frame.
   Image screenshot();
 

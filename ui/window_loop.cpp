@@ -154,6 +154,7 @@ void loop(gl::Window& window, Ui& ui, ScriptRecorder* recorder, bool scale_given
     clipboard.before(window, ui, events);
     ui.frame(events, std::clamp(seconds, 1e-3, 0.25));
     clipboard.after(window, ui);
+    ui.paint();
     window.present();
     if (recorder != nullptr) recorder->add_frame(events, at_rest(ui));
     use_cursor(window);

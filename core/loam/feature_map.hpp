@@ -14,12 +14,12 @@ enum class SweepFilter : std::uint8_t { kBackward = 1, kForward = 2, kAny = 3 };
 
 /// The points nearest to a query, nearest first.
 struct Neighbours {
-  static constexpr int kMax = 10;  // the largest number that PatchOptions asks for
-  int count = 0;
-  int lines = 0;  // distinct scan lines among them
-  std::array<Eigen::Vector3f, kMax> p_m;
-  std::array<float, kMax> squared_distance_m2;
-  std::array<std::uint32_t, kMax> line;
+  static constexpr int kMax = 10;               // the largest number that PatchOptions asks for
+  int count = 0;                                // found so far
+  int lines = 0;                                // distinct scan lines among them
+  std::array<Eigen::Vector3f, kMax> p_m;        // in the frame of the map, the nearest first
+  std::array<float, kMax> squared_distance_m2;  // from the point asked for
+  std::array<std::uint32_t, kMax> line;         // the scan line that each was measured on
 };
 
 /// A map of feature points, thinned, in hashed grids of doubling cell size: level l has cells of `cell_m *
@@ -29,6 +29,8 @@ struct Neighbours {
 class FeatureMap {
  public:
   static constexpr int kLevels = 4;  // cells of 0.6 to 4.8 m: beyond, 30 m of range have as few points
+  /// An empty map. `cell_m` is the edge of the finest cells; a thinned map keeps one point in a third of a
+  /// cell.
   explicit FeatureMap(double cell_m = 0.6, bool thinned = true);
 
   /// Adds a point of scan line `line` (below 2^31) of a sweep turning in `direction` (+1 or -1).
@@ -36,6 +38,7 @@ class FeatureMap {
 
   /// The level whose search radius is at least `radius_m`, or the last.
   int level_for(double radius_m) const;
+  /// The distance within which a level is searched.
   double search_radius_m(int level) const { return levels_[level].radius_m; }
 
   /// The nearest points: at most `most`, and at most `per_line` of one scan line. Empty if it is clear early
@@ -43,7 +46,9 @@ class FeatureMap {
   void nearest(const Eigen::Vector3f& p_m, int level, SweepFilter filter, int most, int per_line,
                Neighbours& found, int least = 1) const;
 
+  /// The number of points.
   std::size_t size() const { return levels_[0].points; }
+  /// Removes all points; memory is kept for the next ones.
   void clear();
 
  private:

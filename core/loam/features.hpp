@@ -35,25 +35,25 @@ struct FeatureOptions {
 
 /// A feature, in the frame that turns with the motor, so that it does not depend on the offset.
 struct Feature {
-  Eigen::Vector3f p_in_motor_m;
-  float range_m = 0;
-  double time_s = 0;       // of its beam, laser clock, seconds since Recording::epoch_ns
-  std::uint32_t scan = 0;  // its scan line, index into Recording::scans
-  std::uint16_t beam = 0;
-  bool sharp = false;  // to be matched; the others only build the map
+  Eigen::Vector3f p_in_motor_m;  // in the frame that the motor turns, with the mount applied
+  float range_m = 0;             // as measured
+  double time_s = 0;             // of its beam, laser clock, seconds since Recording::epoch_ns
+  std::uint32_t scan = 0;        // its scan line, index into Recording::scans
+  std::uint16_t beam = 0;        // the index in its scan
+  bool sharp = false;            // to be matched; the others only build the map
 };
 
 /// One kind of feature over a whole recording, in the order of scans; scan i's are [scan_begin[i],
 /// scan_begin[i + 1]).
 struct FeatureList {
-  std::vector<Feature> features;
-  std::vector<std::size_t> scan_begin;
+  std::vector<Feature> features;        // in the order of the scans
+  std::vector<std::size_t> scan_begin;  // the first feature of each scan, and the end
 };
 
 /// Edge points and plane points of a recording, and the range noise that they were selected with.
 struct FeatureSet {
-  FeatureList edges, planes;
-  double range_noise_m = 0;
+  FeatureList edges, planes;  // on corners, and on flat surfaces
+  double range_noise_m = 0;   // 1 sigma, from the scatter of neighbouring beams
 };
 
 /// The standard deviation of the range noise, from the second differences of neighbouring ranges: robust

@@ -36,7 +36,7 @@ Result<TrackedWalk> track(const std::vector<PlacedSweep>& sweeps, const MappingO
 
 /// Times of the laser's clock.
 struct Interval {
-  double begin_s = 0, end_s = 0;
+  double begin_s = 0, end_s = 0;  // on the clock of the laser
 };
 /// The intervals in which sweeps are lost, ascending.
 std::vector<Interval> lost_intervals(const std::vector<SweepPose>& sweeps);

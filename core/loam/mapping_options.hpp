@@ -13,8 +13,8 @@ class GivenMotion;
 /// How sweeps are tracked on the map and how matches are counted. Tuned on the walks of tuning/ in
 /// tests/benchmark/walks.
 struct MappingOptions {
-  PatchOptions patch;
-  double search_radius_m = 0.5;
+  PatchOptions patch;                 // what counts as a plane or a line
+  double search_radius_m = 0.5;       // for the neighbours of a feature
   double search_radius_slope = 0.12;  // of the range
   double loss_width_m = 0.08;         // Cauchy
   double match_sigma_m = 0.05;        // of a match, against the priors below: its neighbours err together
@@ -27,7 +27,7 @@ struct MappingOptions {
   double first_acceleration = 1;                        // until enough sweeps are known
   double velocity_sigma = 2;                            // rad/s and m/s
 
-  int max_iterations = 6;
+  int max_iterations = 6;        // of the registration of one sweep
   int rough_iterations = 2;      // while only a part of the sweep is there ...
   int rough_stride = 2;          // ... with one feature in so many
   double step_tolerance = 5e-4;  // m and rad
@@ -46,8 +46,8 @@ struct MappingOptions {
   // matches of consecutive sweeps determine every direction of motion at least so well (of a feature; or
   // better than in half of the sweeps), until two tracks agree.
   std::vector<std::size_t> starts;
-  double well_determined = 0.01;
-  int max_starts = 6;
+  double well_determined = 0.01;      // see `starts`
+  int max_starts = 6;                 // places from which tracking is tried
   double max_alternation_rad = 0.07;  // beyond, sweeps of one direction lie beside those of the other
 
   // Instead of the above, for criteria that are counted at LOAM's own poses.

@@ -14,7 +14,7 @@ namespace sweepscope {
 struct PatchOptions {
   // Three times the points that determine a plane or a line.
   int plane_neighbours = 10;
-  int edge_neighbours = 6;
+  int edge_neighbours = 6;    // points that a line is fitted to
   int per_line = 2;           // neighbours from one scan line: more would fit the line instead of the surface
   int min_lines = 4;          // distinct scan lines among a plane's neighbours, at least 3
   int min_edge_lines = 3;     // two lines may cross the edge of one object by chance
@@ -24,12 +24,12 @@ struct PatchOptions {
 
 /// A plane through the map's points near a query: (p - centre) . normal is a point's distance.
 struct PlanePatch {
-  Eigen::Vector3d centre_m, normal;
+  Eigen::Vector3d centre_m, normal;  // a point on it, and its unit normal
 };
 
 /// A line through the map's edge points near a query; `direction` has unit length.
 struct LinePatch {
-  Eigen::Vector3d centre_m, direction;
+  Eigen::Vector3d centre_m, direction;  // a point on it, and its unit direction
 };
 
 /// The plane that `neighbours` lie on, or nothing if they are too few, on too few scan lines, collinear, or
@@ -43,11 +43,12 @@ std::optional<LinePatch> fit_line(const Neighbours& neighbours, const PatchOptio
 
 /// How far a point lies from its patch, along which unit vector.
 struct MatchResidual {
-  Eigen::Vector3d normal;
+  Eigen::Vector3d normal;  // unit, from the patch to the point
   double distance_m = 0;   // of a plane signed, of a line not
   bool has_normal = true;  // not where the point lies on its line
 };
 
+/// The signed distance to a plane: LOAM, equation 3.
 inline MatchResidual residual_of(const PlanePatch& plane, const Eigen::Vector3d& p_m) {
   return {plane.normal, (p_m - plane.centre_m).dot(plane.normal)};
 }
@@ -62,6 +63,7 @@ inline MatchResidual residual_of(const LinePatch& line, const Eigen::Vector3d& p
 }
 
 template <typename Patch>
+/// Nothing where there is no patch.
 std::optional<MatchResidual> residual_of(const std::optional<Patch>& patch, const Eigen::Vector3d& p_m) {
   return patch ? std::optional(residual_of(*patch, p_m)) : std::nullopt;
 }

@@ -17,21 +17,26 @@ namespace sweepscope {
 /// The counts behind equations 6 and 7, a cost over all sharp features in which an unmatched one counts as
 /// the cap, and the turn about the motor's axis that minimises the residuals of the matches.
 struct MatchCount {
-  std::size_t features = 0, matches = 0;
-  double distance_sum_m = 0;
-  double capped_sum_m = 0;
+  std::size_t features = 0, matches = 0;           // tried; those with a patch near enough
+  double distance_sum_m = 0;                       // of the matches
+  double capped_sum_m = 0;                         // of all features, each at most at the gate
   double roll_moment_m2 = 0, roll_inertia_m2 = 0;  // sums over all patches found
 
+  /// 0 without matches.
   double mean_distance_m() const { return matches == 0 ? 0.0 : distance_sum_m / double(matches); }
+  /// The mean over all features, each at most at the gate; 0 without features.
   double capped_cost_m() const { return features == 0 ? 0.0 : capped_sum_m / double(features); }
+  /// From 0 to 1.
   double matched_part() const { return features == 0 ? 0.0 : double(matches) / double(features); }
   /// Of the sweeps against those of the other direction, in their direction of turning.
   double roll_rad() const { return roll_inertia_m2 > 0 ? roll_moment_m2 / roll_inertia_m2 : 0.0; }
   /// Adds one feature, with a residual where a patch was found.
   void add(const std::optional<MatchResidual>& residual, double gate_m, double cap_m);
+  /// Adds the counts and sums of another set of features.
   MatchCount& operator+=(const MatchCount& other);
 };
 
+/// The distance beyond which a feature does not match.
 inline double gate_m(MatchedKind kind, const MappingOptions& options) {
   return kind == MatchedKind::kPlane ? options.plane_gate_m : options.edge_gate_m;
 }
@@ -41,8 +46,9 @@ SweepPose pose_of(const PlacedSweep& sweep);
 
 /// The map that LOAM keeps of the edges and the planes seen so far.
 struct SweepMaps {
-  FeatureMap edges, planes;
+  FeatureMap edges, planes;  // in the frame of the map
 
+  /// Adds the features of a sweep, each at the pose of its own instant.
   void insert(const PlacedSweep& sweep, const SweepPose& pose);
 };
 
@@ -58,8 +64,8 @@ class SweepMatcher {
 
   /// Which features are matched: those up to `end_u`, one in `stride`.
   struct Share {
-    double end_u;
-    std::size_t stride;
+    double end_u;        // the fraction of the sweep that is known
+    std::size_t stride;  // every how many features are matched
   };
   /// Adds the matches at the given motion to the equations, the knots' steps taken about `pivot_m`; counts
   /// them too.

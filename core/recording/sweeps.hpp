@@ -13,11 +13,11 @@ namespace sweepscope {
 /// one multiple of 180 deg to the next; first and last, the part of one that was recorded. Times are on the
 /// motor's clock, so sweeps do not depend on the offset.
 struct Sweep {
-  double begin_s = 0;  // of the half turn, at the reversal
-  double end_s = 0;
+  double begin_s = 0;         // of the half turn, at the reversal
+  double end_s = 0;           // at the next reversal
   double steady_begin_s = 0;  // the part away from the reversals, where the motor's speed is steady
-  double steady_end_s = 0;
-  int direction = 0;  // +1 where the angle grows, -1 where it falls
+  double steady_end_s = 0;    // where it begins to slow down
+  int direction = 0;          // +1 where the angle grows, -1 where it falls
   int side = 0;  // which sweeps it is compared with, those of the other: its direction, or of a motor that
                  // turns one way +1 for the faster ones and -1 for the slower
   double speed_rad_s = 0;  // mean over the steady part, > 0
@@ -47,8 +47,9 @@ struct MotorMotion {
 /// spread (Otsu's threshold).
 MotorMotion find_sweeps(const MotorTrack& track);
 
-/// Which sweep each scan belongs to at an offset, by the middle of its beams; kNoSweep where none.
+/// The sweep of a scan that belongs to none.
 inline constexpr std::size_t kNoSweep = static_cast<std::size_t>(-1);
+/// Which sweep each scan belongs to at an offset, by the middle of its beams; kNoSweep where none.
 std::vector<std::size_t> assign_sweeps(const std::vector<LaserScan>& scans, const std::vector<Sweep>& sweeps,
                                        double offset_s);
 
@@ -57,6 +58,7 @@ std::vector<std::size_t> assign_sweeps(const std::vector<LaserScan>& scans, cons
 /// direction that has fewer; infinite for 3D scanners, whose lines cross. Fewer than kMinDistinctLines do
 /// not determine an offset: neighbours do not lie on the same surfaces.
 double distinct_lines(const Recording& recording, const MotorMotion& motor, double offset_s);
+/// See distinct_lines.
 inline constexpr double kMinDistinctLines = 7.5;
 
 }  // namespace sweepscope

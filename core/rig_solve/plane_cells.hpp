@@ -9,6 +9,7 @@
 
 namespace sweepscope {
 
+/// What counts as a flat cell.
 struct PlaneCellOptions {
   double min_edge_m = 0.25;     // of the smallest cubes
   int levels = 4;               // the largest cubes are 2^levels as wide
@@ -20,7 +21,7 @@ struct PlaneCellOptions {
 /// A flat surface within a cube: which points lie on it, and its plane.
 struct PlaneCell {
   std::vector<std::uint32_t> points;  // indices
-  Eigen::Vector3d centre_m, normal;
+  Eigen::Vector3d centre_m, normal;   // the mean of its points, and the unit normal of their plane
   Eigen::Matrix<double, 3, 2>
       along_m;            // its points' deviations along the plane, as lengths of two directions
   double flatness_m = 0;  // and across it, robust

@@ -17,6 +17,7 @@ namespace sweepscope {
 /// Prior standard deviations of the unknowns about the rig file's values; 0: not solved for.
 using RigPriors = RigVector;
 
+/// Limits of the least squares, and the width of its loss.
 struct RigLeastSquaresOptions {
   // A bound: the size of the step ends it, mostly after 8 to 24 iterations (tests/benchmark/rig_table). What
   // goes on for longer mostly oscillates between two sets of cells, however long.
@@ -36,16 +37,16 @@ struct RigLeastSquaresOptions {
 
 /// The rig that makes flat surfaces flattest.
 struct RigFit {
-  RigUnknowns rig;
-  bool converged = false;
+  RigUnknowns rig;         // where it ended
+  bool converged = false;  // the last step was below the limit
   // False: the encoder lies further from the rig file's than its prior allows. Where hardly more than the
   // ground is in view, degrees of it and decimetres of a shift cancel.
   bool encoder_within_prior = true;
-  int iterations = 0;
-  RigVector last_step = RigVector::Zero();
-  std::size_t points = 0, on_planes = 0, planes = 0;
-  double residual_m = 0;                      // robust deviation of the distances from the planes
-  double unevenness_m = 0;                    // deviation of the parts of a wall from its plane
+  int iterations = 0;                                 // Gauss-Newton steps taken
+  RigVector last_step = RigVector::Zero();            // in the units of RigVector
+  std::size_t points = 0, on_planes = 0, planes = 0;  // placed; those that lie on planes; the planes
+  double residual_m = 0;                              // robust deviation of the distances from the planes
+  double unevenness_m = 0;                            // deviation of the parts of a wall from its plane
   RigMatrix covariance = RigMatrix::Zero();   // of the unknowns, from noise, priors and the scatter of the
                                               // parts of the scene
   RigMatrix information = RigMatrix::Zero();  // without priors

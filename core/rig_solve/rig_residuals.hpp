@@ -10,8 +10,9 @@
 
 namespace sweepscope {
 
+/// Angles of a grid.
 struct AngleRange {
-  double from_rad = 0, to_rad = 0;
+  double from_rad = 0, to_rad = 0;  // from its first edge to its last
 };
 
 /// How far points lie from the flat surfaces that they belong to, over the motor's angle and the direction of
@@ -24,7 +25,9 @@ struct ResidualGrid {
   /// too few points.
   std::vector<double> residual_m;
 
+  /// Whether nothing was computed.
   bool empty() const { return residual_m.empty(); }
+  /// The residual of a bin.
   double at(std::size_t column, std::size_t row) const { return residual_m[row * columns + column]; }
   /// Root mean square over the bins that have points: the pattern without the noise of single points.
   double rms_m() const;
@@ -32,10 +35,11 @@ struct ResidualGrid {
 
 /// The same points and surfaces with two rigs.
 struct RigResiduals {
-  ResidualGrid before, after;
+  ResidualGrid before, after;        // with the rig as it was given, and as it was found
   double before_m = 0, after_m = 0;  // robust deviation of all points from their surfaces
 };
 
+/// The size of the grids.
 struct ResidualGridOptions {
   std::size_t columns = 30, rows = 30;  // at most: a column is at least as wide as the motor turns in a scan
   std::size_t min_points = 4;           // in a bin

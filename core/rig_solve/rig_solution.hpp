@@ -12,8 +12,9 @@ namespace sweepscope {
 
 using RigRecordings = std::span<const OffsetProblem>;  // stationary recordings of one rig
 
+/// The rig that was found, and the residuals before and after.
 struct RigSolution {
-  RigFit fit;
+  RigFit fit;                         // the values, sigmas and what is identifiable
   RigPriors priors;                   // that it was found with
   bool encoder_beyond_prior = false;  // and therefore held
 };

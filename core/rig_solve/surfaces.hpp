@@ -12,7 +12,7 @@ namespace sweepscope {
 /// Cells on one plane, such as those of a wall. A wide surface shows best that something bends it.
 struct Surface {
   std::vector<std::uint32_t> cells;  // indices, the one with most points first
-  Eigen::Vector3d centre_m, normal;
+  Eigen::Vector3d centre_m, normal;  // the mean of its points, and the unit normal of their plane
 };
 
 /// Groups cells whose centres and corners lie within `reach_m` of one plane, the largest first.

@@ -15,8 +15,8 @@ namespace sweepscope {
 /// By how much a walk shows the laser to be turned in the frame that turns with the motor: R' = exp(turn) R
 /// as in RigUnknowns, R the recording's mount.
 struct WalkTurn {
-  Eigen::Vector2d turn_rad = Eigen::Vector2d::Zero();  // rotation vector, along the axes of `across_axis`
-  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d turn_rad = Eigen::Vector2d::Zero();    // rotation vector, along the axes of `across_axis`
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  // of the two angles, in rad^2
 };
 
 /// From a walk that was solved with a free path. The path takes up a wrong turn as a sway in step with the

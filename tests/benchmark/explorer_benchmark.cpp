@@ -89,6 +89,7 @@ class Person {
   double frame(std::vector<InputEvent> events = {}) {
     const auto begin = Clock::now();
     ui_.frame(events, 1.0 / 60);
+    ui_.paint();
     const double took_s = seconds_since(begin);
     if (took_s < 1.0 / 60) std::this_thread::sleep_for(std::chrono::duration<double>(1.0 / 60 - took_s));
     return took_s;

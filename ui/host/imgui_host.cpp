@@ -131,8 +131,13 @@ void ImGuiHost::begin_frame(std::span<const InputEvent> events, double seconds_s
 
 void ImGuiHost::end_frame(Colour background) {
   ImGui::Render();
-  gl::begin_default_framebuffer(context_, background);
-  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  background_ = background;
+}
+
+void ImGuiHost::paint() {
+  ImGui::SetCurrentContext(imgui_);
+  gl::begin_default_framebuffer(context_, background_);
+  if (ImDrawData* frame = ImGui::GetDrawData()) ImGui_ImplOpenGL3_RenderDrawData(frame);
 }
 
 }  // namespace sweepscope::ui

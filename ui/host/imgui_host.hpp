@@ -33,8 +33,10 @@ class ImGuiHost {
   bool enter_chooses = false;
   /// The events must fit into one frame: see InputQueue.
   void begin_frame(std::span<const InputEvent> events, double seconds_since_last);
-  /// Draws what the panes made.
+  /// What the panes made is ready to be drawn.
   void end_frame(Colour background);
+  /// Draws it into the default framebuffer. No effect before the first frame.
+  void paint();
 
   /// The clipboard; a window connects it with the system's.
   std::string clipboard;
@@ -43,6 +45,7 @@ class ImGuiHost {
   gl::Context& context_;
   ImGuiContext* imgui_;
   Fonts fonts_;
+  Colour background_;
   Theme theme_ = Theme::kDark;
   double scale_ = 0;
 };

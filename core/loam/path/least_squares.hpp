@@ -8,6 +8,7 @@
 
 namespace sweepscope {
 
+/// Of a rotation vector in rad and a translation in m, in this order.
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 /// A step of a pose: rotation vector (rad) about `pivot_m`, then translation (m), both in the map frame.
@@ -38,9 +39,10 @@ Vector6d solve_determined(const Matrix6d& a, const Vector6d& g, double min_eigen
 /// Normal equations of the step of a rigid pose, about the map's origin, from points at distances along
 /// normals.
 struct RigidEquations {
-  Matrix6d matrix = Matrix6d::Zero();
-  Vector6d gradient = Vector6d::Zero();
+  Matrix6d matrix = Matrix6d::Zero();    // the sum of w J^T J
+  Vector6d gradient = Vector6d::Zero();  // the sum of w J^T r
 
+  /// Adds a point at the given distance from a plane with that normal.
   void add(const Eigen::Vector3d& p_m, const Eigen::Vector3d& normal, double distance_m, double weight) {
     const Vector6d row = distance_jacobian(p_m, normal, Eigen::Vector3d::Zero());
     matrix.noalias() += weight * row * row.transpose();

@@ -40,7 +40,9 @@ class PathEquations {
   /// The steps that minimise the sum of the weighted squares.
   std::vector<Vector6d> solve() const;
 
+  /// J^T W J over all knots, six rows each.
   Eigen::MatrixXd matrix() const;
+  /// J^T W r, in the same order.
   Eigen::VectorXd gradient() const { return prior_gradient_ + point_gradient(); }
 
  private:

@@ -13,6 +13,7 @@ namespace sweepscope {
 /// The poses between two: linear translation, rotation at constant rate.
 class MotionStep {
  public:
+  /// The motion between two poses: a constant rotation rate and a straight line.
   MotionStep(const Pose& begin, const Pose& end)
       : begin_m_(begin.translation_m),
         turn_rad_(turn_between(begin.rotation, end.rotation)),
@@ -69,6 +70,7 @@ inline Pose pose_between(std::span<const Pose> knots, double u) {
 /// continues. What all points of a step share is computed once.
 class SweepMotion {
  public:
+  /// Knots at equal distances over the sweep; the last one is at `end_u` of it.
   explicit SweepMotion(std::span<const Pose> knots, double end_u = 1)
       : steps_per_u_(double(knots.size() - 1) / end_u), last_(double(knots.size() - 2)) {
     steps_.reserve(knots.size() - 1);

@@ -13,18 +13,23 @@ namespace sweepscope {
 /// Where the base frame was during a sweep (map_from_base): knots at equal times from its begin to its end,
 /// at least two. Between knots the translation goes linearly and the rotation at constant rate.
 struct SweepPose {
-  std::size_t sweep = 0;  // index into MotorMotion::sweeps
-  int direction = 0;
-  double begin_s = 0, end_s = 0;  // laser clock
-  std::vector<Pose> knots{2};
-  std::size_t features = 0, matches = 0;
-  bool lost = false;        // too few features matched the map: the pose is a guess
-  std::size_t stretch = 0;  // sweeps of one stretch lie on one map; 0: not tracked
+  std::size_t sweep = 0;                  // index into MotorMotion::sweeps
+  int direction = 0;                      // in which the motor turns, 1 or -1
+  double begin_s = 0, end_s = 0;          // laser clock
+  std::vector<Pose> knots{2};             // map_from_base at equal distances in time, first to last beam
+  std::size_t features = 0, matches = 0;  // of the sweep; those matched to the map
+  bool lost = false;                      // too few features matched the map: the pose is a guess
+  std::size_t stretch = 0;                // sweeps of one stretch lie on one map; 0: not tracked
 
+  /// map_from_base at the first beam.
   const Pose& begin() const { return knots.front(); }
+  /// map_from_base at the last beam.
   const Pose& end() const { return knots.back(); }
+  /// map_from_base at a fraction of the sweep: 0 the first beam, 1 the last.
   Pose at(double u) const { return pose_between(knots, u); }
+  /// map_from_base half way in time.
   Pose middle() const { return at(0.5); }
+  /// The motion in the sweep, to place many beams.
   SweepMotion motion() const { return SweepMotion(knots); }
 };
 
