@@ -92,10 +92,16 @@ std::string left_out_text(const MotorSummary& motor) {
   return text;
 }
 
-std::string motor_text(const MotorSummary& motor) {
+std::string sweeps_row(const MotorSummary& motor) {
+  if (motor.one_way)
+    return row("turns",
+               fmt::format("{:.1f}, all one way: no reversals, so no sweeps", motor.turns_one_way()));
   std::string sweeps = fmt::format("{} whole", motor.whole_sweeps());
   if (motor.median_sweep_s > 0) sweeps += fmt::format(", {:.3f} s each", motor.median_sweep_s);
-  sweeps += fmt::format("; {} reversals", motor.reversals);
+  return row("sweeps", fmt::format("{}; {} reversals", sweeps, motor.reversals));
+}
+
+std::string motor_text(const MotorSummary& motor) {
   const std::string joint = motor.topic.empty()
                                 ? std::string("by the rig file's profile")
                                 : fmt::format("{} on {}, {} samples", motor.joint, motor.topic, motor.used);
@@ -105,7 +111,7 @@ std::string motor_text(const MotorSummary& motor) {
                          motor.unwrapped > 0 ? fmt::format(", unwrapped {} times", motor.unwrapped) : "")) +
          row("speed", fmt::format("{:.1f} deg/s (median of the sweeps): 1 ms is {:.3g} deg",
                                   motor.median_speed_deg_s, motor.deg_per_ms())) +
-         row("sweeps", sweeps);
+         sweeps_row(motor);
 }
 
 std::string as_text(const RecordingSummary& summary) {

@@ -77,6 +77,15 @@ std::optional<Trend> trend_of(const std::vector<double>& times, const std::vecto
   return trend;
 }
 
+double sigma_of_trend(const std::vector<double>& times, const std::vector<double>& sigmas) {
+  if (times.size() < 2 || times.size() != sigmas.size()) return 0;
+  const double time = mean_of(times), spread = squares_about(times, time);
+  double variance = 0;
+  for (std::size_t i = 0; i < times.size(); ++i)
+    variance += (times[i] - time) * (times[i] - time) * sigmas[i] * sigmas[i];
+  return spread > 0 ? std::sqrt(variance) / spread : 0;
+}
+
 std::optional<Trend> trend_of(const std::vector<double>& times, const std::vector<double>& values,
                               const std::vector<double>& sigmas) {
   const std::size_t n = times.size();

@@ -34,6 +34,9 @@ struct Trend {
 };
 std::optional<Trend> trend_of(const std::vector<double>& times, const std::vector<double>& values);
 
+/// The sigma of the same slope by the values' own standard deviations.
+double sigma_of_trend(const std::vector<double>& times, const std::vector<double>& sigmas);
+
 /// The same of values whose standard deviations are known, from two on; sigma is widened where the values
 /// scatter more about the slope than theirs say.
 std::optional<Trend> trend_of(const std::vector<double>& times, const std::vector<double>& values,

@@ -186,7 +186,8 @@ std::vector<EstimateOption> range_options() {
       {"search",
        "FROM:TO",
        "Where the offset is searched for, in milliseconds, such as 100:300 (default: about 0, and if it is "
-       "not there, a quarter of the motor's period to either side)",
+       "not there, all offsets that the motor's motion distinguishes: a quarter of its period to either "
+       "side, or more where it starts, stops or changes its speed; info prints how many ms)",
        {},
        false,
        false,

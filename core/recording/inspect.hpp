@@ -51,6 +51,8 @@ struct MotorSummary : StreamSummary {
   bool one_way = false;       // more than a turn, and never back
 
   std::size_t whole_sweeps() const { return reversals > 0 ? reversals - 1 : 0; }
+  /// The turns of a motor that turns one way.
+  double turns_one_way() const { return one_way ? (max_deg - min_deg) / 360 : 0; }
   /// The angle by which 1 ms of offset turns a scan.
   double deg_per_ms() const { return median_speed_deg_s / 1000; }
 };

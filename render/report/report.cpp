@@ -124,9 +124,11 @@ std::string recorded(const RecordingSummary& summary) {
   rows += row("motor", fmt::format("{} on {}: {} samples, {:.1f} to {:.1f}°", motor.joint, motor.topic,
                                    motor.used, motor.min_deg, motor.max_deg));
   rows += stream_rows("motor", motor);
-  const std::string whole = motor.whole_sweeps() > 0 ? fmt::format("{} whole, {:.3f} s each",
-                                                                   motor.whole_sweeps(), motor.median_sweep_s)
-                                                     : "none whole";
+  const std::string whole =
+      motor.one_way ? fmt::format("none: {:.1f} turns, all one way", motor.turns_one_way())
+      : motor.whole_sweeps() > 0
+          ? fmt::format("{} whole, {:.3f} s each", motor.whole_sweeps(), motor.median_sweep_s)
+          : "none whole";
   rows += row("sweeps", fmt::format("{}, at {:.1f}°/s: 1 ms is {:.3g}°", whole, motor.median_speed_deg_s,
                                     motor.deg_per_ms()));
   if (summary.motion) rows += row("the rig is", *summary.motion);

@@ -36,6 +36,19 @@ TEST(Info, ShowsWhatIsInARecording) {
   EXPECT_TRUE(holds(run.out, "expected accuracy\n")) << run.out;
 }
 
+TEST(Info, OfAMotorThatTurnsOneWayCountsTurnsAndNamesWhatAnswers) {
+  const test::ScratchFolder folder;
+  ASSERT_EQ(test::run_program(folder.path(), "simulate room-1 -o spin.bag --motor one-way --duration-s 4")
+                .exit_code,
+            0);
+  const Outcome run = run_info(folder, "spin.bag");
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_TRUE(holds(run.out, "  turns      5.0, all one way: no reversals, so no sweeps\n")) << run.out;
+  EXPECT_FALSE(holds(run.out, "0 whole")) << run.out;
+  EXPECT_TRUE(holds(run.out, "cannot be distinguished from the encoder's zero")) << run.out;
+  EXPECT_TRUE(holds(run.out, "(estimate --solve mount)")) << run.out;
+}
+
 TEST(Info, JsonOnStdoutIsAlone) {
   const test::ScratchFolder folder;
   test::write_sample_bag(folder / "a.bag");

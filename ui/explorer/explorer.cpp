@@ -118,7 +118,7 @@ Result<void> Explorer::check_offsets(const Settings& next) const {
     if (now_ms == before_ms || (now_ms >= from_ms && now_ms <= to_ms)) continue;
     return not_now(fmt::format(
         "An offset of {} ms is outside the search window of this recording, {:.0f} to {:.0f} ms: "
-        "beyond a quarter of the motor's period a mirror image of the map fits as well. To search "
+        "an offset farther away is not distinguished from its mirror image by this motor's motion. To search "
         "elsewhere, set the candidates of the search.",
         now_ms, std::ceil(from_ms), std::floor(to_ms)));
   }

@@ -45,9 +45,8 @@ void recording_rows(const PaneContext& context, const Loaded& loaded, bool first
   row(context, "ranges", fmt::format("{:.0f} % usable, median {:.1f} m", usable, laser.median_range_m));
   row(context, "motor",
       fmt::format("{:.0f}° to {:.0f}°, {}{}", motor.min_deg, motor.max_deg,
-                  motor.one_way
-                      ? fmt::format("turns one way: {} half turns", loaded.prepared.motor.sweeps.size())
-                      : fmt::format("{} whole sweeps", motor.whole_sweeps()),
+                  motor.one_way ? fmt::format("{:.1f} turns, all one way", motor.turns_one_way())
+                                : fmt::format("{} whole sweeps", motor.whole_sweeps()),
                   motor.median_sweep_s > 0 ? fmt::format(" of {:.2f} s", motor.median_sweep_s) : ""));
   row(context, "speed",
       fmt::format("{:.0f} °/s: 1 ms is {:.2f}°", motor.median_speed_deg_s, motor.deg_per_ms()));

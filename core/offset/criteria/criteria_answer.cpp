@@ -95,7 +95,7 @@ Certainty of_stationary(const OffsetSearch& search, const SharedByCandidates& sh
   if (!of_pairs_s || !of_direct_s || direct.matches < StationaryDirectOptions().min_matches)
     return {of_pairs_s, {}, 0};
   return {std::max(*of_pairs_s, std::hypot(direct.offset_s - offset_s, *of_direct_s)),
-          trend_of(direct.block_s, direct.block_offset_s), *of_direct_s};
+          trend_of_blocks(direct.block_s, direct.block_offset_s, direct.block_sigma_s), *of_direct_s};
 }
 
 // How far the answer lies from that of the joint least squares, and how far that one may be off.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/numbers.hpp"
 #include "core/offset/direct/direct_moving.hpp"
@@ -111,10 +112,21 @@ OffsetEvidence evidence_of(const OffsetSearch& search, const StationaryDirect& f
   evidence.range_noise_m = search.problem.features->range_noise_m;
   evidence.lever_m_s = found.lever_m_s;
   if (search.options.over_time_s) return evidence;
-  const double begin_s = search.problem.recording->scans.front().first_beam_s;
-  for (std::size_t i = 0; i < found.block_s.size(); ++i)
-    evidence.parts.push_back({found.block_s[i] - begin_s, found.block_offset_s[i]});
-  evidence.trend = trend_of(found.block_s, found.block_offset_s);
+  // The lines of a block with little information hardly meet: its offset is one by chance, and no change of
+  // a millisecond could be seen in it.
+  constexpr double kMuchMore = 3;  // than the median block's
+  const double begin_s = search.problem.recording->scans.front().first_beam_s,
+               max_sigma_s = std::max(kMuchMore * median(found.block_sigma_s),
+                                      kLimits.max_change_s / kLimits.min_change_sigmas);
+  std::vector<double> times_s, offsets_s, sigmas_s;
+  for (std::size_t i = 0; i < found.block_s.size(); ++i) {
+    if (found.block_sigma_s[i] > max_sigma_s) continue;
+    times_s.push_back(found.block_s[i] - begin_s);
+    offsets_s.push_back(found.block_offset_s[i]);
+    sigmas_s.push_back(found.block_sigma_s[i]);
+    evidence.parts.push_back({times_s.back(), offsets_s.back(), found.offset_s, sigmas_s.back()});
+  }
+  evidence.trend = trend_of_blocks(times_s, offsets_s, sigmas_s);
   evidence.duration_s = search.recorded_s();
   evidence.min_window_s = double(kMinSweepsOfWindow) * search.problem.motor.median_sweep_s;
   return evidence;
@@ -307,6 +319,20 @@ Result<Answer> of_moving(const OffsetSearch& search, Answer answer, const Job& j
   return of_walk(search, mapping, source, std::move(answer), job);
 }
 
+// Scans that cover parts of a turn and could not be put together have no direction in common with the next.
+std::string why_none_are_shared(const Recording& recording) {
+  std::size_t apart = 0;
+  for (std::size_t i = 0; i + 1 < recording.scans.size(); ++i) {
+    const LaserScan& scan = recording.scans[i];
+    const double between_rad = recording.scans[i + 1].angle_min_rad - scan.angle_min_rad,
+                 span_rad = std::abs(scan.beams * scan.angle_increment_rad);
+    apart += std::abs(std::remainder(between_rad, 2 * std::numbers::pi)) > span_rad / 2 ? 1 : 0;
+  }
+  if (!recording.directions.empty() || 2 * apart < recording.scans.size()) return " at any candidate offset";
+  return ": the messages cover parts of a turn of the mirror, and by the times of their beams they are not put "
+         "together. Set laser.time_increment_s in a rig file, or record whole turns";
+}
+
 }  // namespace
 
 Result<Answer> answer_directly(const OffsetSearch& search, const Job& job) {
@@ -317,12 +343,13 @@ Result<Answer> answer_directly(const OffsetSearch& search, const Job& job) {
   answer.curve = coarse.curve;
   if (!coarse.best) {
     add(answer.refusals, unrepeated_lines_refusal(recording));
-    answer.refusals.push_back(refusal(kFewSharedSurfaces, {}, " at any candidate offset"));
+    answer.refusals.push_back(refusal(kFewSharedSurfaces, {}, why_none_are_shared(recording)));
     return answer;
   }
   add(answer.refusals, beam_times_refusal(recording, search.scale));
-  // A walk blurs the valley of the coarse search: only the fit decides whether there is one.
-  if (!search.as_moving()) {
+  // A walk blurs the valley of the coarse search: only the fit decides whether there is one. So do beams at
+  // wrong times.
+  if (!search.as_moving() && answer.refusals.empty()) {
     add(answer.refusals, edge_refusal(coarse.curve, *coarse.best));
     const MaybeRefusal flat = flat_refusal(coarse.curve, *coarse.best);
     if (flat) add(answer.refusals, unrepeated_lines_refusal(recording));

@@ -88,14 +88,24 @@ void judge_residuals(const OffsetEvidence& evidence, Verdict& verdict) {
 }
 
 struct Series {
-  std::vector<double> times_s, offsets_s;
+  std::vector<double> times_s, offsets_s, sigmas_s;
 };
+
+/// Of the difference of the means before and from a place on, by the parts' own deviations.
+double sigma_of_difference_s(const Series& series, std::size_t place) {
+  const std::size_t n = series.sigmas_s.size();
+  double before_s2 = 0, after_s2 = 0;
+  for (std::size_t i = 0; i < n; ++i)
+    (i < place ? before_s2 : after_s2) += series.sigmas_s[i] * series.sigmas_s[i];
+  return std::hypot(std::sqrt(before_s2) / double(place), std::sqrt(after_s2) / double(n - place));
+}
 
 Series series_of(const OffsetEvidence& evidence) {
   Series series;
   for (const PartOffset& part : evidence.parts) {
     series.times_s.push_back(part.time_s);
     series.offsets_s.push_back(part.offset_s);
+    series.sigmas_s.push_back(part.sigma_s);
   }
   return series;
 }
@@ -117,6 +127,9 @@ bool is_clear(const OffsetStep& step, const Series& series, double sigma_s) {
       std::abs(step.size_s()) < kLimits.max_change_s ||
       std::abs(step.size_s()) < kLimits.min_change_sigmas * sigma_s)
     return false;
+  const auto after = std::ranges::find(times_s, step.end_s);
+  const double chance_s = sigma_of_difference_s(series, std::size_t(after - times_s.begin()));
+  if (std::abs(step.size_s()) < kLimits.min_change_sigmas * chance_s) return false;
   const double constant_s2 =
       squares_about(offsets_s, 0, offsets_s.size(), mean_of(offsets_s, 0, offsets_s.size()));
   return (constant_s2 - step.squares_s2) * (n - 2) > kMinRatio * step.squares_s2;
@@ -146,7 +159,8 @@ void judge_halves(const OffsetEvidence& evidence, const Series& series, Verdict&
   for (std::size_t i = 0; i < parts; ++i)
     halves_s[i < middle ? 0 : 1] += series.offsets_s[i] / double(i < middle ? middle : parts - middle);
   const double half_apart_s = std::abs(halves_s[1] - halves_s[0]) / 2;
-  if (half_apart_s < kLimits.min_change_sigmas * *verdict.sigma_s) return;
+  const double chance_s = sigma_of_difference_s(series, middle) / 2;
+  if (half_apart_s < kLimits.min_change_sigmas * std::max(*verdict.sigma_s, chance_s)) return;
   const double middle_s = (series.times_s[middle - 1] + series.times_s[middle]) / 2;
   if (parts < kMinParts && 2 * half_apart_s > kLimits.max_change_s) {
     verdict.refusals.push_back(refusal(kOffsetChanges, (halves_s[1] - halves_s[0]) * 1e3, halves_s[0] * 1e3,

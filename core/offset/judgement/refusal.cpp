@@ -28,9 +28,9 @@ constexpr std::array kEntries{
         "are degrees, write `motor: {{unit: deg}}` into a rig file (--rig)."},
     RefusalEntry{
         kOneWayAtOneSpeed, "one_way_at_one_speed", kLimits.min_speed_change, "of its speed",
-        "The motor turns one way only, at one speed ({:.0f} deg in {:.1f} s): an offset cannot be "
+        "The motor turns one way only, at one speed ({:.1f} turns in {:.1f} s): an offset cannot be "
         "distinguished from the encoder's zero, and does not blur the map. What blurs it is the mount, "
-        "which can be solved for (--solve mount). For the offset record 5 s at one speed and 5 s at half of it."},
+        "which can be solved for (estimate --solve mount). For the offset record 5 s at one speed and 5 s at half of it."},
     RefusalEntry{kOneWayMotorAndCriteria, "one_way_motor_and_criteria", kNoLimit, "",
                  "The paper's criteria compare sweeps of opposite directions, and this motor turns one "
                  "way. Use the direct method (--method direct)."},

@@ -99,6 +99,12 @@ double scans_a_sweep(const Recording& recording, const MotorMotion& motor) {
   return period_s > 0 ? motor.median_sweep_s / period_s : 0;
 }
 
+bool has_sparse_sweeps(const Recording& recording, const MotorMotion& motor) {
+  constexpr double kSparse = 12;
+  const bool is_3d = !recording.directions.empty() || has_rings(recording);
+  return !is_3d && scans_a_sweep(recording, motor) < kSparse;
+}
+
 bool sees_same_angles(const Recording& recording, const MotorMotion& motor, std::size_t sweeps) {
   const double scans = scans_a_sweep(recording, motor);
   if (!(scans > 0) || sweeps < 4 || scans > 60) return false;

@@ -17,6 +17,8 @@ std::vector<double> scan_stamps_s(const Recording& recording);
 double samples_per_sweep(const MotorTrack& track, const MotorMotion& motor);
 /// Scans per sweep; 0 if there are fewer than two scans.
 double scans_a_sweep(const Recording& recording, const MotorMotion& motor);
+/// A 2D scanner makes fewer than 12 scans a sweep, as one of 10 Hz does on sweeps of a second.
+bool has_sparse_sweeps(const Recording& recording, const MotorMotion& motor);
 /// The uncertainty from the encoder, which the scatter of the sweeps does not show because every sweep
 /// repeats it: the steps of its angle, and the linear interpolation between its samples, which cuts the
 /// corners of the reversals.

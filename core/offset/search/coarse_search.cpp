@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "core/numbers.hpp"
+#include "core/offset/judgement/limits.hpp"
+#include "core/offset/judgement/unseen_sigma.hpp"
 #include "core/offset/prepared/candidates.hpp"
 #include "core/offset/prepared/prepared.hpp"
 #include "core/offset/search/motor_images.hpp"
@@ -48,16 +50,19 @@ void add_differences(const StationaryGrid& grid, const StationaryPoints& points,
   }
 }
 
+// Which sweeps a line is compared with: its neighbours, since a rig moves little meanwhile, or all.
+enum class Partners { kNeighbours, kAll };
+
 std::optional<double> coarse_cost_m(const StationaryGrid& grid, const StationaryPatchOptions& patches,
-                                    double offset_s) {
+                                    double offset_s, Partners partners) {
   const StationaryPoints points = place_stationary(grid, offset_s, StationaryDetail::kAngles);
   const std::vector<LinePool> pools = pools_by_sweep(points);
   CoarseSum total;
-  const bool one_way = grid.problem->motor.one_way();
+  const bool all = partners == Partners::kAll || grid.problem->motor.one_way();
   for (std::size_t line = 0; line < points.lines(); ++line) {
     const std::size_t sweep = points.sweep[line];
     if (sweep == kNoSweep) continue;
-    if (one_way) {
+    if (all) {
       add_differences(grid, points, line, points.against(points.direction[line]), patches, total);
       continue;
     }
@@ -72,13 +77,14 @@ std::optional<double> coarse_cost_m(const StationaryGrid& grid, const Stationary
 // registration, so it is valid far from the minimum too. Absent if the directions hardly overlap. `finished`
 // is called from any thread for each that is not.
 std::vector<CurvePoint> coarse_curve(const StationaryGrid& grid, const std::vector<double>& offsets_s,
-                                     const Job& job, const std::function<void(const CurvePoint&)>& finished) {
+                                     Partners partners, const Job& job,
+                                     const std::function<void(const CurvePoint&)>& finished) {
   const StationaryPatchOptions patches = stationary_patch_options(*grid.problem);
   std::vector<CurvePoint> curve(offsets_s.size());
   std::atomic<std::size_t> done{0};
   for_each_index(offsets_s.size(), [&](std::size_t i) {
     curve[i].offset_s = offsets_s[i];
-    if (!job.cancelled()) curve[i].capped_cost_m = coarse_cost_m(grid, patches, offsets_s[i]);
+    if (!job.cancelled()) curve[i].capped_cost_m = coarse_cost_m(grid, patches, offsets_s[i], partners);
     if (finished && curve[i].capped_cost_m) finished(curve[i]);
     job.report("searching", double(++done) / double(offsets_s.size()));
   });
@@ -110,15 +116,31 @@ bool is_inside(const CoarseSearch& search) {
   return search.best && *search.best > 0 && *search.best + 1 < search.curve.size();
 }
 
-// Whether the minimum lies inside, and is far below the usual cost: 0.68 to 0.86 of simulated rooms and walks
-// (tests/benchmark/thresholds).
-bool has_clear_valley(const CoarseSearch& search) {
-  constexpr double kClearDepth = 0.5;  // of the median
-  if (!is_inside(search)) return false;
+// How far the least cost lies below the usual one, of which it is a part: 0.68 to 0.86 of simulated rooms and
+// walks (tests/benchmark/thresholds).
+double depth_of(const CoarseSearch& search) {
   std::vector<double> costs_m;
   for (const CurvePoint& point : search.curve)
     if (point.capped_cost_m) costs_m.push_back(*point.capped_cost_m);
-  return cost_m(search) < (1 - kClearDepth) * median(std::move(costs_m));
+  return 1 - cost_m(search) / median(std::move(costs_m));
+}
+
+bool has_clear_valley(const CoarseSearch& search) {
+  constexpr double kClearDepth = 0.5;
+  return is_inside(search) && depth_of(search) > kClearDepth;
+}
+
+// Two sparse sweeps have few lines near each other, and of those beside edges most differ at any offset.
+// Where neighbours show no valley, all sweeps may.
+template <typename Search>
+CoarseSearch by_neighbours_or_all(const OffsetProblem& problem, const Search& search_against) {
+  CoarseSearch search = search_against(Partners::kNeighbours);
+  const auto is_flat = [](const CoarseSearch& of) {
+    return !of.best || !(depth_of(of) > kLimits.min_cost_depth);
+  };
+  if (!is_flat(search) || !has_sparse_sweeps(*problem.recording, problem.motor)) return search;
+  CoarseSearch all = search_against(Partners::kAll);
+  return is_flat(all) ? search : all;
 }
 
 }  // namespace
@@ -126,28 +148,26 @@ bool has_clear_valley(const CoarseSearch& search) {
 CoarseSearch search_coarsely(const OffsetProblem& problem, double from_s, double to_s,
                              const SearchScale& scale, const Job& job,
                              const std::function<void(const CurvePoint&)>& finished) {
-  const double middle_s = (from_s + to_s) / 2;
-  const OffsetProblem part = first_sweeps_of(problem, middle_s, kMaxSweeps);
+  const OffsetProblem part = first_sweeps_of(problem, (from_s + to_s) / 2, kMaxSweeps);
   const StationaryGrid grid = stationary_grid(part);
-  CoarseSearch search;
-  const auto compute = [&](const std::vector<double>& offsets_s) {
-    search.curve = united(std::move(search.curve), coarse_curve(grid, offsets_s, job, finished));
-    set_best(search);
-  };
   const std::vector<double> all_s = offsets_of({{from_s, to_s, scale.unit_s}});
-  compute(every_second(all_s));
-  if (!search.best) return search;
-  const double best_s = search.offset_s();
-  std::vector<double> beside_s;
-  const auto is_computed = [&](double offset_s) {
-    return std::any_of(search.curve.begin(), search.curve.end(),
-                       [&](const CurvePoint& point) { return point.offset_s == offset_s; });
-  };
-  for (const double offset_s : all_s)
-    if (std::abs(offset_s - best_s) < 1.5 * scale.unit_s && !is_computed(offset_s))
-      beside_s.push_back(offset_s);
-  compute(beside_s);
-  return search;
+  return by_neighbours_or_all(part, [&](Partners partners) {
+    CoarseSearch search;
+    const auto compute = [&](const std::vector<double>& offsets_s) {
+      search.curve = united(std::move(search.curve), coarse_curve(grid, offsets_s, partners, job, finished));
+      set_best(search);
+    };
+    compute(every_second(all_s));
+    if (!search.best) return search;
+    const double best_s = search.offset_s();
+    std::vector<double> beside_s;
+    for (const double offset_s : all_s)
+      if (std::abs(offset_s - best_s) < 1.5 * scale.unit_s &&
+          std::ranges::find(search.curve, offset_s, &CurvePoint::offset_s) == search.curve.end())
+        beside_s.push_back(offset_s);
+    compute(beside_s);
+    return search;
+  });
 }
 
 CoarseSearch search_roughly(const OffsetProblem& problem, double from_s, double to_s,
@@ -155,11 +175,14 @@ CoarseSearch search_roughly(const OffsetProblem& problem, double from_s, double 
   constexpr std::size_t kSweeps = 12;
   constexpr double kStep_units = 4;  // 1.4 deg of the motor: valleys are wider
   const OffsetProblem part = first_sweeps_of(problem, (from_s + to_s) / 2, kSweeps);
-  CoarseSearch search;
-  search.curve =
-      coarse_curve(stationary_grid(part), offsets_of({{from_s, to_s, kStep_units * scale.unit_s}}), job, {});
-  set_best(search);
-  return search;
+  const StationaryGrid grid = stationary_grid(part);
+  return by_neighbours_or_all(part, [&](Partners partners) {
+    CoarseSearch search;
+    search.curve =
+        coarse_curve(grid, offsets_of({{from_s, to_s, kStep_units * scale.unit_s}}), partners, job, {});
+    set_best(search);
+    return search;
+  });
 }
 
 SearchedWindow search_by_default(const PreparedRecording& prepared, const SearchScale& scale, const Job& job,

@@ -310,7 +310,8 @@ bool sectors_differ(const StationaryDirect& found, const StationaryGrid& grid) {
   const MotorMotion& motor = grid.problem->motor;
   return 2 * motor.lever_speed_rad_s() * std::sqrt(squares_s2) > kMinTurn_rad &&
          squares_s2 > kMinFormalSigmas * kMinFormalSigmas * formal_s2 &&
-         samples_per_sweep(grid.problem->recording->motor, motor) >= kMinSamples;
+         samples_per_sweep(grid.problem->recording->motor, motor) >= kMinSamples &&
+         !has_sparse_sweeps(*grid.problem->recording, motor);  // a sector has about one line of each
 }
 
 // The offset of each sector of the motor's angle alone. A point lies beside its patch in angle, so the
@@ -338,6 +339,18 @@ void fill_sectors(const StationaryGrid& grid, const StationaryPoints& points,
   result.depends_on_angle = sectors_differ(result, grid);
 }
 
+// By how much more the sectors' offsets scatter than independent matches would: matches of one surface err
+// together, the more so the fewer lines it has.
+double scatter_of_sectors(const StationaryDirect& found) {
+  double squares = 0;
+  for (const SectorOffset& sector : found.sectors) {
+    const double sigmas = (sector.offset_s - found.offset_s) / sector.formal_sigma_s;
+    squares += sigmas * sigmas;
+  }
+  const std::size_t n = found.sectors.size();
+  return n < 2 ? 1 : std::sqrt(std::max(1.0, squares / double(n - 1)));
+}
+
 // The offset of each block of at least two sweeps alone.
 void fill_blocks(const Linearisation& at, const StationaryGrid& grid, double loss_width_m,
                  StationaryDirect& result) {
@@ -355,10 +368,12 @@ void fill_blocks(const Linearisation& at, const StationaryGrid& grid, double los
     time_s[block] += grid.time_s[line * at.points().bins];
     count[block] += 1;
   }
+  const double scatter = scatter_of_sectors(result);
   for (std::size_t block = 0; block < blocks.count; ++block) {
     if (!(sums[block].jj > 0)) continue;
     result.block_s.push_back(time_s[block] / count[block]);
     result.block_offset_s.push_back(result.offset_s - sums[block].jr / sums[block].jj);
+    result.block_sigma_s.push_back(scatter * result.residual_m / std::sqrt(sums[block].jj));
   }
 }
 
@@ -463,6 +478,13 @@ StationaryDirect solve_stationary(const StationaryGrid& grid, double first_offse
     loss_width_m = std::min(width_m, loss_width_m);
   }
   return result;
+}
+
+std::optional<Trend> trend_of_blocks(const std::vector<double>& times_s, const std::vector<double>& offsets_s,
+                                     const std::vector<double>& sigmas_s) {
+  std::optional<Trend> trend = trend_of(times_s, offsets_s);
+  if (trend) trend->sigma = std::max(trend->sigma, sigma_of_trend(times_s, sigmas_s));
+  return trend;
 }
 
 std::optional<double> sigma_of(const StationaryDirect& found, const Recording& recording) {

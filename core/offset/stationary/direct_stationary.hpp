@@ -25,7 +25,7 @@ enum class Resampling { kAll, kParts, kNone };
 /// change the answers in two simulated rooms by at most 0.002 ms (sweepscope_option_changes of
 /// tests/benchmark).
 struct StationaryDirectOptions {
-  int max_iterations = 30;          // rooms take 3 or 4, real surfaces up to 25
+  int max_iterations = 60;          // rooms take 3 or 4, real surfaces up to 25, sparse sweeps up to 50
   int undamped_iterations = 10;     // from then on a step that goes back is half as long
   double step_tolerance_s = 1e-6;   // a thousandth of the unit of most motors, see search_scale
   double first_loss_width_m = 0.1;  // later: `loss_widths` times the residuals' robust deviation
@@ -74,10 +74,15 @@ struct StationaryDirect {
   std::vector<WithoutPart> without_comb;  // the same for combs of lines, every so many-th one
   std::vector<SectorOffset> sectors;      // of the motor's angle, ascending
   bool depends_on_angle = false;          // the sectors' offsets differ clearly
-  std::vector<double> block_s,
-      block_offset_s;    // blocks of sweeps: middle and own offset
+  // Blocks of sweeps: middle, own offset and its deviation by the block's few lines alone.
+  std::vector<double> block_s, block_offset_s, block_sigma_s;
   double lever_m_s = 0;  // rms of dr / d offset
 };
+
+/// The trend of blocks over time. Its sigma is at least what their own deviations leave: of a few blocks the
+/// scatter about the trend may be small by chance.
+std::optional<Trend> trend_of_blocks(const std::vector<double>& times_s, const std::vector<double>& offsets_s,
+                                     const std::vector<double>& sigmas_s);
 
 StationaryDirect solve_stationary(const StationaryGrid& grid, double first_offset_s,
                                   const StationaryDirectOptions& options, const Job& job);

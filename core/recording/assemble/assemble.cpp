@@ -52,7 +52,7 @@ class ScanAssembler {
   bool check_cloud_times(const std::vector<LaserScan>& lines);
   void order_lines(std::vector<LaserScan>& lines);
   void take_ranges();
-  void put_together();
+  void put_together(bool timed);
   /// Only the scans' headers were read.
   bool without_ranges() const { return raw_.ranges_m.empty(); }
   void clean(const RawScan& raw, std::span<float> ranges_m);
@@ -170,7 +170,7 @@ bool ScanAssembler::assemble() {
   // Without increments the beams of each part may be of one instant.
   const bool timed = recording_.rig.laser.time_increment_s ||
                      usable_increment(std::abs(double{raw_.scans.front().time_increment_s}));
-  if (turns_ != 1 && timed && !recording_.ranges_m.empty()) put_together();
+  if (turns_ != 1 && !recording_.ranges_m.empty()) put_together(timed);
   warn_of_drops();
   warn_of_overlap();
   return true;
@@ -267,9 +267,17 @@ void ScanAssembler::take_ranges() {
 }
 
 /// Messages that cover parts of a turn, as whole turns.
-void ScanAssembler::put_together() {
+void ScanAssembler::put_together(bool timed) {
   const std::size_t messages = recording_.scans.size();
-  recording_.scans = whole_turns(recording_.scans);
+  std::vector<LaserScan> turns = timed ? whole_turns(recording_.scans) : recording_.scans;
+  if (turns.size() == messages) {
+    report_.warnings.push_back(fmt::format(
+        "the {} messages on {} cover parts of a turn of the mirror, and by the times of their beams they do "
+        "not follow each other, so they are not put together (give laser.time_increment_s in a rig file)",
+        messages, raw_.topic));
+    return;
+  }
+  recording_.scans = std::move(turns);
   report_.warnings.push_back(
       fmt::format("the {} messages on {} cover parts of a turn of the mirror: they are read as {} turns",
                   messages, raw_.topic, recording_.scans.size()));

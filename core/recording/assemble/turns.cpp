@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/numbers.hpp"
+#include "core/recording/stream_stamps.hpp"
 
 namespace sweepscope {
 namespace {
@@ -22,6 +23,23 @@ bool continues(const LaserScan& scan, const LaserScan& next) {
   return same_direction(scan.beam_angle_rad(scan.beams), next.angle_min_rad, scan.angle_increment_rad) &&
          std::abs(next.first_beam_s - end_s) <= kLate * duration_s &&
          scan.angle_increment_rad * next.angle_increment_rad > 0;
+}
+
+// Messages that begin where the one before ended, or end where it began: the turns of those before, and how
+// much later they come.
+struct Followers {
+  std::vector<double> turned, later_s;
+  std::size_t count() const { return turned.size(); }
+  void add(double turned_by, double later_by_s) {
+    turned.push_back(turned_by);
+    later_s.push_back(later_by_s);
+  }
+};
+
+// The header's stamp, or the receive time where there is none.
+double time_s(const RawScan& scan) {
+  const std::int64_t header_ns = stamp_ns(scan.stamps, StampSource::kHeader);
+  return 1e-9 * double(header_ns != 0 ? header_ns : stamp_ns(scan.stamps, StampSource::kReceive));
 }
 
 // A beam of a run of scans.
@@ -67,22 +85,26 @@ void append_turns(std::span<const LaserScan> run, double direction_rad, std::vec
 }  // namespace
 
 MessageTurns turns_of_messages(const std::vector<RawScan>& messages) {
-  std::vector<double> onwards, back;
+  constexpr double kNearlyAll = 0.9;
+  Followers onwards, back;
   for (std::size_t i = 0; i + 1 < messages.size(); ++i) {
     const RawScan &message = messages[i], &next = messages[i + 1];
     const double begin_rad = double{message.angle_min_rad}, next_rad = double{next.angle_min_rad},
                  increment_rad = double{message.angle_increment_rad},
                  span_rad = message.beams * increment_rad;
     if (same_direction(begin_rad, next_rad, increment_rad)) continue;
-    const double turned = std::abs(span_rad) / kFullCircle_rad;
-    if (same_direction(begin_rad + span_rad, next_rad, increment_rad)) onwards.push_back(turned);
+    const double turned = std::abs(span_rad) / kFullCircle_rad, later_s = time_s(next) - time_s(message);
+    if (same_direction(begin_rad + span_rad, next_rad, increment_rad)) onwards.add(turned, later_s);
     if (same_direction(next_rad + next.beams * increment_rad, begin_rad, increment_rad))
-      back.push_back(turned);
+      back.add(turned, later_s);
   }
   // Halves of a turn follow each other both ways.
-  if (2 * onwards.size() > messages.size()) return {median(onwards), false};
-  if (2 * back.size() > messages.size()) return {median(back), true};
-  return {};
+  if (2 * onwards.count() > messages.size()) return {median(onwards.turned), false};
+  if (2 * back.count() > messages.size()) return {median(back.turned), true};
+  // So do two parts beside a blind sector, by turns; the pair behind the sector comes later.
+  if (double(onwards.count() + back.count()) < kNearlyAll * double(messages.size())) return {};
+  const bool backwards = median(back.later_s) < median(onwards.later_s);
+  return {median(backwards ? back.turned : onwards.turned), backwards};
 }
 
 std::vector<LaserScan> whole_turns(const std::vector<LaserScan>& scans) {

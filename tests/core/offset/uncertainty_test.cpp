@@ -77,6 +77,12 @@ TEST(TrendOf, IsTheSlopeAndItsDoubt) {
   EXPECT_FALSE(trend_of({1, 2, 3}, {1, 2, 3}));
 }
 
+TEST(TrendOf, OfEqualWeightsHasASigmaByTheValuesOwn) {
+  EXPECT_NEAR(sigma_of_trend({0, 10}, {0.3, 0.4}), 0.05, 1e-12);
+  EXPECT_NEAR(sigma_of_trend({0, 1, 2}, {2, 100, 2}), std::sqrt(2.0), 1e-12);  // the middle has no lever
+  EXPECT_EQ(sigma_of_trend({3}, {1}), 0);
+}
+
 TEST(TrendOf, KnownSigmasWeighAndDoubt) {
   const auto two = trend_of({0, 10}, {1, 2}, {0.3, 0.4});
   EXPECT_NEAR(two->slope, 0.1, 1e-12);

@@ -10,13 +10,14 @@ namespace {
 constexpr double kMillisecond_s = 1e-3;
 
 /// Blocks of a second.
-OffsetEvidence evidence_of(const std::vector<double>& offsets_ms, double min_window_s = 3) {
+OffsetEvidence evidence_of(const std::vector<double>& offsets_ms, double min_window_s = 3,
+                           double sigma_ms = 0) {
   OffsetEvidence evidence;
   std::vector<double> times_s, offsets_s;
   for (const double offset_ms : offsets_ms) {
     times_s.push_back(double(times_s.size()) + 0.5);
     offsets_s.push_back(offset_ms * kMillisecond_s);
-    evidence.parts.push_back({times_s.back(), offsets_s.back()});
+    evidence.parts.push_back({times_s.back(), offsets_s.back(), 0, sigma_ms * kMillisecond_s});
   }
   evidence.trend = trend_of(times_s, offsets_s);
   evidence.duration_s = double(offsets_ms.size());
@@ -54,6 +55,16 @@ TEST(Evidence, AJumpIsNoDrift) {
 TEST(Evidence, AShortRecordingWhoseOffsetJumpsIsRefused) {
   EXPECT_EQ(kind_of(judge_constant(evidence_of({0, 3}), 0.17 * kMillisecond_s)), RefusalKind::kOffsetChanges);
   EXPECT_EQ(kind_of(judge_constant(evidence_of({0, 0.3}), 0.17 * kMillisecond_s)), RefusalKind::kUnknown);
+}
+
+TEST(Evidence, AChangeThatThePartsAreTooUncertainForIsNone) {
+  for (const std::vector<double>& offsets_ms :
+       {std::vector<double>{0, 3}, {24, 24, 29, 29}, {24, 24.1, 24, 24.3, 24.4, 24.3}}) {
+    const Verdict certain = judge_constant(evidence_of(offsets_ms, 3, 0.02), 0.04 * kMillisecond_s),
+                  uncertain = judge_constant(evidence_of(offsets_ms, 3, 4), 0.04 * kMillisecond_s);
+    EXPECT_TRUE(!certain.refusals.empty() || !certain.widened.empty());
+    EXPECT_TRUE(uncertain.refusals.empty() && uncertain.widened.empty());
+  }
 }
 
 TEST(Evidence, NamesOverTimeOnlyWhereThatAnswers) {

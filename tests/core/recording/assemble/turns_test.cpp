@@ -55,6 +55,21 @@ TEST(Turns, MessagesThatBeginInOneDirectionAreATurnEach) {
     EXPECT_EQ(turns_of_messages(std::vector<RawScan>(20, message(-2, beams))).per_message, 1) << beams;
 }
 
+// Two parts of 135 deg, then a blind sector of 90 deg: by their angles they follow each other both ways.
+TEST(Turns, TwoPartsBesideABlindSectorFollowEachOtherAsTheirStampsSay) {
+  for (const bool backwards : {false, true}) {
+    std::vector<RawScan> messages;
+    for (int i = 0; i < 40; ++i) {
+      const bool second = i % 2 == 1;
+      messages.push_back(message((second != backwards ? 0 : -0.375) * kTurn_rad, 270));
+      messages.back().stamps.header_ns = 1'000'000'000 + i / 2 * 100'000'000 + (second ? 37'500'000 : 0);
+    }
+    const MessageTurns turns = turns_of_messages(messages);
+    EXPECT_NEAR(turns.per_message, 0.375, 1e-6);
+    EXPECT_EQ(turns.backwards, backwards);
+  }
+}
+
 TEST(Turns, PartsArePutTogetherToWholeTurns) {
   const std::vector<LaserScan> turns = whole_turns(parts(36, -3));
   ASSERT_EQ(turns.size(), 3U);
