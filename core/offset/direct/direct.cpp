@@ -112,21 +112,11 @@ OffsetEvidence evidence_of(const OffsetSearch& search, const StationaryDirect& f
   evidence.range_noise_m = search.problem.features->range_noise_m;
   evidence.lever_m_s = found.lever_m_s;
   if (search.options.over_time_s) return evidence;
-  // The lines of a block with little information hardly meet: its offset is one by chance, and no change of
-  // a millisecond could be seen in it.
-  constexpr double kMuchMore = 3;  // than the median block's
-  const double begin_s = search.problem.recording->scans.front().first_beam_s,
-               max_sigma_s = std::max(kMuchMore * median(found.block_sigma_s),
-                                      kLimits.max_change_s / kLimits.min_change_sigmas);
-  std::vector<double> times_s, offsets_s, sigmas_s;
-  for (std::size_t i = 0; i < found.block_s.size(); ++i) {
-    if (found.block_sigma_s[i] > max_sigma_s) continue;
-    times_s.push_back(found.block_s[i] - begin_s);
-    offsets_s.push_back(found.block_offset_s[i]);
-    sigmas_s.push_back(found.block_sigma_s[i]);
-    evidence.parts.push_back({times_s.back(), offsets_s.back(), found.offset_s, sigmas_s.back()});
-  }
-  evidence.trend = trend_of_blocks(times_s, offsets_s, sigmas_s);
+  const double begin_s = search.problem.recording->scans.front().first_beam_s;
+  for (std::size_t i = 0; i < found.block_s.size(); ++i)
+    evidence.parts.push_back(
+        {found.block_s[i] - begin_s, found.block_offset_s[i], found.offset_s, found.block_sigma_s[i]});
+  evidence.trend = trend_of_blocks(found.block_s, found.block_offset_s, found.block_sigma_s);
   evidence.duration_s = search.recorded_s();
   evidence.min_window_s = double(kMinSweepsOfWindow) * search.problem.motor.median_sweep_s;
   return evidence;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/numbers.hpp"
 #include "core/offset/judgement/limits.hpp"
 
 namespace sweepscope {
@@ -91,13 +92,14 @@ struct Series {
   std::vector<double> times_s, offsets_s, sigmas_s;
 };
 
-/// Of the difference of the means before and from a place on, by the parts' own deviations.
-double sigma_of_difference_s(const Series& series, std::size_t place) {
-  const std::size_t n = series.sigmas_s.size();
-  double before_s2 = 0, after_s2 = 0;
-  for (std::size_t i = 0; i < n; ++i)
-    (i < place ? before_s2 : after_s2) += series.sigmas_s[i] * series.sigmas_s[i];
-  return std::hypot(std::sqrt(before_s2) / double(place), std::sqrt(after_s2) / double(n - place));
+/// Of the difference of the means before and behind two places, by the parts' own deviations.
+double sigma_of_difference_s(const Series& series, std::size_t before_end, std::size_t after_begin) {
+  const auto squares_s2 = [&](std::size_t begin, std::size_t end) {
+    double sum_s2 = 0;
+    for (std::size_t i = begin; i < end; ++i) sum_s2 += series.sigmas_s[i] * series.sigmas_s[i];
+    return sum_s2 / double((end - begin) * (end - begin));
+  };
+  return std::sqrt(squares_s2(0, before_end) + squares_s2(after_begin, series.sigmas_s.size()));
 }
 
 Series series_of(const OffsetEvidence& evidence) {
@@ -127,8 +129,10 @@ bool is_clear(const OffsetStep& step, const Series& series, double sigma_s) {
       std::abs(step.size_s()) < kLimits.max_change_s ||
       std::abs(step.size_s()) < kLimits.min_change_sigmas * sigma_s)
     return false;
-  const auto after = std::ranges::find(times_s, step.end_s);
-  const double chance_s = sigma_of_difference_s(series, std::size_t(after - times_s.begin()));
+  const auto place = [&](double time_s) {
+    return std::size_t(std::ranges::find(times_s, time_s) - times_s.begin());
+  };
+  const double chance_s = sigma_of_difference_s(series, place(step.begin_s) + 1, place(step.end_s));
   if (std::abs(step.size_s()) < kLimits.min_change_sigmas * chance_s) return false;
   const double constant_s2 =
       squares_about(offsets_s, 0, offsets_s.size(), mean_of(offsets_s, 0, offsets_s.size()));
@@ -150,6 +154,22 @@ MaybeRefusal change_of(const OffsetEvidence& evidence, const Series& series, dou
   return std::nullopt;
 }
 
+/// Without parts of little information, whose lines hardly meet: their offsets are some by chance, and a
+/// change of a millisecond could not be seen in them.
+Series certain_parts(const Series& series) {
+  constexpr double kMuchMore = 3;  // than the median part's
+  const double max_sigma_s =
+      std::max(kMuchMore * median(series.sigmas_s), kLimits.max_change_s / kLimits.min_change_sigmas);
+  Series certain;
+  for (std::size_t i = 0; i < series.sigmas_s.size(); ++i) {
+    if (series.sigmas_s[i] > max_sigma_s) continue;
+    certain.times_s.push_back(series.times_s[i]);
+    certain.offsets_s.push_back(series.offsets_s[i]);
+    certain.sigmas_s.push_back(series.sigmas_s[i]);
+  }
+  return certain;
+}
+
 /// Where neighbours in time err together, their scatter hides it, and the halves disagree.
 void judge_halves(const OffsetEvidence& evidence, const Series& series, Verdict& verdict) {
   constexpr std::size_t kMinParts = 4;  // of fewer, the halves themselves are too uncertain to widen sigma
@@ -159,7 +179,7 @@ void judge_halves(const OffsetEvidence& evidence, const Series& series, Verdict&
   for (std::size_t i = 0; i < parts; ++i)
     halves_s[i < middle ? 0 : 1] += series.offsets_s[i] / double(i < middle ? middle : parts - middle);
   const double half_apart_s = std::abs(halves_s[1] - halves_s[0]) / 2;
-  const double chance_s = sigma_of_difference_s(series, middle) / 2;
+  const double chance_s = sigma_of_difference_s(series, middle, middle) / 2;
   if (half_apart_s < kLimits.min_change_sigmas * std::max(*verdict.sigma_s, chance_s)) return;
   const double middle_s = (series.times_s[middle - 1] + series.times_s[middle]) / 2;
   if (parts < kMinParts && 2 * half_apart_s > kLimits.max_change_s) {
@@ -214,7 +234,7 @@ Verdict judge_constant(const OffsetEvidence& evidence, std::optional<double> sig
   if (auto change = change_of(evidence, series, verdict.sigma_s.value_or(0)))
     verdict.refusals.push_back(std::move(*change));
   else
-    judge_halves(evidence, series, verdict);
+    judge_halves(evidence, certain_parts(series), verdict);
   return verdict;
 }
 

@@ -340,15 +340,17 @@ void fill_sectors(const StationaryGrid& grid, const StationaryPoints& points,
 }
 
 // By how much more the sectors' offsets scatter than independent matches would: matches of one surface err
-// together, the more so the fewer lines it has.
+// together, the more so the fewer lines it has. More than by chance they scatter where the offset changes, or
+// depends on the angle.
 double scatter_of_sectors(const StationaryDirect& found) {
+  constexpr double kMaxByChance = 3;  // 2.7 suffices for tests/benchmark/random_readings 0:1000
   double squares = 0;
   for (const SectorOffset& sector : found.sectors) {
     const double sigmas = (sector.offset_s - found.offset_s) / sector.formal_sigma_s;
     squares += sigmas * sigmas;
   }
   const std::size_t n = found.sectors.size();
-  return n < 2 ? 1 : std::sqrt(std::max(1.0, squares / double(n - 1)));
+  return n < 2 ? 1 : std::clamp(std::sqrt(squares / double(n - 1)), 1.0, kMaxByChance);
 }
 
 // The offset of each block of at least two sweeps alone.
