@@ -180,15 +180,17 @@ void judge_halves(const OffsetEvidence& evidence, const Series& series, Verdict&
     halves_s[i < middle ? 0 : 1] += series.offsets_s[i] / double(i < middle ? middle : parts - middle);
   const double half_apart_s = std::abs(halves_s[1] - halves_s[0]) / 2;
   const double chance_s = sigma_of_difference_s(series, middle, middle) / 2;
-  if (half_apart_s < kLimits.min_change_sigmas * std::max(*verdict.sigma_s, chance_s)) return;
+  if (half_apart_s < kLimits.min_change_sigmas * *verdict.sigma_s) return;
   const double middle_s = (series.times_s[middle - 1] + series.times_s[middle]) / 2;
-  if (parts < kMinParts && 2 * half_apart_s > kLimits.max_change_s) {
+  const bool changes = 2 * half_apart_s > kLimits.max_change_s,
+             by_chance = half_apart_s < kLimits.min_change_sigmas * chance_s;
+  if (parts < kMinParts && changes && !by_chance) {
     verdict.refusals.push_back(refusal(kOffsetChanges, (halves_s[1] - halves_s[0]) * 1e3, halves_s[0] * 1e3,
                                        series.times_s.front(), halves_s[1] * 1e3,
                                        advice_on_change(evidence, middle_s)));
     return;
   }
-  if (parts < kMinParts) return;
+  if (parts < kMinParts && !changes) return;
   verdict.sigma_s = half_apart_s;
   verdict.widened.emplace_back("halves", half_apart_s);
   verdict.warnings.push_back(fmt::format("The halves of the recording disagree: {:.3f} ms and {:.3f} ms.",

@@ -310,8 +310,7 @@ bool sectors_differ(const StationaryDirect& found, const StationaryGrid& grid) {
   const MotorMotion& motor = grid.problem->motor;
   return 2 * motor.lever_speed_rad_s() * std::sqrt(squares_s2) > kMinTurn_rad &&
          squares_s2 > kMinFormalSigmas * kMinFormalSigmas * formal_s2 &&
-         samples_per_sweep(grid.problem->recording->motor, motor) >= kMinSamples &&
-         !has_sparse_sweeps(*grid.problem->recording, motor);  // a sector has about one line of each
+         samples_per_sweep(grid.problem->recording->motor, motor) >= kMinSamples;
 }
 
 // The offset of each sector of the motor's angle alone. A point lies beside its patch in angle, so the

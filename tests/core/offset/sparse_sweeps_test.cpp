@@ -74,13 +74,6 @@ TEST(SparseSweeps, StepsThatAlternateConvergeInTime) {
   expect_answered(typed);
 }
 
-TEST(SparseSweeps, ASectorWithALineOfEachDoesNotDependOnTheAngle) {
-  TypedSimulation typed = drawn(323, "room-6", "urg04lx", "trapezoid", 0.845, -117.823);
-  swings(typed, 5.3, 87.9, 12, 113);
-  typed.options.laser_upside_down = true;
-  expect_answered(typed);
-}
-
 // Each at an instant of its own: no increment joins them.
 TEST(PartsOfTurns, ThatCannotBePutTogetherAreTheReason) {
   TypedSimulation typed;
