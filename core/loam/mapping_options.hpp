@@ -34,9 +34,11 @@ struct MappingOptions {
   double reuse_within_m = 0.03;  // a match is searched again once its point moved by more
 
   double doubtful_below = 0.85;  // part of the usual share of matches: the sweep is tried in other ways
-  double lost_below = 0.5;       // part of the usual share: the sweep does not enter the map
-  int give_up_after = 4;         // lost sweeps in a row: a new map is begun
-  int settling_sweeps = 8;       // not counted: the map is still being begun
+  // The other ways also begin with matches from farther away, and as if the rig had turned.
+  bool wide_starts = false;
+  double lost_below = 0.5;  // part of the usual share: the sweep does not enter the map
+  int give_up_after = 4;    // lost sweeps in a row: a new map is begun
+  int settling_sweeps = 8;  // not counted: the map is still being begun
 
   int first_sweeps = 4;        // from which the first pose is found ...
   int velocity_rounds = 6;     // ... by velocities that are tried in turn ...

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/loam/path/given_motion.hpp"
 #include "core/loam/path/least_squares.hpp"
@@ -165,45 +166,92 @@ std::vector<Pose> Tracker::extrapolated(std::vector<Pose> path, double carried) 
   return path;
 }
 
+// The turns were chosen on a hall in which the rig turns by 0.9 rad in 0.25 s.
+std::vector<Tracker::Attempt> Tracker::other_attempts(bool wide) {
+  if (!wide) return {{3, 1}, {1.0 / 3, 1}, {1, 0.3}, {3, 0}, {3, -0.7}};
+  std::vector<Attempt> others{{1, 1, true}, {3, 1}, {1, 0, true}, {1.0 / 3, 1, true}, {3, 0}, {3, -0.7}};
+  for (const double angle_rad : {0.4, -0.4, 0.8, -0.8, 1.2, -1.2})
+    for (const auto& [begin_u, end_u] : {std::pair(0.0, 1.0), std::pair(0.0, 0.5), std::pair(0.5, 1.0)})
+      others.push_back({3, 1, true, {angle_rad, begin_u, end_u}});
+  return others;
+}
+
 Tracker::Solved Tracker::solved(const PlacedSweep& sweep, std::size_t steps) const {
-  const SearchRule rule = search_rule(options_, grown(), SweepFilter::kAny);
-  Solved best = attempt(sweep, steps, rule, {1, 1});
+  Solved best = attempt(sweep, steps, {1, 1});
   const double enough = options_.doubtful_below * usual_part_;
-  constexpr Attempt kOthers[] = {{3, 1}, {1.0 / 3, 1}, {1, 0.3}, {3, 0}, {3, -0.7}};
-  for (const Attempt& other : kOthers) {
-    if (best.count.matched_part() >= enough) break;
-    Solved found = attempt(sweep, steps, rule, other);
+  if (best.count.matched_part() >= enough) return best;
+  for (const Attempt& other : other_attempts(options_.wide_starts)) {
+    Solved found = attempt(sweep, steps, other);
     if (found.count.matched_part() > best.count.matched_part()) best = std::move(found);
+    if (best.count.matched_part() >= enough) break;
   }
   return best;
 }
 
-// Knot by knot, then all of them.
-Tracker::Solved Tracker::attempt(const PlacedSweep& sweep, std::size_t steps, const SearchRule& rule,
-                                 const Attempt& attempt) const {
-  SweepMatcher matcher(maps_, sweep, rule, options_);
-  Solved solved{path_, {}};
-  for (std::size_t step = 1; step <= steps; ++step) {
-    solved.path = extrapolated(std::move(solved.path), step == 1 ? attempt.carried : 1);
-    const bool whole = step == steps;
-    const double end_u = double(step) / double(steps);
-    const SweepMatcher::Share share = whole ? SweepMatcher::Share{kWhole, 1}
-                                            : SweepMatcher::Share{end_u, std::size_t(options_.rough_stride)};
-    for (int i = 0; i < (whole ? options_.max_iterations : options_.rough_iterations); ++i) {
-      PathEquations equations(solved.path.size(), end_u);
-      const Eigen::Vector3d pivot_m = solved.path[step / 2].translation_m;
-      solved.count = matcher.linearise(SweepMotion(solved.path, end_u), share, pivot_m, equations);
-      const double moved = improve(solved.path, equations, attempt.acceleration_factor, pivot_m);
-      if (moved < options_.step_tolerance * (whole ? 1 : 4)) break;
-    }
+Tracker::Solved Tracker::attempt(const PlacedSweep& sweep, std::size_t steps, const Attempt& attempt) const {
+  constexpr double kWiderLoss = 4;
+  const SweepMatcher::Share all{kWhole, 1};
+  const double factor = attempt.acceleration_factor;
+  SweepMatcher matcher(maps_, sweep, search_rule(options_, grown(), SweepFilter::kAny), options_);
+  Solved solved;
+  if (attempt.wide) {
+    MappingOptions wider = options_;
+    wider.loss_width_m *= kWiderLoss;
+    SweepMatcher wide(maps_, sweep, search_rule(options_, false, SweepFilter::kAny), wider);
+    solved.path = attempt.turn.angle_rad == 0 ? knot_by_knot(wide, steps, attempt) : turned(steps, attempt);
+    improve(solved.path, wide, all, options_.max_iterations, 4 * options_.step_tolerance, factor);
+  } else {
+    solved.path = knot_by_knot(matcher, steps, attempt);
   }
+  solved.count = improve(solved.path, matcher, all, options_.max_iterations, options_.step_tolerance, factor);
   if (undoes_motor(solved.path, moves_, sweep)) solved.count.matches = 0;
   return solved;
 }
 
+// A path of all knots, of which the last one is where the velocity leads.
+std::vector<Pose> Tracker::knot_by_knot(SweepMatcher& matcher, std::size_t steps,
+                                        const Attempt& attempt) const {
+  std::vector<Pose> path = extrapolated(path_, attempt.carried);
+  for (std::size_t known = 1; known < steps; ++known) {
+    const SweepMatcher::Share share{double(known) / double(steps), std::size_t(options_.rough_stride)};
+    improve(path, matcher, share, options_.rough_iterations, 4 * options_.step_tolerance,
+            attempt.acceleration_factor);
+    path = extrapolated(std::move(path), 1);
+  }
+  return path;
+}
+
+// As the velocity leads, and turned besides.
+std::vector<Pose> Tracker::turned(std::size_t steps, const Attempt& attempt) const {
+  const Turn& turn = attempt.turn;
+  std::vector<Pose> path = extrapolated(path_, attempt.carried);
+  while (path.size() <= steps) path = extrapolated(std::move(path), 1);
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const double part = (double(i) / double(steps) - turn.begin_u) / (turn.end_u - turn.begin_u);
+    Vector6d step = Vector6d::Zero();
+    step[2] = turn.angle_rad * std::clamp(part, 0.0, 1.0);
+    path[i] = stepped(path[i], step, path[i].translation_m);
+  }
+  return path;
+}
+
+// By the features of the part of the sweep that the path covers. Their matches before the last step.
+MatchCount Tracker::improve(std::vector<Pose>& path, SweepMatcher& matcher, const SweepMatcher::Share& share,
+                            int iterations, double tolerance, double acceleration_factor) const {
+  const double end_u = std::min(1.0, share.end_u);
+  MatchCount count;
+  for (int i = 0; i < iterations; ++i) {
+    PathEquations equations(path.size(), end_u);
+    const Eigen::Vector3d pivot_m = path[(path.size() - 1) / 2].translation_m;
+    count = matcher.linearise(SweepMotion(path, end_u), share, pivot_m, equations);
+    if (step(path, equations, acceleration_factor, pivot_m) < tolerance) break;
+  }
+  return count;
+}
+
 // One step of the least squares; how far it moved.
-double Tracker::improve(std::vector<Pose>& path, PathEquations& equations, double acceleration_factor,
-                        const Eigen::Vector3d& pivot_m) const {
+double Tracker::step(std::vector<Pose>& path, PathEquations& equations, double acceleration_factor,
+                     const Eigen::Vector3d& pivot_m) const {
   const Eigen::Vector2d acceleration = (options_.acceleration_factor * acceleration2_.cwiseSqrt())
                                            .cwiseMax(options_.min_acceleration)
                                            .cwiseMin(options_.max_acceleration);

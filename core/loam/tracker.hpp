@@ -33,10 +33,16 @@ class Tracker {
   bool settled() const { return sweeps_ > options_.settling_sweeps; }
 
  private:
+  // A turn about the vertical in a part of a sweep.
+  struct Turn {
+    double angle_rad, begin_u, end_u;
+  };
   // One way to begin the search for a sweep's motion.
   struct Attempt {
     double acceleration_factor;  // how far the motion may change, against what is usual
     double carried;              // part of the velocity that is kept
+    bool wide = false;           // first with matches from farther away, of which fewer count as wrong
+    Turn turn{0, 0, 1};          // added to the motion that is begun with; only with `wide`
   };
   struct Solved {
     std::vector<Pose> path;
@@ -46,11 +52,15 @@ class Tracker {
   void begin_path(const PlacedSweep& sweep, std::size_t steps);
   bool begin_along_given(const PlacedSweep& sweep, std::size_t steps);
   Pose given_move(double from_s, double to_s) const;
+  static std::vector<Attempt> other_attempts(bool wide);
   Solved solved(const PlacedSweep& sweep, std::size_t steps) const;
-  Solved attempt(const PlacedSweep& sweep, std::size_t steps, const SearchRule& rule,
-                 const Attempt& attempt) const;
-  double improve(std::vector<Pose>& path, PathEquations& equations, double acceleration_factor,
-                 const Eigen::Vector3d& pivot_m) const;
+  Solved attempt(const PlacedSweep& sweep, std::size_t steps, const Attempt& attempt) const;
+  std::vector<Pose> knot_by_knot(SweepMatcher& matcher, std::size_t steps, const Attempt& attempt) const;
+  std::vector<Pose> turned(std::size_t steps, const Attempt& attempt) const;
+  MatchCount improve(std::vector<Pose>& path, SweepMatcher& matcher, const SweepMatcher::Share& share,
+                     int iterations, double tolerance, double acceleration_factor) const;
+  double step(std::vector<Pose>& path, PathEquations& equations, double acceleration_factor,
+              const Eigen::Vector3d& pivot_m) const;
   std::vector<Pose> extrapolated(std::vector<Pose> path, double carried) const;
   void judge(const MatchCount& count);
   void learn_acceleration(const SweepPose& pose);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -138,40 +139,65 @@ std::string contradiction_of(const SolvedWalk& a, const SolvedWalk& b, double li
   return contradiction;
 }
 
-Result<SolvedWalk> tracked_with(const OffsetProblem& problem, double offset_s, MappingOptions mapping,
-                                double velocity_sigma, const Job& job) {
-  mapping.velocity_sigma = velocity_sigma;
+// What differs from the first track in directions that surfaces hardly determine, and in sweeps that hardly
+// match.
+struct Way {
+  double velocity_sigma;
+  bool wide_starts;
+};
+
+Result<MapPath> tracked_in(const Way& way, const OffsetProblem& problem, const MapPath& path, double offset_s,
+                           MappingOptions mapping, const Job& job) {
+  mapping.velocity_sigma = way.velocity_sigma;
+  mapping.wide_starts = way.wide_starts;
   auto walk = solve_walk_at(problem, offset_s, mapping, job);
   if (!walk) return failure(ExitCode::kInterrupted, "interrupted while building the map");
-  walk->tracked_again = true;
-  return std::move(*walk);
+  return along_walk(problem, path, std::make_shared<const SolvedWalk>(std::move(*walk)), job);
 }
 
 double doubt_of(const MapPath& path) {
   return path.consistency ? path.consistency->doubt : std::numeric_limits<double>::infinity();
 }
 
-// The path along a walk. Where its map does not agree with itself, the walk is tracked in two other ways,
-// which differ in directions that surfaces hardly determine, and the one whose map agrees best is taken. What
-// the other of the two says is kept with it.
+// Nothing shows that the walk is wrong, and where surfaces do not determine the motion nothing could.
+bool is_doubtful(const MapConsistency& consistency) {
+  return consistency.warned() || !consistency.undetermined.empty();
+}
+
+// The path whose map agrees best with itself, and what all others contradict in it.
+SolvedWalk best_of(const std::vector<MapPath>& tried, double limit_m, const Recording& recording) {
+  const MapPath& best = *std::ranges::min_element(tried, {}, doubt_of);
+  SolvedWalk walk = *best.walk;
+  walk.tracked_again = true;
+  for (const MapPath& other : tried) {
+    if (&other == &best || !other.consistency) continue;
+    walk.contradiction = contradiction_of(*best.walk, *other.walk, limit_m, recording);
+    if (walk.contradiction.empty()) break;
+  }
+  return walk;
+}
+
+// The path along a walk. Where its map does not agree with itself, or could not show that it is wrong, the
+// walk is tracked in other ways, and the one whose map agrees best is taken. Where none of the others found
+// the same motion, that is kept with it.
 Result<MapPath> along_best_walk(const OffsetProblem& problem, const MapPath& path,
                                 const std::shared_ptr<const SolvedWalk>& walk, const MappingOptions& mapping,
                                 const Job& job) {
   auto best = along_walk(problem, path, walk, job);
-  if (!best || !best->consistency || !best->consistency->warned() || walk->tracked_again) return best;
-  SolvedWalk known = *walk;
-  known.tracked_again = true;
-  best->walk = std::make_shared<const SolvedWalk>(std::move(known));
-  auto one = tracked_with(problem, walk->tracked_at_s, mapping, 5, job);
-  if (!one) return tl::unexpected(one.error());
-  auto other = tracked_with(problem, walk->tracked_at_s, mapping, 12, job);
-  if (!other) return tl::unexpected(other.error());
-  one->contradiction = other->contradiction =
-      contradiction_of(*one, *other, best->consistency->limit_m, *problem.recording);
-  for (SolvedWalk* again : {&*one, &*other}) {
-    auto found = along_walk(problem, path, std::make_shared<const SolvedWalk>(std::move(*again)), job);
-    if (!found) return found;
-    if (doubt_of(*found) < doubt_of(*best)) best = std::move(found);
+  if (!best || !best->consistency || walk->tracked_again || !is_doubtful(*best->consistency)) return best;
+  std::vector<MapPath> tried{*best};
+  const double limit_m = best->consistency->limit_m;
+  for (const bool wide_starts : {false, true}) {
+    const double usual = mapping.velocity_sigma;
+    const std::array<double, 2> sigmas = wide_starts ? std::array{usual, 5.0} : std::array{5.0, 12.0};
+    for (const double sigma : sigmas) {
+      auto found = tracked_in({sigma, wide_starts}, problem, path, walk->tracked_at_s, mapping, job);
+      if (!found) return found;
+      tried.push_back(std::move(*found));
+    }
+    auto chosen = std::make_shared<const SolvedWalk>(best_of(tried, limit_m, *problem.recording));
+    best = along_walk(problem, path, std::move(chosen), job);
+    if (!best || (best->consistency && !best->consistency->warned())) break;
   }
   return best;
 }

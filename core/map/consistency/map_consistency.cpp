@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/map/consistency/view_pair.hpp"
+#include "core/numbers.hpp"
 #include "core/parallel.hpp"
 
 namespace sweepscope {
@@ -56,8 +57,7 @@ class ComparedWalk {
           placer.place(k, sweep);
           maps.insert(sweep, poses_[k]);
         }
-        for (const std::size_t k : partners(i))
-          compared[i].push_back({i, k, match_views(maps, views_[i].at.translation_m, views_[k], options_)});
+        for (const std::size_t k : partners(i)) compared[i].push_back({i, k, match(maps, i, k)});
       }
     });
     std::vector<Compared> all;
@@ -67,6 +67,10 @@ class ComparedWalk {
   }
 
  private:
+  ViewPair match(const SweepMaps& maps, std::size_t other, std::size_t view) const {
+    const bool soon = view > other && view <= other + 2;
+    return match_views(maps, views_[other].at.translation_m, views_[view], soon, options_);
+  }
   void find_views() {
     const double sweep_s = problem_.motor.median_sweep_s;
     const auto of_view = std::size_t(2 * std::max(1.0, std::ceil(kView_s / (2 * sweep_s))));
@@ -224,6 +228,18 @@ std::vector<UndeterminedTime> undetermined_times(const std::vector<WalkView>& vi
   return times;
 }
 
+std::vector<MissedTurn> missed_turns(const std::vector<WalkView>& views, const Pairs& pairs) {
+  std::vector<MissedTurn> turns;
+  for (const auto& [other, view, pair] : pairs) {
+    if (!pair.missed_turn()) continue;
+    MissedTurn& turn = turns.emplace_back();
+    turn.at_s = {views[other].middle_s(), views[view].middle_s()};
+    turn.place_m = views[view].at.translation_m;
+    turn.turned_rad = pair.turned_rad;
+  }
+  return turns;
+}
+
 std::string place_in_words(const Vector3d& p_m) {
   return fmt::format("({:.1f}, {:.1f}, {:.1f}) m", p_m.x(), p_m.y(), p_m.z());
 }
@@ -283,6 +299,17 @@ Finding creeping(const std::vector<UndeterminedTime>& times) {
                   worst.speed_mps, worst.missing_m)};
 }
 
+Finding missed_turn(const std::vector<MissedTurn>& turns) {
+  if (turns.empty()) return {};
+  const MissedTurn& first = turns.front();
+  return {1 + double(turns.size()),
+          fmt::format(
+              "The map does not agree with itself: what was seen from {:.0f} to {:.0f} s near {} fits much "
+              "better if the rig turned by {:.0f} deg more. The trajectory is wrong there.",
+              first.at_s.begin_s, first.at_s.end_s, place_in_words(first.place_m),
+              first.turned_rad / kRadPerDeg)};
+}
+
 // From times of the laser's clock to times since the recording's first scan.
 void count_from(MapConsistency& found, double first_s) {
   for (SurfacesApart& apart : found.apart) apart.first_s -= first_s, apart.again_s -= first_s;
@@ -291,6 +318,7 @@ void count_from(MapConsistency& found, double first_s) {
   };
   std::ranges::for_each(found.unfit, count);
   std::ranges::for_each(found.undetermined, count);
+  std::ranges::for_each(found.missed_turns, count);
 }
 
 }  // namespace
@@ -306,9 +334,10 @@ std::optional<MapConsistency> map_consistency(const OffsetProblem& problem,
   found.apart = surfaces_apart(walk.views(), pairs);
   found.unfit = unfit_times(poses, walk.views(), pairs);
   found.undetermined = undetermined_times(walk.views(), pairs);
+  found.missed_turns = missed_turns(walk.views(), pairs);
   count_from(found, problem.recording->scans.front().first_beam_s);
-  for (const Finding& finding :
-       {surfaces_that_lie_apart(found), sweeps_that_fit_nowhere(found.unfit), creeping(found.undetermined)}) {
+  for (const Finding& finding : {surfaces_that_lie_apart(found), sweeps_that_fit_nowhere(found.unfit),
+                                 missed_turn(found.missed_turns), creeping(found.undetermined)}) {
     found.doubt = std::max(found.doubt, finding.doubt);
     if (finding.doubt > 1) found.warnings.push_back(finding.warning);
   }

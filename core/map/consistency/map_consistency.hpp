@@ -31,12 +31,18 @@ struct UndeterminedTime : DoubtfulTime {
   double missing_m = 0;                        // of the way, if the speed beside holds
 };
 
+/// A part of the walk in which the rig turned by more than the trajectory does.
+struct MissedTurn : DoubtfulTime {
+  double turned_rad = 0;  // further
+};
+
 /// Whether the surfaces that a moving rig saw more than once coincide in its map.
 struct MapConsistency {
   double limit_m = 0;                // farther apart, the map is warned of
   std::vector<SurfacesApart> apart;  // those whose distance is determined, the farthest apart first
   std::vector<DoubtfulTime> unfit;   // most of what these sweeps saw lies beside the surfaces about it
   std::vector<UndeterminedTime> undetermined;
+  std::vector<MissedTurn> missed_turns;
   std::vector<std::string> warnings;  // empty: the map agrees with itself as far as that is determined
 
   /// Absent if no surface was seen twice: the consistency is then not determined.

@@ -1,6 +1,7 @@
 #include "core/map/consistency/view_pair.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -20,6 +21,9 @@ constexpr double kMaxTranslationSigma_m = 0.03, kMaxRotationSigma_rad = 0.6 * kR
 constexpr double kMinCoinciding = 0.2;   // part of the features
 constexpr double kMaxMovedMisfit = 0.3;  // after the move
 constexpr double kMinPlaced = 0.3;  // of the features as placed: else the views saw different places, alike
+// A turn that the trajectory misses: it brings so many of the features onto their surfaces.
+constexpr double kMinTurn_rad = 0.2, kMaxTurn_rad = 1.5, kMinTurned = 0.45, kTurnedAgainstPlaced = 1.5;
+constexpr double kFewPlaced = 0.5;  // part of the features on their surfaces; fewer: it may have turned
 // Features that a move brings onto their surfaces, against those that it takes away from them.
 constexpr double kMinGained = 10, kGainedPerGivenUp = 2;
 
@@ -116,10 +120,38 @@ RigidEquations register_view(Registration& registration, const Vector3d& at_m, d
   return equations;
 }
 
+// As if the rig had turned further about the vertical between the views, which the trajectory misses.
+void try_turns(Registration& registration, const WalkView& view, double tolerance, ViewPair& pair) {
+  constexpr int kTurns = 4;  // to either side
+  constexpr double kStep_rad = 0.3;
+  for (int i = -kTurns; i <= kTurns; ++i) {
+    if (i == 0) continue;
+    const Vector3d& at_m = view.at.translation_m;
+    Vector6d turn = Vector6d::Zero();
+    turn[2] = i * kStep_rad;
+    Pose move = stepped(Pose{}, turn, at_m);
+    register_view(registration, at_m, tolerance, move);
+    SurfaceFit fit;
+    registration.match(move, [&](const SeenFeature&, const Vector3d&, const MatchResidual& residual) {
+      add(fit, residual);
+    });
+    if (fit.near <= pair.turned.near) continue;
+    pair.turned = fit;
+    pair.turned_rad = vector_from_rotation(move.rotation).norm();
+  }
+}
+
 }  // namespace
 
 bool ViewPair::determined() const {
   return translation_sigma_m < kMaxTranslationSigma_m && rotation_sigma_rad < kMaxRotationSigma_rad;
+}
+
+bool ViewPair::missed_turn() const {
+  const double near = double(turned.near), otherwise = double(std::max(placed.near, moved.near));
+  const bool is_turn = kMinTurn_rad < turned_rad && kMaxTurn_rad > turned_rad;
+  return is_turn && near > kMinTurned * double(features) && near > kTurnedAgainstPlaced * otherwise &&
+         kMaxMovedMisfit > turned.misfit();
 }
 
 bool ViewPair::coincides() const {
@@ -130,7 +162,7 @@ bool ViewPair::coincides() const {
          kMaxMovedMisfit > moved.misfit() && double(placed.matched) > kMinPlaced * all;
 }
 
-ViewPair match_views(const SweepMaps& other, const Vector3d& other_at_m, const WalkView& view,
+ViewPair match_views(const SweepMaps& other, const Vector3d& other_at_m, const WalkView& view, bool soon,
                      const MappingOptions& options) {
   Registration registration(other, other_at_m, view, options);
   ViewPair pair;
@@ -163,6 +195,8 @@ ViewPair match_views(const SweepMaps& other, const Vector3d& other_at_m, const W
     pair.apart_m /= double(pair.moved.near);
     pair.place_m /= double(pair.moved.near);
   }
+  if (soon && double(pair.placed.near) < kFewPlaced * double(pair.features))
+    try_turns(registration, view, 2 * options.step_tolerance, pair);
   pair.rotation_sigma_rad = max_sigma(equations, 0);
   pair.translation_sigma_m = max_sigma(equations, 3);
   return pair;

@@ -47,17 +47,23 @@ struct ViewPair {
   double apart_m = 0;  // by which it moves the features that then lie on their surfaces, mean
   Eigen::Vector3d place_m = Eigen::Vector3d::Zero();       // their mean, as placed
   double translation_sigma_m = 0, rotation_sigma_rad = 0;  // of the move, in its least determined directions
+  // Of a view that begins within seconds of the other, where few features lie on their surfaces as placed:
+  // the same if the rig had turned further by `turned_rad`, the turn of those tried that fits best.
+  SurfaceFit turned;
+  double turned_rad = 0;
 
   /// The surfaces determine all of the move.
   bool determined() const;
   /// The move makes most of what was seen coincide, and is small or fits clearly better than none: scenes
   /// that look alike along a direction fit at several places.
   bool coincides() const;
+  /// A further turn of the rig between the two views makes much more of what was seen coincide.
+  bool missed_turn() const;
 };
 
-/// Matches a view to the map of another one that was about `other_at_m`. Surfaces match if both saw them from
-/// the same side.
+/// Matches a view to the map of another one that was about `other_at_m`; `soon`: it begins within seconds of
+/// the other. Surfaces match if both saw them from the same side.
 ViewPair match_views(const SweepMaps& other, const Eigen::Vector3d& other_at_m, const WalkView& view,
-                     const MappingOptions& options);
+                     bool soon, const MappingOptions& options);
 
 }  // namespace sweepscope

@@ -138,6 +138,65 @@ TEST(MapConsistency, AWalkThatDoesNotAgreeWithItselfIsTrackedInAnotherWay) {
   EXPECT_LT((late_m(again) - late_m(good)).norm(), 0.1);
 }
 
+constexpr double kTurn_rad = -0.9, kTurnsAt_s = 8.3, kTurns_s = 0.25;
+
+double heading_rad(double t_s) {
+  const double part = std::clamp((t_s - kTurnsAt_s) / kTurns_s, 0.0, 1.0);
+  return kTurn_rad * (part - std::sin(2 * test::kPi * part) / (2 * test::kPi));
+}
+
+// Carried in a circle through a hall, and turned within a quarter of a second.
+test::Bench turning_rig() {
+  test::Bench bench;
+  bench.mesh = test::hall();
+  bench.duration_s = 14;
+  bench.sweep_s = 0.507;
+  bench.offset_s = kTruth_s;
+  bench.noise_m = 0.01;
+  bench.world_from_base = [](double t_s) {
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    pose.translation() = Vector3d(std::sin(0.5 * t_s), 0.1 - 0.6 * std::cos(0.5 * t_s), 0);
+    pose.rotate(Eigen::AngleAxisd(heading_rad(t_s), Vector3d::UnitZ()));
+    return pose;
+  };
+  return bench;
+}
+
+TEST(MapConsistency, ATurnThatTheTrajectoryMissesIsFound) {
+  const test::Bench bench = turning_rig();
+  const Recording recording = bench.record();
+  MapOptions options;
+  const double first_s = recording.scans.front().first_beam_s;
+  const Vector3d about_m = bench.world_from_base(kTurnsAt_s).translation();
+  for (double t_s = -0.1; t_s < bench.duration_s + 0.1; t_s += 0.02) {
+    const Eigen::AngleAxisd back(-heading_rad(t_s), Vector3d::UnitZ());
+    const Eigen::Isometry3d pose = bench.world_from_base(t_s);
+    options.poses.push_back({first_s + t_s, about_m + back * (pose.translation() - about_m),
+                             Eigen::Quaterniond(back * pose.rotation())});
+  }
+  const auto prepared = prepare(recording, {}, Job()).value();
+  const MapPath path = find_map_path(prepared, kTruth_s, kTruth_s, options, Job()).value();
+  ASSERT_TRUE(path.consistency);
+  ASSERT_FALSE(path.consistency->missed_turns.empty());
+  EXPECT_NEAR(path.consistency->missed_turns.front().turned_rad, -kTurn_rad, 0.1);
+  EXPECT_NE(path.warning.find("fits much better if the rig turned by "), std::string::npos) << path.warning;
+}
+
+// The sweeps after the turn match each other as well as those before it.
+TEST(MapConsistency, ATurnThatTheFirstTrackMissesIsFollowedByAnother) {
+  const Recording recording = turning_rig().record();
+  const auto prepared = prepare(recording, {}, Job()).value();
+  MapOptions options;
+  options.assume = RigKind::kMoving;
+  const MapPath path = find_map_path(prepared, kTruth_s, kTruth_s, options, Job()).value();
+  ASSERT_TRUE(path.walk);
+  EXPECT_TRUE(path.walk->tracked_again);
+  const std::vector<SweepPose>& sweeps = path.walk->sweeps;
+  const SweepPose &early = sweeps[2], &late = sweeps.rbegin()[2];
+  const Vector3d turned_rad = turn_between(early.middle().rotation, late.middle().rotation);
+  EXPECT_NEAR(turned_rad.norm(), -kTurn_rad, 0.05);
+}
+
 TEST(MapConsistency, AStationaryRigHasNone) {
   const auto prepared = prepare(test::room(kTruth_s), {}, Job()).value();
   EXPECT_FALSE(find_map_path(prepared, kTruth_s, kTruth_s, {}, Job()).value().consistency);
