@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <numbers>
 
@@ -145,8 +144,7 @@ std::string reading_in_words(const std::vector<BeamReading>& readings) {
 }
 
 std::vector<BeamReading> possible_readings(const Recording& recording) {
-  // Of the longer of two; less where the recorded one is a guess, which may be wrong by some percent.
-  const double alike = recording.report.beam_time_doubt_s > 0 ? 0.02 : 0.1;
+  constexpr double kAlike = 0.1;  // of the longer of two
   const LaserScan& scan = recording.scans.front();
   const double increment_s = median_increment_s(recording),
                period_s = recording.report.laser_stamps.median_period_s,
@@ -166,7 +164,7 @@ std::vector<BeamReading> possible_readings(const Recording& recording) {
                                                {BeamReadingKind::kPeriodReversed, -of_period_s}}) {
     const bool listed = std::ranges::any_of(readings, [&](const BeamReading& other) {
       const double longer_s = std::max(std::abs(other.time_increment_s), std::abs(time_increment_s));
-      return std::abs(other.time_increment_s - time_increment_s) <= alike * longer_s;
+      return std::abs(other.time_increment_s - time_increment_s) <= kAlike * longer_s;
     });
     if (!listed) readings.push_back({kind, time_increment_s, {}, {}, false});
   }
@@ -195,17 +193,8 @@ Recording read_as(const Recording& recording, double time_increment_s) {
 
 namespace {
 
-// The second unknown in its formal deviations; 0 where it is not determined.
-double scan_time_sigmas(const StationaryDirect& found) {
-  const double sigma_s = found.scan_time_formal_sigma_s;
-  return sigma_s > 0 ? std::abs(found.scan_time_error_s) / sigma_s : 0;
-}
-
 // By one axis, of the first sweeps of a recording.
 std::vector<BeamReading> rank_beams(const Recording& first, const Job& job) {
-  // Of the true reading the second unknown is at most 6.2 formal deviations, and at most 5 of all but three,
-  // in 290 recordings of tests/benchmark/random_readings 0:930; of others usually more.
-  constexpr double kMaxSigmas = 5, kMuchMore = 2;
   std::vector<BeamReading> readings = possible_readings(first);
   if (first.rig.laser.time_increment_s) readings.resize(1);  // stated, and not overruled
   const double beams = median_beams(first);
@@ -217,8 +206,7 @@ std::vector<BeamReading> rank_beams(const Recording& first, const Job& job) {
     const StationaryFit& fit = fits.back();
     if (fit.direct.matches > 0) reading.residual_m = fit.direct.residual_m;
     if (fit.fits) reading.offset_s = fit.direct.offset_s;
-    const bool explains = fit.fits && is_nearest(fit.direct, readings, fits.size() - 1, beams) &&
-                          scan_time_sigmas(fit.direct) < kMaxSigmas;
+    const bool explains = fit.fits && is_nearest(fit.direct, readings, fits.size() - 1, beams);
     if (!recorded || !explains || fit.direct.residual_m > kSmallResidual_m) continue;
     readings.front().chosen = true;
     readings.resize(1);
@@ -233,55 +221,38 @@ std::vector<BeamReading> rank_beams(const Recording& first, const Job& job) {
   for (std::size_t i = 0; i < fits.size(); ++i)
     if (i != best && (next == best || residual_m(i) < residual_m(next))) next = i;
   if (!fits[best].fits) return {};
-  double min_sigmas = std::numeric_limits<double>::infinity();
-  for (const StationaryFit& fit : fits)
-    if (fit.fits) min_sigmas = std::min(min_sigmas, scan_time_sigmas(fit.direct));
-  // Of real surfaces all may be farther off: then what is recorded is not contradicted, but no other is
-  // shown.
   const auto agrees = [&](std::size_t i) {
-    const double max_sigmas = i == 0 ? std::max(kMaxSigmas, kMuchMore * min_sigmas) : kMaxSigmas;
-    return fits[i].fits && is_nearest(fits[i].direct, readings, i, beams) &&
-           scan_time_sigmas(fits[i].direct) <= max_sigmas;
+    return fits[i].fits && is_nearest(fits[i].direct, readings, i, beams);
   };
   const auto as_good = [&](std::size_t i) { return residual_m(best) > kClearlyBetter * residual_m(i); };
   // Of readings that fit about as well, one alone may agree with what its own distances say of the scan's
   // time; otherwise what is recorded holds if it does.
-  std::vector<std::size_t> agreeing;
-  for (std::size_t i = 0; i < fits.size(); ++i)
-    if (as_good(i) && agrees(i)) agreeing.push_back(i);
-  if (agreeing.size() == 1 || (!agreeing.empty() && agreeing.front() == 0))
-    best = agreeing.front();
-  else if (as_good(next))
-    return readings;
+  std::size_t agreeing = 0;
+  for (std::size_t i = 0; i < fits.size(); ++i) agreeing += as_good(i) && agrees(i) ? 1 : 0;
+  if (!agrees(best) || agreeing > 1) {
+    if (agrees(0) && as_good(0))
+      best = 0;
+    else if (as_good(next))
+      return readings;
+  }
   readings[best].chosen = true;
   return readings;
 }
 
-// The chosen one, or, where nothing is decided, the one that fits best.
-const BeamReading* best_of(const std::vector<BeamReading>& readings) {
-  if (const BeamReading* chosen = chosen_of(readings)) return chosen;
-  const BeamReading* best = nullptr;
-  for (const BeamReading& reading : readings)
-    if (reading.offset_s && (best == nullptr || *reading.residual_m < *best->residual_m)) best = &reading;
-  return best;
-}
-
 RankedReadings rank_as_stationary(const Recording& first, const Job& job) {
-  // A sparse cloud's surfaces have widths by chance: nearer sweeps overrule them. Tuned on seeds 0 to 530 of
-  // tests/benchmark/random_readings: where the distances about x are not small, those about y are longer by
-  // at least 14 % of a motor that turns about x.
-  constexpr double kClearlyWider = 1.15, kNearer = 0.75;
+  // A sparse cloud's surfaces have widths by chance, so that much nearer sweeps overrule them.
+  constexpr double kClearlyWider = 1.15, kNearer = 0.7, kMuchNearer = 0.5;
   RankedReadings ranked;
   ranked.axis = first.rig.mount.axis;
   ranked.beams = rank_beams(first, job);
   if (first.rig.states_mount() || job.cancelled()) return ranked;
   Recording about_y = first;
   about_y.rig.mount.axis = Eigen::Vector3d::UnitY();
-  const BeamReading* best = best_of(ranked.beams);
+  const BeamReading* best = chosen_of(ranked.beams);
   std::vector<BeamReading> of_y;
   if (best == nullptr) {
     of_y = rank_beams(about_y, job);
-    best = best_of(of_y);
+    best = chosen_of(of_y);
   }
   if (best == nullptr || job.cancelled()) return ranked;
   const bool recorded = best->kind == BeamReadingKind::kRecorded;
@@ -291,14 +262,17 @@ RankedReadings rank_as_stationary(const Recording& first, const Job& job) {
   if (!prepared) return ranked;
   const double of_x_m = flat_width_m(*prepared, first.rig.mount.axis, *best->offset_s),
                of_y_m = flat_width_m(*prepared, about_y.rig.mount.axis, *best->offset_s);
-  const BeamReading* const best_x = best_of(ranked.beams);
+  const BeamReading* const best_x = chosen_of(ranked.beams);
   const bool explained = best_x != nullptr && *best_x->residual_m < kSmallResidual_m;
   if (of_y_m < of_x_m && explained) return ranked;
   if (of_y.empty()) of_y = rank_beams(about_y, job);
-  const BeamReading* const best_y = best_of(of_y);
-  const double nearer = of_y_m >= kClearlyWider * of_x_m ? 1 : kNearer;
-  if (best_y == nullptr || (best_x != nullptr && *best_y->residual_m > nearer * *best_x->residual_m))
-    return ranked;
+  const BeamReading* const best_y = chosen_of(of_y);
+  const auto nearer_by = [&](double factor) {
+    return best_y != nullptr && (best_x == nullptr || *best_y->residual_m < factor * *best_x->residual_m);
+  };
+  const bool about_y_axis =
+      of_y_m < of_x_m ? nearer_by(kMuchNearer) : nearer_by(kNearer) || of_y_m >= kClearlyWider * of_x_m;
+  if (!about_y_axis) return ranked;
   ranked.beams = std::move(of_y);
   ranked.axis = about_y.rig.mount.axis;
   ranked.axis_is_found = true;
