@@ -14,6 +14,8 @@ namespace sweepscope {
 inline constexpr double kRadPerDeg = std::numbers::pi / 180;
 /// Radians times this are degrees.
 inline constexpr double kDegPerRad = 180 / std::numbers::pi;
+/// A whole turn.
+inline constexpr double kFullCircle_rad = 2 * std::numbers::pi;
 /// Nanoseconds in a second.
 inline constexpr std::int64_t kSecond_ns = 1'000'000'000;
 

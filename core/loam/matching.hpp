@@ -43,7 +43,7 @@ std::optional<LinePatch> fit_line(const Neighbours& neighbours, const PatchOptio
 
 /// How far a point lies from its patch, along which unit vector.
 struct MatchResidual {
-  Eigen::Vector3d normal;  // unit, from the patch to the point
+  Eigen::Vector3d normal;  // unit: along it the distance grows
   double distance_m = 0;   // of a plane signed, of a line not
   bool has_normal = true;  // not where the point lies on its line
 };

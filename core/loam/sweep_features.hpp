@@ -29,7 +29,7 @@ struct PlacedSweep {
   int side = 0;
   double begin_s = 0, end_s = 0;                         // laser clock
   Eigen::Vector3d turned_rad = Eigen::Vector3d::Zero();  // by the motor, rotation vector in the base frame
-  std::size_t scans = 0;                                 // that begin in the sweep
+  std::size_t scans = 0;                                 // whose features it holds
   std::vector<PlacedFeature> edges, planes;              // on corners, and on flat surfaces
 };
 

@@ -19,12 +19,12 @@ namespace sweepscope {
 struct MatchCount {
   std::size_t features = 0, matches = 0;           // tried; those with a patch near enough
   double distance_sum_m = 0;                       // of the matches
-  double capped_sum_m = 0;                         // of all features, each at most at the gate
+  double capped_sum_m = 0;                         // of all features, each at most at the cap
   double roll_moment_m2 = 0, roll_inertia_m2 = 0;  // sums over all patches found
 
   /// 0 without matches.
   double mean_distance_m() const { return matches == 0 ? 0.0 : distance_sum_m / double(matches); }
-  /// The mean over all features, each at most at the gate; 0 without features.
+  /// The mean over all features, each at most at the cap; 0 without features.
   double capped_cost_m() const { return features == 0 ? 0.0 : capped_sum_m / double(features); }
   /// From 0 to 1.
   double matched_part() const { return features == 0 ? 0.0 : double(matches) / double(features); }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/numbers.hpp"
 #include "core/offset/direct/direct_moving.hpp"
@@ -316,7 +315,7 @@ std::string why_none_are_shared(const Recording& recording) {
     const LaserScan& scan = recording.scans[i];
     const double between_rad = recording.scans[i + 1].angle_min_rad - scan.angle_min_rad,
                  span_rad = std::abs(scan.beams * scan.angle_increment_rad);
-    apart += std::abs(std::remainder(between_rad, 2 * std::numbers::pi)) > span_rad / 2 ? 1 : 0;
+    apart += std::abs(std::remainder(between_rad, kFullCircle_rad)) > span_rad / 2 ? 1 : 0;
   }
   if (!recording.directions.empty() || 2 * apart < recording.scans.size()) return " at any candidate offset";
   return ": the messages cover parts of a turn of the mirror, and by the times of their beams they are not put "

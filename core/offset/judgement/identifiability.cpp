@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 
 #include "core/numbers.hpp"
 #include "core/offset/judgement/limits.hpp"
@@ -32,7 +31,7 @@ MaybeRefusal motor_refusal(const MotorTrack& track, const MotorMotion& motor) {
   const double change = motor.speeds_apart_rad_s() / motor.median_speed_rad_s;
   const bool one_speed = motor.speeds_apart_rad_s() < kLimits.min_speed_change * motor.median_speed_rad_s;
   if (motor.sweeps.size() < 2 || (motor.one_way() && one_speed))
-    return refusal(kOneWayAtOneSpeed, change, motor.range_rad / (2 * std::numbers::pi),
+    return refusal(kOneWayAtOneSpeed, change, motor.range_rad / kFullCircle_rad,
                    track.time_s.back() - track.time_s.front());
   return std::nullopt;
 }

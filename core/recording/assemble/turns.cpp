@@ -10,7 +10,6 @@
 namespace sweepscope {
 namespace {
 
-constexpr double kFullCircle_rad = 2 * std::numbers::pi;
 constexpr double kSameDirection = 1.5;  // increments
 
 bool same_direction(double a_rad, double b_rad, double increment_rad) {

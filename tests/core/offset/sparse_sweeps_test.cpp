@@ -17,25 +17,26 @@ using test::kMs;
 
 // Recordings of slow scanners that tests/benchmark/random_readings draws: 8 to 15 scans a sweep, about a
 // vertical axis, of which floor and ceiling say nothing about the offset.
-TypedSimulation drawn(std::uint64_t seed, const char* scene, const char* scanner, const char* motor,
-                      double sweep_s, double offset_ms) {
-  TypedSimulation typed;
-  typed.scene = scene;
-  typed.scanner = scanner;
-  typed.motor = motor;
-  typed.axis = "z";
-  typed.offset_ms = offset_ms;
-  typed.options.seed = seed;
-  typed.options.sweep_s = sweep_s;
-  return typed;
-}
+struct Drawn {
+  std::uint64_t seed;
+  const char *scene, *scanner, *motor;
+  double sweep_s, offset_ms, duration_s, swing_deg, middle_deg, encoder_hz;
+};
 
-void swings(TypedSimulation& typed, double duration_s, double swing_deg, double middle_deg,
-            double encoder_hz) {
-  typed.options.duration_s = duration_s;
-  typed.options.swing_deg = swing_deg;
-  typed.options.motor_middle_deg = middle_deg;
-  typed.options.encoder_hz = encoder_hz;
+TypedSimulation typed(const Drawn& drawn) {
+  TypedSimulation typed;
+  typed.scene = drawn.scene;
+  typed.scanner = drawn.scanner;
+  typed.motor = drawn.motor;
+  typed.axis = "z";
+  typed.offset_ms = drawn.offset_ms;
+  typed.options.seed = drawn.seed;
+  typed.options.sweep_s = drawn.sweep_s;
+  typed.options.duration_s = drawn.duration_s;
+  typed.options.swing_deg = drawn.swing_deg;
+  typed.options.motor_middle_deg = drawn.middle_deg;
+  typed.options.encoder_hz = drawn.encoder_hz;
+  return typed;
 }
 
 // As a rig file that states everything reads it.
@@ -43,45 +44,37 @@ Recording stated(const SimulationOptions& options) {
   return assemble(messages_of(simulate(options, Job()).value()), rig_of(options), std::nullopt).value();
 }
 
-void expect_answered(const TypedSimulation& typed) {
-  const SimulationOptions options = simulation_of(typed).value();
+void expect_answered(const TypedSimulation& simulation) {
+  const SimulationOptions options = simulation_of(simulation).value();
   const Estimate found = test::estimated(stated(options));
   ASSERT_TRUE(found.identifiable) << (found.refusals.empty() ? "" : found.refusals[0].text);
   EXPECT_LT(std::abs(*found.offset_s - options.offset_s), std::max(5 * *found.sigma_s, 0.3 * kMs));
 }
 
 TEST(SparseSweeps, BlocksOfFewLinesDoNotMakeTheOffsetChange) {
-  TypedSimulation typed = drawn(823, "room-3", "rplidar-a1", "trapezoid", 0.864, 45.068);
-  swings(typed, 5.3, 42.5, 3.4, 155);
-  expect_answered(typed);
+  expect_answered(typed({823, "room-3", "rplidar-a1", "trapezoid", 0.864, 45.068, 5.3, 42.5, 3.4, 155}));
 }
 
 TEST(SparseSweeps, TheScatterOfAFewBlocksIsNoDrift) {
-  TypedSimulation typed = drawn(211, "room-6", "tim571", "sine", 0.986, 83.095);
-  swings(typed, 7.5, 50.6, 7.1, 70);
-  expect_answered(typed);
+  expect_answered(typed({211, "room-6", "tim571", "sine", 0.986, 83.095, 7.5, 50.6, 7.1, 70}));
 }
 
 TEST(SparseSweeps, AreComparedWithAllOthersWhereNeighboursShowNoValley) {
-  TypedSimulation typed = drawn(800, "room-1", "urg04lx", "trapezoid", 0.885, 132.099);
-  swings(typed, 5.8, 42.8, 17.6, 131);
-  expect_answered(typed);
+  expect_answered(typed({800, "room-1", "urg04lx", "trapezoid", 0.885, 132.099, 5.8, 42.8, 17.6, 131}));
 }
 
 TEST(SparseSweeps, StepsThatAlternateConvergeInTime) {
-  TypedSimulation typed = drawn(509, "room-4", "urg04lx", "triangle", 0.811, 158.204);
-  swings(typed, 5.3, 71.6, -7.6, 96);
-  expect_answered(typed);
+  expect_answered(typed({509, "room-4", "urg04lx", "triangle", 0.811, 158.204, 5.3, 71.6, -7.6, 96}));
 }
 
 // Each at an instant of its own: no increment joins them.
 TEST(PartsOfTurns, ThatCannotBePutTogetherAreTheReason) {
-  TypedSimulation typed;
-  typed.scene = "room-6";
-  typed.parts = 5;
-  typed.beam_times = "instant";
-  typed.options.duration_s = 4;
-  const Recording recording = stated(simulation_of(typed).value());
+  TypedSimulation parts;
+  parts.scene = "room-6";
+  parts.parts = 5;
+  parts.beam_times = "instant";
+  parts.options.duration_s = 4;
+  const Recording recording = stated(simulation_of(parts).value());
   EXPECT_NE(recording.report.warnings.back().find("so they are not put together"), std::string::npos);
   const Estimate found = test::estimated(recording);
   ASSERT_EQ(found.refusals.size(), 1U);
@@ -91,10 +84,9 @@ TEST(PartsOfTurns, ThatCannotBePutTogetherAreTheReason) {
 }
 
 TEST(PartsOfTurns, TwoBesideABlindSectorAreAnswered) {
-  TypedSimulation typed = drawn(1, "room-4", "lms111", "trapezoid", 0.615, -26.893);
-  swings(typed, 5, 77.3, -18.9, 175);
-  typed.parts = 2;
-  expect_answered(typed);
+  TypedSimulation parts = typed({1, "room-4", "lms111", "trapezoid", 0.615, -26.893, 5, 77.3, -18.9, 175});
+  parts.parts = 2;
+  expect_answered(parts);
 }
 
 }  // namespace
