@@ -22,10 +22,6 @@ std::string numbers(const Eigen::Vector3d& v) {
   return fmt::format("{} {} {}", number(v.x()), number(v.y()), number(v.z()));
 }
 
-std::string attribute(const std::string& text) {
-  return markup_escaped(printable_line(text));
-}
-
 /// In a comment of XML two hyphens must not follow each other.
 std::string commented(std::string text) {
   for (auto at = text.find("--"); at != text.npos; at = text.find("--", at)) text.replace(at, 2, "- -");
@@ -121,13 +117,13 @@ constexpr const char* kUrdfSource =
 /// The two joints; with a prefix of names for a macro of xacro.
 std::string joints(const RigSnippet& snippet, const std::string& prefix, const std::string& parent) {
   const Joint motor = joint_of(snippet.rig);
-  const std::string motor_link = prefix + attribute(snippet.motor_frame),
-                    laser_link = prefix + attribute(snippet.laser_frame);
+  const std::string motor_link = prefix + markup_line(snippet.motor_frame),
+                    laser_link = prefix + markup_line(snippet.laser_frame);
   return fmt::format("  <link name=\"{0}\"/>\n  <link name=\"{1}\"/>\n", motor_link, laser_link) +
          fmt::format(
              "  <joint name=\"{}\" type=\"continuous\">\n    <parent link=\"{}\"/>\n    <child "
              "link=\"{}\"/>\n",
-             prefix + attribute(joint_name(snippet.rig)), parent, motor_link) +
+             prefix + markup_line(joint_name(snippet.rig)), parent, motor_link) +
          fmt::format("    <origin xyz=\"0 0 0\" rpy=\"{}\"/>\n    <axis xyz=\"{}\"/>\n  </joint>\n",
                      numbers(motor.origin_rpy_rad), numbers(motor.axis)) +
          fmt::format(
@@ -140,15 +136,15 @@ std::string joints(const RigSnippet& snippet, const std::string& prefix, const s
 std::string urdf(const RigSnippet& snippet) {
   auto lines = joined(head(snippet), {kUrdfSource, "robot_state_publisher turns it into transforms."});
   lines = joined(joined(lines, offset_by_transforms(snippet)), missing_parts(snippet.rig));
-  const std::string base = attribute(snippet.base_frame);
+  const std::string base = markup_line(snippet.base_frame);
   return "<?xml version=\"1.0\"?>\n" + xml_comment(lines) + "<robot name=\"scanner\">\n" +
          fmt::format("  <link name=\"{}\"/>\n", base) + joints(snippet, "", base) + "</robot>\n";
 }
 
 std::string xacro(const RigSnippet& snippet) {
-  auto lines =
-      joined(head(snippet), {kUrdfSource, "Macros: http://wiki.ros.org/xacro. Include this file, then:",
-                             fmt::format("  <xacro:scanner parent=\"{}\"/>", attribute(snippet.base_frame))});
+  auto lines = joined(head(snippet),
+                      {kUrdfSource, "Macros: http://wiki.ros.org/xacro. Include this file, then:",
+                       fmt::format("  <xacro:scanner parent=\"{}\"/>", markup_line(snippet.base_frame))});
   lines = joined(joined(lines, offset_by_transforms(snippet)), missing_parts(snippet.rig));
   return "<?xml version=\"1.0\"?>\n" + xml_comment(lines) +
          "<robot xmlns:xacro=\"http://www.ros.org/wiki/xacro\">\n" +
@@ -190,12 +186,12 @@ std::string laser_assembler(const RigSnippet& snippet) {
              "  <node pkg=\"tf2_ros\" type=\"static_transform_publisher\" name=\"laser_mount\"\n"
              "        args=\"{} {} {} {} {} {}\"/>\n",
              numbers(snippet.rig.mount.laser_in_motor_xyz_m), number(rpy.z()), number(rpy.y()),
-             number(rpy.x()), attribute(snippet.motor_frame), attribute(snippet.laser_frame)) +
+             number(rpy.x()), markup_line(snippet.motor_frame), markup_line(snippet.laser_frame)) +
          "  <node pkg=\"laser_assembler\" type=\"laser_scan_assembler\" name=\"laser_scan_assembler\">\n" +
          fmt::format("    <remap from=\"scan\" to=\"{}\"/>\n",
-                     attribute(snippet.rig.laser.topic.value_or("/scan"))) +
+                     markup_line(snippet.rig.laser.topic.value_or("/scan"))) +
          fmt::format("    <param name=\"fixed_frame\" type=\"string\" value=\"{}\"/>\n",
-                     attribute(snippet.base_frame)) +
+                     markup_line(snippet.base_frame)) +
          "    <param name=\"max_scans\" type=\"int\" value=\"400\"/>\n"
          "    <param name=\"ignore_laser_skew\" type=\"bool\" value=\"false\"/>\n  </node>\n</launch>\n";
 }

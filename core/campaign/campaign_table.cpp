@@ -23,11 +23,6 @@ TableCell count_cell(std::size_t count) {
   return static_cast<double>(count);
 }
 
-// In an attribute a line break would be read as a space.
-std::string attribute(const std::string& text) {
-  return markup_escaped(printable_line(text));
-}
-
 std::string content(const std::string& text) {
   return markup_escaped(printable_text(text));
 }
@@ -46,7 +41,7 @@ std::string offset_words(const CampaignRow& row) {
 std::string test_case(const std::string& name, const std::string& inside) {
   return fmt::format(
       "    <testcase classname=\"sweepscope.estimate\" name=\"{}\" time=\"0\">\n{}    </testcase>\n",
-      attribute(name), inside);
+      markup_line(name), inside);
 }
 
 std::string test_case(const CampaignRow& row, const std::optional<ExpectedOffset>& expected) {
@@ -54,7 +49,7 @@ std::string test_case(const CampaignRow& row, const std::optional<ExpectedOffset
   if (!row.offset_ms) {
     const std::string reasons = reasons_of(row);
     inside = fmt::format("      <error type=\"{}\" message=\"{}\">{}</error>\n", outcome_word(row, expected),
-                         attribute(reasons.substr(0, reasons.find('\n'))), content(reasons));
+                         markup_line(reasons.substr(0, reasons.find('\n'))), content(reasons));
   } else if (is_outside(row, expected)) {
     inside = fmt::format("      <failure type=\"outside\" message=\"{} ms lies outside {}\">{}</failure>\n",
                          *row.offset_ms, expected->words(), offset_words(row));

@@ -128,6 +128,10 @@ std::string markup_escaped(std::string_view printable) {
   return out;
 }
 
+std::string markup_line(std::string_view text) {
+  return markup_escaped(printable_line(text));
+}
+
 std::string json_text(Json document) {
   make_valid(document);
   // Names of members are the program's own, but for those of a file that is passed on.

@@ -28,6 +28,9 @@ std::string shell_word(const std::string& word);
 
 /// A printable text inside XML or HTML: markup characters and double quotes as entities.
 std::string markup_escaped(std::string_view printable);
+/// Any text as one printable line inside XML or HTML; for attributes too, where a line break would be read as
+/// a space.
+std::string markup_line(std::string_view text);
 
 /// A document as JSON, indented by two spaces, with a line end. Strings that are not UTF-8 pass through
 /// valid_utf8, and the control characters that JSON allows are written as \uNNNN.

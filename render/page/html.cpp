@@ -17,7 +17,7 @@ std::string base64(std::string_view bytes) {
 }
 
 std::string escape(std::string_view text) {
-  return markup_escaped(printable_line(text));
+  return markup_line(text);
 }
 
 std::string element(std::string_view name, std::string_view inside) {

@@ -30,10 +30,10 @@ struct Surface {
   Vector3d searched_at_m = Vector3d::Constant(1e30);
 };
 
-class Registration {
+class ViewRegistration {
  public:
-  Registration(const SweepMaps& other, const Vector3d& other_at_m, const WalkView& view,
-               const MappingOptions& options)
+  ViewRegistration(const SweepMaps& other, const Vector3d& other_at_m, const WalkView& view,
+                   const MappingOptions& options)
       : search_{other.edges, other.planes, search_rule(options, false, SweepFilter::kAny)},
         other_at_m_(other_at_m),
         view_(view),
@@ -95,7 +95,8 @@ double max_sigma(const RigidEquations& equations, int first) {
 }
 
 // With a loss that narrows. Gives the equations of the last step.
-RigidEquations register_view(Registration& registration, const Vector3d& at_m, double tolerance, Pose& move) {
+RigidEquations register_view(ViewRegistration& registration, const Vector3d& at_m, double tolerance,
+                             Pose& move) {
   constexpr int kIterations = 5;  // with either loss
   RigidEquations equations;
   for (const double loss_m : {kWideLoss_m, kNarrowLoss_m})
@@ -132,7 +133,7 @@ bool ViewPair::coincides() const {
 
 ViewPair match_views(const SweepMaps& other, const Vector3d& other_at_m, const WalkView& view,
                      const MappingOptions& options) {
-  Registration registration(other, other_at_m, view, options);
+  ViewRegistration registration(other, other_at_m, view, options);
   ViewPair pair;
   std::vector<char> lay_on_surface(view.seen.size(), 0);
   const auto lay = [&](const SeenFeature& feature) -> char& {

@@ -20,7 +20,7 @@ constexpr double kPenalty = 3;
 constexpr double kMinCounted = 30;  // windows, as BIC counts them: of few, chance would pass for a change
 
 // The windows with an offset, ordered by time, their sigmas multiplied by the scatter.
-struct Series {
+struct WindowSeries {
   std::vector<double> time_s, offset_s, sigma_s;
   double middle_s = 0;
 
@@ -67,7 +67,7 @@ double scatter_of_smaller(std::vector<double> sizes) {
 
 // The scatter of the windows in units of their sigmas, from the distance of each from the mean of its
 // neighbours: insensitive to a drift and to a few jumps.
-double scatter_of(const Series& series) {
+double scatter_of(const WindowSeries& series) {
   constexpr std::size_t kMin = 6;  // of fewer windows the median is mostly noise
   if (series.size() < kMin) return 1;
   std::vector<double> sizes;
@@ -82,8 +82,8 @@ double scatter_of(const Series& series) {
   return std::max(1.0, scatter_of_smaller(std::move(sizes)));
 }
 
-Series series_of(const std::vector<OffsetWindow>& windows, double middle_s) {
-  Series series;
+WindowSeries series_of(const std::vector<OffsetWindow>& windows, double middle_s) {
+  WindowSeries series;
   series.middle_s = middle_s;
   for (const OffsetWindow& window : windows) {
     if (!window.offset_s || !window.sigma_s || !(*window.sigma_s > 0)) continue;
@@ -94,11 +94,11 @@ Series series_of(const std::vector<OffsetWindow>& windows, double middle_s) {
   return series;
 }
 
-double jump_time_s(const Series& series, std::size_t jump) {
+double jump_time_s(const WindowSeries& series, std::size_t jump) {
   return (series.time_s[jump - 1] + series.time_s[jump]) / 2;
 }
 
-std::vector<Segment> segments_of(const Series& series, const Model& model) {
+std::vector<Segment> segments_of(const WindowSeries& series, const Model& model) {
   std::vector<Segment> segments;
   std::size_t begin = 0;
   for (const std::size_t jump : model.jumps) {
@@ -111,7 +111,7 @@ std::vector<Segment> segments_of(const Series& series, const Model& model) {
 
 // Weighted least squares for the levels and the slope. About their means the segments have no level, which
 // leaves one equation for the slope.
-void solve(const Series& series, const std::vector<double>& weights, Fitted& fit) {
+void solve(const WindowSeries& series, const std::vector<double>& weights, Fitted& fit) {
   double times_s2 = 0, products_s2 = 0;
   for (Segment& segment : fit.segments) {
     const auto time_s = [&](std::size_t i) { return series.time_s[i] - series.middle_s; };
@@ -138,7 +138,7 @@ void solve(const Series& series, const std::vector<double>& weights, Fitted& fit
 }
 
 // The distance of each window from the fit, in units of the loss's width.
-std::vector<double> residuals_of(const Series& series, const Fitted& fit) {
+std::vector<double> residuals_of(const WindowSeries& series, const Fitted& fit) {
   std::vector<double> residuals(series.size());
   for (const Segment& segment : fit.segments) {
     const double level_s = fit.level_s(segment);
@@ -150,7 +150,7 @@ std::vector<double> residuals_of(const Series& series, const Fitted& fit) {
 }
 
 // Iteratively reweighted least squares (Cauchy), beginning with even weights.
-Fitted fitted(const Series& series, const Model& model, int iterations) {
+Fitted fitted(const WindowSeries& series, const Model& model, int iterations) {
   Fitted fit;
   fit.model = model;
   fit.segments = segments_of(series, model);
@@ -168,7 +168,7 @@ Fitted fitted(const Series& series, const Model& model, int iterations) {
   return fit;
 }
 
-Fitted fitted(const Series& series, const Model& model) {
+Fitted fitted(const WindowSeries& series, const Model& model) {
   constexpr int kIterations = 12;  // of the weights
   return fitted(series, model, kIterations);
 }
@@ -190,7 +190,7 @@ Model without_jump(Model model, std::size_t place) {
 }
 
 // With one more jump, at the place that lowers the cost most; the score is infinite if there is no place.
-Fitted with_best_jump(const Series& series, const Model& model) {
+Fitted with_best_jump(const WindowSeries& series, const Model& model) {
   constexpr int kRoughIterations = 2;  // enough to rank the places; the best one is fitted again
   Fitted best;
   for (std::size_t jump = kMinWindows; jump + kMinWindows <= series.size(); ++jump) {
@@ -202,7 +202,7 @@ Fitted with_best_jump(const Series& series, const Model& model) {
 }
 
 // Moves each jump to its best place given the others, until none moves.
-Fitted settled(const Series& series, Fitted fit) {
+Fitted settled(const WindowSeries& series, Fitted fit) {
   constexpr int kMaxRounds = 5;  // against jumps that swap places without end
   bool moved = true;
   for (int round = 0; moved && round < kMaxRounds; ++round) {
@@ -218,7 +218,7 @@ Fitted settled(const Series& series, Fitted fit) {
   return fit;
 }
 
-Fitted without_needless_jumps(const Series& series, Fitted fit) {
+Fitted without_needless_jumps(const WindowSeries& series, Fitted fit) {
   for (std::size_t place = 0; place < fit.model.jumps.size();) {
     Fitted other = fitted(series, without_jump(fit.model, place));
     if (other.score < fit.score) {
@@ -232,7 +232,7 @@ Fitted without_needless_jumps(const Series& series, Fitted fit) {
 }
 
 // Adds jumps one by one, looking a few ahead: of a step up and one down, the first alone gains little.
-Fitted best_with_jumps(const Series& series, bool line) {
+Fitted best_with_jumps(const WindowSeries& series, bool line) {
   constexpr int kPatience = 2;  // jumps that may bring no gain, before one that does
   Fitted best = fitted(series, Model{line, {}}), last = best;
   for (int idle = 0; idle <= kPatience && last.model.jumps.size() < kMaxJumps;) {
@@ -246,8 +246,8 @@ Fitted best_with_jumps(const Series& series, bool line) {
 
 // From the last window before a jump to the first one after it; a window that lies on neither side is where
 // the offset jumps.
-std::pair<double, double> jump_interval_s(const Series& series, const Fitted& fit, const Segment& before,
-                                          const Segment& after) {
+std::pair<double, double> jump_interval_s(const WindowSeries& series, const Fitted& fit,
+                                          const Segment& before, const Segment& after) {
   constexpr double kOfJump = 0.25, kSigmas = 5;
   const double size_s = std::abs(fit.level_s(after) - fit.level_s(before));
   const double sigma_s = median(series.sigma_s);
@@ -262,7 +262,7 @@ std::pair<double, double> jump_interval_s(const Series& series, const Fitted& fi
   return {series.time_s[last], series.time_s[first]};
 }
 
-OffsetCourse course_from(const Series& series, const Fitted& fit, double scatter) {
+OffsetCourse course_from(const WindowSeries& series, const Fitted& fit, double scatter) {
   OffsetCourse course;
   course.middle_s = series.middle_s;
   course.windows = series.size();
@@ -298,7 +298,7 @@ double OffsetCourse::offset_at_s(double time_s) const {
 }
 
 std::optional<OffsetCourse> course_of(const std::vector<OffsetWindow>& windows, double middle_s) {
-  Series series = series_of(windows, middle_s);
+  WindowSeries series = series_of(windows, middle_s);
   if (series.size() == 0) return std::nullopt;
   const double scatter = scatter_of(series);
   for (double& sigma_s : series.sigma_s) sigma_s *= scatter;

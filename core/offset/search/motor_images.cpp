@@ -39,7 +39,7 @@ double correlation(const Changes& changes) {
 }  // namespace
 
 double best_of_images_s(const PreparedRecording& prepared, double given_s, double reach_s) {
-  constexpr double kClearlyBetter = 0.05;  // correlation
+  constexpr double kBetterCorrelation = 0.05;
   constexpr std::size_t kMinChanges = 20;
   const Recording& recording = *prepared.recording;
   const double sweep_s = prepared.motor.median_sweep_s;
@@ -59,7 +59,7 @@ double best_of_images_s(const PreparedRecording& prepared, double given_s, doubl
     }
     return changes.of_scans.size() < kMinChanges ? -1 : correlation(changes);
   };
-  double best_s = given_s, best = kClearlyBetter;  // more than the given one
+  double best_s = given_s, best = kBetterCorrelation;  // more than the given one
   const double first_s = given_s - sweep_s * std::floor((given_s + reach_s) / sweep_s);
   for (double image_s = first_s; image_s <= reach_s; image_s += sweep_s) {
     if (std::abs(image_s - given_s) < sweep_s / 2) continue;

@@ -12,7 +12,7 @@ namespace sweepscope {
 namespace {
 
 constexpr double kWholeTurn_rad = 2 * std::numbers::pi;
-constexpr double kStep_s = 0.005;  // of the samples: angles are linear in between
+constexpr double kSampleStep_s = 0.005;  // of the samples: angles are linear in between
 
 // When a turn was marked: each message, or where its values are of two kinds each rise.
 std::vector<double> marks_s(const RawJoint& raw, const Recording& recording) {
@@ -53,7 +53,7 @@ bool assemble_index(const RawJoint& raw, Recording& recording) {
   const double zero_rad = recording.rig.motor.zero_deg * kRadPerDeg,
                direction = recording.rig.motor.scale < 0 ? -1 : 1;
   for (std::size_t i = 0; i + 1 < at_s.size(); ++i) {
-    const auto steps = std::max(1.0, std::ceil((at_s[i + 1] - at_s[i]) / kStep_s));
+    const auto steps = std::max(1.0, std::ceil((at_s[i + 1] - at_s[i]) / kSampleStep_s));
     for (double step = 0; step < steps; ++step) {
       const double t_s = at_s[i] + (at_s[i + 1] - at_s[i]) * step / steps;
       motor.time_s.push_back(t_s);
@@ -62,7 +62,7 @@ bool assemble_index(const RawJoint& raw, Recording& recording) {
   }
   motor.time_s.push_back(at_s.back());
   motor.angle_rad.push_back(direction * kWholeTurn_rad * double(at_s.size() - 1) - zero_rad);
-  recording.report.motor_stamps.median_period_s = kStep_s;
+  recording.report.motor_stamps.median_period_s = kSampleStep_s;
   recording.report.warnings.push_back(fmt::format(
       "the motor's angle is known once a turn, from {} marks on {}: in between it is assumed to turn evenly",
       at_s.size(), raw.topic));
@@ -75,14 +75,14 @@ void assemble_profile(Recording& recording) {
   const double first_s = recording.scans.front().first_beam_s, last_s = recording.scans.back().last_beam_s();
   const double margin_s = std::min(kMaxMargin_s, std::max(1.0, profile.sweep_s()));
   const double start_s = first_s + profile.start_s.value_or(0);
-  const auto samples = static_cast<std::size_t>((last_s - first_s + 2 * margin_s) / kStep_s) + 2;
+  const auto samples = static_cast<std::size_t>((last_s - first_s + 2 * margin_s) / kSampleStep_s) + 2;
   MotorTrack& motor = recording.motor;
   for (std::size_t i = 0; i < samples; ++i) {
-    const double t_s = first_s - margin_s + double(i) * kStep_s;
+    const double t_s = first_s - margin_s + double(i) * kSampleStep_s;
     motor.time_s.push_back(t_s);
     motor.angle_rad.push_back(profile.angle_rad(t_s - start_s) - recording.rig.motor.zero_deg * kRadPerDeg);
   }
-  recording.report.motor_stamps.median_period_s = kStep_s;
+  recording.report.motor_stamps.median_period_s = kSampleStep_s;
   std::string text = "the motor's angle is that of the rig file's profile, not measured";
   if (profile.steps_per_turn > 0) {
     const auto resting = std::ranges::count_if(recording.scans, [&](const LaserScan& scan) {

@@ -14,8 +14,6 @@
 namespace sweepscope {
 namespace {
 
-constexpr std::size_t kMaxWarnings = 20;
-
 /// Whether a record has the fields that its op code asks for; a damaged op code has others.
 bool fits_its_op(const BagFields& fields) {
   const auto has = [&](std::string_view name) { return fields.find(name).has_value(); };
@@ -125,6 +123,7 @@ class BagReader {
   bool cut_short_ = false;
   bool ends_whole_ = false;  // its index lies where it should, up to the file's end: it is not cut short
   std::size_t orphans_ = 0;  // messages of connections that nothing describes
+  static constexpr std::size_t kMaxWarnings = 20;
   std::size_t warnings_left_out_ = 0;
   std::vector<std::string> warnings_;
 };

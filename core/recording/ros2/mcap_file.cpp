@@ -14,8 +14,6 @@
 namespace sweepscope {
 namespace {
 
-constexpr std::size_t kMaxWarnings = 20;
-
 struct RecordHeader {
   std::uint64_t at = 0;
   McapOp op = McapOp::kHeader;
@@ -87,6 +85,7 @@ class McapReader {
   bool ends_whole_ = false;  // with the magic bytes that end a file: it is not cut short
   bool stopped_ = false;     // at damage that the file is read no further than
   std::size_t orphans_ = 0;  // messages of channels that nothing describes
+  static constexpr std::size_t kMaxWarnings = 20;
   std::size_t warnings_left_out_ = 0;
   std::vector<std::string> warnings_;
 };

@@ -180,10 +180,10 @@ Result<void> McapSink::write_record(const std::string& record) {
 }
 
 Result<void> McapSink::copy(const fs::path& from, const McapExtra& extra) {
-  constexpr std::uint64_t kBeginning_bytes = std::uint64_t{64} << 10;  // of an attachment: before its data
+  constexpr std::uint64_t kMostHead_bytes = std::uint64_t{64} << 10;  // of an attachment: before its data
   if (auto ended = end_chunk(); !ended) return ended;
   std::string beginning;
-  const auto read = read_mcap_extra(from, extra, kBeginning_bytes, [&](std::string_view block) {
+  const auto read = read_mcap_extra(from, extra, kMostHead_bytes, [&](std::string_view block) {
     beginning += block;
     return Result<void>();
   });

@@ -8,15 +8,15 @@ namespace {
 
 constexpr std::uint64_t kWorldPurpose = 100;
 
-using Maker = World (*)(Draw&);
-constexpr std::array<std::pair<std::string_view, Maker>, 8> kMakers{{{"yard", yard},
-                                                                     {"forest", forest},
-                                                                     {"street", street},
-                                                                     {"corridor", corridor},
-                                                                     {"hall", hall},
-                                                                     {"tunnel", tunnel},
-                                                                     {"stairs", stairwell},
-                                                                     {"car-park", car_park}}};
+using WorldMaker = World (*)(Draw&);
+constexpr std::array<std::pair<std::string_view, WorldMaker>, 8> kMakers{{{"yard", yard},
+                                                                          {"forest", forest},
+                                                                          {"street", street},
+                                                                          {"corridor", corridor},
+                                                                          {"hall", hall},
+                                                                          {"tunnel", tunnel},
+                                                                          {"stairs", stairwell},
+                                                                          {"car-park", car_park}}};
 
 }  // namespace
 

@@ -34,7 +34,7 @@ TEST_F(AtomicFileTest, AppearsOnlyOnCommit) {
 
 TEST_F(AtomicFileTest, WithoutCommitLeavesTheOldFileAndNothingBeside) {
   const auto path = folder_ / "out.txt";
-  ASSERT_TRUE(write_file(path, "old"));
+  ASSERT_TRUE(sweepscope::write_file(path, "old"));
   { ASSERT_TRUE(AtomicFile::create(path)->write("new")); }
   EXPECT_EQ(contents_of(path), "old");
   EXPECT_EQ(files_in(folder_), std::vector<std::string>{"out.txt"});
@@ -42,7 +42,7 @@ TEST_F(AtomicFileTest, WithoutCommitLeavesTheOldFileAndNothingBeside) {
 
 TEST_F(AtomicFileTest, NeverTouchesAPartFileOfSomeoneElse) {
   std::ofstream(folder_ / "out.txt.part") << "mine";
-  ASSERT_TRUE(write_file(folder_ / "out.txt", "new"));
+  ASSERT_TRUE(sweepscope::write_file(folder_ / "out.txt", "new"));
   EXPECT_EQ(contents_of(folder_ / "out.txt.part"), "mine");
 }
 
@@ -65,8 +65,8 @@ TEST_F(AtomicFileTest, FollowsLinksAndKeepsThem) {
   std::ofstream(folder_ / "sub/there.txt") << "old";
   std::filesystem::create_symlink("sub/there.txt", folder_ / "link.txt");
   std::filesystem::create_symlink("sub/new.txt", folder_ / "dangling.txt");
-  ASSERT_TRUE(write_file(folder_ / "link.txt", "a"));
-  ASSERT_TRUE(write_file(folder_ / "dangling.txt", "b"));
+  ASSERT_TRUE(sweepscope::write_file(folder_ / "link.txt", "a"));
+  ASSERT_TRUE(sweepscope::write_file(folder_ / "dangling.txt", "b"));
   EXPECT_TRUE(std::filesystem::is_symlink(folder_ / "link.txt"));
   EXPECT_TRUE(std::filesystem::is_symlink(folder_ / "dangling.txt"));
   EXPECT_EQ(contents_of(folder_ / "sub/there.txt"), "a");
@@ -76,7 +76,7 @@ TEST_F(AtomicFileTest, FollowsLinksAndKeepsThem) {
 TEST_F(AtomicFileTest, ALoopOfLinksIsRefused) {
   std::filesystem::create_symlink("b", folder_ / "a");
   std::filesystem::create_symlink("a", folder_ / "b");
-  const auto written = write_file(folder_ / "a", "x");
+  const auto written = sweepscope::write_file(folder_ / "a", "x");
   ASSERT_FALSE(written);
   EXPECT_NE(written.error().message.find("symbolic links"), std::string::npos) << written.error().message;
   EXPECT_TRUE(std::filesystem::is_symlink(folder_ / "a"));
@@ -87,18 +87,18 @@ TEST_F(AtomicFileTest, HandsOnThePermissionsOfTheFileThatItReplaces) {
   const auto path = folder_ / "private.txt";
   std::ofstream(path) << "old";
   std::filesystem::permissions(path, perms::owner_read | perms::owner_write);
-  ASSERT_TRUE(write_file(path, "new"));
+  ASSERT_TRUE(sweepscope::write_file(path, "new"));
   EXPECT_EQ(std::filesystem::status(path).permissions(), perms::owner_read | perms::owner_write);
 }
 
 TEST_F(AtomicFileTest, ADeviceAndAPipeAreWrittenInPlace) {
-  ASSERT_TRUE(write_file("/dev/null", "x"));
+  ASSERT_TRUE(sweepscope::write_file("/dev/null", "x"));
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
   const auto pipe = folder_ / "pipe";
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
   std::string read;
   std::thread reader([&] { read = contents_of(pipe); });
-  EXPECT_TRUE(write_file(pipe, "through the pipe"));
+  EXPECT_TRUE(sweepscope::write_file(pipe, "through the pipe"));
   reader.join();
   EXPECT_EQ(read, "through the pipe");
   EXPECT_TRUE(std::filesystem::is_fifo(pipe));
@@ -106,26 +106,26 @@ TEST_F(AtomicFileTest, ADeviceAndAPipeAreWrittenInPlace) {
 
 TEST_F(AtomicFileTest, ANameOfFullLengthCanBeWritten) {
   const auto path = folder_ / std::string(255, 'n');
-  ASSERT_TRUE(write_file(path, "x"));
+  ASSERT_TRUE(sweepscope::write_file(path, "x"));
   EXPECT_EQ(contents_of(path), "x");
 }
 
 TEST_F(AtomicFileTest, WhatDoesNotReachTheDiskIsNotCommitted) {
-  const auto written = write_file("/dev/full", "x");
+  const auto written = sweepscope::write_file("/dev/full", "x");
   ASSERT_FALSE(written);
   EXPECT_EQ(written.error().message, "/dev/full: cannot be written: No space left on device");
 }
 
 TEST_F(AtomicFileTest, AMissingFolderIsNamedInOneSentence) {
   const auto path = folder_ / "missing" / "out.txt";
-  const auto written = write_file(path, "x");
+  const auto written = sweepscope::write_file(path, "x");
   ASSERT_FALSE(written);
   EXPECT_EQ(written.error().code, ExitCode::kWrongUsage);
   EXPECT_EQ(written.error().message, path.string() + ": cannot be created: No such file or directory");
 }
 
 TEST_F(AtomicFileTest, AFolderIsNotWrittenOver) {
-  const auto written = write_file(folder_, "x");
+  const auto written = sweepscope::write_file(folder_, "x");
   ASSERT_FALSE(written);
   EXPECT_NE(written.error().message.find("it is a folder"), std::string::npos);
 }
@@ -139,7 +139,7 @@ TEST_F(AtomicFileTest, AFullDiskIsAnErrorThatLeavesNothingBehind) {
   small.rlim_cur = 4096;
   ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
   const auto path = folder_ / "big.bin";
-  const auto written = write_file(path, std::string(100'000, 'x'));
+  const auto written = sweepscope::write_file(path, std::string(100'000, 'x'));
   ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
   ASSERT_FALSE(written);
   EXPECT_NE(written.error().message.find("cannot be written: File too large"), std::string::npos);

@@ -9,7 +9,7 @@ namespace {
 using ContentHash = test::FolderTest;
 
 TEST_F(ContentHash, OfAFileIsThatOfItsBytes) {
-  ASSERT_TRUE(write_file(folder_ / "a", "hello"));
+  ASSERT_TRUE(sweepscope::write_file(folder_ / "a", "hello"));
   EXPECT_EQ(file_content_hash(folder_ / "a").value(), content_hash("hello"));
   EXPECT_FALSE(file_content_hash(folder_ / "none"));
 }
@@ -17,12 +17,12 @@ TEST_F(ContentHash, OfAFileIsThatOfItsBytes) {
 TEST_F(ContentHash, OfAFolderTellsContentsAndNamesApart) {
   const auto folder = folder_ / "bag";
   std::filesystem::create_directory(folder);
-  ASSERT_TRUE(write_file(folder / "a", "one"));
-  ASSERT_TRUE(write_file(folder / "b", "two"));
-  ASSERT_TRUE(write_file(folder / "empty", ""));
+  ASSERT_TRUE(sweepscope::write_file(folder / "a", "one"));
+  ASSERT_TRUE(sweepscope::write_file(folder / "b", "two"));
+  ASSERT_TRUE(sweepscope::write_file(folder / "empty", ""));
   const std::string hash = file_content_hash(folder).value();
   EXPECT_EQ(file_content_hash(folder).value(), hash);
-  ASSERT_TRUE(write_file(folder / "a", "One"));
+  ASSERT_TRUE(sweepscope::write_file(folder / "a", "One"));
   const std::string changed = file_content_hash(folder).value();
   EXPECT_NE(changed, hash);
   std::filesystem::rename(folder / "b", folder / "c");

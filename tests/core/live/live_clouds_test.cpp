@@ -67,7 +67,7 @@ std::vector<WrittenMessage> in_order(const RawRecording& raw) {
   return write_order(raw.lasers.at(0), raw.joints.at(0));
 }
 
-struct Placed {
+struct LivePlaced {
   std::vector<LiveCloud> clouds;
   std::vector<LivePose> poses;
   std::vector<std::string> warnings;
@@ -82,11 +82,11 @@ struct Placed {
   }
 };
 
-Placed placed(const RawRecording& raw, const std::vector<WrittenMessage>& order,
-              LiveCloudOptions options = {}, std::optional<double> offset_s = kOffset_s) {
+LivePlaced placed(const RawRecording& raw, const std::vector<WrittenMessage>& order,
+                  LiveCloudOptions options = {}, std::optional<double> offset_s = kOffset_s) {
   LiveClouds clouds(std::move(options));
   if (offset_s) clouds.set_offset(*offset_s);
-  Placed placed;
+  LivePlaced placed;
   for (const WrittenMessage& message : order) {
     auto news = clouds.take(message_of(raw, message));
     EXPECT_TRUE(news) << news.error().message;
@@ -129,7 +129,7 @@ Applied applied(const RawRecording& raw) {
   return applied;
 }
 
-void expect_same_points(const Placed& live, const Applied& expected) {
+void expect_same_points(const LivePlaced& live, const Applied& expected) {
   Points points;
   std::size_t count = 0;
   for (const LiveCloud& cloud : live.clouds) {
@@ -148,7 +148,7 @@ void expect_same_points(const Placed& live, const Applied& expected) {
 }
 
 /// All but the first and the last, which `apply` may join to others.
-void expect_same_clouds(const Placed& live, const Applied& expected) {
+void expect_same_clouds(const LivePlaced& live, const Applied& expected) {
   expect_same_points(live, expected);
   std::map<std::int64_t, std::size_t> clouds;
   for (const LiveCloud& cloud : live.clouds) clouds[cloud.stamp_ns()] = cloud.points.size();
@@ -200,7 +200,7 @@ TEST(LiveClouds, OfEachScanHoldTheSamePoints) {
   const RawRecording raw = simulated_messages(options_of());
   LiveCloudOptions options;
   options.each_scan = true;
-  const Placed live = placed(raw, delayed(in_order(raw), 0.1, 4), options);
+  const LivePlaced live = placed(raw, delayed(in_order(raw), 0.1, 4), options);
   expect_same_points(live, applied(raw));
   EXPECT_GE(live.clouds.size(), 230U);
   for (std::size_t i = 1; i < live.clouds.size(); ++i)
@@ -209,7 +209,7 @@ TEST(LiveClouds, OfEachScanHoldTheSamePoints) {
 
 TEST(LiveClouds, OfASweepComeWithin50MsOfItsEnd) {
   const RawRecording raw = simulated_messages(options_of());
-  const Placed live = placed(raw, in_order(raw));
+  const LivePlaced live = placed(raw, in_order(raw));
   ASSERT_GE(live.clouds.size(), 10U);
   // Those of the first two seconds come together; the last one ends with the input.
   for (std::size_t i = 5; i + 1 < live.clouds.size(); ++i) EXPECT_LT(live.late_s[i], 0.05) << i;
@@ -217,7 +217,7 @@ TEST(LiveClouds, OfASweepComeWithin50MsOfItsEnd) {
 
 TEST(LiveClouds, ComeWithThePosesOfTheLaser) {
   const RawRecording raw = simulated_messages(options_of());
-  const Placed live = placed(raw, delayed(in_order(raw), 0.1, 5));
+  const LivePlaced live = placed(raw, delayed(in_order(raw), 0.1, 5));
   EXPECT_EQ(live.poses.size(), raw.joints.at(0).stamps.size());
   for (std::size_t i = 1; i < live.poses.size(); ++i)
     EXPECT_LT(live.poses[i - 1].stamp_ns, live.poses[i].stamp_ns);
@@ -231,7 +231,7 @@ TEST(LiveClouds, LostMessagesAreNotWaitedForLong) {
     const double at_s = double(message.receive_ns - first_ns) * 1e-9;
     return (at_s > 3 && at_s < 3.4) || (message.is_scan && message.number == 90);
   });
-  const Placed live = placed(raw, order);
+  const LivePlaced live = placed(raw, order);
   RawRecording rest = raw;
   std::vector<RawScan> scans;
   RawJoint& joint = rest.joints.at(0);
@@ -266,7 +266,7 @@ TEST(LiveClouds, AMotorThatRestsEndsItsSweep) {
   options.motor_rest_at_s = 4;
   options.motor_rest_s = 3;
   const RawRecording raw = simulated_messages(options);
-  const Placed live = placed(raw, in_order(raw));
+  const LivePlaced live = placed(raw, in_order(raw));
   expect_same_points(live, applied(raw));
   for (const double late_s : live.late_s) EXPECT_LT(late_s, 2.1);
 }

@@ -11,7 +11,7 @@ namespace {
 
 using test::kMs;
 
-constexpr double kTruth_s = 0.024;
+constexpr double kMapTruth_s = 0.024;
 
 std::vector<OffsetMap> maps_of(const Recording& recording, const std::vector<double>& offsets_s) {
   return build_maps(recording, offsets_s, MapOptions(), Job()).value();
@@ -34,12 +34,12 @@ class StandingInTheHall : public testing::Test {
   static Recording record() {
     test::Bench bench;
     bench.mesh = test::hall();
-    bench.offset_s = kTruth_s;
+    bench.offset_s = kMapTruth_s;
     bench.noise_m = 0.005;
     return bench.record();
   }
   const Recording recording_ = record();
-  const std::vector<OffsetMap> maps_ = maps_of(recording_, {kTruth_s, kTruth_s + 5 * kMs});
+  const std::vector<OffsetMap> maps_ = maps_of(recording_, {kMapTruth_s, kMapTruth_s + 5 * kMs});
 };
 
 TEST_F(StandingInTheHall, TheCeilingIsSharpAtTheOffsetAndThickerFiveMillisecondsOff) {
@@ -86,8 +86,8 @@ TEST_F(StandingInTheHall, PointsAreInTheOrderOfTimeAndNeighbouringSweepsAlternat
 
 class WalkingThroughAStation : public testing::Test {
  protected:
-  const Simulation& simulation_ = test::simulated("metro-station", kTruth_s, 12);
-  const std::vector<OffsetMap> maps_ = maps_of(simulation_.recording, {kTruth_s, kTruth_s + 5 * kMs});
+  const Simulation& simulation_ = test::simulated("metro-station", kMapTruth_s, 12);
+  const std::vector<OffsetMap> maps_ = maps_of(simulation_.recording, {kMapTruth_s, kMapTruth_s + 5 * kMs});
 };
 
 TEST_F(WalkingThroughAStation, TheTrajectoryAscendsInTimeAndFollowsTheWalk) {
@@ -125,7 +125,7 @@ MapOptions placed_by_poses(double from_s, double to_s) {
 }
 
 TEST_F(StandingInTheHall, PosesOfAnotherTimeAreRefusedWithBothSpans) {
-  const std::vector<double> offsets_s = {kTruth_s};
+  const std::vector<double> offsets_s = {kMapTruth_s};
   const double end_s = recording_.scans.back().last_beam_s();
   for (const double from_s : {-1000.0, end_s + 1}) {
     const auto maps = build_maps(recording_, offsets_s, placed_by_poses(from_s, from_s + 0.5), Job());
@@ -138,7 +138,7 @@ TEST_F(StandingInTheHall, PosesOfAnotherTimeAreRefusedWithBothSpans) {
 }
 
 TEST_F(StandingInTheHall, PosesOfAPartOfTheTimeLeaveScansOutWithAWarning) {
-  const std::vector<double> offsets_s = {kTruth_s};
+  const std::vector<double> offsets_s = {kMapTruth_s};
   const double end_s = recording_.scans.back().last_beam_s();
   const auto whole = build_maps(recording_, offsets_s, placed_by_poses(-1, end_s + 1), Job());
   ASSERT_TRUE(whole);
@@ -153,9 +153,9 @@ TEST_F(StandingInTheHall, PosesOfAPartOfTheTimeLeaveScansOutWithAWarning) {
 TEST(OffsetMap, AnotherKindOfRecordingCanBeAssumed) {
   MapOptions options;
   options.assume = RigKind::kStationary;
-  const std::vector<double> offsets_s = {kTruth_s};
+  const std::vector<double> offsets_s = {kMapTruth_s};
   const auto maps =
-      build_maps(test::simulated("metro-station", kTruth_s, 4).recording, offsets_s, options, Job());
+      build_maps(test::simulated("metro-station", kMapTruth_s, 4).recording, offsets_s, options, Job());
   ASSERT_TRUE(maps);
   EXPECT_FALSE(maps->front().moving);
 }

@@ -13,7 +13,7 @@ namespace {
 
 using test::kMs;
 
-constexpr double kTruth_s = 0.024, kStationary_s = 8.0;
+constexpr double kPartTruth_s = 0.024, kStationary_s = 8.0;
 
 // In a hall; it is stationary for 8 s and goes at 0.4 m/s from then on, or from the beginning.
 Recording recorded(double sweep_s, double stationary_s = kStationary_s, double duration_s = 12) {
@@ -21,7 +21,7 @@ Recording recorded(double sweep_s, double stationary_s = kStationary_s, double d
   bench.mesh = test::hall();
   bench.duration_s = duration_s;
   bench.sweep_s = sweep_s;
-  bench.offset_s = kTruth_s;
+  bench.offset_s = kPartTruth_s;
   bench.noise_m = 0.005;
   bench.world_from_base = [=](double t_s) {
     return Eigen::Isometry3d(Eigen::Translation3d(0.4 * std::max(0.0, t_s - stationary_s), 0, 0));
@@ -62,7 +62,7 @@ TEST(StationaryPart, AnswersAsItsWindowDoesWhereTheWalkIsTooShort) {
     ASSERT_TRUE(found && found->identifiable) << sweep_s;
     ASSERT_TRUE(found->stationary_part) << sweep_s;
     EXPECT_EQ(found->kind, RigKind::kStationary);
-    EXPECT_NEAR(*found->offset_s, kTruth_s, 0.3 * kMs) << sweep_s;
+    EXPECT_NEAR(*found->offset_s, kPartTruth_s, 0.3 * kMs) << sweep_s;
     ASSERT_FALSE(found->warnings.empty());
     EXPECT_NE(found->warnings.front().find("in which the rig was stationary"), std::string::npos);
 
@@ -94,7 +94,7 @@ TEST(StationaryPart, IsFoundWhereTheRigMovesWithinTheLastSweepAlone) {
   const auto moves = estimate(recorded(4, 10.5), {}, Job()), rests = estimate(recorded(4, 12), {}, Job());
   ASSERT_TRUE(moves && moves->identifiable && moves->stationary_part);
   EXPECT_NEAR(moves->stationary_part->end_s, 10.5, 0.6);
-  EXPECT_NEAR(*moves->offset_s, kTruth_s, 0.3 * kMs);
+  EXPECT_NEAR(*moves->offset_s, kPartTruth_s, 0.3 * kMs);
   ASSERT_TRUE(rests && rests->identifiable);
   EXPECT_EQ(rests->kind, RigKind::kStationary);
   EXPECT_FALSE(rests->stationary_part);

@@ -14,10 +14,10 @@ namespace {
 
 using test::kMs;
 
-constexpr double kOffset_s = 0.017;
+constexpr double kCommonOffset_s = 0.017;
 const Eigen::Vector3d kTurn_deg(0, 1.2, -0.9), kShift_m(0, 0.02, -0.03);
 
-SimulationOptions rig_in(const std::string& scene, double offset_s = kOffset_s) {
+SimulationOptions rig_in(const std::string& scene, double offset_s = kCommonOffset_s) {
   SimulationOptions options;
   options.scene = scene;
   options.offset_s = offset_s;
@@ -67,7 +67,7 @@ TEST(EstimateTogether, DeterminesTheMountBetterThanEachRecordingAlone) {
   const Estimate found = together(rooms(), solving(true)).value();
   ASSERT_TRUE(found.identifiable);
   expect_mount(found);
-  EXPECT_LT(std::abs(*found.offset_s - kOffset_s), 3 * *found.sigma_s);
+  EXPECT_LT(std::abs(*found.offset_s - kCommonOffset_s), 3 * *found.sigma_s);
   for (std::size_t i = 0; i < rooms().size(); ++i) {
     const Estimate alone = estimate(rooms()[i], solving(true), Job()).value();
     EXPECT_LT(sigma_of_shift_m(found), 0.9 * sigma_of_shift_m(alone)) << rooms()[i].name;

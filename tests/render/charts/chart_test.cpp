@@ -15,7 +15,7 @@
 namespace sweepscope {
 namespace {
 
-constexpr double kMs = 1e-3;
+constexpr double kChartMs = 1e-3;
 
 bool overlap(const PixelRect& a, const PixelRect& b) {
   constexpr double kTouching = 1e-6;
@@ -231,11 +231,11 @@ Estimate walk(double min_ms, std::optional<double> sigma_s) {
   Estimate estimate;
   estimate.identifiable = true;
   for (int ms = 19; ms <= 29; ++ms) {
-    estimate.curve.emplace_back().offset_s = ms * kMs;
+    estimate.curve.emplace_back().offset_s = ms * kChartMs;
     estimate.curve.back().e_m = std::hypot(0.02, 0.01 * (ms - min_ms)) + 1e-5 * (ms % 3);
   }
   CriterionOptimum optimum = fitted_extremum(estimate.curve, &CurvePoint::e_m,
-                                             index_of_min(estimate.curve, &CurvePoint::e_m), 1 * kMs);
+                                             index_of_min(estimate.curve, &CurvePoint::e_m), 1 * kChartMs);
   optimum.name = "e";
   estimate.criteria = {optimum};
   estimate.offset_s = optimum.offset_s;
@@ -260,13 +260,13 @@ TEST(CurveCharts, ShowTheFitThatGaveTheAnswer) {
 
 TEST(CurveCharts, AGridPointHasNoFit) {
   Estimate estimate = walk(23.8, std::nullopt);
-  estimate.criteria[0].offset_s = 24 * kMs;  // as with no fit
+  estimate.criteria[0].offset_s = 24 * kChartMs;  // as with no fit
   EXPECT_EQ(curve_charts(estimate, {}, kDarkStyle)[0].series.size(), 1U);
 }
 
 TEST(CurveCharts, HaveABandOnlyWithAnUncertainty) {
   EXPECT_TRUE(curve_charts(walk(23.8, std::nullopt), {}, kDarkStyle)[0].bands.empty());
-  const Estimate estimate = walk(23.8, 0.2 * kMs);
+  const Estimate estimate = walk(23.8, 0.2 * kChartMs);
   const Chart chart = curve_charts(estimate, {}, kDarkStyle)[0];
   ASSERT_EQ(chart.bands.size(), 1U);
   EXPECT_NEAR(chart.bands[0].from, *estimate.offset_s * 1e3 - 0.2, 1e-9);
@@ -338,11 +338,11 @@ TEST(Dashes, AreAsLongAsTheirGapsAndTurnCorners) {
 
 TEST(OverTimeChart, ShowsWindowsWithTheirSigmasAndTheCourseThatBreaksAtItsJumps) {
   Estimate estimate;
-  estimate.over_time =
-      OffsetOverTime{{{0, 10, 5, 20 * kMs, 0.5 * kMs, {}},
-                      {10, 20, 15, {}, {}, "There are no scans."},
-                      {20, 30, 25, 25 * kMs, 0.5 * kMs, {}}},
-                     OffsetCourse{15, 20 * kMs, 0.1 * kMs, 0, 0, {{15, 20, 5 * kMs, 0.1 * kMs}}}};
+  estimate.over_time = OffsetOverTime{
+      {{0, 10, 5, 20 * kChartMs, 0.5 * kChartMs, {}},
+       {10, 20, 15, {}, {}, "There are no scans."},
+       {20, 30, 25, 25 * kChartMs, 0.5 * kChartMs, {}}},
+      OffsetCourse{15, 20 * kChartMs, 0.1 * kChartMs, 0, 0, {{15, 20, 5 * kChartMs, 0.1 * kChartMs}}}};
   const auto chart = over_time_chart(estimate, style_of(Background::kWhite));
   ASSERT_TRUE(chart) << chart.error().message;
   ASSERT_EQ(chart->series.size(), 2U);

@@ -17,7 +17,7 @@ namespace {
 using Eigen::Vector3d;
 using test::kMs;
 
-constexpr double kTruth_s = 0.024;
+constexpr double kWalkTruth_s = 0.024;
 // How a trajectory is wrong at a time since the first scan.
 using Error = std::function<Vector3d(double)>;
 
@@ -33,19 +33,19 @@ std::vector<StampedPose> poses_with(const Simulation& walk, const Error& error) 
   return poses;
 }
 
-MapPath path_along(const Simulation& walk, const Error& error, double offset_s = kTruth_s) {
+MapPath path_along(const Simulation& walk, const Error& error, double offset_s = kWalkTruth_s) {
   const auto prepared = prepare(walk.recording, {}, Job()).value();
   MapOptions options;
   options.poses = poses_with(walk, error);
   return find_map_path(prepared, offset_s, offset_s, options, Job()).value();
 }
 
-const Simulation& walk() {
-  return test::simulated("metro-station", kTruth_s, 20);
+const Simulation& consistent_walk() {
+  return test::simulated("metro-station", kWalkTruth_s, 20);
 }
 
 TEST(MapConsistency, OfATrueTrajectorySurfacesCoincide) {
-  const MapPath path = path_along(walk(), no_error);
+  const MapPath path = path_along(consistent_walk(), no_error);
   ASSERT_TRUE(path.consistency && path.consistency->worst());
   EXPECT_LT(path.consistency->worst()->apart_m, 0.06);
   EXPECT_FALSE(path.consistency->warned()) << path.warning;
@@ -55,7 +55,7 @@ TEST(MapConsistency, OfATrueTrajectorySurfacesCoincide) {
 TEST(MapConsistency, AStepIsFoundWithItsSizeItsTimeAndAPlace) {
   constexpr double kStep_m = 0.6, kAt_s = 10.3;
   const MapPath path =
-      path_along(walk(), [](double t_s) { return Vector3d(0, t_s < kAt_s ? 0 : kStep_m, 0); });
+      path_along(consistent_walk(), [](double t_s) { return Vector3d(0, t_s < kAt_s ? 0 : kStep_m, 0); });
   ASSERT_TRUE(path.consistency && path.consistency->worst());
   const SurfacesApart worst = *path.consistency->worst();
   EXPECT_NEAR(worst.apart_m, kStep_m, 0.15);
@@ -74,21 +74,22 @@ TEST(MapConsistency, AStepIsFoundWithItsSizeItsTimeAndAPlace) {
 
 // What a tracker does that takes the rig to be at rest for two seconds: the map is scaled there.
 TEST(MapConsistency, ATrajectoryThatStandsStillForTwoSecondsIsFound) {
-  const std::vector<StampedPose> true_poses = poses_with(walk(), no_error);
-  const double first_s = walk().recording.scans.front().first_beam_s;
+  const std::vector<StampedPose> true_poses = poses_with(consistent_walk(), no_error);
+  const double first_s = consistent_walk().recording.scans.front().first_beam_s;
   const auto true_at = [&](double t_s) {
     const auto after = std::ranges::lower_bound(true_poses, t_s + first_s, {}, &StampedPose::time_s);
     return (after == true_poses.end() ? true_poses.back() : *after).position_m;
   };
-  const MapPath path = path_along(
-      walk(), [&](double t_s) { return Vector3d(true_at(9) - true_at(std::clamp(t_s, 9.0, 11.0))); });
+  const MapPath path = path_along(consistent_walk(), [&](double t_s) {
+    return Vector3d(true_at(9) - true_at(std::clamp(t_s, 9.0, 11.0)));
+  });
   ASSERT_TRUE(path.consistency);
   EXPECT_TRUE(path.consistency->warned());
 }
 
 TEST(MapConsistency, AWrongOffsetIsNotABrokenTrajectory) {
   for (const double wrong_s : {-5 * kMs, 5 * kMs}) {
-    const MapPath path = path_along(walk(), no_error, kTruth_s + wrong_s);
+    const MapPath path = path_along(consistent_walk(), no_error, kWalkTruth_s + wrong_s);
     ASSERT_TRUE(path.consistency);
     EXPECT_FALSE(path.consistency->warned()) << path.warning;
   }
@@ -106,12 +107,12 @@ TEST(MapConsistency, PeopleWhoWalkThroughTheSceneAreNotABrokenTrajectory) {
 }
 
 TEST(MapConsistency, IsNotDeterminedWhereNoSurfaceWasSeenTwice) {
-  const auto prepared = prepare(walk().recording, {}, Job()).value();
+  const auto prepared = prepare(consistent_walk().recording, {}, Job()).value();
   MapOptions options;
-  options.poses = poses_with(walk(), no_error);
+  options.poses = poses_with(consistent_walk(), no_error);
   const double first_s = options.poses.front().time_s;
   std::erase_if(options.poses, [&](const StampedPose& pose) { return pose.time_s > first_s + 3; });
-  const MapPath path = find_map_path(prepared, kTruth_s, kTruth_s, options, Job()).value();
+  const MapPath path = find_map_path(prepared, kWalkTruth_s, kWalkTruth_s, options, Job()).value();
   ASSERT_TRUE(path.consistency);
   EXPECT_FALSE(path.consistency->worst());
   EXPECT_EQ(consistency_json(path.consistency.get())["worst_m"], nullptr);
@@ -120,17 +121,17 @@ TEST(MapConsistency, IsNotDeterminedWhereNoSurfaceWasSeenTwice) {
 // A walk whose trajectory makes a step of its own is tracked again, and given back once it agrees with
 // itself.
 TEST(MapConsistency, AWalkThatDoesNotAgreeWithItselfIsTrackedInAnotherWay) {
-  const auto prepared = prepare(walk().recording, {}, Job()).value();
+  const auto prepared = prepare(consistent_walk().recording, {}, Job()).value();
   MapOptions options;
   options.assume = RigKind::kMoving;
-  const MapPath good = find_map_path(prepared, kTruth_s, kTruth_s, options, Job()).value();
+  const MapPath good = find_map_path(prepared, kWalkTruth_s, kWalkTruth_s, options, Job()).value();
   ASSERT_EQ(good.warning, "");
   EXPECT_FALSE(good.walk->tracked_again);
   SolvedWalk broken = *good.walk;
   for (std::size_t i = broken.sweeps.size() / 2; i < broken.sweeps.size(); ++i)
     for (Pose& knot : broken.sweeps[i].knots) knot.translation_m.y() += 0.6;
   options.walk = std::make_shared<const SolvedWalk>(std::move(broken));
-  const MapPath again = find_map_path(prepared, kTruth_s, kTruth_s, options, Job()).value();
+  const MapPath again = find_map_path(prepared, kWalkTruth_s, kWalkTruth_s, options, Job()).value();
   EXPECT_EQ(again.warning, "");
   EXPECT_TRUE(again.walk->tracked_again);
   // The last sweep was recorded in part.
@@ -139,16 +140,16 @@ TEST(MapConsistency, AWalkThatDoesNotAgreeWithItselfIsTrackedInAnotherWay) {
 }
 
 TEST(MapConsistency, AStationaryRigHasNone) {
-  const auto prepared = prepare(test::room(kTruth_s), {}, Job()).value();
-  EXPECT_FALSE(find_map_path(prepared, kTruth_s, kTruth_s, {}, Job()).value().consistency);
+  const auto prepared = prepare(test::room(kWalkTruth_s), {}, Job()).value();
+  EXPECT_FALSE(find_map_path(prepared, kWalkTruth_s, kWalkTruth_s, {}, Job()).value().consistency);
   EXPECT_EQ(consistency_json(nullptr), nullptr);
 }
 
 TEST(MapConsistency, IsTheSameForAnyNumberOfThreads) {
   const auto bent = [](double t_s) { return Vector3d(0.02 * t_s, 0, 0); };
-  const auto many = consistency_json(path_along(walk(), bent).consistency.get()).dump();
+  const auto many = consistency_json(path_along(consistent_walk(), bent).consistency.get()).dump();
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-  EXPECT_EQ(consistency_json(path_along(walk(), bent).consistency.get()).dump(), many);
+  EXPECT_EQ(consistency_json(path_along(consistent_walk(), bent).consistency.get()).dump(), many);
 }
 
 }  // namespace

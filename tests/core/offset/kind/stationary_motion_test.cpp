@@ -8,7 +8,7 @@
 namespace sweepscope {
 namespace {
 
-constexpr double kStationaryTruth_s = 0.024;
+constexpr double kStoodTruth_s = 0.024;
 
 MotionTest tested(const Recording& recording, double offset_s) {
   const OffsetProblem problem = test::problem_of(recording);
@@ -16,8 +16,8 @@ MotionTest tested(const Recording& recording, double offset_s) {
 }
 
 TEST(MotionOfTheRig, ARoomStandsAlsoAtAWrongOffset) {
-  for (const double offset_s : {kStationaryTruth_s, -0.04}) {
-    const MotionTest test = tested(test::room(kStationaryTruth_s), offset_s);
+  for (const double offset_s : {kStoodTruth_s, -0.04}) {
+    const MotionTest test = tested(test::room(kStoodTruth_s), offset_s);
     EXPECT_GE(test.pairs, 4u);
     EXPECT_FALSE(test.moving()) << test.moved << " of " << test.pairs;
     EXPECT_LT(test.median_translation_m, 0.01);
@@ -25,9 +25,8 @@ TEST(MotionOfTheRig, ARoomStandsAlsoAtAWrongOffset) {
 }
 
 TEST(MotionOfTheRig, AWalkMovesAlsoAtAWrongOffset) {
-  for (const double offset_s : {kStationaryTruth_s, -0.04}) {
-    const MotionTest test =
-        tested(test::simulated("metro-station", kStationaryTruth_s, 8).recording, offset_s);
+  for (const double offset_s : {kStoodTruth_s, -0.04}) {
+    const MotionTest test = tested(test::simulated("metro-station", kStoodTruth_s, 8).recording, offset_s);
     EXPECT_TRUE(test.moving()) << test.moved << " of " << test.pairs;
   }
 }
@@ -58,7 +57,7 @@ TEST(MotionOfTheRig, IsNoneAmongTrees) {
       bench.noise_m = 0.01;
       bench.duration_s = 7;
       bench.sweep_s = sweep_s;
-      bench.offset_s = kStationaryTruth_s;
+      bench.offset_s = kStoodTruth_s;
       const MotionTest test = tested(bench.record(), 0);
       EXPECT_GE(test.pairs, 4u);
       EXPECT_FALSE(test.moving()) << seed << ": " << test.moved << " of " << test.pairs << ", "
@@ -83,7 +82,7 @@ TEST(MotionOfTheRig, IsSeenInTheFirstSecondsOfEveryWalk) {
   for (const char* scene : {"metro-station", "parking-area", "cemetery", "lecture-room"})
     for (const double sweep_s : {0.5, 0.556}) {
       const MotionTest test =
-          tested(test::simulated(scene, kStationaryTruth_s, 6, sweep_s).recording, kStationaryTruth_s);
+          tested(test::simulated(scene, kStoodTruth_s, 6, sweep_s).recording, kStoodTruth_s);
       EXPECT_TRUE(test.moving()) << scene << " " << sweep_s << ": " << test.moved << " of " << test.pairs;
     }
 }
@@ -94,11 +93,11 @@ TEST(MotionOfTheRig, IsSeenWhereItIsSlow) {
   bench.mesh = test::hall();
   bench.noise_m = 0.01;
   bench.duration_s = 7;
-  bench.offset_s = kStationaryTruth_s;
+  bench.offset_s = kStoodTruth_s;
   bench.world_from_base = [](double t_s) {
     return Eigen::Isometry3d(Eigen::Translation3d(0.015 * t_s, 0.005 * t_s, 0));
   };
-  const MotionTest test = tested(bench.record(), kStationaryTruth_s);
+  const MotionTest test = tested(bench.record(), kStoodTruth_s);
   EXPECT_TRUE(test.moving()) << test.moved << " of " << test.pairs << ", " << test.far_moved << " of "
                              << test.far_pairs;
 }
@@ -114,7 +113,7 @@ TEST(MotionOverTime, ShowsWhenARigThatStoodBeganToMove) {
   test::Bench bench;
   bench.mesh = test::hall();
   bench.duration_s = 16;
-  bench.offset_s = kStationaryTruth_s;
+  bench.offset_s = kStoodTruth_s;
   bench.world_from_base = [](double t_s) {
     return Eigen::Isometry3d(Eigen::Translation3d(0.4 * std::max(0.0, t_s - 8), 0, 0));
   };
@@ -131,13 +130,13 @@ TEST(MotionOverTime, ShowsWhenARigThatStoodBeganToMove) {
 }
 
 TEST(MotionOverTime, IsUnknownWithoutTwoSweepsOfOneDirection) {
-  const Recording part = window(test::room(kStationaryTruth_s), 0, 0.9);
-  EXPECT_TRUE(motion_over_time(stationary_grid(test::problem_of(part)), kStationaryTruth_s).empty());
+  const Recording part = window(test::room(kStoodTruth_s), 0, 0.9);
+  EXPECT_TRUE(motion_over_time(stationary_grid(test::problem_of(part)), kStoodTruth_s).empty());
 }
 
 TEST(MotionOfTheRig, TooFewSweepsAreNoAnswer) {
-  const Recording part = window(test::room(kStationaryTruth_s), 0, 0.9);
-  EXPECT_FALSE(test_motion(stationary_grid(test::problem_of(part)), kStationaryTruth_s).answered());
+  const Recording part = window(test::room(kStoodTruth_s), 0, 0.9);
+  EXPECT_FALSE(test_motion(stationary_grid(test::problem_of(part)), kStoodTruth_s).answered());
 }
 
 // How sweep 4 of a rig in a hall lies against sweep 2, which turned the same way 1.03 s before.
@@ -145,14 +144,14 @@ SweepShift shift_of(const Eigen::Vector3d& velocity_m_s) {
   test::Bench bench;
   bench.mesh = test::hall();
   bench.duration_s = 3.5;
-  bench.offset_s = kStationaryTruth_s;
+  bench.offset_s = kStoodTruth_s;
   bench.world_from_base = [&](double t_s) {
     return Eigen::Isometry3d(Eigen::Translation3d(t_s * velocity_m_s));
   };
   const Recording recording = bench.record();
   const OffsetProblem problem = test::problem_of(recording);
   const StationaryGrid grid = stationary_grid(problem);
-  const StationaryPoints points = place_stationary(grid, kStationaryTruth_s, StationaryDetail::kPoints);
+  const StationaryPoints points = place_stationary(grid, kStoodTruth_s, StationaryDetail::kPoints);
   const std::vector<LinePool> pools = pools_by_sweep(points);
   return shift_between(points, pools.at(2), pools.at(4), grid).value();
 }

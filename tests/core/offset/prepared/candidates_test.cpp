@@ -52,7 +52,7 @@ TEST(Candidates, AnOddStepAroundFallsAboveTheInitialOffset) {
 }
 
 // e of a curve of 11 candidates, 1 ms apart, from 19 ms on.
-std::vector<CurvePoint> curve_of(const std::function<std::optional<double>(double offset_ms)>& e_m) {
+std::vector<CurvePoint> paper_curve_of(const std::function<std::optional<double>(double offset_ms)>& e_m) {
   std::vector<CurvePoint> curve;
   for (int i = 0; i <= 10; ++i) {
     curve.emplace_back().offset_s = (19 + i) * kMs;
@@ -71,13 +71,13 @@ CriterionOptimum fitted(const std::vector<CurvePoint>& curve, double reach_s = 3
 }
 
 TEST(FittedExtremum, OfADistanceIsExactOnAHyperbola) {
-  const CriterionOptimum least = fitted(curve_of(hyperbola_m));
+  const CriterionOptimum least = fitted(paper_curve_of(hyperbola_m));
   EXPECT_NEAR(least.offset_s, 23.8 * kMs, 1e-12);
   EXPECT_EQ(least.value, *hyperbola_m(24));  // the curve's own value, at the point nearest to it
 }
 
 TEST(FittedExtremum, OfMatchesIsExactOnAParabola) {
-  std::vector<CurvePoint> curve = curve_of(hyperbola_m);
+  std::vector<CurvePoint> curve = paper_curve_of(hyperbola_m);
   for (CurvePoint& point : curve) point.n = 30000 - 1e6 * *point.e_m * *point.e_m;
   const CriterionOptimum most =
       fitted_extremum(curve, &CurvePoint::n, index_of_max(curve, &CurvePoint::n), 3 * kMs);
@@ -86,11 +86,11 @@ TEST(FittedExtremum, OfMatchesIsExactOnAParabola) {
 }
 
 TEST(FittedExtremum, OfFewerThanFivePointsIsTheGridPoint) {
-  EXPECT_DOUBLE_EQ(fitted(curve_of(hyperbola_m), 0.5 * kMs).offset_s, 24 * kMs);
+  EXPECT_DOUBLE_EQ(fitted(paper_curve_of(hyperbola_m), 0.5 * kMs).offset_s, 24 * kMs);
 }
 
 TEST(FittedExtremum, WhereCandidatesAreSparseThoseFartherAwayCountToo) {
-  EXPECT_NEAR(fitted(curve_of(hyperbola_m), 1 * kMs).offset_s, 23.8 * kMs, 1e-12);
+  EXPECT_NEAR(fitted(paper_curve_of(hyperbola_m), 1 * kMs).offset_s, 23.8 * kMs, 1e-12);
 }
 
 TEST(FittedExtremum, WhereTheyAreDenseThoseFartherAwayDoNotCount) {
@@ -106,11 +106,11 @@ TEST(FittedExtremum, PointsBeyondAFailedCandidateDoNotBelong) {
   const auto with_gap = [](double offset_ms) {
     return offset_ms == 26 ? std::nullopt : std::optional(offset_ms > 26 ? 9.0 : *hyperbola_m(offset_ms));
   };
-  EXPECT_NEAR(fitted(curve_of(with_gap)).offset_s, 23.8 * kMs, 1e-12);
+  EXPECT_NEAR(fitted(paper_curve_of(with_gap)).offset_s, 23.8 * kMs, 1e-12);
   const auto with_two_gaps = [](double offset_ms) {
     return offset_ms == 22 || offset_ms == 26 ? std::nullopt : hyperbola_m(offset_ms);
   };
-  EXPECT_DOUBLE_EQ(fitted(curve_of(with_two_gaps)).offset_s, 24 * kMs);  // three are left
+  EXPECT_DOUBLE_EQ(fitted(paper_curve_of(with_two_gaps)).offset_s, 24 * kMs);  // three are left
 }
 
 // The paper's own search: by 1 ms, and by 0.1 ms round the valley. The least candidate lies off its middle,
@@ -128,16 +128,16 @@ TEST(FittedExtremum, AFitThatBendsTheWrongWayIsNotBelieved) {
   const auto spike = [](double offset_ms) {
     return offset_ms == 24 ? 0.9 : 1 - 0.001 * std::pow(offset_ms - 24, 2);
   };
-  EXPECT_DOUBLE_EQ(fitted(curve_of(spike)).offset_s, 24 * kMs);
+  EXPECT_DOUBLE_EQ(fitted(paper_curve_of(spike)).offset_s, 24 * kMs);
 }
 
 TEST(FittedExtremum, StaysInsideItsPoints) {
-  const CriterionOptimum least = fitted(curve_of([](double offset_ms) { return 1 / offset_ms; }));
+  const CriterionOptimum least = fitted(paper_curve_of([](double offset_ms) { return 1 / offset_ms; }));
   EXPECT_LE(least.offset_s, 29 * kMs);
 }
 
 TEST(FitOfExtremum, GoesThroughPointsThatLieOnAHyperbola) {
-  const std::vector<CurvePoint> curve = curve_of(hyperbola_m);
+  const std::vector<CurvePoint> curve = paper_curve_of(hyperbola_m);
   const auto fit = fit_of_extremum(curve, &CurvePoint::e_m, index_of_min(curve, &CurvePoint::e_m), 3 * kMs);
   ASSERT_TRUE(fit);
   EXPECT_NEAR(fit->from_s, 21 * kMs, 1e-12);
@@ -160,7 +160,8 @@ TEST(FitOfExtremum, LiesNearTheTipWhereTheCurveFlattens) {
 }
 
 TEST(FitBehind, FindsTheReachThatGaveTheAnswer) {
-  const auto curve = curve_of([](double offset_ms) { return 0.02 + 1e-3 * std::pow(offset_ms - 23.7, 4); });
+  const auto curve =
+      paper_curve_of([](double offset_ms) { return 0.02 + 1e-3 * std::pow(offset_ms - 23.7, 4); });
   for (const double reach_s : {2 * kMs, 3 * kMs, 4 * kMs}) {
     const auto fit = fit_behind(curve, &CurvePoint::e_m, fitted(curve, reach_s));
     ASSERT_TRUE(fit);
@@ -170,18 +171,18 @@ TEST(FitBehind, FindsTheReachThatGaveTheAnswer) {
 }
 
 TEST(FitBehind, ThereIsNoneBehindAnAnswerFromElsewhere) {
-  const auto curve = curve_of(hyperbola_m);
+  const auto curve = paper_curve_of(hyperbola_m);
   EXPECT_FALSE(fit_behind(curve, &CurvePoint::e_m, {"e", 24 * kMs, 0.02}));
   EXPECT_FALSE(fit_behind(curve, &CurvePoint::e_m, {"e", 23.5 * kMs, 0.02}));
   EXPECT_FALSE(fit_behind(curve, &CurvePoint::d, {"d", 23.8 * kMs, 0.02}));
 }
 
 TEST(Extremum, AFailedCandidateNeverWins) {
-  const auto curve =
-      curve_of([](double offset_ms) { return offset_ms == 24 ? std::nullopt : hyperbola_m(offset_ms); });
+  const auto curve = paper_curve_of(
+      [](double offset_ms) { return offset_ms == 24 ? std::nullopt : hyperbola_m(offset_ms); });
   EXPECT_DOUBLE_EQ(curve[index_of_min(curve, &CurvePoint::e_m)].offset_s, 23 * kMs);
   EXPECT_DOUBLE_EQ(curve[index_of_max(curve, &CurvePoint::e_m)].offset_s, 29 * kMs);
-  const auto none = curve_of([](double) { return std::nullopt; });
+  const auto none = paper_curve_of([](double) { return std::nullopt; });
   EXPECT_EQ(index_of_min(none, &CurvePoint::e_m), none.size());
   EXPECT_EQ(index_of_max(none, &CurvePoint::e_m), none.size());
 }

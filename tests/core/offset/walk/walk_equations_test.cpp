@@ -212,13 +212,13 @@ struct Whole {
       : motions(motions_along(path)),
         matches(matches_of(path, motions, weight_of)),
         equations(matches.scans, motions, path) {
-    constexpr double kFirst = 0.01, kKnot = 0.5, kOffset_s = 0.02;
-    equations.hold(kFirst, kKnot, kOffset_s);
+    constexpr double kFirst = 0.01, kKnot = 0.5, kOffsetSigma_s = 0.02;
+    equations.hold(kFirst, kKnot, kOffsetSigma_s);
     Eigen::MatrixXd matrix = matches.matrix;
     const auto last = Eigen::Index(6 * path.blocks());
     matrix.diagonal().head(last).array() += 1 / (kKnot * kKnot);
     if (path.knots() > 0) matrix.diagonal().head<6>().array() += 1 / (kFirst * kFirst);
-    matrix(last, last) += 1 / (kOffset_s * kOffset_s);
+    matrix(last, last) += 1 / (kOffsetSigma_s * kOffsetSigma_s);
     inverse = matrix.inverse();
     step = -inverse * matches.gradient;
   }

@@ -15,7 +15,7 @@
 namespace sweepscope {
 namespace {
 
-constexpr double kPeriod_s = 0.025, kTruth_s = 0.0173;
+constexpr double kPeriod_s = 0.025, kBeamTruth_s = 0.0173;
 
 /// 180 of a turn of 1440 beams, of a mirror that turns once in 25 ms.
 RawScan scan_of(double increment_s, double scan_time_s = kPeriod_s) {
@@ -107,7 +107,7 @@ TEST(BeamTimes, WithoutAPeriodIncrementsAreNotJudged) {
 
 /// A room as its bag holds it, with every time_increment times a factor.
 Result<Recording> room(double factor, const Rig& rig = {}) {
-  const Recording& made = test::simulated("room-1", kTruth_s, 4.5).recording;
+  const Recording& made = test::simulated("room-1", kBeamTruth_s, 4.5).recording;
   RawRecording raw;
   raw.file = raw.name = "room.bag";
   RawLaser& laser = raw.lasers.emplace_back();
@@ -145,7 +145,7 @@ TEST(BeamTimes, RightOnesAreNotInDoubt) {
   EXPECT_TRUE(recording.report.warnings.empty());
   const Estimate found = estimated(recording, Method::kDirect);
   ASSERT_TRUE(found.offset_s);
-  EXPECT_NEAR(*found.offset_s, kTruth_s, 1e-4);
+  EXPECT_NEAR(*found.offset_s, kBeamTruth_s, 1e-4);
 }
 
 TEST(BeamTimes, WrongOnesGiveNoAnswerThatIsSureAndWrong) {
@@ -172,7 +172,7 @@ TEST(BeamTimes, ThePapersMethodSaysHowUnsureItIs) {
     const Estimate found = estimated(room(factor).value(), Method::kStationary);
     ASSERT_TRUE(found.offset_s) << factor << testing::PrintToString(found.reasons());
     ASSERT_TRUE(found.sigma_s);
-    EXPECT_LT(std::abs(*found.offset_s - kTruth_s), 3 * *found.sigma_s) << factor;
+    EXPECT_LT(std::abs(*found.offset_s - kBeamTruth_s), 3 * *found.sigma_s) << factor;
     EXPECT_GT(*found.sigma_s, 1e-3);
   }
 }
@@ -186,7 +186,7 @@ TEST(BeamTimes, TheRigFileTakesTheDoubtAway) {
     EXPECT_EQ(recording.report.warnings.size(), factor > 0 ? 1U : 0U);
     const Estimate found = estimated(recording, Method::kDirect);
     ASSERT_TRUE(found.offset_s);
-    EXPECT_NEAR(*found.offset_s, kTruth_s, 1e-4);
+    EXPECT_NEAR(*found.offset_s, kBeamTruth_s, 1e-4);
   }
 }
 

@@ -13,7 +13,7 @@
 namespace sweepscope {
 namespace {
 
-constexpr std::int64_t kStart_ns = 1'700'000'000'000'000'000;
+constexpr std::int64_t kWrittenStart_ns = 1'700'000'000'000'000'000;
 
 RawLaser two_scans() {
   RawLaser laser;
@@ -22,7 +22,8 @@ RawLaser two_scans() {
   laser.intensities = {10, 20, 30, 40};
   for (std::size_t i = 0; i < 2; ++i) {
     RawScan scan;
-    scan.stamps = {kStart_ns + std::int64_t(i) * 25'000'000, kStart_ns + std::int64_t(i) * 25'000'000 + 7};
+    scan.stamps = {kWrittenStart_ns + std::int64_t(i) * 25'000'000,
+                   kWrittenStart_ns + std::int64_t(i) * 25'000'000 + 7};
     scan.angle_min_rad = -0.5F;
     scan.angle_increment_rad = 0.25F;
     scan.first_range = 2 * i;
@@ -37,7 +38,7 @@ RawLaser one_cloud() {
   laser.topic = "/points";
   laser.of_clouds = true;
   RawCloud cloud;
-  cloud.stamps = {kStart_ns, kStart_ns + 7};
+  cloud.stamps = {kWrittenStart_ns, kWrittenStart_ns + 7};
   cloud.frame = "lidar";
   cloud.height = 1;
   cloud.width = 2;
@@ -54,7 +55,7 @@ RawJoint one_sample() {
   RawJoint joint;
   joint.topic = "/joint_states";
   joint.joint = "roll_motor";
-  joint.stamps = {{kStart_ns + 5, kStart_ns + 9}};
+  joint.stamps = {{kWrittenStart_ns + 5, kWrittenStart_ns + 9}};
   joint.positions = {0.25};
   return joint;
 }
@@ -79,13 +80,13 @@ std::vector<typename Message::Ptr> messages_of(const std::filesystem::path& path
 
 TEST_F(RecordingWriter, RosReadsScansJointsAndTurnRates) {
   RawImu imu{"/imu", {}};
-  imu.rates.stamps = {{kStart_ns + 1, kStart_ns + 2}};
+  imu.rates.stamps = {{kWrittenStart_ns + 1, kWrittenStart_ns + 2}};
   imu.rates.rates_rad_s = {{1, 2, 3}};
   ASSERT_TRUE(write(two_scans(), one_sample(), imu));
   const auto scans = messages_of<sensor_msgs::LaserScan_<MessageAllocator<void>>>(folder_ / "a.bag", "/scan");
   ASSERT_EQ(scans.size(), 2U);
   EXPECT_EQ(scans[1]->header.seq, 1U);
-  EXPECT_EQ(scans[1]->header.stamp.toNSec(), std::uint64_t{kStart_ns} + 25'000'000);
+  EXPECT_EQ(scans[1]->header.stamp.toNSec(), std::uint64_t{kWrittenStart_ns} + 25'000'000);
   EXPECT_EQ(scans[1]->header.frame_id, "laser");
   EXPECT_EQ(scans[1]->angle_increment, 0.25F);
   ASSERT_EQ(scans[1]->ranges.size(), 2U);

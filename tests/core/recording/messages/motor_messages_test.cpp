@@ -14,7 +14,7 @@ namespace {
 
 using test::as_span, test::MessageBytes;
 
-class MotorMessages : public testing::TestWithParam<MessageBytes::Form> {
+class MotorMessageForms : public testing::TestWithParam<MessageBytes::Form> {
  protected:
   Encoding encoding() const { return GetParam() == MessageBytes::kRos1 ? Encoding::kRos1 : Encoding::kCdr; }
   std::optional<std::vector<DecodedJoint>> joints(
@@ -44,11 +44,11 @@ class MotorMessages : public testing::TestWithParam<MessageBytes::Form> {
  private:
   JointReader reader_;
 };
-INSTANTIATE_TEST_SUITE_P(Ros1AndRos2, MotorMessages,
+INSTANTIATE_TEST_SUITE_P(Ros1AndRos2, MotorMessageForms,
                          testing::Values(MessageBytes::kRos1, MessageBytes::kCdr,
                                          MessageBytes::kCdrBigEndian));
 
-TEST_P(MotorMessages, AScanIsDecodedInFull) {
+TEST_P(MotorMessageForms, AScanIsDecodedInFull) {
   const std::string bytes = test::scan_bytes(GetParam(), 12, 500'000'000, {1, 2.5F, 3}, {10, 20, 30});
   const auto scan = decode_laser_scan(encoding(), as_span(bytes));
   ASSERT_TRUE(scan);
@@ -69,7 +69,7 @@ TEST_P(MotorMessages, AScanIsDecodedInFull) {
     EXPECT_FALSE(decode_laser_scan(encoding(), as_span(bytes).first(n))) << n;
 }
 
-TEST_P(MotorMessages, JointStatesOfAnyNamesLengths) {
+TEST_P(MotorMessageForms, JointStatesOfAnyNamesLengths) {
   for (const std::string name : {"", "a", "ab", "abc", "roll_motor"}) {
     const std::string bytes = test::joint_bytes(GetParam(), 3, 1, {name, "other"}, {0.25, -0.5});
     const auto decoded = joints(MessageKind::kJointState, as_span(bytes));
@@ -85,7 +85,7 @@ TEST_P(MotorMessages, JointStatesOfAnyNamesLengths) {
       joints(MessageKind::kJointState, as_span(test::joint_bytes(GetParam(), 3, 1, {"a", "b"}, {1}))));
 }
 
-TEST_P(MotorMessages, PlainNumbersHaveNoHeaderAndAreCalledData) {
+TEST_P(MotorMessageForms, PlainNumbersHaveNoHeaderAndAreCalledData) {
   const std::string wide = MessageBytes(GetParam()).number(-1.25).bytes();
   const std::string narrow = MessageBytes(GetParam()).number(0.5F).bytes();
   const std::string whole = MessageBytes(GetParam()).number(std::int32_t{-90}).bytes();
@@ -101,7 +101,7 @@ TEST_P(MotorMessages, PlainNumbersHaveNoHeaderAndAreCalledData) {
   expect_whole_only("std_msgs/Int32", whole);
 }
 
-TEST_P(MotorMessages, ADynamixelsPositionIsItsCurrentOne) {
+TEST_P(MotorMessageForms, ADynamixelsPositionIsItsCurrentOne) {
   const std::string bytes = MessageBytes(GetParam())
                                 .header(5, 6, "")
                                 .text("tilt")
@@ -129,7 +129,7 @@ MessageBytes& transform(MessageBytes& message, const std::string& child, const E
   return message;
 }
 
-TEST_P(MotorMessages, ATransformsAngleIsThatAboutTheRigsAxis) {
+TEST_P(MotorMessageForms, ATransformsAngleIsThatAboutTheRigsAxis) {
   const Eigen::Vector3d axis = Eigen::Vector3d(1, 2, -2) / 3;
   MessageBytes message(GetParam());
   message.number(std::uint32_t{3});
@@ -147,7 +147,7 @@ TEST_P(MotorMessages, ATransformsAngleIsThatAboutTheRigsAxis) {
   expect_whole_only(MessageKind::kTransforms, message.bytes());
 }
 
-TEST_P(MotorMessages, TheSameRotationHasOneAngleWhateverTheQuaternionsSign) {
+TEST_P(MotorMessageForms, TheSameRotationHasOneAngleWhateverTheQuaternionsSign) {
   Eigen::Quaterniond rotation(Eigen::AngleAxisd(2.5, Eigen::Vector3d::UnitY()));
   MessageBytes message(GetParam());
   message.number(std::uint32_t{2});
@@ -160,7 +160,7 @@ TEST_P(MotorMessages, TheSameRotationHasOneAngleWhateverTheQuaternionsSign) {
   EXPECT_NEAR(decoded->at(1).position, 2.5, 1e-15);
 }
 
-TEST_P(MotorMessages, CountsThatTheMessageDoesNotHoldAllocateNothing) {
+TEST_P(MotorMessageForms, CountsThatTheMessageDoesNotHoldAllocateNothing) {
   for (const MessageKind kind : {MessageKind::kTransforms, MessageKind::kJointState}) {
     MessageBytes message(GetParam());
     if (kind == MessageKind::kJointState) message.header(1, 1, "");
