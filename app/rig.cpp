@@ -51,8 +51,9 @@ Result<DetectedRig> detect(const RigArguments& options) {
   const Progress progress;
   const auto found = find_reading(options.recording, reading, progress.job());
   if (!found) return tl::unexpected(found.error());
-  if (found->time_increment_s)
-    reading.rig = with_found(reading.rig.value_or(Rig{}), {found->time_increment_s, std::nullopt});
+  if (found->time_increment_s || found->turns_per_s)
+    reading.rig =
+        with_found(reading.rig.value_or(Rig{}), {found->time_increment_s, std::nullopt, found->turns_per_s});
   return detect_rig(options.recording, reading, progress.job()).map([&](DetectedRig&& detected) {
     if (found->axis && !detected.mount_found) {
       detected.rig.mount.axis = *found->axis;

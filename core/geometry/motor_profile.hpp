@@ -12,6 +12,7 @@ struct MotorProfile {
     double from_deg = 0, to_deg = 0;  // from < to
   };
   double turns_per_s = 0;         // mean, > 0 where the angle grows; of both directions between limits: > 0
+  double turns_per_s_within = 0;  // a prior: the speed lies within this of turns_per_s; 0: it is exact
   std::optional<Limits> between;  // absent: it turns one way
   double ramp_s = 0;              // in which it gains its speed after a reversal or a start, and loses it
   double steps_per_turn = 0;      // 0: no steps

@@ -159,6 +159,17 @@ Estimate with(Estimate result, Answer answer) {
   return result;
 }
 
+// What a refusal may be due to where a motor without an encoder is said to turn at an exact speed.
+Estimate with_speed_note(Estimate result, const Recording& recording) {
+  const auto& profile = recording.rig.motor.profile;
+  if (result.identifiable || !profile || !profile->between || recording.report.profile_speed_sigma_s > 0)
+    return result;
+  result.warnings.push_back(
+      "at a wrong speed of the profile it looks as if the rig moved or the clocks drifted: state "
+      "turns_per_s_within in the profile, and the speed is found");
+  return result;
+}
+
 // The offset of each group of a sample of sweeps; empty for a whole recording, and without a coarse offset.
 OffsetOverTime groups_of(const EstimatePlan& plan, const PreparedRecording& prepared,
                          const CoarseSearch& coarse, const EstimateOptions& options, const Job& job) {
@@ -235,14 +246,14 @@ Result<Estimate> find_offset(const RecordingSource& source, const EstimatePlan& 
   if (plan.sample && !plan.over_time() && search.as_moving())
     return find_offset(source, {}, options, kept, job);  // a walk takes all of its sweeps
   result = judged(std::move(result), search, kind);
-  if (!result.refusals.empty()) return result;
+  if (!result.refusals.empty()) return with_speed_note(std::move(result), **recording);
   if (const auto poses = check_poses(search, kind.reason); !poses) return tl::unexpected(poses.error());
 
   if (plan.over_time()) return follow_over_time(std::move(result), search, source, **recording, plan, job);
   auto answer = answer_by_method(search, groups, kept, job);
   if (!answer && answer.error().code == ExitCode::kInterrupted) return result;
   if (!answer) return tl::unexpected(answer.error());
-  return with(std::move(result), std::move(*answer));
+  return with_speed_note(with(std::move(result), std::move(*answer)), **recording);
 }
 
 }  // namespace sweepscope

@@ -109,6 +109,8 @@ struct ReadReport {
   /// The possible error of the time of a scan's last beam, if a time_increment is a guess or ambiguous
   /// (beam_times.hpp): the mean over the scans.
   double beam_time_doubt_s = 0;
+  /// Of an offset at the first scan, what the uncertainty of a profile's speed leaves, where it was found.
+  double profile_speed_sigma_s = 0;
   std::vector<BeamReading> readings;  // of the laser's messages, those that were tried; empty: none was
   bool fired_backwards = false;       // scans have the order of time, messages the opposite one
   bool intensities = false;           // every scan has them, whether they were kept or not

@@ -87,6 +87,7 @@ MotorProfile read_profile(const YAML::Node& node) {
           if (profile.turns_per_s == 0 || std::abs(profile.turns_per_s) > 20)
             refuse(value, name + ".turns_per_s must lie between -20 and 20 and not be 0");
         }},
+       {"turns_per_s_within", number("turns_per_s_within", profile.turns_per_s_within)},
        {"between_deg",
         [&](const YAML::Node& value) { profile.between = read_limits(value, name + ".between_deg"); }},
        {"ramp_s", number("ramp_s", profile.ramp_s)},
@@ -97,6 +98,11 @@ MotorProfile read_profile(const YAML::Node& node) {
   if (profile.turns_per_s == 0) refuse(node, name + " needs turns_per_s, the mean speed");
   if (profile.between && profile.turns_per_s < 0)
     refuse(node, name + ".turns_per_s is not negative between limits: it begins at the first of them");
+  if (profile.turns_per_s_within > 0 && !profile.between)
+    refuse(node,
+           name + ".turns_per_s_within needs between_deg: the speed is found where the motor turns back");
+  if (profile.turns_per_s_within > profile.turns_per_s / 5)
+    refuse(node, name + ".turns_per_s_within must be at most a fifth of turns_per_s");
   if (profile.between && profile.ramp_s > profile.sweep_s() / 2)
     refuse(node,
            fmt::format("{}.ramp_s must be at most half of a sweep, {:.3g} s", name, profile.sweep_s() / 2));

@@ -90,7 +90,7 @@ double unseen_sigma_s(const Recording& recording, const MotorMotion& motor, doub
   const double of_motor_and_lines_s = std::hypot(
       encoder_step_sigma_s(recording.motor, motor), encoder_sampling_sigma_s(recording.motor, motor),
       lines_sigma_s(motor, distinct_lines(recording, motor, offset_s)));
-  const double of_beams_s = beam_times_sigma_s(recording);
+  const double of_beams_s = std::hypot(beam_times_sigma_s(recording), recording.report.profile_speed_sigma_s);
   return of_beams_s > 0 ? std::hypot(of_motor_and_lines_s, of_beams_s) : of_motor_and_lines_s;
 }
 

@@ -32,8 +32,8 @@ double stamps_sigma_s(const Recording& recording);
 /// What doubt about the beams' times leaves (ReadReport::beam_time_doubt_s): the answer rests on beams from
 /// the first to the last of a scan, so it may err by what the last one does.
 double beam_times_sigma_s(const Recording& recording);
-/// The uncertainty from the encoder, the lines and doubt about the beams' times: what the scatter of the
-/// sweeps at an offset does not show.
+/// The uncertainty from the encoder or a profile's speed, the lines and doubt about the beams' times: what
+/// the scatter of the sweeps at an offset does not show.
 double unseen_sigma_s(const Recording& recording, const MotorMotion& motor, double offset_s);
 
 /// Sweeps of walks that are shorter than this leave no less in doubt.

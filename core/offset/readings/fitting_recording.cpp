@@ -6,12 +6,58 @@
 #include <cmath>
 #include <limits>
 
+#include "core/offset/readings/profile_speed.hpp"
+
 namespace sweepscope {
 namespace {
 
 // Nothing is left to be found.
 bool is_stated(const ReadOptions& options) {
   return options.rig && options.rig->laser.time_increment_s && options.rig->states_mount();
+}
+
+// Options of a recording, with the speed of its motor where the rig file leaves that open.
+struct SettledSpeed {
+  ReadOptions options;
+  bool asked = false;
+  std::optional<ProfileSpeed> found;
+};
+
+Result<SettledSpeed> settle_speed(const std::filesystem::path& path, ReadOptions options, const Job& job) {
+  constexpr double kFirst_s = 120;
+  const bool open =
+      options.rig && options.rig->motor.profile && options.rig->motor.profile->turns_per_s_within > 0;
+  if (!open) return SettledSpeed{std::move(options), false, {}};
+  return RecordingFile::open(path, options, job)
+      .and_then([&](const RecordingFile& file) {
+        return file.parts({{0, kFirst_s}}, job);
+      })
+      .map([&](const Recording& recording) {
+        SettledSpeed settled{options, true, find_profile_speed(window(recording, 0, kFirst_s), job)};
+        if (settled.found)
+          settled.options.rig =
+              with_found(*options.rig, {std::nullopt, std::nullopt, settled.found->turns_per_s});
+        return settled;
+      });
+}
+
+// What is known of the motor's speed after it was settled.
+void add_speed(const SettledSpeed& settled, const ReadOptions& asked, const Recording& recording,
+               ReadReport& report) {
+  if (!settled.asked) return;
+  if (!settled.found) {
+    report.warnings.push_back(
+        "the surfaces do not show how fast the motor turned: the rig file's turns_per_s is used as if exact");
+    return;
+  }
+  const ProfileSpeed& found = *settled.found;
+  const MotorProfile& stated = *asked.rig->motor.profile;
+  const double duration_s = recording.scans.back().first_beam_s - recording.scans.front().first_beam_s;
+  report.profile_speed_sigma_s = found.sigma_turns_per_s / found.turns_per_s * duration_s / 2;
+  report.warnings.push_back(fmt::format(
+      "the motor turned {:.9g} times a second (+- {:.2g}), as the surfaces show; the rig file says {:g} within {:g}. "
+      "Set turns_per_s in its profile, and leave out turns_per_s_within, to state it.",
+      found.turns_per_s, found.sigma_turns_per_s, stated.turns_per_s, stated.turns_per_s_within));
 }
 
 FoundReading found_by(const RankedReadings& ranked) {
@@ -91,6 +137,10 @@ void add_readings(const RankedReadings& ranked, const std::string& topic, ReadRe
 }  // namespace
 
 Rig with_found(Rig rig, const FoundReading& found) {
+  if (found.turns_per_s) {
+    rig.motor.profile->turns_per_s = *found.turns_per_s;
+    rig.motor.profile->turns_per_s_within = 0;
+  }
   if (found.axis) rig.mount.axis = *found.axis;
   if (!found.time_increment_s) return rig;
   rig.laser.time_increment_s = found.time_increment_s;
@@ -102,43 +152,63 @@ RankedReadings rank_unstated(const Recording& recording, const ReadOptions& opti
   return is_stated(options) ? RankedReadings() : rank_readings(recording, job);
 }
 
-Result<Recording> read_fitting(const std::filesystem::path& path, const ReadOptions& options, const Job& job,
+Result<Recording> read_fitting(const std::filesystem::path& path, const ReadOptions& asked, const Job& job,
                                const std::optional<TimeWindow>& part) {
+  const auto settled = settle_speed(path, asked, job);
+  if (!settled) return tl::unexpected(settled.error());
+  const ReadOptions& options = settled->options;
   const auto read = [&](const ReadOptions& by) {
     return read_recording(path, by, job).and_then([&](Recording&& whole) -> Result<Recording> {
       return part ? cut_to_window(whole, *part, path.string()) : std::move(whole);
     });
   };
   auto recording = read(options);
+  if (recording) add_speed(*settled, asked, *recording, recording->report);
   if (!recording || is_stated(options)) return recording;
   RankedReadings ranked = rank_readings(*recording, job);
   if (part && chosen_of(ranked.beams) == nullptr)
     if (const auto whole = read_recording(path, options, job)) ranked = rank_readings(*whole, job);
   const std::string topic = recording->rig.laser.topic.value_or("");
-  if (const auto other = other_options(options, topic, found_by(ranked))) recording = read(*other);
+  if (const auto other = other_options(options, topic, found_by(ranked))) {
+    recording = read(*other);
+    if (recording) add_speed(*settled, asked, *recording, recording->report);
+  }
   if (recording) add_readings(ranked, topic, recording->report);
   return recording;
 }
 
-Result<RecordingFile> open_fitting(const std::filesystem::path& path, const ReadOptions& options,
+Result<RecordingFile> open_fitting(const std::filesystem::path& path, const ReadOptions& asked,
                                    const Job& job) {
+  const auto settled = settle_speed(path, asked, job);
+  if (!settled) return tl::unexpected(settled.error());
+  const ReadOptions& options = settled->options;
   auto file = RecordingFile::open(path, options, job);
+  if (file) add_speed(*settled, asked, file->outline(), file->report());
   if (!file || is_stated(options)) return file;
   const auto ranked = ranked_of(*file, job);
   if (!ranked) return tl::unexpected(ranked.error());
   const std::string topic = file->outline().rig.laser.topic.value_or("");
-  if (const auto other = other_options(options, topic, found_by(*ranked)))
+  if (const auto other = other_options(options, topic, found_by(*ranked))) {
     file = RecordingFile::open(path, *other, job);
+    if (file) add_speed(*settled, asked, file->outline(), file->report());
+  }
   if (file) add_readings(*ranked, topic, file->report());
   return file;
 }
 
-Result<FoundReading> find_reading(const std::filesystem::path& path, const ReadOptions& options,
+Result<FoundReading> find_reading(const std::filesystem::path& path, const ReadOptions& asked,
                                   const Job& job) {
-  if (is_stated(options)) return FoundReading();
-  return RecordingFile::open(path, options, job)
+  const auto settled = settle_speed(path, asked, job);
+  if (!settled) return tl::unexpected(settled.error());
+  const auto with_speed = [&](FoundReading found) {
+    if (settled->found) found.turns_per_s = settled->found->turns_per_s;
+    return found;
+  };
+  if (is_stated(settled->options)) return with_speed({});
+  return RecordingFile::open(path, settled->options, job)
       .and_then([&](const RecordingFile& file) { return ranked_of(file, job); })
-      .map(found_by);
+      .map(found_by)
+      .map(with_speed);
 }
 
 }  // namespace sweepscope

@@ -13,7 +13,7 @@ namespace sweepscope {
 /// reading than the recorded one is used, the recording's rig has its time_increment_s, and a warning names
 /// it. Where two readings fit alike, their difference is ReadReport::beam_time_doubt_s. Of a recording that
 /// is cut to a part, the sweeps of that part are ranked, and where they decide nothing those of the
-/// beginning.
+/// beginning. Where the rig's profile leaves the motor's speed open, it is found before (find_profile_speed).
 Result<Recording> read_fitting(const std::filesystem::path& path, const ReadOptions& options, const Job& job,
                                const std::optional<TimeWindow>& part = {});
 Result<RecordingFile> open_fitting(const std::filesystem::path& path, const ReadOptions& options,
@@ -23,6 +23,7 @@ Result<RecordingFile> open_fitting(const std::filesystem::path& path, const Read
 struct FoundReading {
   std::optional<double> time_increment_s;  // as Rig::Laser::time_increment_s
   std::optional<Eigen::Vector3d> axis;     // that the motor turns about
+  std::optional<double> turns_per_s;       // of a profile that leaves it open
 };
 Result<FoundReading> find_reading(const std::filesystem::path& path, const ReadOptions& options,
                                   const Job& job);

@@ -20,5 +20,7 @@ bool assemble_index(const RawJoint& raw, Recording& recording);
 /// The angles of the rig's profile (Rig::Motor::profile) on the laser's clock, for the time of the scans and
 /// half a period, at most 60 s, before and after.
 void assemble_profile(Recording& recording);
+/// The samples alone, in the place of those that are there.
+void turn_by_profile(Recording& recording);
 
 }  // namespace sweepscope

@@ -69,7 +69,7 @@ bool assemble_index(const RawJoint& raw, Recording& recording) {
   return true;
 }
 
-void assemble_profile(Recording& recording) {
+void turn_by_profile(Recording& recording) {
   constexpr double kMaxMargin_s = 60;
   const MotorProfile& profile = *recording.rig.motor.profile;
   const double first_s = recording.scans.front().first_beam_s, last_s = recording.scans.back().last_beam_s();
@@ -77,11 +77,19 @@ void assemble_profile(Recording& recording) {
   const double start_s = first_s + profile.start_s.value_or(0);
   const auto samples = static_cast<std::size_t>((last_s - first_s + 2 * margin_s) / kSampleStep_s) + 2;
   MotorTrack& motor = recording.motor;
+  motor.time_s.clear();
+  motor.angle_rad.clear();
   for (std::size_t i = 0; i < samples; ++i) {
     const double t_s = first_s - margin_s + double(i) * kSampleStep_s;
     motor.time_s.push_back(t_s);
     motor.angle_rad.push_back(profile.angle_rad(t_s - start_s) - recording.rig.motor.zero_deg * kRadPerDeg);
   }
+}
+
+void assemble_profile(Recording& recording) {
+  turn_by_profile(recording);
+  const MotorProfile& profile = *recording.rig.motor.profile;
+  const double start_s = recording.scans.front().first_beam_s + profile.start_s.value_or(0);
   recording.report.motor_stamps.median_period_s = kSampleStep_s;
   std::string text = "the motor's angle is that of the rig file's profile, not measured";
   if (profile.steps_per_turn > 0) {

@@ -52,6 +52,8 @@ std::string laser_text(const DetectedRig& detected) {
 
 std::string profile_text(const MotorProfile& profile) {
   std::string text = line(fmt::format("  profile: {{turns_per_s: {:.9g}", profile.turns_per_s), "");
+  if (profile.turns_per_s_within > 0)
+    text += fmt::format(", turns_per_s_within: {:.9g}", profile.turns_per_s_within);
   text.pop_back();
   if (profile.between)
     text +=
