@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 
+#include "core/loam/judged_walk.hpp"
 #include "core/loam/path/agreement.hpp"
 #include "core/loam/path/given_motion.hpp"
 #include "core/loam/path/least_squares.hpp"
@@ -73,8 +74,13 @@ bool is_whole(const PlacedSweep& sweep, const PlacedSweep& next) {
 // Tracks a recording stretch by stretch.
 class Walk {
  public:
-  Walk(const SweepSource& source, const MappingOptions& options, const Job& job)
-      : source_(source), options_(options), job_(job), poses_(source.count) {}
+  Walk(const SweepSource& source, const MappingOptions& options, const JudgedWalk* earlier, const Job& job)
+      : source_(source),
+        options_(options),
+        earlier_(earlier),
+        job_(job),
+        poses_(source.count),
+        agreed_(source.count, 0) {}
 
   // False where the job was cancelled.
   bool track(Range range) {
@@ -93,6 +99,7 @@ class Walk {
     if (++stretches_ == 1) {
       for (const Stretch& stretch : tried) starts_.push_back(stretch.start);
       well_ = range.size() == source_.count && confirmed(best, range);
+      mend(tried);
     }
     for (SweepPose& pose : best.poses) pose.stretch = stretches_;
     std::ranges::move(best.poses, poses_.begin() + std::ptrdiff_t(best.range.first));
@@ -100,9 +107,11 @@ class Walk {
     return track({range.first, best.range.first}) && track({best.range.end, range.end});
   }
 
-  TrackedWalk result() {
+  JudgedWalk result() {
     join_stretches();
-    return {std::move(poses_), std::move(starts_), well_, count_};
+    return {{std::move(poses_), std::move(starts_), well_, count_},
+            std::move(agreed_),
+            std::move(contradictions_)};
   }
 
  private:
@@ -138,6 +147,40 @@ class Walk {
       for (Stretch* of : {&latest, &other})
         for (std::size_t i = first; i < end; ++i) of->agreed[i - of->range.first] |= agreed[i - first];
     }
+  }
+  // The best one, where the others or the track at a near offset are more to be trusted.
+  void mend(std::vector<Stretch>& tried) {
+    Stretch& best = tried.front();
+    const auto [first, end] = best.range;
+    std::vector<JudgedTrack> others;
+    for (const Stretch& other : std::span(tried).subspan(1))
+      if (other.range.first <= first && end <= other.range.end)
+        others.push_back({std::span(other.poses).subspan(first - other.range.first, end - first),
+                          std::span(other.agreed).subspan(first - other.range.first, end - first)});
+    Stretch earlier;
+    if (earlier_ != nullptr) {
+      earlier = same_sweeps(*earlier_, best.poses);
+      const std::vector<char> agreed = agreeing(best.poses, earlier.poses);
+      for (std::size_t i = 0; i < agreed.size(); ++i) best.agreed[i] |= agreed[i];
+      others.push_back({earlier.poses, earlier.agreed, true});
+    }
+    MendedTrack track = mended(std::move(best.poses), std::move(best.agreed), others);
+    best.poses = std::move(track.poses);
+    best.agreed = std::move(track.agreed);
+    contradictions_ = std::move(track.contradictions);
+    std::ranges::copy(best.agreed, agreed_.begin() + std::ptrdiff_t(first));
+  }
+  // Of a walk; those that its first stretch lacks are lost.
+  static Stretch same_sweeps(const JudgedWalk& walk, const std::vector<SweepPose>& sweeps) {
+    Stretch stretch;
+    for (const SweepPose& sweep : sweeps) {
+      const auto found = std::ranges::lower_bound(walk.sweeps, sweep.sweep, {}, &SweepPose::sweep);
+      const bool has = found != walk.sweeps.end() && found->sweep == sweep.sweep && found->stretch == 1;
+      stretch.poses.push_back(has ? *found : sweep);
+      stretch.poses.back().lost |= !has;
+      stretch.agreed.push_back(has ? walk.agreed[std::size_t(found - walk.sweeps.begin())] : char(0));
+    }
+    return stretch;
   }
   // Whether a second track found nearly the same.
   bool confirmed(const Stretch& best, Range range) const {
@@ -285,17 +328,20 @@ class Walk {
 
   const SweepSource& source_;
   const MappingOptions& options_;
+  const JudgedWalk* earlier_;
   const Job& job_;
   std::vector<SweepPose> poses_;  // stretch 0: not tracked
   std::size_t stretches_ = 0, done_ = 0;
   std::vector<std::size_t> starts_;
   bool well_ = false;
+  std::vector<char> agreed_;  // of the first stretch
+  std::vector<Contradiction> contradictions_;
   MatchCount count_;
 };
 
 // Along a given motion that is the truth; sweeps that it does not cover are lost.
-TrackedWalk follow_given(const SweepSource& source, const MappingOptions& options) {
-  TrackedWalk walk;
+JudgedWalk follow_given(const SweepSource& source, const MappingOptions& options) {
+  JudgedWalk walk;
   const GivenMotion& given = *options.given;
   for (std::size_t i = 0; i < source.count; ++i) {
     SweepPose pose = pose_of(source.place(i));
@@ -304,12 +350,14 @@ TrackedWalk follow_given(const SweepSource& source, const MappingOptions& option
     pose.stretch = 1;
     walk.sweeps.push_back(std::move(pose));
   }
+  walk.agreed.assign(source.count, 1);
   return walk;
 }
 
-Result<TrackedWalk> track(const SweepSource& source, const MappingOptions& options, const Job& job) {
+Result<JudgedWalk> track(const SweepSource& source, const MappingOptions& options, const JudgedWalk* earlier,
+                         const Job& job) {
   if (options.given && options.given->is_truth()) return follow_given(source, options);
-  Walk walk(source, options, job);
+  Walk walk(source, options, earlier, job);
   if (job.cancelled() || !walk.track({0, source.count}))
     return failure(ExitCode::kInterrupted, "interrupted while tracking");
   return walk.result();
@@ -321,20 +369,25 @@ std::size_t TrackedWalk::tracked() const {
   return std::size_t(std::ranges::count_if(sweeps, [](const SweepPose& pose) { return !pose.lost; }));
 }
 
-Result<TrackedWalk> track(const OffsetProblem& problem, double offset_s, const MappingOptions& options,
-                          const Job& job) {
+Result<JudgedWalk> track_and_judge(const OffsetProblem& problem, double offset_s,
+                                   const MappingOptions& options, const JudgedWalk* earlier, const Job& job) {
   SweepPlacer placer(problem, offset_s);
   const SweepSource source{placer.count(), [&](std::size_t i) {
                              PlacedSweep sweep;
                              placer.place(i, sweep);
                              return sweep;
                            }};
-  return track(source, options, job);
+  return track(source, options, earlier, job);
+}
+
+Result<TrackedWalk> track(const OffsetProblem& problem, double offset_s, const MappingOptions& options,
+                          const Job& job) {
+  return track_and_judge(problem, offset_s, options, nullptr, job);
 }
 
 Result<TrackedWalk> track(const std::vector<PlacedSweep>& sweeps, const MappingOptions& options,
                           const Job& job) {
-  return track(SweepSource{sweeps.size(), [&](std::size_t i) { return sweeps[i]; }}, options, job);
+  return track(SweepSource{sweeps.size(), [&](std::size_t i) { return sweeps[i]; }}, options, nullptr, job);
 }
 
 std::vector<Interval> lost_intervals(const std::vector<SweepPose>& sweeps) {

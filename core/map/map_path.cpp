@@ -102,7 +102,11 @@ Result<MapPath> checked(const OffsetProblem& problem, MapPath path, const Job& j
   if (path.walk) offset_s = path.walk->tracked_at_s;
   auto found = map_consistency(problem, poses_of_sweeps(problem, path, offset_s), offset_s, job);
   if (!found) return failure(ExitCode::kInterrupted, "interrupted while building the map");
-  if (path.walk && !path.walk->contradiction.empty()) found->warnings.push_back(path.walk->contradiction);
+  if (path.walk && !path.walk->contradiction.empty()) {
+    constexpr double kDoubt = 2;  // as that of surfaces twice as far apart as they may be
+    found->warnings.push_back(path.walk->contradiction);
+    found->doubt = std::max(found->doubt, kDoubt);
+  }
   for (const std::string& warning : found->warnings) add_warning(path, warning);
   path.consistency = std::make_shared<const MapConsistency>(std::move(*found));
   return path;
@@ -130,10 +134,7 @@ std::string contradiction_of(const SolvedWalk& a, const SolvedWalk& b, double li
     const double apart_m = (moved_m(a) - moved_m(b)).norm();
     if (apart_m <= limit_m) continue;
     limit_m = apart_m;
-    contradiction = fmt::format(
-        "From {:.0f} to {:.0f} s the surfaces hardly determine the motion: tracked in two ways, it ends {:.1f} m "
-        "apart. The trajectory may be wrong there.",
-        std::max(0.0, a.sweeps[first].begin_s - begin_s), a.sweeps[end - 1].end_s - begin_s, apart_m);
+    contradiction = in_words({a.sweeps[first].begin_s, a.sweeps[end - 1].end_s, apart_m}, begin_s);
   }
   return contradiction;
 }
@@ -166,9 +167,10 @@ Result<MapPath> along_best_walk(const OffsetProblem& problem, const MapPath& pat
   if (!one) return tl::unexpected(one.error());
   auto other = tracked_with(problem, walk->tracked_at_s, mapping, 12, job);
   if (!other) return tl::unexpected(other.error());
-  one->contradiction = other->contradiction =
+  const std::string contradiction =
       contradiction_of(*one, *other, best->consistency->limit_m, *problem.recording);
   for (SolvedWalk* again : {&*one, &*other}) {
+    if (again->contradiction.empty()) again->contradiction = contradiction;
     auto found = along_walk(problem, path, std::make_shared<const SolvedWalk>(std::move(*again)), job);
     if (!found) return found;
     if (doubt_of(*found) < doubt_of(*best)) best = std::move(found);

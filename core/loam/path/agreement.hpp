@@ -3,6 +3,7 @@
 // The mathematics: docs/algorithms.md, section 10.
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/loam/path/sweep_pose.hpp"
@@ -13,5 +14,32 @@ namespace sweepscope {
 /// over at least 2 s that the sweep is within, to within some centimetres and degrees. Tracks that began at
 /// different places err in different places.
 std::vector<char> agreeing(std::span<const SweepPose> a, std::span<const SweepPose> b);
+
+/// A part of a walk that its tracks do not agree about.
+struct Contradiction {
+  double begin_s = 0, end_s = 0;  // on the clock of the laser
+  double apart_m = 0;             // between where the nearest of the other tracks ends and this one
+};
+/// A sentence, with times since `first_s`.
+std::string in_words(const Contradiction& tracks, double first_s);
+
+/// A track, and of each sweep whether a further track found the same motion.
+struct JudgedTrack {
+  std::span<const SweepPose> poses;
+  std::span<const char> agreed;
+  bool earlier = false;  // of the same sweeps as they were placed at another offset
+};
+
+/// A track whose motion is taken from others where it is alone.
+struct MendedTrack {
+  std::vector<SweepPose> poses;
+  std::vector<char> agreed;
+  std::vector<Contradiction> contradictions;  // what no track of this offset confirms
+};
+
+/// Looks at the parts that no other track agrees with and that all others leave by more than a metre. Where
+/// one of them, itself confirmed, found another motion, that is taken; what follows is moved along.
+MendedTrack mended(std::vector<SweepPose> poses, std::vector<char> agreed,
+                   const std::vector<JudgedTrack>& others);
 
 }  // namespace sweepscope

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/loam/judged_walk.hpp"
 #include "core/loam/path/given_motion.hpp"
 #include "core/loam/path/straighten.hpp"
 #include "core/loam/relocalisation.hpp"
@@ -25,22 +26,31 @@ WalkOptions walk_options(const MappingOptions& mapping, const SearchScale& scale
 
 namespace {
 
+std::string worst_of(const std::vector<Contradiction>& contradictions, const Recording& recording) {
+  if (contradictions.empty()) return "";
+  return in_words(*std::ranges::max_element(contradictions, {}, &Contradiction::apart_m),
+                  recording.scans.front().first_beam_s);
+}
+
 std::optional<SolvedWalk> iterate(const OffsetProblem& problem, double first_offset_s,
                                   const WalkOptions& options, const Job& job) {
   SolvedWalk walk;
   double offset_s = first_offset_s;
   MappingOptions mapping = options.mapping;
   JointWalkOptions joint = options.joint;
+  JudgedWalk earlier;
   constexpr std::size_t kStartsAgain = 2;  // of those tried at the first offset
   constexpr double kFarTolerances = 2;     // by judgement: the other iterations move the offset by less
   for (int pass = 0; pass < options.max_passes && !walk.near; ++pass) {
-    auto tracked = track(problem, offset_s, mapping, job);
+    auto tracked = track_and_judge(problem, offset_s, mapping, pass == 0 ? nullptr : &earlier, job);
     if (!tracked) return std::nullopt;
     mapping.starts = tracked->starts;
     mapping.starts.resize(std::min(tracked->starts.size(), tracked->well ? 1 : kStartsAgain));
     walk.tracked_at_s = offset_s;
     walk.lost = tracked->tracked() < options.min_sweeps;
-    walk.sweeps = std::move(tracked->sweeps);
+    walk.sweeps = tracked->sweeps;
+    walk.contradiction = worst_of(tracked->contradictions, *problem.recording);
+    earlier = std::move(*tracked);
     if (walk.lost) return walk;
     const bool last = pass + 1 == options.max_passes;
     joint.far_s = last ? std::numeric_limits<double>::infinity() : kFarTolerances * options.step_tolerance_s;

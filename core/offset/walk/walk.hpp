@@ -38,7 +38,7 @@ struct SolvedWalk {
   bool lost = false;               // too few sweeps could be tracked
   bool near = false;               // tracked at nearly the offset that fits
   bool tracked_again = false;      // in other ways, since its map did not agree with itself
-  std::string contradiction;       // what another of these ways says; empty where one says the same
+  std::string contradiction;       // a sentence, if its tracks or these ways contradict each other
   std::optional<JointWalk> joint;  // absent where too few points match
 };
 

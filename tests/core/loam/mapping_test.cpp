@@ -4,6 +4,7 @@
 
 #include <random>
 
+#include "core/loam/judged_walk.hpp"
 #include "core/loam/relocalisation.hpp"
 #include "core/offset/criteria/moving_candidate.hpp"
 #include "core/offset/direct/direct_moving.hpp"
@@ -94,6 +95,36 @@ TEST_F(SteadyWalk, MayBeginAnywhere) {
 }
 
 // Sweeps of another place in the middle: what comes before them does not fit what comes after.
+// A track of the same walk at a near offset, which found 2 m more within two seconds.
+JudgedWalk longer(const TrackedWalk& tracked, bool confirmed) {
+  JudgedWalk walk{tracked, {}, {}};
+  constexpr double kMore_m = 2;
+  constexpr std::size_t kFirst = 6, kSweeps = 4;
+  for (std::size_t k = kFirst; k < walk.sweeps.size(); ++k) {
+    std::vector<Pose>& knots = walk.sweeps[k].knots;
+    for (std::size_t i = 0; i < knots.size(); ++i) {
+      const double after = double(k - kFirst) + double(i) / double(knots.size() - 1);
+      knots[i].translation_m.x() += kMore_m * std::min(1.0, after / kSweeps);
+    }
+  }
+  walk.agreed.assign(walk.sweeps.size(), confirmed ? 1 : 0);
+  return walk;
+}
+
+TEST_F(SteadyWalk, ATrackOfANearOffsetThatFoundAnotherMotionIsAContradiction) {
+  for (const bool confirmed : {false, true}) {
+    MappingOptions options;
+    const JudgedWalk earlier = longer(walk_, confirmed);
+    options.starts = {walk_.starts.front()};
+    const JudgedWalk walk = track_and_judge(problem_, 0, options, &earlier, Job()).value();
+    ASSERT_EQ(walk.contradictions.size(), 1u);
+    EXPECT_NEAR(walk.contradictions.front().apart_m, 2, 0.1);
+    // The confirmed motion is taken.
+    EXPECT_NEAR((walk.sweeps.back().end().translation_m - walk_.sweeps.back().end().translation_m).norm(),
+                confirmed ? 2 : 0, 0.1);
+  }
+}
+
 TEST_F(SteadyWalk, WhereTheMapDoesNotFitTheRigIsLostAndBeginsAnew) {
   std::vector<PlacedSweep> sweeps = place_sweeps(problem_, 0), twice;
   for (const double shift_s : {0.0, 100.0})

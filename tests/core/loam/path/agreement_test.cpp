@@ -78,5 +78,64 @@ TEST(Agreeing, OfLessThanTwoSecondsNothingIsConfirmed) {
   EXPECT_EQ(agreed(few, few), 0u);
 }
 
+double way_m(const std::vector<SweepPose>& poses) {
+  return (poses.back().end().translation_m - poses.front().begin().translation_m).norm();
+}
+
+MendedTrack mended_stroll(const std::vector<SweepPose>& own, const std::vector<JudgedTrack>& others) {
+  std::vector<char> agreed(own.size(), 0);
+  for (const JudgedTrack& other : others) {
+    const std::vector<char> found = agreeing(own, other.poses);
+    for (std::size_t k = 0; k < agreed.size(); ++k) agreed[k] |= found[k];
+  }
+  return mended(own, agreed, others);
+}
+
+TEST(Mended, WhereATrackIsAloneItsMotionIsThatOfTwoOthers) {
+  const std::vector<SweepPose> other = stroll();
+  const std::vector<char> agreed(other.size(), 1);
+  const MendedTrack track = mended_stroll(stroll(8, 12), {{other, agreed}});
+  EXPECT_GT(way_m(other) - way_m(stroll(8, 12)), 1);
+  EXPECT_NEAR(way_m(track.poses), way_m(other), 0.01);
+  EXPECT_EQ(std::ranges::count(track.agreed, 1), 40);
+  EXPECT_TRUE(track.contradictions.empty());
+}
+
+TEST(Mended, OfTwoTracksNeitherIsTakenForRight) {
+  const std::vector<SweepPose> own = stroll(8, 12), other = stroll();
+  const MendedTrack track = mended_stroll(own, {{other, agreeing(own, other)}});
+  EXPECT_EQ(way_m(track.poses), way_m(own));
+  ASSERT_EQ(track.contradictions.size(), 1u);
+  EXPECT_EQ(track.contradictions[0].begin_s, 8);
+  EXPECT_EQ(track.contradictions[0].end_s, 12);
+  EXPECT_NEAR(track.contradictions[0].apart_m, 3.6, 0.2);
+}
+
+TEST(Mended, AConfirmedTrackOfAnotherOffsetIsTakenAndRemainsAContradiction) {
+  const std::vector<SweepPose> other = stroll();
+  const std::vector<char> agreed(other.size(), 1);
+  const MendedTrack track = mended_stroll(stroll(8, 12), {{other, agreed, true}});
+  EXPECT_NEAR(way_m(track.poses), way_m(other), 0.01);
+  EXPECT_EQ(track.contradictions.size(), 1u);
+}
+
+TEST(Mended, TracksThatDifferByLessThanAMetreStayAsTheyAre) {
+  const std::vector<SweepPose> own = stroll(8, 8.8), other = stroll();
+  const std::vector<char> agreed(other.size(), 1);
+  const MendedTrack track = mended_stroll(own, {{other, agreed}});
+  EXPECT_LT(std::ranges::count(track.agreed, 1), 40);
+  EXPECT_EQ(way_m(track.poses), way_m(own));
+  EXPECT_TRUE(track.contradictions.empty());
+}
+
+TEST(Mended, WhereAllOthersAreLostNothingIsKnown) {
+  std::vector<SweepPose> other = stroll();
+  for (std::size_t k = 15; k < 26; ++k) other[k].lost = true;
+  const std::vector<char> agreed(other.size(), 1);
+  const MendedTrack track = mended_stroll(stroll(8, 12), {{other, agreed}});
+  EXPECT_EQ(way_m(track.poses), way_m(stroll(8, 12)));
+  EXPECT_TRUE(track.contradictions.empty());
+}
+
 }  // namespace
 }  // namespace sweepscope

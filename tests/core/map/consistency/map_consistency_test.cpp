@@ -7,6 +7,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
+#include "core/loam/path/agreement.hpp"
 #include "core/map/map_path.hpp"
 #include "core/results/consistency_json.hpp"
 #include "tests/core/engine_fixtures.hpp"
@@ -137,6 +138,25 @@ TEST(MapConsistency, AWalkThatDoesNotAgreeWithItselfIsTrackedInAnotherWay) {
   // The last sweep was recorded in part.
   const auto late_m = [](const MapPath& path) { return path.walk->sweeps.rbegin()[1].begin().translation_m; };
   EXPECT_LT((late_m(again) - late_m(good)).norm(), 0.1);
+}
+
+TEST(MapConsistency, AWalkWhoseTracksContradictEachOtherIsTrackedInAnotherWayAndWarnedOf) {
+  const auto prepared = prepare(walk().recording, {}, Job()).value();
+  MapOptions options;
+  options.assume = RigKind::kMoving;
+  SolvedWalk doubtful = *find_map_path(prepared, kTruth_s, kTruth_s, options, Job()).value().walk;
+  doubtful.contradiction = in_words(Contradiction{4, 7, 3.0}, 0);
+  options.walk = std::make_shared<const SolvedWalk>(doubtful);
+  const MapPath again = find_map_path(prepared, kTruth_s, kTruth_s, options, Job()).value();
+  EXPECT_TRUE(again.walk->tracked_again);
+  EXPECT_EQ(again.warning, "");
+
+  doubtful.tracked_again = true;
+  options.walk = std::make_shared<const SolvedWalk>(doubtful);
+  const MapPath kept = find_map_path(prepared, kTruth_s, kTruth_s, options, Job()).value();
+  EXPECT_TRUE(kept.consistency->warned());
+  EXPECT_NE(kept.warning.find("From 4 to 7 s"), std::string::npos) << kept.warning;
+  EXPECT_NE(kept.warning.find("it ends 3.0 m apart"), std::string::npos) << kept.warning;
 }
 
 TEST(MapConsistency, AStationaryRigHasNone) {
