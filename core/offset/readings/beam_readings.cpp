@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "core/numbers.hpp"
+#include "core/offset/judgement/unseen_sigma.hpp"
 #include "core/offset/kind/stationary_motion.hpp"
 #include "core/offset/prepared/prepared.hpp"
 #include "core/offset/search/stationary_fit.hpp"
@@ -273,6 +274,8 @@ RankedBeams rank_beams(const Recording& first, const Job& job) {
   std::vector<BeamReading>& readings = ranked.readings;
   if (first.rig.laser.time_increment_s) readings.resize(1);  // stated, and not overruled
   const double beams = median_beams(first);
+  // Sparse sweeps fit about as well by a wrong reading, but clearly better by the right one.
+  const bool sparse = has_sparse_sweeps(first, find_sweeps(first.motor));
   std::vector<StationaryFit> fits;
   for (BeamReading& reading : readings) {
     const bool recorded = &reading == &readings.front();
@@ -283,7 +286,7 @@ RankedBeams rank_beams(const Recording& first, const Job& job) {
     if (fit.fits) reading.offset_s = fit.direct.offset_s;
     const bool explains = fit.fits && is_nearest(fit.direct, readings, fits.size() - 1, beams) &&
                           scan_time_sigmas(fit.direct) < kMaxScanTimeSigmas;
-    if (!recorded || !explains || fit.direct.residual_m > kSmallResidual_m) continue;
+    if (!recorded || !explains || sparse || fit.direct.residual_m > kSmallResidual_m) continue;
     readings.front().chosen = true;
     readings.resize(1);
     return ranked;
