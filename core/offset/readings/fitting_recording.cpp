@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/offset/readings/profile_speed.hpp"
 
@@ -105,28 +104,13 @@ std::string beams_warning(const std::vector<BeamReading>& readings, const BeamRe
       chosen.time_increment_s);
 }
 
-// The most that the offsets of readings that fit alike differ by.
-double doubt_of_offset_s(const std::vector<BeamReading>& readings) {
-  const auto residual_m = [](const BeamReading& reading) { return reading.residual_m.value_or(0); };
-  double best_m = std::numeric_limits<double>::infinity();
-  for (const BeamReading& reading : readings)
-    if (reading.offset_s) best_m = std::min(best_m, residual_m(reading));
-  std::vector<double> alike_s;
-  for (const BeamReading& reading : readings)
-    if (reading.offset_s && best_m > kClearlyBetter * residual_m(reading))
-      alike_s.push_back(*reading.offset_s);
-  if (alike_s.empty()) return 0;
-  const auto [min, max] = std::ranges::minmax(alike_s);
-  return max - min;
-}
-
 // What is known of the beams' times after the readings were ranked.
 void add_readings(const RankedReadings& ranked, const std::string& topic, ReadReport& report) {
   report.readings = ranked.beams;
   if (ranked.axis_is_found) report.warnings.push_back(axis_warning(ranked.axis));
   const BeamReading* chosen = chosen_of(report.readings);
   if (chosen == nullptr) {
-    report.beam_time_doubt_s = std::max(report.beam_time_doubt_s, 2 * doubt_of_offset_s(report.readings));
+    report.beam_time_doubt_s = std::max(report.beam_time_doubt_s, 2 * ranked.offset_doubt_s);
     return;
   }
   report.beam_time_doubt_s = 0;

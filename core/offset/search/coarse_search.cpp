@@ -212,7 +212,15 @@ SearchedWindow search_by_default(const PreparedRecording& prepared, const Search
     if (is_inside(near.coarse) && (!lower || std::abs(all.offset_s()) <= scale.half_width_s)) return near;
     return about_unit(all.offset_s());
   };
-  SearchedWindow found = everywhere(about(0));
+  const auto with_margin = [&](SearchedWindow found) {
+    constexpr double kMargin_units = 2;  // the least squares ends beside the best candidate
+    if (!is_inside(found.coarse) || job.cancelled()) return found;
+    const double best_s = found.coarse.offset_s(), margin_s = kMargin_units * scale.unit_s;
+    const bool near_from = best_s - found.from_s < margin_s && found.from_s > -scale.max_half_width_s,
+               near_to = found.to_s - best_s < margin_s && found.to_s < scale.max_half_width_s;
+    return near_from || near_to ? about_unit(best_s) : found;
+  };
+  SearchedWindow found = with_margin(everywhere(about(0)));
   if (!found.coarse.best || motor.one_way() || 2 * scale.max_half_width_s <= motor.median_sweep_s)
     return found;
   const double best_s = best_of_images_s(prepared, found.coarse.offset_s(), scale.max_half_width_s);

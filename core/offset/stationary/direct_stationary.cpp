@@ -171,32 +171,99 @@ Sums summed(const std::vector<LineResiduals>& lines, double loss_width_m) {
   return sums;
 }
 
-// Fills in the scan time's error: the patches of a cell are of its own bin, so that both move alike.
-void fill_scan_time(const std::vector<LineResiduals>& lines, std::size_t bins, double loss_width_m,
-                    StationaryDirect& result) {
-  const auto sum = [&](const auto& term) {
-    double total = 0;
-    for (const LineResiduals& line : lines) {
-      for (std::size_t i = 0; i < line.residuals.size(); ++i) {
-        const PatchDistance& residual = line.residuals[i];
-        const double beam = double(line.cells[i] % bins) / double(bins - 1);
-        total += cauchy_weight(residual.distance_m, loss_width_m) * term(residual, beam);
-      }
+// The lines that have matches, in the order of the motor's angle.
+std::vector<std::pair<double, std::size_t>> lines_by_angle(const StationaryPoints& points,
+                                                           const std::vector<LineResiduals>& lines) {
+  const std::size_t middle = points.bins / 2;
+  std::vector<std::pair<double, std::size_t>> by_angle;
+  for (std::size_t line = 0; line < points.lines(); ++line)
+    if (points.sweep[line] != kNoSweep && !lines[line].residuals.empty())
+      by_angle.push_back({points.angle_rad[line * points.bins + middle], line});
+  std::sort(by_angle.begin(), by_angle.end());
+  return by_angle;
+}
+
+// A sector of the motor's angle, 11 to 23 deg of usual swings: gear play holds over such. A point lies beside
+// its patch in angle, so sectors share no matches.
+struct SectorLines {
+  double angle_rad = 0;  // of the middle line
+  std::vector<const LineResiduals*> lines;
+};
+
+std::vector<SectorLines> sectors_of(const StationaryPoints& points, const std::vector<LineResiduals>& lines) {
+  constexpr std::size_t kSectors = 8;
+  const auto by_angle = lines_by_angle(points, lines);
+  std::vector<SectorLines> sectors(kSectors);
+  for (std::size_t sector = 0; sector < kSectors; ++sector) {
+    const std::size_t first = sector * by_angle.size() / kSectors,
+                      end = (sector + 1) * by_angle.size() / kSectors;
+    if (first == end) continue;
+    sectors[sector].angle_rad = by_angle[(first + end) / 2].first;
+    for (std::size_t i = first; i < end; ++i) sectors[sector].lines.push_back(&lines[by_angle[i].second]);
+  }
+  return sectors;
+}
+
+// The offset and the scan's time as two unknowns; weighted. The patches of a cell are of its own bin, so that
+// both move alike with the scan's time.
+struct ScanTimeSums {
+  std::size_t matches = 0;
+  double weights = 0, rr = 0, jj = 0, jj_b = 0, jj_bb = 0, jr = 0, jr_b = 0;
+
+  void add(const LineResiduals& line, std::size_t bins, double loss_width_m) {
+    matches += line.residuals.size();
+    for (std::size_t i = 0; i < line.residuals.size(); ++i) {
+      const double jacobian_m_s = line.residuals[i].jacobian_m_s, distance_m = line.residuals[i].distance_m;
+      const double beam = double(line.cells[i] % bins) / double(bins - 1);
+      const double weight = cauchy_weight(distance_m, loss_width_m), jj_here = jacobian_m_s * jacobian_m_s;
+      weights += weight;
+      rr += weight * distance_m * distance_m;
+      jj += weight * jj_here;
+      jj_b += weight * jj_here * beam;
+      jj_bb += weight * jj_here * beam * beam;
+      jr += weight * jacobian_m_s * distance_m;
+      jr_b += weight * jacobian_m_s * distance_m * beam;
     }
-    return total;
-  };
-  if (bins < 2) return;
-  const auto squared = [](const PatchDistance& of) { return of.jacobian_m_s * of.jacobian_m_s; };
-  const double jj = sum([&](const PatchDistance& of, double) { return squared(of); });
-  if (!(jj > 0)) return;
-  const double middle = sum([&](const PatchDistance& of, double beam) { return squared(of) * beam; }) / jj;
-  const double ss = sum(
-      [&](const PatchDistance& of, double beam) { return squared(of) * (beam - middle) * (beam - middle); });
-  if (!(ss > 0)) return;
-  result.scan_time_error_s = -sum([&](const PatchDistance& of, double beam) {
-    return of.jacobian_m_s * (beam - middle) * of.distance_m;
-  }) / ss;
-  result.scan_time_formal_sigma_s = result.residual_m / std::sqrt(ss);
+  }
+  void add(const ScanTimeSums& other) {
+    matches += other.matches;
+    weights += other.weights;
+    rr += other.rr;
+    jj += other.jj;
+    jj_b += other.jj_b;
+    jj_bb += other.jj_bb;
+    jr += other.jr;
+    jr_b += other.jr_b;
+  }
+  double information() const { return jj > 0 ? jj_bb - jj_b * jj_b / jj : 0; }  // of the scan's time
+  double step_s() const { return -(jr_b - jr * jj_b / jj) / information(); }
+};
+
+// Fills in the sectors' residuals and the scan time's error.
+void fill_scan_time(const StationaryPoints& points, const std::vector<LineResiduals>& lines,
+                    double loss_width_m, StationaryDirect& result) {
+  constexpr std::size_t kMinMatches = 20;  // for a residual known to 16 %
+  if (points.bins < 2) return;
+  std::vector<ScanTimeSums> sectors;
+  ScanTimeSums whole;
+  for (const SectorLines& sector : sectors_of(points, lines)) {
+    ScanTimeSums& sums = sectors.emplace_back();
+    for (const LineResiduals* line : sector.lines) sums.add(*line, points.bins, loss_width_m);
+    result.sector_residual_m.push_back(sums.matches < kMinMatches ? 0 : std::sqrt(sums.rr / sums.weights));
+    whole.add(sums);
+  }
+  if (!(whole.information() > 0)) return;
+  result.scan_time_error_s = whole.step_s();
+  std::vector<WithoutPart> without;
+  for (std::size_t left_out = 0; left_out < sectors.size(); ++left_out) {
+    ScanTimeSums rest;
+    for (std::size_t i = 0; i < sectors.size(); ++i)
+      if (i != left_out) rest.add(sectors[i]);
+    if (rest.information() > 0)
+      without.push_back({rest.step_s(), 1 - rest.information() / whole.information()});
+  }
+  result.scan_time_sigma_s = std::max(result.residual_m / std::sqrt(whole.information()),
+                                      jackknife_sigma(whole.step_s(), without).value_or(0));
 }
 
 // Which block of sweeps each line belongs to, kNoSweep where none.
@@ -313,27 +380,15 @@ bool sectors_differ(const StationaryDirect& found, const StationaryGrid& grid) {
          samples_per_sweep(grid.problem->recording->motor, motor) >= kMinSamples;
 }
 
-// The offset of each sector of the motor's angle alone. A point lies beside its patch in angle, so the
-// sectors share no matches.
+// The offset of each sector of the motor's angle alone.
 void fill_sectors(const StationaryGrid& grid, const StationaryPoints& points,
                   const std::vector<LineResiduals>& lines, double loss_width_m, StationaryDirect& result) {
-  constexpr std::size_t kSectors = 8;  // 11 to 23 deg each of usual swings: gear play holds over such
-  const std::size_t middle = points.bins / 2;
-  std::vector<std::pair<double, std::size_t>> by_angle;  // and line
-  for (std::size_t line = 0; line < points.lines(); ++line)
-    if (points.sweep[line] != kNoSweep && !lines[line].residuals.empty())
-      by_angle.push_back({points.angle_rad[line * points.bins + middle], line});
-  std::sort(by_angle.begin(), by_angle.end());
   const double whole_jj = summed(lines, loss_width_m).jj;
-  for (std::size_t sector = 0; sector < kSectors; ++sector) {
-    const std::size_t first = sector * by_angle.size() / kSectors,
-                      end = (sector + 1) * by_angle.size() / kSectors;
-    std::vector<const LineResiduals*> own;
-    for (std::size_t i = first; i < end; ++i) own.push_back(&lines[by_angle[i].second]);
-    const auto [step_s, jj] = own_step(own, loss_width_m);
+  for (const SectorLines& sector : sectors_of(points, lines)) {
+    const auto [step_s, jj] = own_step(sector.lines, loss_width_m);
     if (jj > 0)
-      result.sectors.push_back({by_angle[(first + end) / 2].first, points.offset_s + step_s,
-                                result.residual_m / std::sqrt(jj), jj / whole_jj});
+      result.sectors.push_back(
+          {sector.angle_rad, points.offset_s + step_s, result.residual_m / std::sqrt(jj), jj / whole_jj});
   }
   result.depends_on_angle = sectors_differ(result, grid);
 }
@@ -469,7 +524,7 @@ StationaryDirect solve_stationary(const StationaryGrid& grid, double first_offse
     const bool last = result.converged || result.iterations + 1 == options.max_iterations;
     result.offset_s += damping * step_s;
     if (last) {
-      fill_scan_time(lines, grid.bins, loss_width_m, result);
+      fill_scan_time(at.points(), lines, loss_width_m, result);
       if (options.resampling != Resampling::kNone)
         resample(grid, at, lines, loss_width_m, options.resampling, result);
       break;

@@ -61,10 +61,12 @@ struct StationaryDirect {
   double middle_s =
       0;  // laser clock, mean time of the matches by their weight: where a drifting offset is right
   double residual_m = 0;  // robust deviation of the distances
+  // Weighted rms of the distances in each sector of the motor's angle, ascending; 0 where matches are few.
+  std::vector<double> sector_residual_m;
   // What the distances say of the time from a scan's first to its last beam, beyond the recording's: a step
-  // of a second unknown, tau (b - mean b), of beams b from 0 to 1; and its deviation as if all matches erred
-  // independently.
-  double scan_time_error_s = 0, scan_time_formal_sigma_s = 0;
+  // of a second unknown, tau (b - mean b), of beams b from 0 to 1; and its deviation, by the scatter of the
+  // sectors and at least as if all matches erred independently.
+  double scan_time_error_s = 0, scan_time_sigma_s = 0;
   double lever_m =
       0;  // rms of n . (a x p): the distance by which a turn of 1 rad moves the points off the patches
   double reach_m = 0;  // rms of |a x p|: its upper bound

@@ -14,7 +14,8 @@ namespace {
 
 constexpr double kLongestTimeIncrement_s = 1.0;
 constexpr double kAlike = 1.25, kSameTime = 1.1;
-constexpr int kMaxTurns = 10;  // of the mirror from one scan to the next
+constexpr double kSameReading = 1.02;  // some percent shift the offset of a fast motor by half a millisecond
+constexpr int kMaxTurns = 10;          // of the mirror from one scan to the next
 constexpr double kFullTurn = 2 * std::numbers::pi;
 
 bool alike(double a, double b, double factor = kAlike) {
@@ -88,7 +89,7 @@ BeamTimes judge_beam_times(const RawScan& scan, double period_s, std::optional<d
   const double turn_s = guessed ? scan_time_s : period_s;
   const double of_mirror_s = turn_s * std::abs(double{scan.angle_increment_rad}) / kFullTurn;
   // A scan of a whole turn takes its whole period by either reading.
-  if (!guessed || !alike(*times.time_increment_s, of_mirror_s, kSameTime)) times.other_s = of_mirror_s;
+  if (!guessed || !alike(*times.time_increment_s, of_mirror_s, kSameReading)) times.other_s = of_mirror_s;
   return times;
 }
 

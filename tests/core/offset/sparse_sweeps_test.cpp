@@ -56,7 +56,7 @@ TEST(SparseSweeps, BlocksOfFewLinesDoNotMakeTheOffsetChange) {
 }
 
 TEST(SparseSweeps, TheScatterOfAFewBlocksIsNoDrift) {
-  expect_answered(typed({211, "room-6", "tim571", "sine", 0.986, 83.095, 7.5, 50.6, 7.1, 70}));
+  expect_answered(typed({24, "room-1", "urg04lx", "trapezoid", 0.904, 106.377, 8.0, 75.5, 8.3, 159}));
 }
 
 TEST(SparseSweeps, AreComparedWithAllOthersWhereNeighboursShowNoValley) {
@@ -65,6 +65,22 @@ TEST(SparseSweeps, AreComparedWithAllOthersWhereNeighboursShowNoValley) {
 
 TEST(SparseSweeps, StepsThatAlternateConvergeInTime) {
   expect_answered(typed({509, "room-4", "urg04lx", "triangle", 0.811, 158.204, 5.3, 71.6, -7.6, 96}));
+}
+
+TEST(SparseSweeps, ThatBendTheirPatchesAreNoMotion) {
+  expect_answered(typed({622, "room-1", "rplidar-a1", "sine", 0.883, -136.487, 5.3, 77.5, -13.8, 165}));
+  TypedSimulation upside_down =
+      typed({8114, "room-6", "rplidar-s2", "sine", 0.827, -199.062, 5.6, 87.3, -5.6, 65});
+  upside_down.options.laser_upside_down = true;
+  expect_answered(upside_down);
+}
+
+// The coarse search of the default window has its minimum at 60 ms, inside; the least squares ends beyond.
+TEST(SparseSweeps, AnOffsetBesideTheEndOfTheDefaultWindowIsFound) {
+  TypedSimulation instant =
+      typed({10215, "room-3", "urg04lx", "trapezoid", 0.812, 61.4, 7.1, 88.8, -8.5, 80});
+  instant.beam_times = "instant";
+  expect_answered(instant);
 }
 
 // Each at an instant of its own: no increment joins them.

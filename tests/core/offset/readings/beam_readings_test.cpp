@@ -6,6 +6,7 @@
 
 #include "core/offset/estimator.hpp"
 #include "core/recording/assemble/assemble.hpp"
+#include "core/simulation/typed_simulation.hpp"
 #include "core/simulation/write_simulation.hpp"
 #include "tests/core/engine_fixtures.hpp"
 
@@ -46,6 +47,55 @@ TEST(BeamReadings, WhatIsRecordedIsChosenAloneWhereItFits) {
   EXPECT_FALSE(ranked.axis_is_found);
 }
 
+// scan_time is 0.82 of a turn of the mirror, and the beams of 270 deg take 0.75 of it: the guess is 9 % off.
+TEST(BeamReadings, AGuessThatIsNearlyRightIsTriedBesideTheRightOne) {
+  TypedSimulation typed;
+  typed.scene = "room-3";
+  typed.scanner = "utm30lx";
+  typed.offset_ms = kTruth_s / kMs;
+  typed.options.duration_s = 4;
+  typed.options.no_time_increment = true;
+  typed.options.scan_time_factor = 0.82;
+  const RankedReadings ranked = rank_readings(read(simulation_of(typed).value()), Job());
+  ASSERT_NE(chosen(ranked), nullptr);
+  EXPECT_EQ(chosen(ranked)->kind, BeamReadingKind::kMirror);
+  EXPECT_NEAR(chosen(ranked)->offset_s.value(), kTruth_s, 0.1 * kMs);
+}
+
+// Of 8 to 10 scans a sweep about a vertical axis, of which floor and ceiling say nothing, the distances of
+// all readings are short; the sectors of the motor's angle agree about the shortest ones.
+TEST(BeamReadings, OfSparseSweepsAreFound) {
+  struct Drawn {
+    const char *scanner, *motor, *scene;
+    double sweep_s, duration_s, swing_deg, middle_deg, encoder_hz, offset_ms;
+    std::uint64_t seed;
+    Times times;
+  };
+  for (const Drawn& drawn :
+       {Drawn{"tim571", "trapezoid", "room-4", 0.651, 4, 34.7, 17, 161, 194.589, 814, Times::kSpread},
+        Drawn{"urg04lx", "trapezoid", "room-6", 0.814, 5.4, 78.2, 1.9, 151, -165.22, 824, Times::kInstant},
+        Drawn{"rplidar-a1", "trapezoid", "room-5", 0.845, 5.3, 43.5, 8.6, 177, -56.875, 8218,
+              Times::kReversed}}) {
+    TypedSimulation typed;
+    typed.scene = drawn.scene;
+    typed.scanner = drawn.scanner;
+    typed.motor = drawn.motor;
+    typed.axis = "z";
+    typed.beam_times = std::array{"spread", "instant", "reversed"}[std::size_t(drawn.times)];
+    typed.offset_ms = drawn.offset_ms;
+    typed.options.seed = drawn.seed;
+    typed.options.sweep_s = drawn.sweep_s;
+    typed.options.duration_s = drawn.duration_s;
+    typed.options.swing_deg = drawn.swing_deg;
+    typed.options.motor_middle_deg = drawn.middle_deg;
+    typed.options.encoder_hz = drawn.encoder_hz;
+    const RankedReadings ranked = rank_readings(read(simulation_of(typed).value()), Job());
+    ASSERT_NE(chosen(ranked), nullptr) << drawn.seed;
+    EXPECT_TRUE(ranked.axis_is_found) << drawn.seed;
+    EXPECT_NEAR(chosen(ranked)->offset_s.value(), drawn.offset_ms * kMs, kMs) << drawn.seed;
+  }
+}
+
 TEST(BeamReadings, BeamsStoredAgainstTheOrderOfTimeAreFound) {
   const Recording recording = read(room(Times::kReversed));
   const RankedReadings ranked = rank_readings(recording, Job());
@@ -53,7 +103,7 @@ TEST(BeamReadings, BeamsStoredAgainstTheOrderOfTimeAreFound) {
   EXPECT_EQ(chosen(ranked)->kind, BeamReadingKind::kReversed);
   EXPECT_LT(chosen(ranked)->time_increment_s, 0);
   EXPECT_NEAR(chosen(ranked)->offset_s.value(), kTruth_s, 0.1 * kMs);
-  EXPECT_LT(*chosen(ranked)->residual_m, kClearlyBetter * ranked.beams.front().residual_m.value_or(1));
+  EXPECT_LT(*chosen(ranked)->residual_m, 0.6 * ranked.beams.front().residual_m.value_or(1));
   // The rig file's way of stating it leads to the same answer.
   Rig rig;
   rig.laser.time_increment_s = chosen(ranked)->time_increment_s;
