@@ -242,14 +242,15 @@ struct ScanTimeSums {
 // Fills in the sectors' residuals and the scan time's error.
 void fill_scan_time(const StationaryPoints& points, const std::vector<LineResiduals>& lines,
                     double loss_width_m, StationaryDirect& result) {
-  constexpr std::size_t kMinMatches = 20;  // for a residual known to 16 %
+  constexpr std::size_t kMinSectorMatches = 20;  // for a residual known to 16 %
   if (points.bins < 2) return;
   std::vector<ScanTimeSums> sectors;
   ScanTimeSums whole;
   for (const SectorLines& sector : sectors_of(points, lines)) {
     ScanTimeSums& sums = sectors.emplace_back();
     for (const LineResiduals* line : sector.lines) sums.add(*line, points.bins, loss_width_m);
-    result.sector_residual_m.push_back(sums.matches < kMinMatches ? 0 : std::sqrt(sums.rr / sums.weights));
+    result.sector_residual_m.push_back(sums.matches < kMinSectorMatches ? 0
+                                                                        : std::sqrt(sums.rr / sums.weights));
     whole.add(sums);
   }
   if (!(whole.information() > 0)) return;

@@ -141,19 +141,19 @@ TEST(MapConsistency, AWalkThatDoesNotAgreeWithItselfIsTrackedInAnotherWay) {
 }
 
 TEST(MapConsistency, AWalkWhoseTracksContradictEachOtherIsTrackedInAnotherWayAndWarnedOf) {
-  const auto prepared = prepare(walk().recording, {}, Job()).value();
+  const auto prepared = prepare(consistent_walk().recording, {}, Job()).value();
   MapOptions options;
   options.assume = RigKind::kMoving;
-  SolvedWalk doubtful = *find_map_path(prepared, kTruth_s, kTruth_s, options, Job()).value().walk;
+  SolvedWalk doubtful = *find_map_path(prepared, kWalkTruth_s, kWalkTruth_s, options, Job()).value().walk;
   doubtful.contradiction = in_words(Contradiction{4, 7, 3.0}, 0);
   options.walk = std::make_shared<const SolvedWalk>(doubtful);
-  const MapPath again = find_map_path(prepared, kTruth_s, kTruth_s, options, Job()).value();
+  const MapPath again = find_map_path(prepared, kWalkTruth_s, kWalkTruth_s, options, Job()).value();
   EXPECT_TRUE(again.walk->tracked_again);
   EXPECT_EQ(again.warning, "");
 
   doubtful.tracked_again = true;
   options.walk = std::make_shared<const SolvedWalk>(doubtful);
-  const MapPath kept = find_map_path(prepared, kTruth_s, kTruth_s, options, Job()).value();
+  const MapPath kept = find_map_path(prepared, kWalkTruth_s, kWalkTruth_s, options, Job()).value();
   EXPECT_TRUE(kept.consistency->warned());
   EXPECT_NE(kept.warning.find("From 4 to 7 s"), std::string::npos) << kept.warning;
   EXPECT_NE(kept.warning.find("it ends 3.0 m apart"), std::string::npos) << kept.warning;
