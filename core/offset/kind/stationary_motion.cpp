@@ -151,8 +151,8 @@ std::vector<SweepPair> far_pairs_of_sides(const MotorMotion& motor, const std::v
 // Found by simulation of stationary rigs among trees and people, and of walks: those of
 // stationary_motion_test.
 bool moved(const SweepShift& shift) {
-  constexpr double kMinApart_m = 0.006;
-  return shift.gained_matches > shift.min_gained_matches && shift.apart_m > kMinApart_m;
+  constexpr double kMinGainedMatches = 12, kMinApart_m = 0.006;
+  return shift.gained_matches > kMinGainedMatches && shift.apart_m > kMinApart_m;
 }
 
 // Whether two pairs, one after the other, show the same long shift, and fit about as well there as at rest.

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/loam/path/least_squares.hpp"
-#include "core/offset/judgement/unseen_sigma.hpp"
 
 namespace sweepscope {
 namespace {
@@ -18,16 +17,6 @@ struct PointOnPlane {
 
 double distance_m(const PointOnPlane& match, const Pose& pose) {
   return match.patch.normal.dot(pose * match.p_m - match.patch.centre_m);
-}
-
-// Found with the other bounds of stationary_motion.cpp. A patch of sparse lines is bent, and all points of a
-// line lie beside it together: up to 4 % of their matches are gained by chance (tests/benchmark/
-// random_readings 622 and 8114), 10 to 40 % where the rig is carried.
-double min_gained_matches(const StationaryGrid& grid, std::size_t matches) {
-  constexpr double kMin = 12, kMinShareOfSparse = 0.05;
-  const OffsetProblem& problem = *grid.problem;
-  const bool sparse = has_sparse_sweeps(*problem.recording, problem.motor);
-  return sparse ? std::max(kMin, kMinShareOfSparse * double(matches)) : kMin;
 }
 
 // The points of `source` on the patches of `target`.
@@ -146,7 +135,6 @@ std::optional<SweepShift> shift_between(const StationaryPoints& points, const Li
   const double near_gained = matches_held(matches, near, width_m) - held_at_rest;
   const Pose& best = near_gained > shift.far_gained_matches ? near : far;
   shift.gained_matches = std::max(near_gained, shift.far_gained_matches);
-  shift.min_gained_matches = min_gained_matches(grid, matches.size());
   shift.translation_m = best.translation_m;
   shift.rotation_rad = vector_from_rotation(best.rotation).norm();
   shift.apart_m = rms_apart_m(matches, best, rest);

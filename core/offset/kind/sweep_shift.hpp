@@ -18,10 +18,9 @@ namespace sweepscope {
 struct SweepShift {
   Eigen::Vector3d translation_m = Eigen::Vector3d::Zero();  // where the points fit best
   double rotation_rad = 0;
-  double gained_matches = 0;      // there, over those at rest; about 1 where only noise is fitted
-  double min_gained_matches = 0;  // that show a motion
-  double apart_m = 0;             // from rest, along the surfaces' normals, rms over the matches
-  double apart_in_all_m = 0;      // the same, the turn about the motor's axis included
+  double gained_matches = 0;  // there, over those at rest; about 1 where only noise is fitted
+  double apart_m = 0;         // from rest, along the surfaces' normals, rms over the matches
+  double apart_in_all_m = 0;  // the same, the turn about the motor's axis included
 
   Eigen::Vector3d far_translation_m = Eigen::Vector3d::Zero();  // result of a search from a distance
   double far_rotation_rad = 0;

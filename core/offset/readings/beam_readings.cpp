@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <numbers>
 
@@ -234,6 +235,7 @@ bool clearly_shorter(const StationaryDirect& one, const StationaryDirect& other)
 struct RankedBeams {
   std::vector<BeamReading> readings;
   double offset_doubt_s = 0;
+  double least_m = std::numeric_limits<double>::infinity();  // residual, of readings that do not fit as well
 
   // The chosen one, or, where nothing is decided, the one that fits best.
   const BeamReading* best() const {
@@ -282,7 +284,10 @@ RankedBeams rank_beams(const Recording& first, const Job& job) {
     fits.push_back(fit_by(recorded ? first : read_as(first, reading.time_increment_s), job));
     if (job.cancelled()) return {};
     const StationaryFit& fit = fits.back();
-    if (fit.direct.matches > 0) reading.residual_m = fit.direct.residual_m;
+    if (fit.direct.matches > 0) {
+      reading.residual_m = fit.direct.residual_m;
+      ranked.least_m = std::min(ranked.least_m, fit.direct.residual_m);
+    }
     if (fit.fits) reading.offset_s = fit.direct.offset_s;
     const bool explains = fit.fits && is_nearest(fit.direct, readings, fits.size() - 1, beams) &&
                           scan_time_sigmas(fit.direct) < kMaxScanTimeSigmas;
@@ -291,7 +296,7 @@ RankedBeams rank_beams(const Recording& first, const Job& job) {
     readings.resize(1);
     return ranked;
   }
-  if (std::ranges::none_of(fits, &StationaryFit::fits)) return {};
+  if (std::ranges::none_of(fits, &StationaryFit::fits)) return {{}, 0, ranked.least_m};
   const std::vector<std::size_t> left = uncontradicted(fits);
   const bool stated = first.report.beam_time_doubt_s == 0;  // by the messages
   if (left.size() == 1 || (!left.empty() && left.front() == 0 && stated))
@@ -299,6 +304,14 @@ RankedBeams rank_beams(const Recording& first, const Job& job) {
   else
     ranked.offset_doubt_s = range_of_offsets_s(fits, left);
   return ranked;
+}
+
+// Whether one axis explains the recording where the other one has no fit. Neither does on a walk, about the
+// wrong axis with distances half as long at best.
+bool fits_alone(const RankedBeams& one, const RankedBeams& other) {
+  constexpr double kMuchShorter = 0.4;
+  const BeamReading* chosen = chosen_of(one.readings);
+  return chosen != nullptr && *chosen->residual_m < kMuchShorter * other.least_m;
 }
 
 // Which of the laser's axes the motor turns about: distances grow with the bends that walls have about the
@@ -316,7 +329,7 @@ RankedReadings rank_as_stationary(const Recording& first, const Job& job) {
   about_y.rig.mount.axis = Eigen::Vector3d::UnitY();
   RankedBeams of_y = rank_beams(about_y, job);
   const BeamReading *const best_x = of_x.best(), *const best_y = of_y.best();
-  bool is_y = best_y != nullptr;
+  bool is_y = best_y != nullptr && (best_x != nullptr || fits_alone(of_y, of_x));
   if (best_x != nullptr && best_y != nullptr && !job.cancelled()) {
     const BeamReading& best = *best_x->residual_m < *best_y->residual_m ? *best_x : *best_y;
     const bool recorded = best.kind == BeamReadingKind::kRecorded;
