@@ -20,19 +20,21 @@ struct SettledSpeed {
   ReadOptions options;
   bool asked = false;
   std::optional<ProfileSpeed> found;
+  double first_scan_s = 0;  // from which the profile counts
 };
 
 Result<SettledSpeed> settle_speed(const std::filesystem::path& path, ReadOptions options, const Job& job) {
   constexpr double kFirst_s = 120;
   const bool open =
       options.rig && options.rig->motor.profile && options.rig->motor.profile->turns_per_s_within > 0;
-  if (!open) return SettledSpeed{std::move(options), false, {}};
+  if (!open) return SettledSpeed{std::move(options), false, {}, 0};
   return RecordingFile::open(path, options, job)
       .and_then([&](const RecordingFile& file) {
         return file.parts({{0, kFirst_s}}, job);
       })
       .map([&](const Recording& recording) {
-        SettledSpeed settled{options, true, find_profile_speed(window(recording, 0, kFirst_s), job)};
+        SettledSpeed settled{options, true, find_profile_speed(window(recording, 0, kFirst_s), job),
+                             recording.scans.front().first_beam_s};
         if (settled.found)
           settled.options.rig =
               with_found(*options.rig, {std::nullopt, std::nullopt, settled.found->turns_per_s});
@@ -40,10 +42,11 @@ Result<SettledSpeed> settle_speed(const std::filesystem::path& path, ReadOptions
       });
 }
 
-// What is known of the motor's speed after it was settled.
+// What is known of the motor's speed after it was settled. The offset is found where the scans are, and
+// counts from the profile's start.
 void add_speed(const SettledSpeed& settled, const ReadOptions& asked, const Recording& recording,
                ReadReport& report) {
-  if (!settled.asked) return;
+  if (!settled.asked || recording.scans.empty()) return;
   if (!settled.found) {
     report.warnings.push_back(
         "the surfaces do not show how fast the motor turned: the rig file's turns_per_s is used as if exact");
@@ -51,11 +54,12 @@ void add_speed(const SettledSpeed& settled, const ReadOptions& asked, const Reco
   }
   const ProfileSpeed& found = *settled.found;
   const MotorProfile& stated = *asked.rig->motor.profile;
-  const double duration_s = recording.scans.back().first_beam_s - recording.scans.front().first_beam_s;
-  report.profile_speed_sigma_s = found.sigma_turns_per_s / found.turns_per_s * duration_s / 2;
+  const double middle_s =
+      (recording.scans.front().first_beam_s + recording.scans.back().first_beam_s) / 2 - settled.first_scan_s;
+  report.profile_speed_sigma_s = found.sigma_turns_per_s / found.turns_per_s * middle_s;
   report.warnings.push_back(fmt::format(
-      "the motor turned {:.9g} times a second (+- {:.2g}), as the surfaces show; the rig file says {:g} within {:g}. "
-      "Set turns_per_s in its profile, and leave out turns_per_s_within, to state it.",
+      "the motor turned {:.9g} times a second (+- {:.2g}), as the surfaces show; the rig file says {:g} "
+      "within {:g}. Set turns_per_s in its profile, and leave out turns_per_s_within, to state it.",
       found.turns_per_s, found.sigma_turns_per_s, stated.turns_per_s, stated.turns_per_s_within));
 }
 
@@ -118,6 +122,38 @@ void add_readings(const RankedReadings& ranked, const std::string& topic, ReadRe
     report.warnings.push_back(beams_warning(report.readings, *chosen, topic));
 }
 
+// At a settled speed.
+Result<Recording> read_ranked(const std::filesystem::path& path, const ReadOptions& options, const Job& job,
+                              const std::optional<TimeWindow>& part) {
+  const auto read = [&](const ReadOptions& by) {
+    return read_recording(path, by, job).and_then([&](Recording&& whole) -> Result<Recording> {
+      return part ? cut_to_window(whole, *part, path.string()) : std::move(whole);
+    });
+  };
+  auto recording = read(options);
+  if (!recording || is_stated(options)) return recording;
+  RankedReadings ranked = rank_readings(*recording, job);
+  if (part && chosen_of(ranked.beams) == nullptr)
+    if (const auto whole = read_recording(path, options, job)) ranked = rank_readings(*whole, job);
+  const std::string topic = recording->rig.laser.topic.value_or("");
+  if (const auto other = other_options(options, topic, found_by(ranked))) recording = read(*other);
+  if (recording) add_readings(ranked, topic, recording->report);
+  return recording;
+}
+
+Result<RecordingFile> open_ranked(const std::filesystem::path& path, const ReadOptions& options,
+                                  const Job& job) {
+  auto file = RecordingFile::open(path, options, job);
+  if (!file || is_stated(options)) return file;
+  const auto ranked = ranked_of(*file, job);
+  if (!ranked) return tl::unexpected(ranked.error());
+  const std::string topic = file->outline().rig.laser.topic.value_or("");
+  if (const auto other = other_options(options, topic, found_by(*ranked)))
+    file = RecordingFile::open(path, *other, job);
+  if (file) add_readings(*ranked, topic, file->report());
+  return file;
+}
+
 }  // namespace
 
 Rig with_found(Rig rig, const FoundReading& found) {
@@ -136,53 +172,27 @@ RankedReadings rank_unstated(const Recording& recording, const ReadOptions& opti
   return is_stated(options) ? RankedReadings() : rank_readings(recording, job);
 }
 
-Result<Recording> read_fitting(const std::filesystem::path& path, const ReadOptions& asked, const Job& job,
+Result<Recording> read_fitting(const std::filesystem::path& path, const ReadOptions& options, const Job& job,
                                const std::optional<TimeWindow>& part) {
-  const auto settled = settle_speed(path, asked, job);
+  const auto settled = settle_speed(path, options, job);
   if (!settled) return tl::unexpected(settled.error());
-  const ReadOptions& options = settled->options;
-  const auto read = [&](const ReadOptions& by) {
-    return read_recording(path, by, job).and_then([&](Recording&& whole) -> Result<Recording> {
-      return part ? cut_to_window(whole, *part, path.string()) : std::move(whole);
-    });
-  };
-  auto recording = read(options);
-  if (recording) add_speed(*settled, asked, *recording, recording->report);
-  if (!recording || is_stated(options)) return recording;
-  RankedReadings ranked = rank_readings(*recording, job);
-  if (part && chosen_of(ranked.beams) == nullptr)
-    if (const auto whole = read_recording(path, options, job)) ranked = rank_readings(*whole, job);
-  const std::string topic = recording->rig.laser.topic.value_or("");
-  if (const auto other = other_options(options, topic, found_by(ranked))) {
-    recording = read(*other);
-    if (recording) add_speed(*settled, asked, *recording, recording->report);
-  }
-  if (recording) add_readings(ranked, topic, recording->report);
+  auto recording = read_ranked(path, settled->options, job, part);
+  if (recording) add_speed(*settled, options, *recording, recording->report);
   return recording;
 }
 
-Result<RecordingFile> open_fitting(const std::filesystem::path& path, const ReadOptions& asked,
+Result<RecordingFile> open_fitting(const std::filesystem::path& path, const ReadOptions& options,
                                    const Job& job) {
-  const auto settled = settle_speed(path, asked, job);
+  const auto settled = settle_speed(path, options, job);
   if (!settled) return tl::unexpected(settled.error());
-  const ReadOptions& options = settled->options;
-  auto file = RecordingFile::open(path, options, job);
-  if (file) add_speed(*settled, asked, file->outline(), file->report());
-  if (!file || is_stated(options)) return file;
-  const auto ranked = ranked_of(*file, job);
-  if (!ranked) return tl::unexpected(ranked.error());
-  const std::string topic = file->outline().rig.laser.topic.value_or("");
-  if (const auto other = other_options(options, topic, found_by(*ranked))) {
-    file = RecordingFile::open(path, *other, job);
-    if (file) add_speed(*settled, asked, file->outline(), file->report());
-  }
-  if (file) add_readings(*ranked, topic, file->report());
+  auto file = open_ranked(path, settled->options, job);
+  if (file) add_speed(*settled, options, file->outline(), file->report());
   return file;
 }
 
-Result<FoundReading> find_reading(const std::filesystem::path& path, const ReadOptions& asked,
+Result<FoundReading> find_reading(const std::filesystem::path& path, const ReadOptions& options,
                                   const Job& job) {
-  const auto settled = settle_speed(path, asked, job);
+  const auto settled = settle_speed(path, options, job);
   if (!settled) return tl::unexpected(settled.error());
   const auto with_speed = [&](FoundReading found) {
     if (settled->found) found.turns_per_s = settled->found->turns_per_s;

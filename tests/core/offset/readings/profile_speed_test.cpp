@@ -30,12 +30,12 @@ class ProfileSpeeds : public test::FolderTest {
   }
   std::filesystem::path bag() const { return folder_ / "r.bag"; }
   double true_turns_per_s() const { return exact_.rig->motor.profile->turns_per_s; }
-  Recording read(double stated_to_true, double within) const {
+  Recording read(double stated_to_true, double within, const std::optional<TimeWindow>& part = {}) const {
     ReadOptions options = exact_;
     MotorProfile& profile = *options.rig->motor.profile;
     profile.turns_per_s *= stated_to_true;
     profile.turns_per_s_within = within;
-    return read_fitting(bag(), options, Job()).value();
+    return read_fitting(bag(), options, Job(), part).value();
   }
   static bool says(const std::vector<std::string>& warnings, const std::string& words) {
     return std::ranges::any_of(
@@ -57,6 +57,14 @@ TEST_F(ProfileSpeeds, AreFoundWithinWhatTheRigFileLeavesOpen) {
     EXPECT_GT(*found.sigma_s, *exact.sigma_s) << stated;
     EXPECT_NEAR(*found.offset_s, *exact.offset_s, 3 * *found.sigma_s) << stated;
   }
+}
+
+// The profile counts from the first scan of the recording, not of the part.
+TEST_F(ProfileSpeeds, LeaveMoreOfAnOffsetThatIsFoundLater) {
+  const double first_s = read(1.003, 0.01, TimeWindow{0, 3}).report.profile_speed_sigma_s,
+               last_s = read(1.003, 0.01, TimeWindow{4, 7}).report.profile_speed_sigma_s;
+  EXPECT_GT(first_s, 0);
+  EXPECT_NEAR(last_s / first_s, 5.5 / 1.5, 0.1);
 }
 
 TEST_F(ProfileSpeeds, OutsideOfThatAreNotTaken) {
