@@ -46,26 +46,35 @@ std::optional<double> best_speed(const Recording& first, const Job& job) {
   return best;
 }
 
+// Calls `use` with the grid of a part and the offset at which its sweeps fit best, unless they do not fit.
+template <typename Use>
+void at_best_offset(const Recording& part, const Job& job, const Use& use) {
+  const StationaryFit fit = fit_stationary(part, job);
+  if (!fit.fits || fit.direct.residual_m >= kFitting_m || job.cancelled()) return;
+  const auto prepared = prepare(borrowed(part), FeatureOptions(), job);
+  if (!prepared) return;
+  const double offset_s = fit.direct.offset_s;
+  use(stationary_grid(problem_for(*prepared, offset_s, offset_s)), offset_s);
+}
+
 // The drift of the offset over a part: the share by which the motor turns faster. Absent where sweeps do not
 // fit.
 std::optional<Trend> drift_of(const Recording& part, const Job& job) {
-  const StationaryFit fit = fit_stationary(part, job);
-  if (!fit.fits || fit.direct.residual_m >= kFitting_m || job.cancelled()) return std::nullopt;
-  const auto prepared = prepare(borrowed(part), FeatureOptions(), job);
-  if (!prepared) return std::nullopt;
-  const double at_s = fit.direct.offset_s;
-  const StationaryDirect solved = solve_stationary(stationary_grid(problem_for(*prepared, at_s, at_s)), at_s,
-                                                   StationaryDirectOptions(), job);
-  return trend_of_blocks(solved.block_s, solved.block_offset_s, solved.block_sigma_s);
+  std::optional<Trend> drift;
+  at_best_offset(part, job, [&](const StationaryGrid& grid, double offset_s) {
+    const StationaryDirect found = solve_stationary(grid, offset_s, StationaryDirectOptions(), job);
+    drift = trend_of_blocks(found.block_s, found.block_offset_s, found.block_sigma_s);
+  });
+  return drift;
 }
 
 // At a wrong speed the sweeps turn as if the rig did.
 bool looks_moving(const Recording& turned, const Job& job) {
-  const StationaryFit fit = fit_stationary(turned, job);
-  const auto prepared = prepare(borrowed(turned), FeatureOptions(), job);
-  if (!fit.fits || !prepared) return true;
-  const double at_s = fit.direct.offset_s;
-  return test_motion(stationary_grid(problem_for(*prepared, at_s, at_s)), at_s).moving();
+  bool moving = true;
+  at_best_offset(turned, job, [&](const StationaryGrid& grid, double offset_s) {
+    moving = test_motion(grid, offset_s).moving();
+  });
+  return moving;
 }
 
 }  // namespace
