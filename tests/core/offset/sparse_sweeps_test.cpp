@@ -9,35 +9,13 @@
 #include "core/simulation/typed_simulation.hpp"
 #include "core/simulation/write_simulation.hpp"
 #include "tests/core/engine_fixtures.hpp"
+#include "tests/core/sparse_recording.hpp"
 
 namespace sweepscope {
 namespace {
 
 using test::kMs;
-
-// Recordings of slow scanners that tests/benchmark/random_readings draws: 8 to 15 scans a sweep, about a
-// vertical axis, of which floor and ceiling say nothing about the offset.
-struct Drawn {
-  std::uint64_t seed;
-  const char *scene, *scanner, *motor;
-  double sweep_s, offset_ms, duration_s, swing_deg, middle_deg, encoder_hz;
-};
-
-TypedSimulation typed(const Drawn& drawn) {
-  TypedSimulation typed;
-  typed.scene = drawn.scene;
-  typed.scanner = drawn.scanner;
-  typed.motor = drawn.motor;
-  typed.axis = "z";
-  typed.offset_ms = drawn.offset_ms;
-  typed.options.seed = drawn.seed;
-  typed.options.sweep_s = drawn.sweep_s;
-  typed.options.duration_s = drawn.duration_s;
-  typed.options.swing_deg = drawn.swing_deg;
-  typed.options.motor_middle_deg = drawn.middle_deg;
-  typed.options.encoder_hz = drawn.encoder_hz;
-  return typed;
-}
+using test::typed;
 
 // As a rig file that states everything reads it.
 Recording stated(const SimulationOptions& options) {
@@ -88,10 +66,8 @@ TEST(SparseSweeps, OfAWalkDoNotShowAnotherAxis) {
 
 // The coarse search of the default window has its minimum at 60 ms, inside; the least squares ends beyond.
 TEST(SparseSweeps, AnOffsetBesideTheEndOfTheDefaultWindowIsFound) {
-  TypedSimulation instant =
-      typed({10215, "room-3", "urg04lx", "trapezoid", 0.812, 61.4, 7.1, 88.8, -8.5, 80});
-  instant.beam_times = "instant";
-  expect_answered(instant);
+  expect_answered(
+      typed({10215, "room-3", "urg04lx", "trapezoid", 0.812, 61.4, 7.1, 88.8, -8.5, 80, "instant"}));
 }
 
 // Each at an instant of its own: no increment joins them.

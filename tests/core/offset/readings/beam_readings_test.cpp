@@ -9,6 +9,7 @@
 #include "core/simulation/typed_simulation.hpp"
 #include "core/simulation/write_simulation.hpp"
 #include "tests/core/engine_fixtures.hpp"
+#include "tests/core/sparse_recording.hpp"
 
 namespace sweepscope {
 namespace {
@@ -65,31 +66,12 @@ TEST(BeamReadings, AGuessThatIsNearlyRightIsTriedBesideTheRightOne) {
 // Of 8 to 10 scans a sweep about a vertical axis, of which floor and ceiling say nothing, the distances of
 // all readings are short; the sectors of the motor's angle agree about the shortest ones.
 TEST(BeamReadings, OfSparseSweepsAreFound) {
-  struct Drawn {
-    const char *scanner, *motor, *scene;
-    double sweep_s, duration_s, swing_deg, middle_deg, encoder_hz, offset_ms;
-    std::uint64_t seed;
-    Times times;
-  };
-  for (const Drawn& drawn :
-       {Drawn{"tim571", "trapezoid", "room-4", 0.651, 4, 34.7, 17, 161, 194.589, 814, Times::kSpread},
-        Drawn{"urg04lx", "trapezoid", "room-6", 0.814, 5.4, 78.2, 1.9, 151, -165.22, 824, Times::kInstant},
-        Drawn{"rplidar-a1", "trapezoid", "room-5", 0.845, 5.3, 43.5, 8.6, 177, -56.875, 8218,
-              Times::kReversed}}) {
-    TypedSimulation typed;
-    typed.scene = drawn.scene;
-    typed.scanner = drawn.scanner;
-    typed.motor = drawn.motor;
-    typed.axis = "z";
-    typed.beam_times = std::array{"spread", "instant", "reversed"}[std::size_t(drawn.times)];
-    typed.offset_ms = drawn.offset_ms;
-    typed.options.seed = drawn.seed;
-    typed.options.sweep_s = drawn.sweep_s;
-    typed.options.duration_s = drawn.duration_s;
-    typed.options.swing_deg = drawn.swing_deg;
-    typed.options.motor_middle_deg = drawn.middle_deg;
-    typed.options.encoder_hz = drawn.encoder_hz;
-    const RankedReadings ranked = rank_readings(read(simulation_of(typed).value()), Job());
+  for (const test::SparseRecording& drawn :
+       {test::SparseRecording{814, "room-4", "tim571", "trapezoid", 0.651, 194.589, 4, 34.7, 17, 161,
+                              "spread"},
+        {824, "room-6", "urg04lx", "trapezoid", 0.814, -165.22, 5.4, 78.2, 1.9, 151, "instant"},
+        {8218, "room-5", "rplidar-a1", "trapezoid", 0.845, -56.875, 5.3, 43.5, 8.6, 177, "reversed"}}) {
+    const RankedReadings ranked = rank_readings(read(simulation_of(test::typed(drawn)).value()), Job());
     ASSERT_NE(chosen(ranked), nullptr) << drawn.seed;
     EXPECT_TRUE(ranked.axis_is_found) << drawn.seed;
     EXPECT_NEAR(chosen(ranked)->offset_s.value(), drawn.offset_ms * kMs, kMs) << drawn.seed;
