@@ -35,14 +35,6 @@ struct StationaryDirectOptions {
   Resampling resampling = Resampling::kAll;
 };
 
-/// A point against a patch of the other direction, at one offset.
-struct PatchDistance {
-  double jacobian_m_s = 0, distance_m = 0;  // dr / d offset and r
-  float lever_m = 0, reach_m = 0;           // n . (a x p) and |a x p|
-};
-PatchDistance distance_to_patch(const StationaryPatch& patch, const Eigen::Vector3d& p_m, double speed_rad_s,
-                                const Eigen::Vector3d& motor_axis);
-
 /// The offset of the scan lines of a sector of the motor's angle alone.
 struct SectorOffset {
   double angle_rad = 0;  // of the sector's middle line

@@ -22,9 +22,9 @@ void for_blocks(const GuidedPath::Place& place, const GuidedPath& path, const Kn
 }
 
 // The sums of one scan with the others, by the blocks that those depend on. Blocks that none does are absent.
-class Columns {
+class WalkColumns {
  public:
-  explicit Columns(const GuidedPath& path) : path_(path), sums_(path.blocks()), used_(path.blocks()) {}
+  explicit WalkColumns(const GuidedPath& path) : path_(path), sums_(path.blocks()), used_(path.blocks()) {}
 
   void sum_up(std::uint32_t number, const ScanEquations::Scan& scan, const std::vector<ScanMotion>& motions) {
     std::fill(used_.begin(), used_.end(), false);
@@ -120,7 +120,7 @@ Eigen::MatrixXd WalkEquations::matrix() const {
 void WalkEquations::add_matches(Eigen::MatrixXd& matrix) const {
   const Eigen::Index last = matrix.rows() - 1;
   const ScanEquations::Matrix by_scan = matches_.matrix();
-  Columns columns(path_);
+  WalkColumns columns(path_);
   for (std::uint32_t number = 0; number < by_scan.scans.size(); ++number) {
     const ScanEquations::Scan& scan = by_scan.scans[number];
     if (scan.products.empty()) continue;

@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "core/offset/stationary/line_residuals.hpp"
 #include "tests/core/engine_fixtures.hpp"
 
 namespace sweepscope {
