@@ -113,6 +113,27 @@ TEST_F(Pages, TheLikeliestMotorComesFirst) {
   }
 }
 
+TEST(Answers, DoNotMoveWhenTheWallsAreMeasured) {
+  const auto context = std::move(*gl::make_offscreen_context(1200, 800));
+  Ui::Options options;
+  options.explorer.estimates_on_opening = true;
+  Ui ui(*context, options);
+  const auto run = [&](const std::string& lines) {
+    const auto done = run_script(ui, *parse_script(lines, "test", false), 120);
+    EXPECT_TRUE(done) << done.error().message;
+  };
+  run("sample room-1\nwait estimated\nexpect walls is");
+  ui.frame({}, 1.0 / 60);
+  ui.paint();
+  const auto before = ui.anchor("answer direct");
+  run("wait solved\nexpect walls contains as recorded");
+  ui.frame({}, 1.0 / 60);
+  ui.paint();
+  const auto after = ui.anchor("answer direct");
+  ASSERT_TRUE(before && after);
+  EXPECT_EQ(before->top, after->top);
+}
+
 TEST_F(Pages, APictureOfTheMapsShowsNothingThatOnlyHandsNeed) {
   const std::string a = scratch("a.png").string(), b = scratch("b.png").string();
   run("sample room-1 2\nwait solved\nhover \"link a\"\nexport-picture " + a +

@@ -104,10 +104,17 @@ void draw_grips(const PaneContext& context, const ChartLayout& layout) {
   }
 }
 
+/// Why the chart has no curve.
+std::array<const char*, 2> words_without_curve(const RunningEstimate& estimating) {
+  if (estimating.is_running()) return {"Estimating the offset.", "The criteria appear here."};
+  if (estimating.found() != nullptr)
+    return {"There are no criteria: the offset is not determined.", "Drag A and B to compare two offsets."};
+  return {"Estimate the offset to see the criteria here.", "Or drag A and B now."};
+}
+
 /// Over the empty chart, on a plate so that grid and handles pass behind it.
 void draw_hint(const PaneContext& context, const PixelRect& plot) {
-  const std::array<const char*, 2> lines{"Estimate the offset to see the criteria here.",
-                                         "Or drag A and B now."};
+  const std::array<const char*, 2> lines = words_without_curve(context.explorer.estimating);
   const double size_px = context.px(13), line_px = context.px(19), margin = context.px(8);
   double width = 0;
   for (const char* line : lines) width = std::max(width, text_width_px(line, size_px) + 2 * margin);
@@ -129,7 +136,7 @@ void draw_one(const PaneContext& context, Chart chart, const PixelRect& place, s
   add_chart(drawing, place, chart, context.style, scale);
   paint(*ImGui::GetWindowDrawList(), drawing, context.fonts);
   const ChartLayout layout = lay_out_chart(chart, place, scale);
-  if (context.explorer.estimating.charted() == nullptr) draw_hint(context, layout.plot);
+  if (chart.series.empty()) draw_hint(context, layout.plot);
   // Before the mouse moves them: line, grip and number show the same offset in every frame.
   if (number == 0) draw_grips(context, layout);
   use_chart_mouse(context, chart, layout, all, number);
