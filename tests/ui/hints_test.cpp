@@ -2,10 +2,12 @@
 #include "ui/explorer/hints.hpp"
 
 #include <gtest/gtest.h>
+#include <imgui.h>
 
 #include "core/io/atomic_file.hpp"
 #include "tests/ui/explorer_fixtures.hpp"
 #include "ui/commands/commands.hpp"
+#include "ui/panes/widgets.hpp"
 #include "ui/script/script.hpp"
 
 namespace sweepscope::ui {
@@ -113,6 +115,14 @@ TEST_F(Pages, TheLikeliestMotorComesFirst) {
   }
 }
 
+TEST_F(Pages, ALineEndsBeforeNoUnitAndWithinNoNumber) {
+  run("frames 1");
+  const float width_px = ImGui::CalcTextSize("Walls are 32 m").x;
+  EXPECT_EQ(in_lines("Walls are 32 mm thick, 90 % under 4.5 m.", width_px),
+            "Walls are\n32 mm thick,\n90 % under\n4.5 m.");
+  EXPECT_EQ(in_lines("short", width_px), "short");
+}
+
 TEST(Answers, DoNotMoveWhenTheWallsAreMeasured) {
   const auto context = std::move(*gl::make_offscreen_context(1200, 800));
   Ui::Options options;
@@ -122,13 +132,11 @@ TEST(Answers, DoNotMoveWhenTheWallsAreMeasured) {
     const auto done = run_script(ui, *parse_script(lines, "test", false), 120);
     EXPECT_TRUE(done) << done.error().message;
   };
-  run("sample room-1\nwait estimated\nexpect walls is");
+  run("sample room-1\nwait estimated");
   ui.frame({}, 1.0 / 60);
-  ui.paint();
   const auto before = ui.anchor("answer direct");
   run("wait solved\nexpect walls contains as recorded");
   ui.frame({}, 1.0 / 60);
-  ui.paint();
   const auto after = ui.anchor("answer direct");
   ASSERT_TRUE(before && after);
   EXPECT_EQ(before->top, after->top);

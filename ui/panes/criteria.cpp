@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <sstream>
 
 #include "core/offset/prepared/search_window.hpp"
 #include "render/charts/curve_charts.hpp"
@@ -112,20 +113,33 @@ std::array<const char*, 2> words_without_curve(const RunningEstimate& estimating
   return {"Estimate the offset to see the criteria here.", "Or drag A and B now."};
 }
 
+/// Each sentence on lines of its own that fit.
+std::vector<std::string> hint_lines(const PaneContext& context, double width_px) {
+  std::vector<std::string> lines;
+  for (const char* sentence : words_without_curve(context.explorer.estimating)) {
+    std::istringstream broken(in_lines(sentence, static_cast<float>(width_px)));
+    for (std::string line; std::getline(broken, line);) lines.push_back(line);
+  }
+  return lines;
+}
+
 /// Over the empty chart, on a plate so that grid and handles pass behind it.
 void draw_hint(const PaneContext& context, const PixelRect& plot) {
-  const std::array<const char*, 2> lines = words_without_curve(context.explorer.estimating);
   const double size_px = context.px(13), line_px = context.px(19), margin = context.px(8);
+  const std::vector<std::string> lines = hint_lines(context, plot.width - 2 * margin);
   double width = 0;
-  for (const char* line : lines) width = std::max(width, text_width_px(line, size_px) + 2 * margin);
-  if (width > plot.width) return;
-  const PixelPoint middle{plot.left + plot.width / 2, plot.top + plot.height * 0.4};
-  const PixelRect plate{middle.x - width / 2, middle.y - line_px - margin / 2, width, 2 * line_px + margin};
+  for (const std::string& line : lines) width = std::max(width, text_width_px(line, size_px) + 2 * margin);
+  const double height = static_cast<double>(lines.size()) * line_px + margin;
+  if (width > plot.width || height > plot.height) return;
+  // Above the handles' grips.
+  const PixelPoint middle{plot.left + plot.width / 2, plot.top + (plot.height - margin) * 0.42};
+  const double top = std::max(plot.top, middle.y - height / 2);
   ImDrawList& list = *ImGui::GetWindowDrawList();
+  const PixelRect plate{middle.x - width / 2, top, width, height};
   list.AddRectFilled(corner(plate), far_corner(plate), to_imgui(context.style.panel), context.pxf(3));
   for (std::size_t i = 0; i < lines.size(); ++i)
-    paint_text(list, context.fonts, {middle.x, middle.y + (static_cast<double>(i) - 0.5) * line_px}, lines[i],
-               size_px, context.style.faint_text, AlignX::kCentre, AlignY::kMiddle);
+    paint_text(list, context.fonts, {middle.x, top + margin / 2 + (static_cast<double>(i) + 0.5) * line_px},
+               lines[i], size_px, context.style.faint_text, AlignX::kCentre, AlignY::kMiddle);
 }
 
 void draw_one(const PaneContext& context, Chart chart, const PixelRect& place, std::size_t number) {

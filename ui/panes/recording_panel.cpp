@@ -248,7 +248,7 @@ void walls(const PaneContext& context) {
     ImGui::TextDisabled("Measuring the walls …");
     ImGui::SetCursorPosY(below);
   } else {
-    ImGui::TextWrapped("%s", words.c_str());
+    wrapped_text(words);
     context.anchor_last("walls");
   }
   ImGui::Dummy({0, context.pxf(2)});
@@ -274,7 +274,7 @@ void answer(const PaneContext& context, const Estimate& estimate) {
     button(context, "Show in map B", "take-found");
   } else {
     text_in(context.fonts.heading, "Not determined");
-    for (const std::string& reason : estimate.reasons()) ImGui::TextWrapped("%s", sentence(reason).c_str());
+    for (const std::string& reason : estimate.reasons()) wrapped_text(sentence(reason));
   }
   remarks(context, "Warnings", estimate.warnings, colour_of_a(context.style));
   ImGui::Dummy({0, context.pxf(2)});
