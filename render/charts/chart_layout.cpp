@@ -146,9 +146,12 @@ double place_heading(const Chart& chart, const PixelRect& place, ChartLayout& la
   return y + row;
 }
 
-/// The labels of the verticals by x, those beyond the plot's width cut.
+/// The labels of the verticals by x, those beyond the plot's width cut. Where lines coincide, in their order.
 std::vector<VerticalLabel> labels_of(const Chart& chart, const ChartLayout& layout, double room_px) {
   std::vector<VerticalLabel> labels;
+  const auto column = [&](const ChartVertical& vertical) {
+    return std::floor((vertical.x - layout.x.from) / layout.x.length() * room_px / 2);
+  };
   for (const ChartVertical& vertical : chart.verticals) {
     if (vertical.label.empty() || !layout.x.contains(vertical.x)) continue;
     const std::string text = fit_text(vertical.label, layout.label_size_px(), room_px, true);
@@ -156,7 +159,7 @@ std::vector<VerticalLabel> labels_of(const Chart& chart, const ChartLayout& layo
     labels.push_back({&vertical, text, {0, 0, width, 14 * layout.scale}});
   }
   std::stable_sort(labels.begin(), labels.end(),
-                   [](const auto& a, const auto& b) { return a.vertical->x < b.vertical->x; });
+                   [&](const auto& a, const auto& b) { return column(*a.vertical) < column(*b.vertical); });
   return labels;
 }
 
