@@ -59,7 +59,12 @@ void describe_points(const Loaded& loaded, SolvedMap& map) {
   const auto seen_with = [&](std::span<const HeightRange> heights) {
     return std::array{points_in_slabs(compared, unused, heights)};
   };
-  const auto sharp = seen_with(map.sharp_heights);
+  auto sharp = seen_with(map.sharp_heights);
+  if (map.provisional && 10 * sharp[0].above_path_m.size() < cloud->size()) {
+    // Of a slow sweep they may be nearly empty.
+    map.sharp_heights = {HeightRange{-kAny_m, kAny_m}};
+    sharp = seen_with(map.sharp_heights);
+  }
   map.main_box = box_of(sharp, kFew);
   map.sharp_box = box_of(sharp, kStray);
   map.low_box = box_of(seen_with(std::array{HeightRange{-kAny_m, ceiling_m}}), kStray);
