@@ -154,9 +154,10 @@ void loop(gl::Window& window, Ui& ui, ScriptRecorder* recorder, bool scale_given
     clipboard.before(window, ui, events);
     ui.frame(events, std::clamp(seconds, 1e-3, 0.25));
     clipboard.after(window, ui);
+    if (recorder != nullptr) recorder->add_frame(events, at_rest(ui));
+    if (ui.wants_quit()) break;  // nobody waits for its picture
     ui.paint();
     window.present();
-    if (recorder != nullptr) recorder->add_frame(events, at_rest(ui));
     use_cursor(window);
     use_title(window, ui, title);
     frames_due = std::max(0, frames_due - 1);

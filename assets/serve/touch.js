@@ -51,7 +51,8 @@ class Touch {
   }
 
   tap() {
-    this.sender.flush([['move', ...this.from], ['press', 0, true, 0], ['press', 0, false, 0]]);
+    // A finger that left hovers over nothing.
+    this.sender.flush([['move', ...this.from], ['press', 0, true, 0], ['press', 0, false, 0], ['move', -9, -9]]);
   }
 
   beginDrag() {

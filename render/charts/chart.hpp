@@ -60,8 +60,8 @@ struct ChartSpan {
   Colour colour;
 };
 
-/// A chart of lines as data. Axes fit the data that is shown; `with_zero` extends y to 0 and draws a line
-/// there.
+/// A chart of lines as data. Axes fit the data that is shown, and without values y has no numbers;
+/// `with_zero` extends y to 0 and draws a line there.
 struct Chart {
   std::string title;    // what y is, with its unit
   std::string x_title;  // what x is, with its unit

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <ranges>
 
 namespace sweepscope {
@@ -14,9 +15,10 @@ class Extent {
     from_ = std::min(from_, value);
     to_ = std::max(to_, value);
   }
+  bool is_empty() const { return from_ > to_; }
   /// With room at both ends; but an end at 0 stays there where `keeps_zero`.
   AxisRange padded(double fraction, bool keeps_zero) const {
-    if (from_ > to_) return {};
+    if (is_empty()) return {};
     const double min_padding = std::max(std::abs(from_), 1e-9) * 1e-3;  // a flat curve still gets an axis
     const double padding = std::max((to_ - from_) * fraction, min_padding);
     return {keeps_zero && from_ == 0 ? 0 : from_ - padding, keeps_zero && to_ == 0 ? 0 : to_ + padding};
@@ -59,7 +61,8 @@ void include_shown(Extent& extent, const ChartSeries& series, const AxisRange& s
   }
 }
 
-AxisRange range_of_y(const Chart& chart, const AxisRange& shown) {
+/// Nothing without a value.
+std::optional<AxisRange> range_of_y(const Chart& chart, const AxisRange& shown) {
   Extent extent;
   bool with_zero = chart.with_zero;
   for (const ChartSeries& series : chart.series) {
@@ -74,6 +77,7 @@ AxisRange range_of_y(const Chart& chart, const AxisRange& shown) {
     extent.include(band.to);
   }
   if (with_zero) extent.include(0);
+  if (extent.is_empty()) return std::nullopt;
   return extent.padded(0.08, with_zero);
 }
 
@@ -142,9 +146,12 @@ double place_heading(const Chart& chart, const PixelRect& place, ChartLayout& la
   return y + row;
 }
 
-/// The labels of the verticals by x, those beyond the plot's width cut.
+/// The labels of the verticals by x, those beyond the plot's width cut. Where lines coincide, in their order.
 std::vector<VerticalLabel> labels_of(const Chart& chart, const ChartLayout& layout, double room_px) {
   std::vector<VerticalLabel> labels;
+  const auto column = [&](const ChartVertical& vertical) {
+    return std::floor((vertical.x - layout.x.from) / layout.x.length() * room_px / 2);
+  };
   for (const ChartVertical& vertical : chart.verticals) {
     if (vertical.label.empty() || !layout.x.contains(vertical.x)) continue;
     const std::string text = fit_text(vertical.label, layout.label_size_px(), room_px, true);
@@ -152,7 +159,7 @@ std::vector<VerticalLabel> labels_of(const Chart& chart, const ChartLayout& layo
     labels.push_back({&vertical, text, {0, 0, width, 14 * layout.scale}});
   }
   std::stable_sort(labels.begin(), labels.end(),
-                   [](const auto& a, const auto& b) { return a.vertical->x < b.vertical->x; });
+                   [&](const auto& a, const auto& b) { return column(*a.vertical) < column(*b.vertical); });
   return labels;
 }
 
@@ -196,7 +203,8 @@ ChartLayout lay_out_chart(const Chart& chart, const PixelRect& place, double sca
   ChartLayout layout;
   layout.scale = scale;
   layout.x = range_of_x(chart);
-  layout.y = range_of_y(chart, layout.x);
+  const std::optional<AxisRange> y = range_of_y(chart, layout.x);
+  layout.y = y.value_or(AxisRange());
   const double size = layout.text_size_px(), below = 46 * scale, label_row = 16 * scale;
   const double labels_top = place_heading(chart, place, layout) + 8 * scale;
   layout.labels = labels_of(chart, layout, 0.8 * place.width);
@@ -204,9 +212,12 @@ ChartLayout lay_out_chart(const Chart& chart, const PixelRect& place, double sca
   const std::size_t rows = rows_for(layout.labels, 0.8 * place.width, 6 * scale);
   layout.plot.top = labels_top + static_cast<double>(rows) * label_row + (rows > 0 ? 4 * scale : 0);
   layout.plot.height = std::max(1.0, place.bottom() - below - layout.plot.top);
-  layout.y_ticks = round_ticks(layout.y.from, layout.y.to,
-                               std::max(2, static_cast<int>(layout.plot.height / (32 * scale))));
-  layout.plot.left = place.left + std::min(widest(layout.y_ticks, size) + 12 * scale, 0.2 * place.width);
+  if (y)
+    layout.y_ticks =
+        round_ticks(y->from, y->to, std::max(2, static_cast<int>(layout.plot.height / (32 * scale))));
+  // Without values as much room as these will need.
+  const double labels_px = y ? widest(layout.y_ticks, size) : text_width_px("000", size);
+  layout.plot.left = place.left + std::min(labels_px + 12 * scale, 0.2 * place.width);
   layout.plot.width = place.right() - layout.plot.left;
   layout.x_ticks = ticks_along(chart, layout.x, layout.plot.width, size);
   if (!layout.x_ticks.values.empty()) {  // the last tick's label stays inside too

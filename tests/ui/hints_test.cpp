@@ -2,10 +2,12 @@
 #include "ui/explorer/hints.hpp"
 
 #include <gtest/gtest.h>
+#include <imgui.h>
 
 #include "core/io/atomic_file.hpp"
 #include "tests/ui/explorer_fixtures.hpp"
 #include "ui/commands/commands.hpp"
+#include "ui/panes/widgets.hpp"
 #include "ui/script/script.hpp"
 
 namespace sweepscope::ui {
@@ -73,6 +75,7 @@ TEST(Hints, AreCommandsAndWordsOfTheEngineNameNoOptions) {
   }
   EXPECT_EQ(sentence("the stamps run 2 times as fast +- 1; consider --stamps receive"),
             "The stamps run 2 times as fast ± 1.");
+  EXPECT_EQ(sentence("tilt turns in base about [0, 1, 0]"), "Tilt turns in base about y.");
 }
 
 /// An explorer without a display.
@@ -111,6 +114,33 @@ TEST_F(Pages, TheLikeliestMotorComesFirst) {
       EXPECT_GE(ui_.anchor(name)->top, motor->top) << name;
     }
   }
+}
+
+TEST_F(Pages, ALineEndsBeforeNoUnitAndWithinNoNumber) {
+  run("frames 1");
+  const float width_px = ImGui::CalcTextSize("Walls are 32 m").x;
+  EXPECT_EQ(in_lines("Walls are 32 mm thick, 90 % under 4.5 m.", width_px),
+            "Walls are\n32 mm thick,\n90 % under\n4.5 m.");
+  EXPECT_EQ(in_lines("short", width_px), "short");
+}
+
+TEST(Answers, DoNotMoveWhenTheWallsAreMeasured) {
+  const auto context = std::move(*gl::make_offscreen_context(1200, 800));
+  Ui::Options options;
+  options.explorer.estimates_on_opening = true;
+  Ui ui(*context, options);
+  const auto run = [&](const std::string& lines) {
+    const auto done = run_script(ui, *parse_script(lines, "test", false), 120);
+    EXPECT_TRUE(done) << done.error().message;
+  };
+  run("sample room-1\nwait estimated");
+  ui.frame({}, 1.0 / 60);
+  const auto before = ui.anchor("answer direct");
+  run("wait solved\nexpect walls contains as recorded");
+  ui.frame({}, 1.0 / 60);
+  const auto after = ui.anchor("answer direct");
+  ASSERT_TRUE(before && after);
+  EXPECT_EQ(before->top, after->top);
 }
 
 TEST_F(Pages, APictureOfTheMapsShowsNothingThatOnlyHandsNeed) {

@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include "core/io/atomic_file.hpp"
+#include "core/loam/path/agreement.hpp"
 #include "core/simulation/simulate.hpp"
 #include "core/simulation/write_simulation.hpp"
+#include "tests/core/recording/test_bag.hpp"
 #include "tests/ui/explorer_fixtures.hpp"
 #include "ui/explorer/observables.hpp"
 
@@ -38,6 +40,9 @@ TEST(Opening, EstimatesAndShowsTheBlurAndItsCure) {
   EXPECT_EQ(observe(explorer, "estimate"), "found");
   EXPECT_EQ(explorer.settings().offset_a_ms, 0);
   EXPECT_NEAR(explorer.settings().offset_b_ms, 24, 0.1);
+  EXPECT_EQ(fmt::format("{}", explorer.settings().offset_b_ms),
+            fmt::format("{:.4g}", *explorer.estimating.found()->offset_s * 1e3))
+      << "map B has the offset that the headline shows";
   EXPECT_EQ(explorer.settings().colouring, ColourBy::kBlur);
   EXPECT_NE(explorer.place(), nullptr);
   const Pane &a = explorer.pane(Side::kA), &b = explorer.pane(Side::kB);
@@ -62,7 +67,7 @@ TEST(Opening, WhatIsOpenedAgainIsNotEstimatedAgain) {
   EXPECT_FALSE(explorer.estimating.is_running());
   ASSERT_NE(explorer.estimating.found(), nullptr);
   EXPECT_EQ(explorer.estimating.found()->offset_s, found_s);
-  EXPECT_NEAR(explorer.settings().offset_b_ms, found_s * 1e3, 1e-3);
+  EXPECT_EQ(explorer.settings().offset_b_ms, explorer.found_offset_ms());
   rest(explorer);
   EXPECT_NE(explorer.walls_in_words(), "");
 }
@@ -113,6 +118,63 @@ TEST(Opening, AWalksMapsLieAlongTheTrajectoryOfItsEstimate) {
   rest(explorer);
   ASSERT_NE(explorer.estimating.found(), nullptr);
   EXPECT_EQ(explorer.loaded()->walk->get(), explorer.estimating.found()->walk);
+}
+
+TEST(Opening, AMapThatIsWarnedOfSaysSoAndItsThicknessIsMarked) {
+  Explorer explorer;
+  load(explorer, "sample metro-station 10");
+  perform(explorer, "offset-b 24");
+  rest(explorer);
+  EXPECT_EQ(observe(explorer, "warning-b"), "");
+  EXPECT_NE(observe(explorer, "consistency-b"), "");
+  SolvedWalk doubtful = *explorer.loaded()->walk->get();
+  doubtful.tracked_again = true;
+  doubtful.contradiction = in_words(Contradiction{4, 7, 3.0}, 0);
+  explorer.loaded()->walk->keep(std::make_shared<const SolvedWalk>(doubtful));
+  perform(explorer, "colouring blur");
+  perform(explorer, "offset-b 23");
+  rest(explorer);
+  const std::string warning = *observe(explorer, "warning-b"), thickness = *observe(explorer, "thickness-b");
+  EXPECT_NE(warning.find("From 4 to 7 s"), std::string::npos) << warning;
+  EXPECT_NE(thickness.find("the map does not agree with itself"), std::string::npos) << thickness;
+  EXPECT_EQ(observe(explorer, "warning-a"), "") << "which was solved before";
+}
+
+/// The robot is stationary for the first 13.0 s. Its rig file is not given.
+class RealTiltingScanner : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (data_.empty()) GTEST_SKIP() << "no real recordings: set SWEEPSCOPE_REAL_DATA to their folder";
+  }
+  const std::filesystem::path data_ = test::real_data();
+  const std::string bag_ = (data_ / "guardian_tilt/guardian_tilt_B.bag").string();
+};
+
+TEST_F(RealTiltingScanner, IsAnsweredByThePartInWhichItWasStationary) {
+  Explorer explorer(estimating());
+  load(explorer, "open " + bag_);
+  rest(explorer);
+  EXPECT_EQ(observe(explorer, "estimate"), "found");
+  const Loaded& loaded = *explorer.loaded();
+  EXPECT_GT(loaded.recording.rig.mount.axis.y(), 0.99);
+  ASSERT_TRUE(loaded.choices.window);
+  EXPECT_EQ(loaded.choices.window->from_s, 0);
+  EXPECT_NEAR(loaded.choices.window->to_s, 13.0, 0.3);
+  EXPECT_EQ(explorer.settings().offset_b_ms, explorer.found_offset_ms());
+  EXPECT_EQ(observe(explorer, "state-b"), "solved");
+}
+
+TEST_F(RealTiltingScanner, ThePageOfChoicesShowsWhenItWasStationary) {
+  Explorer explorer;
+  perform(explorer, "choose " + bag_);
+  rest(explorer);
+  const auto* choosing = explorer.page.choosing();
+  ASSERT_TRUE(choosing != nullptr && choosing->survey);
+  double stationary_s = 0;
+  for (const MotionPart& part : choosing->survey->motion)
+    if (!part.moved) stationary_s += part.end_s - part.begin_s;
+  EXPECT_NEAR(stationary_s, 13.0, 1.0);
+  EXPECT_NE(choosing->survey->mount_note.find("about y"), std::string::npos) << choosing->survey->mount_note;
 }
 
 TEST(Opening, ANewRecordingShowsNothingOfTheOneBefore) {

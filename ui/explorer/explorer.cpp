@@ -32,10 +32,6 @@ Result<void> check_range(const Call& call) {
   return not_now(fmt::format("{} must end above its beginning, {}. {}", range->what, from, range->none));
 }
 
-double rounded_ms(double offset_s) {
-  return std::round(offset_s * 1e6) / 1e3;
-}
-
 }  // namespace
 
 Explorer::Explorer(Options options)
@@ -225,7 +221,7 @@ void Explorer::cancel() {
 std::optional<double> Explorer::found_offset_ms() const {
   const Estimate* found = estimating.found();
   if (found == nullptr || !found->offset_s) return std::nullopt;
-  return rounded_ms(*found->offset_s);
+  return std::round(*found->offset_s * 1e5) / 1e2;
 }
 
 void Explorer::use_found_offset() {

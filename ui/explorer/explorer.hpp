@@ -67,7 +67,7 @@ class Explorer {
   Result<void> fit_view();
   Result<void> play(bool on);
   void use_found_offset();
-  /// As it is set and shown, in whole microseconds; empty without one.
+  /// As it is set and shown everywhere, to 0.01 ms; empty without one.
   std::optional<double> found_offset_ms() const;
   /// The thickness of walls at 0 and at the offset found, once both are measured: a sentence; else empty.
   std::string walls_in_words() const;

@@ -5,6 +5,7 @@
 
 #include "core/io/printable_text.hpp"
 #include "ui/explorer/explorer.hpp"
+#include "ui/state/reading_choices.hpp"
 
 namespace sweepscope::ui {
 namespace {
@@ -114,7 +115,7 @@ std::string without_options(std::string text) {
 }
 
 std::string sentence(const std::string& text) {
-  std::string words = without_options(printable_line(text));
+  std::string words = with_named_axes(without_options(printable_line(text)));
   if (words.empty()) return words;
   words[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(words[0])));
   if (words.back() != '.' && words.back() != '!' && words.back() != ':') words += '.';

@@ -27,7 +27,7 @@ std::vector<Side> sides_of(Layout layout);
 /// The state of the map of a pane.
 enum class PaneState {
   kEmpty,        // no recording
-  kProvisional,  // nothing solved yet: the first second, as if the rig were stationary
+  kProvisional,  // nothing solved yet: the first sweep or second, as if the rig were stationary
   kPreview,      // beams placed along the path that was solved for another offset
   kSolved,       // odometry and mapping at this offset
 };

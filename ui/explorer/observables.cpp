@@ -32,7 +32,7 @@ std::string shown(const Pane& pane) {
     case PaneState::kEmpty:
       return "nothing";
     case PaneState::kProvisional:
-      return "the first second at " + at + ", not solved yet";
+      return "the beginning at " + at + ", not solved yet";
     case PaneState::kPreview:
       return at + ", preview along the path solved at " + ms(placement.map->offset_s);
     case PaneState::kSolved:

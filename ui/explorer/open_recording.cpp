@@ -1,5 +1,7 @@
 #include "ui/explorer/open_recording.hpp"
 
+#include <filesystem>
+
 #include "ui/jobs/task_plans.hpp"
 
 namespace sweepscope::ui {
@@ -18,7 +20,9 @@ std::optional<ReadingSurvey> choosable(const ReadingChoices& choices, const Job&
 }  // namespace
 
 void OpenRecording::read(const ReadingChoices& choices, std::optional<Restored> restored) {
-  start("Reading " + choices.file, steps_of_loading(),
+  std::filesystem::path file = choices.file;
+  if (!file.has_filename()) file = file.parent_path();  // a folder
+  start("Reading " + file.filename().string(), steps_of_loading(),
         [choices](const Job& job) { return load_file(choices, job); },
         {choices, std::move(restored), {}, {}, {}});
 }

@@ -50,7 +50,8 @@ class ComingAfter : public tbb::task_scheduler_observer {
   ~ComingAfter() override { observe(false); }
   void on_scheduler_entry(bool) override {
     constexpr int kNice = 10;
-    (void)setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNice);  // of this thread alone, on Linux
+    const auto thread = static_cast<id_t>(gettid());  // of this thread alone, on Linux
+    if (getpriority(PRIO_PROCESS, thread) < kNice) (void)setpriority(PRIO_PROCESS, thread, kNice);
   }
 };
 

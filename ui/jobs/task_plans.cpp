@@ -17,11 +17,9 @@ std::vector<TaskStep> followed_by(std::vector<TaskStep> steps, std::vector<TaskS
 }  // namespace
 
 std::vector<TaskStep> steps_of_loading() {
-  return {{"unpacking", 0.2},
-          {"reading", 1},
-          {"reading its streams", 0.2},
-          {"features", 1},
-          {"the first map", 0.5}};
+  std::vector<TaskStep> steps{{"unpacking", 0.2}, {"reading", 1}};
+  for (int i = 0; i < 6; ++i) steps.push_back({"searching", 0.3});  // each reading of the beams that is tried
+  return followed_by(steps, {{"reading its streams", 0.2}, {"features", 1}, {"the first map", 0.5}});
 }
 
 std::vector<TaskStep> steps_of_surveying() {

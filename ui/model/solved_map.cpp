@@ -59,11 +59,31 @@ void describe_points(const Loaded& loaded, SolvedMap& map) {
   const auto seen_with = [&](std::span<const HeightRange> heights) {
     return std::array{points_in_slabs(compared, unused, heights)};
   };
-  const auto sharp = seen_with(map.sharp_heights);
+  auto sharp = seen_with(map.sharp_heights);
+  if (map.provisional && 10 * sharp[0].above_path_m.size() < cloud->size()) {
+    // Of a slow sweep they may be nearly empty.
+    map.sharp_heights = {HeightRange{-kAny_m, kAny_m}};
+    sharp = seen_with(map.sharp_heights);
+  }
   map.main_box = box_of(sharp, kFew);
   map.sharp_box = box_of(sharp, kStray);
   map.low_box = box_of(seen_with(std::array{HeightRange{-kAny_m, ceiling_m}}), kStray);
   map.whole_box = box_of(seen_with(std::array{HeightRange{-kAny_m, kAny_m}}), kStray);
+}
+
+/// Of the scans in use only those of the first sweep, or of the first second if that is longer.
+void use_beginning(const Loaded& loaded, double offset_s, std::vector<char>& used) {
+  const auto& sweeps = loaded.prepared.motor.sweeps;
+  const auto& scans = loaded.recording.scans;
+  const auto first = std::find(used.begin(), used.end(), 1);
+  if (first == used.end()) return;
+  double begin_s = scans[static_cast<std::size_t>(first - used.begin())].first_beam_s, shown_s = 1;
+  if (!sweeps.empty()) {
+    begin_s = std::max(begin_s, sweeps.front().begin_s - offset_s);
+    shown_s = std::max(shown_s, sweeps.front().end_s - sweeps.front().begin_s);
+  }
+  for (std::size_t i = 0; i < used.size(); ++i)
+    if (scans[i].first_beam_s > begin_s + shown_s) used[i] = 0;
 }
 
 }  // namespace
@@ -92,7 +112,6 @@ Result<SolvedMapPtr> solve_map(const Loaded& loaded, double offset_s, std::optio
 }
 
 SolvedMapPtr map_without_solving(const Loaded& loaded, bool standing, double offset_s) {
-  constexpr double kShown_s = 1;
   auto map = std::make_shared<SolvedMap>();
   map->offset_s = offset_s;
   std::vector<char> used = scans_covered(loaded.recording, offset_s, offset_s);
@@ -103,12 +122,7 @@ SolvedMapPtr map_without_solving(const Loaded& loaded, bool standing, double off
     return map;
   }
   map->provisional = !standing;
-  const auto first = std::find(used.begin(), used.end(), 1) - used.begin();
-  for (std::size_t i = 0; map->provisional && i < used.size(); ++i) {
-    const std::size_t from = std::min<std::size_t>(static_cast<std::size_t>(first), used.size() - 1);
-    if (loaded.recording.scans[i].first_beam_s > loaded.recording.scans[from].first_beam_s + kShown_s)
-      used[i] = 0;
-  }
+  if (map->provisional) use_beginning(loaded, offset_s, used);
   map->path = path_without_solving(loaded.prepared, std::move(used));
   describe_points(loaded, *map);
   return map;

@@ -14,7 +14,7 @@ namespace sweepscope::ui {
 /// A path along which beams are placed, and the properties of the map at that offset that drawing needs.
 struct SolvedMap {
   double offset_s = 0;
-  bool provisional = false;  // not solved: only the first second, as if the rig were stationary
+  bool provisional = false;  // not solved: the first sweep or second, as if the rig were stationary
   bool lost = false;         // LOAM lost track
   MapPath path;
   std::vector<float> path_height_m;  // of each scan, in the map frame

@@ -173,7 +173,7 @@ void file_choice(const PaneContext& context, const char* command, const std::str
 /// With a rig file, where the recording's transforms say how the laser is mounted as well.
 void transforms_instead(const PaneContext& context, const ChoicesPage::Choosing& choosing) {
   if (choosing.choices.rig_file.empty() || !choosing.survey) return;
-  const std::string& says = choosing.survey->streams.mount_note;
+  const std::string says = with_named_axes(choosing.survey->streams.mount_note);
   const std::size_t about = says.find(" about ");
   if (about == says.npos) return;
   std::string axis = says.substr(about + 1);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <sstream>
 
 #include "core/offset/prepared/search_window.hpp"
 #include "render/charts/curve_charts.hpp"
@@ -49,6 +50,25 @@ std::optional<AxisRange> range_shown(const PaneContext& context) {
   const Settings& settings = context.settings();
   if (settings.chart_to_ms <= settings.chart_from_ms) return std::nullopt;
   return AxisRange{settings.chart_from_ms, settings.chart_to_ms};
+}
+
+/// While candidates come in: those about the default search. A few far away, tried for clocks that differ by
+/// seconds, would squeeze the others.
+std::optional<AxisRange> range_while_growing(const PaneContext& context, const Chart& chart) {
+  const bool grows = context.explorer.estimating.is_running() && !chart.series.empty();
+  if (!grows || context.settings().search == Search::kRange) return std::nullopt;
+  constexpr double kNear = 4;  // times the half-width of the default search
+  const double reach_ms = 1e3 * kNear * search_scale(context.explorer.loaded()->prepared.motor).half_width_s;
+  Chart near;
+  bool any_far = false;
+  for (const double x : chart.series.front().x) {
+    const bool is_far = std::abs(x) > reach_ms;
+    any_far |= is_far;
+    if (!is_far) near.verticals.push_back({x, "", kUnseen});
+  }
+  if (!any_far || near.verticals.empty()) return std::nullopt;
+  near.verticals.insert(near.verticals.end(), chart.verticals.begin(), chart.verticals.end());
+  return lay_out_chart(near, {0, 0, 1, 1}, 1).x;
 }
 
 std::vector<Chart> charts_of(const PaneContext& context) {
@@ -104,32 +124,53 @@ void draw_grips(const PaneContext& context, const ChartLayout& layout) {
   }
 }
 
+/// Why the chart has no curve.
+std::array<const char*, 2> words_without_curve(const RunningEstimate& estimating) {
+  if (estimating.is_running()) return {"Estimating the offset.", "The criteria appear here."};
+  if (estimating.found() != nullptr)
+    return {"There are no criteria: the offset is not determined.", "Drag A and B to compare two offsets."};
+  return {"Estimate the offset to see the criteria here.", "Or drag A and B now."};
+}
+
+/// Each sentence on lines of its own that fit.
+std::vector<std::string> hint_lines(const PaneContext& context, double width_px) {
+  std::vector<std::string> lines;
+  for (const char* sentence : words_without_curve(context.explorer.estimating)) {
+    std::istringstream broken(in_lines(sentence, static_cast<float>(width_px)));
+    for (std::string line; std::getline(broken, line);) lines.push_back(line);
+  }
+  return lines;
+}
+
 /// Over the empty chart, on a plate so that grid and handles pass behind it.
 void draw_hint(const PaneContext& context, const PixelRect& plot) {
-  const std::array<const char*, 2> lines{"Estimate the offset to see the criteria here.",
-                                         "Or drag A and B now."};
   const double size_px = context.px(13), line_px = context.px(19), margin = context.px(8);
+  const std::vector<std::string> lines = hint_lines(context, plot.width - 2 * margin);
   double width = 0;
-  for (const char* line : lines) width = std::max(width, text_width_px(line, size_px) + 2 * margin);
-  if (width > plot.width) return;
-  const PixelPoint middle{plot.left + plot.width / 2, plot.top + plot.height * 0.4};
-  const PixelRect plate{middle.x - width / 2, middle.y - line_px - margin / 2, width, 2 * line_px + margin};
+  for (const std::string& line : lines) width = std::max(width, text_width_px(line, size_px) + 2 * margin);
+  const double height = static_cast<double>(lines.size()) * line_px + margin;
+  if (width > plot.width || height > plot.height) return;
+  // Above the handles' grips.
+  const PixelPoint middle{plot.left + plot.width / 2, plot.top + (plot.height - margin) * 0.42};
+  const double top = std::max(plot.top, middle.y - height / 2);
   ImDrawList& list = *ImGui::GetWindowDrawList();
+  const PixelRect plate{middle.x - width / 2, top, width, height};
   list.AddRectFilled(corner(plate), far_corner(plate), to_imgui(context.style.panel), context.pxf(3));
   for (std::size_t i = 0; i < lines.size(); ++i)
-    paint_text(list, context.fonts, {middle.x, middle.y + (static_cast<double>(i) - 0.5) * line_px}, lines[i],
-               size_px, context.style.faint_text, AlignX::kCentre, AlignY::kMiddle);
+    paint_text(list, context.fonts, {middle.x, top + margin / 2 + (static_cast<double>(i) + 0.5) * line_px},
+               lines[i], size_px, context.style.faint_text, AlignX::kCentre, AlignY::kMiddle);
 }
 
 void draw_one(const PaneContext& context, Chart chart, const PixelRect& place, std::size_t number) {
   const double scale = context.scale * 0.86;
   const AxisRange all = lay_out_chart(chart, place, scale).x;
   chart.x_range = range_shown(context);
+  if (!chart.x_range) chart.x_range = range_while_growing(context, chart);
   Drawing drawing;
   add_chart(drawing, place, chart, context.style, scale);
   paint(*ImGui::GetWindowDrawList(), drawing, context.fonts);
   const ChartLayout layout = lay_out_chart(chart, place, scale);
-  if (context.explorer.estimating.charted() == nullptr) draw_hint(context, layout.plot);
+  if (chart.series.empty()) draw_hint(context, layout.plot);
   // Before the mouse moves them: line, grip and number show the same offset in every frame.
   if (number == 0) draw_grips(context, layout);
   use_chart_mouse(context, chart, layout, all, number);

@@ -85,12 +85,18 @@ void legend(const PaneContext& context) {
   ImGui::Dummy({width, height + context.pxf(20)});
 }
 
-/// How thick the surfaces of both maps are, while blur colours them.
+/// How thick the surfaces of both maps are, while blur colours them. Until it is measured there is room for
+/// it.
 void map_thickness(const PaneContext& context) {
+  if (context.settings().colouring != ColourBy::kBlur || context.settings().layout == Layout::kDifference)
+    return;
   for (const auto& [map, name] : {std::pair{"A", "thickness-a"}, std::pair{"B", "thickness-b"}}) {
     const std::string words = observe(context.explorer, name).value_or("");
-    if (words.empty()) continue;
-    wrapped_text(context.style.faint_text, map + (": " + words));
+    if (words.empty() && context.explorer.at_rest()) continue;
+    const float below =
+        ImGui::GetCursorPosY() + 2 * ImGui::GetTextLineHeight() + ImGui::GetStyle().ItemSpacing.y;
+    wrapped_text(context.style.faint_text, map + (": " + (words.empty() ? "measuring …" : words)));
+    if (words.empty()) ImGui::SetCursorPosY(below);
   }
 }
 

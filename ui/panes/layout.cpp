@@ -26,7 +26,9 @@ double size_px(double given_px, double by_window_px, double scale, double least_
 Places lay_out(double width_px, double height_px, double scale, const Settings& settings, bool has_recording,
                double message_px) {
   const double menu = 30 * scale, status = 28 * scale;
-  const bool wide = width_px > 760 * scale, panels = settings.panels && has_recording && wide;
+  // As in serve.css, for the page's buttons.
+  const bool wide = width_px > 760 * scale && height_px > 420 * scale;
+  const bool panels = settings.panels && has_recording && wide;
   const double tabs = has_recording && !wide ? 44 * scale : 0;
   const double widest = 0.36 * width_px;
   const double left = panels ? size_px(settings.left_width_px, std::min(292 * scale, 0.26 * width_px), scale,

@@ -76,7 +76,7 @@ std::string state_of_map(const PaneContext& context, Side side) {
     case PaneState::kEmpty:
       return "";
     case PaneState::kProvisional:
-      return "first second only";
+      return "beginning only";
     case PaneState::kPreview:
       return "preview";
     case PaneState::kSolved:
@@ -144,11 +144,11 @@ void draw_header(const PaneContext& context, Side side, const PixelRect& place) 
     return;
   }
   ImGui::SetNextItemWidth(context.pxf(place.width < context.px(300) ? 84 : 104));
-  const int decimals = std::abs(shown_ms * 10 - std::round(shown_ms * 10)) < 1e-6 ? 1 : 3;
+  const std::string label = offset_label_ms(shown_ms * 1e-3);
   NumberBox box = box_of(*find_command(command), 0);
   std::tie(box.least, box.greatest) = context.explorer.offset_window_ms();
   box.step = 1e-3;
-  box.format = fmt::format("%.{}f ms", decimals);
+  box.format = fmt::format("%.{}f ms", label.size() - label.find('.') - 1);
   number_box(context, box);
   context.anchor_last(command);
   tooltip(context, find_command(command)->help + "  Drag, or click to type.");

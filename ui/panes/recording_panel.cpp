@@ -238,6 +238,22 @@ void rig_rows(const PaneContext& context, const SolvedRig& solved) {
   button(context, "Export the rig found …", "ask export-rig");
 }
 
+/// How thick walls are. While opening measures them, there is room for the sentence to come.
+void walls(const PaneContext& context) {
+  const std::string words = context.explorer.walls_in_words();
+  if (words.empty() && !context.explorer.is_answering()) return;
+  const float below =
+      ImGui::GetCursorPosY() + 2 * ImGui::GetTextLineHeight() + ImGui::GetStyle().ItemSpacing.y;
+  if (words.empty()) {
+    ImGui::TextDisabled("Measuring the walls …");
+    ImGui::SetCursorPosY(below);
+  } else {
+    wrapped_text(words);
+    context.anchor_last("walls");
+  }
+  ImGui::Dummy({0, context.pxf(2)});
+}
+
 void answer(const PaneContext& context, const Estimate& estimate) {
   heading(context, "Offset found");
   if (estimate.identifiable && estimate.offset_s) {
@@ -249,11 +265,7 @@ void answer(const PaneContext& context, const Estimate& estimate) {
     ImGui::SameLine(0, context.pxf(6));
     ImGui::SetCursorPosY(ImGui::GetCursorPosY() + context.pxf(10));
     ImGui::TextDisabled("ms");
-    if (const std::string walls = context.explorer.walls_in_words(); !walls.empty()) {
-      ImGui::TextWrapped("%s", walls.c_str());
-      context.anchor_last("walls");
-      ImGui::Dummy({0, context.pxf(2)});
-    }
+    walls(context);
     criterion_rows(context, estimate);
     if (estimate.over_time) course_rows(context, *estimate.over_time);
     if (estimate.rig) rig_rows(context, *estimate.rig);
@@ -262,7 +274,7 @@ void answer(const PaneContext& context, const Estimate& estimate) {
     button(context, "Show in map B", "take-found");
   } else {
     text_in(context.fonts.heading, "Not determined");
-    for (const std::string& reason : estimate.reasons()) ImGui::TextWrapped("%s", sentence(reason).c_str());
+    for (const std::string& reason : estimate.reasons()) wrapped_text(sentence(reason));
   }
   remarks(context, "Warnings", estimate.warnings, colour_of_a(context.style));
   ImGui::Dummy({0, context.pxf(2)});

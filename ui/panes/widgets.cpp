@@ -3,7 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <cmath>
+#include <string_view>
+#include <vector>
 
 #include "core/io/printable_text.hpp"
 #include "ui/panes/number_box.hpp"
@@ -124,9 +128,47 @@ void text_in(ImFont* font, const std::string& text) {
   ImGui::PopFont();
 }
 
+namespace {
+
+/// Whether a line may not end before this word: a unit, or what follows a sign.
+bool belongs_to(const std::string& before, std::string_view word) {
+  while (!word.empty() && std::string_view(".,;:)").find(word.back()) != word.npos) word.remove_suffix(1);
+  constexpr std::array kUnits{"mm", "cm", "m", "ms", "s", "%", "Hz", "deg", "°/s", "rad", "ppm", "px"};
+  const bool number = !before.empty() && std::isdigit(static_cast<unsigned char>(before.back()));
+  return before.ends_with("±") ||
+         (number && (word == "±" || std::ranges::find(kUnits, word) != kUnits.end()));
+}
+
+}  // namespace
+
+std::string in_lines(const std::string& text, float width_px) {
+  std::vector<std::string> pieces;  // that are not broken
+  for (std::size_t from = 0; from <= text.size();) {
+    const std::size_t to = std::min(text.find(' ', from), text.size());
+    const std::string word = text.substr(from, to - from);
+    if (!pieces.empty() && belongs_to(pieces.back(), word))
+      pieces.back() += " " + word;
+    else
+      pieces.push_back(word);
+    from = to + 1;
+  }
+  std::string lines, line;
+  for (const std::string& piece : pieces) {
+    const std::string longer = line.empty() ? piece : line + " " + piece;
+    const bool fits = ImGui::CalcTextSize(longer.c_str()).x <= width_px;
+    if (!fits && !line.empty()) lines += line + "\n";
+    line = fits ? longer : piece;
+  }
+  return lines + line;
+}
+
+void wrapped_text(const std::string& text) {
+  ImGui::TextWrapped("%s", in_lines(text, ImGui::GetContentRegionAvail().x).c_str());
+}
+
 void wrapped_text(const Colour& colour, const std::string& text) {
   ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(colour));
-  ImGui::TextWrapped("%s", text.c_str());
+  wrapped_text(text);
   ImGui::PopStyleColor();
 }
 
@@ -151,9 +193,7 @@ void row(const PaneContext& context, const char* name, const std::string& value)
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(context.pxf(8), context.pxf(4)));
   ImGui::TextDisabled("%s", name);
   ImGui::SameLine(ImGui::GetWindowContentRegionMin().x + context.pxf(78));
-  ImGui::PushTextWrapPos(0);
-  ImGui::TextUnformatted(printable_line(value).c_str());
-  ImGui::PopTextWrapPos();
+  wrapped_text(printable_line(value));
   ImGui::PopStyleVar();
 }
 

@@ -51,7 +51,11 @@ bool invisible_button(const std::string& name, const PixelRect& place, ImGuiButt
 
 /// A line of text in another font.
 void text_in(ImFont* font, const std::string& text);
-/// Text of another colour that wraps at the panel's edge.
+/// The text with breaks between its words, so that no line is wider: none within a number, or before its
+/// unit.
+std::string in_lines(const std::string& text, float width_px);
+/// Text that wraps at the panel's edge, of another colour as well.
+void wrapped_text(const std::string& text);
 void wrapped_text(const Colour& colour, const std::string& text);
 /// The same, small and faint.
 void small_print(const PaneContext& context, const std::string& text);

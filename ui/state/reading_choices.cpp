@@ -43,8 +43,8 @@ std::string motor_in_words(const Recording& recording) {
 
 /// `by`: what says so.
 std::string mount_in_words(const Eigen::Vector3d& axis, const std::string& by) {
-  return fmt::format("The motor turns the laser about [{:.3g}, {:.3g}, {:.3g}]{}.", axis.x() + 0.0,
-                     axis.y() + 0.0, axis.z() + 0.0, by);
+  return with_named_axes(fmt::format("The motor turns the laser about [{:.3g}, {:.3g}, {:.3g}]{}.",
+                                     axis.x() + 0.0, axis.y() + 0.0, axis.z() + 0.0, by));
 }
 
 /// The recording as its surfaces show that it is to be read, with what they show in words.
@@ -176,6 +176,13 @@ Result<ReadingChoices> reading_from_json(const Json& json, const std::string& na
   return choices;
 }
 
+std::string with_named_axes(std::string text) {
+  for (const auto& [axis, name] : {std::pair{"[1, 0, 0]", "x"}, {"[0, 1, 0]", "y"}, {"[0, 0, 1]", "z"}})
+    for (std::size_t at = 0; (at = text.find(axis, at)) != text.npos;)
+      text.replace(at, std::string_view(axis).size(), name);
+  return text;
+}
+
 Result<ReadingSurvey> survey_file(const ReadingChoices& choices, const Job& job) {
   const auto options = read_options(choices);
   const Rig rig = options ? options->rig.value_or(Rig())
@@ -188,7 +195,7 @@ Result<ReadingSurvey> survey_file(const ReadingChoices& choices, const Job& job)
   found.mount_note = choices.rig_file.empty() ? "Without a rig file the motor rolls the laser about x."
                                               : mount_in_words(rig.mount.axis, "");
   if (choices.rig_file.empty() && !found.streams.mount_note.empty())
-    found.mount_note += " " + found.streams.mount_note;
+    found.mount_note += " " + with_named_axes(found.streams.mount_note);
   if (!found.streams.complete() || job.cancelled()) return found;
   auto recording = assemble(std::move(*raw), rig, choices.stamps);
   if (recording)

@@ -57,6 +57,9 @@ struct ReadingSurvey {
   std::vector<MotionPart> motion;     // empty: not known
 };
 
+/// With "y" in place of "[0, 1, 0]".
+std::string with_named_axes(std::string text);
+
 /// Reads the whole file. An error only where nothing in it can be read.
 Result<ReadingSurvey> survey_file(const ReadingChoices& choices, const Job& job);
 

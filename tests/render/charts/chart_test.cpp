@@ -121,6 +121,18 @@ TEST(ChartLayout, APartOfTheAxisIsShownExactlyAndTheOtherAxisFitsWhatIsSeen) {
   }
 }
 
+TEST(ChartLayout, WithoutValuesYHasNoNumbersAndThePlotTheSamePlace) {
+  Chart chart;
+  for (const double x : {-60.0, 60.0}) chart.verticals.push_back({x, "", {}});
+  const ChartLayout empty = lay_out_chart(chart, {0, 0, 500, 300}, 1);
+  EXPECT_TRUE(empty.y_ticks.values.empty());
+  EXPECT_FALSE(empty.x_ticks.values.empty());
+  chart.series.push_back({"c", {-60, 60}, {100, 300}, {1, 2, 3}});
+  const ChartLayout full = lay_out_chart(chart, {0, 0, 500, 300}, 1);
+  EXPECT_FALSE(full.y_ticks.values.empty());
+  EXPECT_NEAR(full.plot.left, empty.plot.left, 1e-6);
+}
+
 TEST(Chart, IsReadAtTheShownPointNearestToAnX) {
   Chart chart;
   chart.series.push_back({"d", {0, 10, 20}, {3, std::nullopt, 5}, {1, 2, 3}});

@@ -134,16 +134,21 @@ void palette_list(const PaneContext& context, const std::vector<Entry>& found) {
   Transient& transient = context.transient;
   ImGui::BeginChild("found");
   const float right = ImGui::GetWindowContentRegionMax().x;
+  const bool narrow = right < context.pxf(460);  // titles alone, and keys beside short ones
+  const auto width_of = [](const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x; };
   for (std::size_t i = 0; i < found.size(); ++i) {
     const bool chosen = static_cast<int>(i) == transient.palette_choice;
     ImGui::PushID(static_cast<int>(i));
     if (ImGui::Selectable(found[i].title.c_str(), chosen)) run_entry(context, found[i]);
     if (chosen) ImGui::SetScrollHereY(0.5f);
     context.anchor_last("palette " + found[i].line);
-    ImGui::SameLine(right * 0.62f);
-    ImGui::TextDisabled("%s", found[i].line.c_str());
-    if (!found[i].chord.empty()) {
-      ImGui::SameLine(right - ImGui::CalcTextSize(found[i].chord.c_str()).x - context.pxf(4));
+    if (!narrow) {
+      ImGui::SameLine(right * 0.62f);
+      ImGui::TextDisabled("%s", found[i].line.c_str());
+    }
+    const float chord = right - width_of(found[i].chord) - context.pxf(4);
+    if (!found[i].chord.empty() && (!narrow || width_of(found[i].title) + context.pxf(12) < chord)) {
+      ImGui::SameLine(chord);
       ImGui::TextUnformatted(found[i].chord.c_str());
     }
     ImGui::PopID();
