@@ -79,7 +79,7 @@ TEST(SparseSweeps, SweepsThatRepeatTheirLinesDoNotMakeTheOffsetCertain) {
   expect_answered(repeating);
 }
 
-// 13 deg apart: beside the lines of one direction those of the other say little about its surfaces.
+// 14 deg apart: beside the lines of one direction those of the other say little about its surfaces.
 TEST(SparseSweeps, LinesFarApartAreTheReason) {
   const Estimate found =
       test::estimated(stated(simulation_of(typed({9367, "room-3", "rplidar-s2", "trapezoid", 1.201, -62.639,
@@ -87,7 +87,7 @@ TEST(SparseSweeps, LinesFarApartAreTheReason) {
                                  .value()));
   ASSERT_EQ(found.refusals.size(), 1U);
   EXPECT_EQ(found.refusals[0].kind, RefusalKind::kFlatCost);
-  EXPECT_NE(found.refusals[0].text.find("13 deg of the motor's angle"), std::string::npos)
+  EXPECT_NE(found.refusals[0].text.find("14 deg of the motor's angle"), std::string::npos)
       << found.refusals[0].text;
 }
 
