@@ -157,6 +157,29 @@ Result<std::pair<OffsetOverTime, double>> windows_followed(const OffsetSearch& s
   return Followed{std::move(found), walk->common_sigma_s};
 }
 
+// Of a constant course through so few windows that a jump or a drift would not show in them: the whole is
+// judged by its parts, as where nobody asked for the offset over time.
+Result<void> judge_few_windows(const OffsetSearch& search, const OffsetOverTime& over_time,
+                               const RecordingSource& source, Estimate& result, const Job& job) {
+  constexpr std::size_t kMinWindows = 4;  // two on either side of a jump
+  const OffsetCourse& course = *over_time.course;
+  if (search.as_moving() || !result.identifiable || !course.constant() || course.windows >= kMinWindows)
+    return {};
+  EstimateOptions options = search.options;
+  options.over_time_s.reset();
+  const auto whole = find_offset(source, {}, options, {}, job);
+  if (!whole) return tl::unexpected(whole.error());
+  if (whole->identifiable) {
+    result.sigma_s = std::max(*result.sigma_s, *whole->sigma_s);
+    return {};
+  }
+  result.refusals = whole->refusals;
+  result.identifiable = false;
+  result.offset_s.reset();
+  result.sigma_s.reset();
+  return {};
+}
+
 // The offset at the recording's middle, as far as the windows let it stand.
 void take_course(const OffsetSearch& search, const OffsetOverTime& over_time, double common_sigma_s,
                  Estimate& result) {
@@ -186,10 +209,13 @@ Result<Estimate> follow_over_time(Estimate begun, const OffsetSearch& search, co
   result.curve = search.coarse.curve;
   if (job.cancelled()) return result;
   auto& [over_time, common_sigma_s] = *followed;
-  if (over_time.course)
+  if (over_time.course) {
     take_course(search, over_time, common_sigma_s, result);
-  else
+    if (const auto judged = judge_few_windows(search, over_time, source, result, job); !judged)
+      return tl::unexpected(judged.error());
+  } else {
     result.refusals.push_back(refusal(RefusalKind::kNoWindow, {}, over_time.windows.front().reason));
+  }
   if (plan.sample) {
     result.sweeps = plan.sample->counts.of_sweeps;
     result.scans = 0;

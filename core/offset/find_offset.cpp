@@ -9,6 +9,7 @@
 #include "core/offset/estimate_over_time.hpp"
 #include "core/offset/judgement/identifiability.hpp"
 #include "core/offset/judgement/limits.hpp"
+#include "core/offset/judgement/unseen_sigma.hpp"
 #include "core/offset/judgement/warnings.hpp"
 #include "core/offset/kind/rig_kind.hpp"
 #include "core/offset/kind/stationary_motion.hpp"
@@ -121,7 +122,14 @@ Estimate counted(Estimate result, const OffsetProblem& problem, const SearchWind
 // That the rig moved, as a sentence before another; about a wrong axis a stationary rig seems to move.
 std::string moved_before(const OffsetSearch& search) {
   if (!search.motion.moving() || search.options.assume) return "";
-  const bool stated = search.problem.recording->rig.states_mount();
+  const Recording& recording = *search.problem.recording;
+  if (has_sparse_sweeps(recording, search.problem.motor))
+    return fmt::format(
+        "In {} of {} pairs sweeps of the same direction do not match: the rig moved, or the scan lines of a "
+        "sweep, {:.0f} deg of the motor's angle apart, are too few to compare. If it was stationary, turn the "
+        "motor more slowly or less far, or state it (estimate --assume stationary). ",
+        search.motion.moved, search.motion.pairs, search.problem.line_spacing_rad * kDegPerRad);
+  const bool stated = recording.rig.states_mount();
   return moved_text(search.motion) +
          (stated
               ? " "

@@ -308,8 +308,15 @@ Result<Answer> of_moving(const OffsetSearch& search, Answer answer, const Job& j
   return of_walk(search, mapping, source, std::move(answer), job);
 }
 
-// Scans that cover parts of a turn and could not be put together have no direction in common with the next.
+// Scans may hold nothing; those that cover parts of a turn and could not be put together have no direction in
+// common with the next.
 std::string why_none_are_shared(const Recording& recording) {
+  constexpr double kHardlyAny = 0.01;  // of the beams
+  const auto usable = std::ranges::count_if(
+      recording.ranges_m, [](float range_m) { return std::isfinite(range_m) && range_m > 0; });
+  if (double(usable) < kHardlyAny * double(recording.ranges_m.size()))
+    return fmt::format(": of {} beams {} returned a range. Check the scanner, and that nothing covers it",
+                       recording.ranges_m.size(), usable);
   std::size_t apart = 0;
   for (std::size_t i = 0; i + 1 < recording.scans.size(); ++i) {
     const LaserScan& scan = recording.scans[i];
@@ -320,6 +327,25 @@ std::string why_none_are_shared(const Recording& recording) {
   if (!recording.directions.empty() || 2 * apart < recording.scans.size()) return " at any candidate offset";
   return ": the messages cover parts of a turn of the mirror, and by the times of their beams they are not put "
          "together. Set laser.time_increment_s in a rig file, or record whole turns";
+}
+
+// Of a 2D scanner's sweeps of few lines, what lies between the lines is to blame, not the scene.
+MaybeRefusal flat_of(const OffsetSearch& search) {
+  constexpr double kFewLines = 15;  // a sweep; with more, simulated rooms have a clear valley
+  const Recording& recording = *search.problem.recording;
+  MaybeRefusal flat = flat_refusal(search.coarse.curve, *search.coarse.best);
+  if (!flat) return flat;
+  if (flat->kind == kFlatCost && recording.directions.empty() && !has_rings(recording) &&
+      scans_a_sweep(recording, search.problem.motor) < kFewLines)
+    flat->text = fmt::format(
+        "The scan lines of a sweep are too far apart, {:.0f} deg of the motor's angle, to compare what sweeps of "
+        "opposite directions measured: they fit each other about equally well at every offset. Turn the motor more "
+        "slowly or less far, or use a scanner that makes more scans a second.",
+        search.problem.line_spacing_rad * kDegPerRad);
+  if (search.options.search)
+    flat->text += fmt::format(" The search was limited to {:.0f} to {:.0f} ms (--search).",
+                              search.window.from_s() * 1e3, search.window.to_s() * 1e3);
+  return flat;
 }
 
 }  // namespace
@@ -340,7 +366,7 @@ Result<Answer> answer_directly(const OffsetSearch& search, const Job& job) {
   // wrong times.
   if (!search.as_moving() && answer.refusals.empty()) {
     add(answer.refusals, edge_refusal(coarse.curve, *coarse.best));
-    const MaybeRefusal flat = flat_refusal(coarse.curve, *coarse.best);
+    const MaybeRefusal flat = flat_of(search);
     if (flat) add(answer.refusals, unrepeated_lines_refusal(recording));
     add(answer.refusals, flat);
     add(answer.refusals, rival_refusal(coarse.curve, *coarse.best, search.scale));

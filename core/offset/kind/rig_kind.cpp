@@ -47,7 +47,7 @@ KindDecision decide_kind(const MotionTest& test, const EstimateOptions& options)
     decision.kind = test.moving() ? RigKind::kMoving : RigKind::kStationary;
     decision.reason = pairs_text(test);
   } else {
-    decision.reason = "Too short to decide whether the rig moved: it is treated as stationary.";
+    decision.reason = "Too few sweeps match to decide whether the rig moved: it is treated as stationary.";
     if (options.method != Method::kMoving) decision.warnings.push_back(decision.reason);
   }
   return decision;

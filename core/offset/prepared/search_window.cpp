@@ -43,7 +43,7 @@ Result<std::vector<double>> checked_offsets(const std::vector<OffsetRange>& rang
   const std::vector<double> offsets_s = offsets_of(ranges);
   if (offsets_s.empty()) return failure(ExitCode::kWrongUsage, "The ranges hold no candidate offset.");
   const double half_width_s = (offsets_s.back() - offsets_s.front()) / 2;
-  if (half_width_s > scale.max_half_width_s + 1e-9)
+  if (half_width_s > scale.max_half_width_s + scale.unit_s / 2)  // sweeps are as long as an encoder shows
     return failure(
         ExitCode::kWrongUsage,
         fmt::format(

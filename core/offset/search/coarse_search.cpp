@@ -125,11 +125,6 @@ double depth_of(const CoarseSearch& search) {
   return 1 - cost_m(search) / median(std::move(costs_m));
 }
 
-bool has_clear_valley(const CoarseSearch& search) {
-  constexpr double kClearDepth = 0.5;
-  return is_inside(search) && depth_of(search) > kClearDepth;
-}
-
 // Two sparse sweeps have few lines near each other, and of those beside edges most differ at any offset.
 // Where neighbours show no valley, all sweeps may.
 template <typename Search>
@@ -144,6 +139,11 @@ CoarseSearch by_neighbours_or_all(const OffsetProblem& problem, const Search& se
 }
 
 }  // namespace
+
+bool has_clear_valley(const CoarseSearch& search) {
+  constexpr double kClearDepth = 0.5;
+  return is_inside(search) && depth_of(search) > kClearDepth;
+}
 
 CoarseSearch search_coarsely(const OffsetProblem& problem, double from_s, double to_s,
                              const SearchScale& scale, const Job& job,

@@ -32,6 +32,9 @@ CoarseSearch search_coarsely(const OffsetProblem& problem, double from_s, double
 CoarseSearch search_roughly(const OffsetProblem& problem, double from_s, double to_s,
                             const SearchScale& scale, const Job& job);
 
+/// The best candidate is none of the ends and costs less than half of the usual one.
+bool has_clear_valley(const CoarseSearch& search);
+
 /// A search of the window that an estimate takes by default.
 struct SearchedWindow {
   double from_s = 0, to_s = 0;

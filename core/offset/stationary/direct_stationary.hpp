@@ -62,8 +62,8 @@ struct StationaryDirect {
   double lever_m =
       0;  // rms of n . (a x p): the distance by which a turn of 1 rad moves the points off the patches
   double reach_m = 0;  // rms of |a x p|: its upper bound
-  // Resampling: the recording is cut into parts, blocks of sweeps in the order of time, or sectors of the
-  // motor's angle where sweeps are few.
+  // Resampling: the recording is cut into parts, blocks of sweeps in the order of time. Where sweeps are few,
+  // or sparse and less certain by it, the parts are views: sectors of the motor's angle by sections of beams.
   std::vector<WithoutPart> without_part;  // the offset without each part
   std::vector<WithoutPart> without_comb;  // the same for combs of lines, every so many-th one
   std::vector<SectorOffset> sectors;      // of the motor's angle, ascending

@@ -314,16 +314,26 @@ void resample(const StationaryGrid& grid, const StationaryLinearisation& at,
   // costs as many patches as have points of it.
   constexpr std::size_t kMaxParts = 10, kMinBlocks = 6, kSectors = 8, kSections = 3, kCombs = 12;
   static_assert(std::max({kMaxParts, kSectors * kSections, kCombs}) <= CellParts::kMost);
-  // Sweeps are the parts where there are enough of them.
   const Blocks blocks = blocks_of_sweeps(at.points(), kMaxParts);
-  const CellParts parts = blocks.count < kMinBlocks ? views(at.points(), kSectors, kSections)
-                                                    : parts_of(blocks, at.points().bins);
-  result.without_part = offsets_without(at, lines, parts, loss_width_m);
+  const auto without = [&](const CellParts& parts) {
+    return offsets_without(at, lines, parts, loss_width_m);
+  };
+  const auto without_views = [&] { return without(views(at.points(), kSectors, kSections)); };
+  const auto sigma_by_s = [&](const std::vector<WithoutPart>& parts) {
+    return jackknife_sigma(result.offset_s, parts).value_or(0);
+  };
+  // Sweeps are the parts where there are enough of them.
+  const bool few = blocks.count < kMinBlocks;
+  result.without_part = few ? without_views() : without(parts_of(blocks, at.points().bins));
+  // Sparse sweeps often measure the same lines again: then all blocks have the error of their few surfaces.
+  if (!few && has_sparse_sweeps(*grid.problem->recording, grid.problem->motor))
+    if (auto by_views = without_views(); sigma_by_s(by_views) > sigma_by_s(result.without_part))
+      result.without_part = std::move(by_views);
   result.middle_s = middle_of_matches_s(grid, lines, loss_width_m);
   fill_levers(lines, result);
   fill_sectors(grid, at.points(), lines, loss_width_m, result);
   if (resampling == Resampling::kParts) return;
-  result.without_comb = offsets_without(at, lines, combs(at.points(), kCombs), loss_width_m);
+  result.without_comb = without(combs(at.points(), kCombs));
   fill_blocks(at, grid, loss_width_m, result);
 }
 

@@ -70,6 +70,52 @@ TEST(SparseSweeps, AnOffsetBesideTheEndOfTheDefaultWindowIsFound) {
       typed({10215, "room-3", "urg04lx", "trapezoid", 0.812, 61.4, 7.1, 88.8, -8.5, 80, "instant"}));
 }
 
+// 8.5 scans a sweep: every second sweep of a direction measures the same lines, and errs as the one before.
+TEST(SparseSweeps, SweepsThatRepeatTheirLinesDoNotMakeTheOffsetCertain) {
+  TypedSimulation repeating =
+      typed({12210, "room-1", "urg04lx", "trapezoid", 0.85, -184.212, 5.3, 37.4, 10.8, 31});
+  repeating.axis = "x";
+  repeating.motor_repeats = 3;
+  expect_answered(repeating);
+}
+
+// 14 deg apart: beside the lines of one direction those of the other say little about its surfaces.
+TEST(SparseSweeps, LinesFarApartAreTheReason) {
+  const Estimate found =
+      test::estimated(stated(simulation_of(typed({9367, "room-3", "rplidar-s2", "trapezoid", 1.201, -62.639,
+                                                  7.4, 80.2, 11.9, 120, "instant"}))
+                                 .value()));
+  ASSERT_EQ(found.refusals.size(), 1U);
+  EXPECT_EQ(found.refusals[0].kind, RefusalKind::kFlatCost);
+  EXPECT_NE(found.refusals[0].text.find("14 deg of the motor's angle"), std::string::npos)
+      << found.refusals[0].text;
+}
+
+TEST(SparseSweeps, ThatDoNotMatchMayBeTooFewToCompare) {
+  const Estimate found = test::estimated(stated(
+      simulation_of(typed({622, "room-1", "rplidar-a1", "sine", 0.883, -136.487, 5.3, 77.5, -13.8, 165}))
+          .value()));
+  ASSERT_EQ(found.refusals.size(), 1U);
+  EXPECT_NE(found.refusals[0].text.find("too few to compare"), std::string::npos) << found.refusals[0].text;
+}
+
+// One window shows no jump: the whole is judged by its parts.
+TEST(OffsetOverTime, OfAShortRecordingThatJumpsIsRefused) {
+  SimulationOptions jumps;
+  jumps.scene = "room-1";
+  jumps.offset_s = 0.024;
+  jumps.duration_s = 2;
+  jumps.jump_s = 3 * kMs;
+  jumps.jump_at_s = 1;
+  EstimateOptions over_time;
+  over_time.over_time_s = 0;
+  const auto found = estimate(stated(jumps), over_time, Job());
+  ASSERT_TRUE(found);
+  EXPECT_FALSE(found->identifiable);
+  ASSERT_FALSE(found->refusals.empty());
+  EXPECT_EQ(found->refusals[0].kind, RefusalKind::kOffsetChanges) << found->refusals[0].text;
+}
+
 // Each at an instant of its own: no increment joins them.
 TEST(PartsOfTurns, ThatCannotBePutTogetherAreTheReason) {
   TypedSimulation parts;
