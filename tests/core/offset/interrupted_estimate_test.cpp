@@ -18,7 +18,7 @@ const Recording& standing() {
 }
 
 const Recording& walking() {
-  return test::simulated("metro-station", 0.024, 8).recording;
+  return test::simulated("metro-station", 0.024, 6).recording;
 }
 
 EstimateOptions directly() {

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <map>
+
 #include "core/offset/estimator.hpp"
 #include "core/offset/readings/fitting_recording.hpp"
 #include "core/results/estimate_json.hpp"
@@ -15,8 +18,7 @@ using test::kMs;
 
 constexpr double kPartTruth_s = 0.024, kStationary_s = 8.0;
 
-// In a hall; it is stationary for 8 s and goes at 0.4 m/s from then on, or from the beginning.
-Recording recorded(double sweep_s, double stationary_s = kStationary_s, double duration_s = 12) {
+Recording in_a_hall(double sweep_s, double stationary_s, double duration_s) {
   test::Bench bench;
   bench.mesh = test::hall();
   bench.duration_s = duration_s;
@@ -27,6 +29,14 @@ Recording recorded(double sweep_s, double stationary_s = kStationary_s, double d
     return Eigen::Isometry3d(Eigen::Translation3d(0.4 * std::max(0.0, t_s - stationary_s), 0, 0));
   };
   return bench.record();
+}
+
+// In a hall; it is stationary for 8 s and goes at 0.4 m/s from then on, or from the beginning.
+const Recording& recorded(double sweep_s, double stationary_s = kStationary_s, double duration_s = 12) {
+  static std::map<std::array<double, 3>, Recording> made;
+  const std::array key{sweep_s, stationary_s, duration_s};
+  if (!made.contains(key)) made.emplace(key, in_a_hall(sweep_s, stationary_s, duration_s));
+  return made.at(key);
 }
 
 MotionCourse course_of(const Recording& recording) {
@@ -57,7 +67,7 @@ TEST(StationaryPart, IsNoneWhereItIsTooShort) {
 
 TEST(StationaryPart, AnswersAsItsWindowDoesWhereTheWalkIsTooShort) {
   for (const double sweep_s : {0.7, 1.1}) {
-    const Recording recording = recorded(sweep_s);
+    const Recording& recording = recorded(sweep_s);
     const auto found = estimate(recording, {}, Job());
     ASSERT_TRUE(found && found->identifiable) << sweep_s;
     ASSERT_TRUE(found->stationary_part) << sweep_s;
@@ -77,7 +87,7 @@ TEST(StationaryPart, AnswersAsItsWindowDoesWhereTheWalkIsTooShort) {
 }
 
 TEST(StationaryPart, OfAWindowIsOneOfTheWholeRecording) {
-  const Recording whole = recorded(0.7), later = window(whole, 1, 12);
+  const Recording &whole = recorded(0.7), later = window(whole, 1, 12);
   const auto found = estimate(later, {}, Job());
   ASSERT_TRUE(found && found->identifiable && found->stationary_part);
   EXPECT_NEAR(found->stationary_part->begin_s, 1, 0.05);
@@ -118,7 +128,7 @@ TEST(StationaryPart, IsNotUsedWhereTheKindOfRigIsStated) {
 }
 
 TEST(StationaryPart, IsNotUsedWhereTheWalkHasAnAnswer) {
-  const Recording recording = recorded(0.5, kStationary_s, 24);
+  const Recording& recording = recorded(0.5, kStationary_s, 24);
   const auto found = estimate(recording, {}, Job());
   ASSERT_TRUE(found && found->identifiable);
   EXPECT_EQ(found->kind, RigKind::kMoving);
