@@ -23,11 +23,11 @@ bool alike(double a, double b, double factor = kAlike) {
 }
 
 /// One of a driver that leaves out scans may be a turn of the mirror.
-bool plausible_scan_time(double scan_time_s, double period_s) {
+bool plausible_scan_time(double scan_time_s, double period_s, double factor = kAlike) {
   if (!usable_increment(scan_time_s / kMaxTurns)) return false;
   if (!(period_s > 0)) return true;
   for (int turns = 1; turns <= kMaxTurns; ++turns)
-    if (alike(turns * scan_time_s, period_s)) return true;
+    if (alike(turns * scan_time_s, period_s, factor)) return true;
   return false;
 }
 
@@ -86,7 +86,9 @@ BeamTimes judge_beam_times(const RawScan& scan, double period_s, std::optional<d
     if (!(period_s > 0)) times.time_increment_s.reset();
     return times;
   }
-  const double turn_s = guessed ? scan_time_s : period_s;
+  // The stamps say how long a turn takes, where scan_time disagrees with them.
+  const bool agree = plausible_scan_time(scan_time_s, period_s, kSameReading);
+  const double turn_s = guessed && agree ? scan_time_s : period_s;
   const double of_mirror_s = turn_s * std::abs(double{scan.angle_increment_rad}) / kFullTurn;
   // A scan of a whole turn takes its whole period by either reading.
   if (!guessed || !alike(*times.time_increment_s, of_mirror_s, kSameReading)) times.other_s = of_mirror_s;
