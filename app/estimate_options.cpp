@@ -88,7 +88,9 @@ void print_effects(const RigEffects& effects) {
 void print_over_time(const OffsetOverTime& over_time) {
   if (!over_time.course) return;
   const OffsetCourse& course = *over_time.course;
-  const char* kind = course.constant() ? "constant" : "at the recording's middle";
+  const char* kind = course.windows < 2  ? "not determined"
+                     : course.constant() ? "constant"
+                                         : "at the recording's middle";
   print("course   {}; {} of {} windows have an offset\n", kind, course.windows, over_time.windows.size());
   if (course.rate_sigma > 0)
     print("rate     {:.3f} +- {:.3f} ppm (1 sigma), {:.3f} ms a minute\n", course.rate * 1e6,

@@ -2,6 +2,9 @@
 // FUZZ_TARGETS, which the build defines, is FUZZ_TARGET(name) for each.
 // Changes are drawn from a fixed seed, so that all runs are alike; a target that ends the program leaves the
 // input.
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -77,14 +80,26 @@ void change_once(Bytes& bytes, const std::vector<Bytes>& corpus, Random& random)
   }
 }
 
-std::string crash_file;
+// Tries inputs. Each is in the file before it is tried: it is there after a crash, whatever kind of crash.
+class Tries {
+ public:
+  Tries(Target target, const char* crash_file)
+      : target_(target), file_(open(crash_file, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644)) {}
 
-// The input, before it is tried: it is there after a crash, whatever kind of crash.
-void try_input(Target target, const Bytes& bytes) {
-  std::ofstream(crash_file, std::ios::binary)
-      .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  target(bytes.data(), bytes.size());
-}
+  bool ok() const { return ok_; }
+
+  // The file stays open: closing one that was emptied waits for the disk.
+  void operator()(const Bytes& bytes) {
+    ok_ = ok_ && pwrite(file_, bytes.data(), bytes.size(), 0) == ssize_t(bytes.size()) &&
+          ftruncate(file_, off_t(bytes.size())) == 0;
+    target_(bytes.data(), bytes.size());
+  }
+
+ private:
+  Target target_;
+  int file_;
+  bool ok_ = true;
+};
 
 }  // namespace
 
@@ -96,7 +111,6 @@ int main(int argc, char** argv) {
                  argv[0]);
     return 2;
   }
-  crash_file = argv[4];
   std::set<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(argv[2])) files.insert(entry.path());
   std::vector<Bytes> corpus;
@@ -108,14 +122,19 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "%s: no seeds\n", argv[2]);
     return 1;
   }
-  for (const Bytes& bytes : corpus) try_input(target->second, bytes);
+  Tries try_input(target->second, argv[4]);
+  for (const Bytes& bytes : corpus) try_input(bytes);
   const unsigned long copies = std::stoul(argv[3]);
   Random random(1);  // NOLINT(bugprone-random-generator-seed): the same tries each time
   for (unsigned long tried = 0; tried < copies; ++tried) {
     Bytes bytes = corpus[below(random, corpus.size())];
     for (std::uint64_t changes = 1 + random() % 5; changes > 0; --changes) change_once(bytes, corpus, random);
-    try_input(target->second, bytes);
+    try_input(bytes);
   }
-  std::filesystem::remove(crash_file);
+  if (!try_input.ok()) {
+    std::fprintf(stderr, "%s: cannot be written\n", argv[4]);
+    return 1;
+  }
+  std::filesystem::remove(argv[4]);
   std::printf("%zu seeds and %lu changed copies of them\n", corpus.size(), copies);
 }
