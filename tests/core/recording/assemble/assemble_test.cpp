@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -428,6 +429,19 @@ TEST(Assemble, AMotorWithOneSampleIsRefused) {
   ASSERT_FALSE(recording);
   EXPECT_EQ(recording.error().message,
             "folder/sample.bag: joint roll on /joints has 1 usable samples; at least two are needed");
+}
+
+TEST(Assemble, SeveralFrameIdsOnTheLasersTopicAreNamed) {
+  const auto names_frames = [](const RawRecording& raw) {
+    return std::ranges::any_of(assembled(raw).report.warnings, [](const std::string& warning) {
+      return warning.find("2 frame_ids, front and rear") != std::string::npos;
+    });
+  };
+  RawRecording raw = sample();
+  raw.lasers[0].frame = "front";
+  EXPECT_FALSE(names_frames(raw));
+  raw.lasers[0].other_frames = {"rear"};
+  EXPECT_TRUE(names_frames(raw));
 }
 
 }  // namespace
