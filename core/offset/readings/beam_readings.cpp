@@ -242,21 +242,21 @@ bool clearly_shorter(const StationaryDirect& one, const StationaryDirect& other)
   return sigma && sum / double(ratios.size()) > kSigmas * *sigma;
 }
 
+// The chosen one, or, where nothing is decided, the one that fits best.
+const BeamReading* best_of(const std::vector<BeamReading>& readings) {
+  if (const BeamReading* chosen = chosen_of(readings)) return chosen;
+  const BeamReading* best = nullptr;
+  for (const BeamReading& reading : readings)
+    if (reading.offset_s && (best == nullptr || *reading.residual_m < *best->residual_m)) best = &reading;
+  return best;
+}
+
 // The readings about one axis, and what is left in doubt.
 struct RankedBeams {
   std::vector<BeamReading> readings;
   double offset_doubt_s = 0;
   double min_m = std::numeric_limits<double>::infinity();  // residual, of readings that do not fit as well
   bool explained = false;  // by the recorded reading, so that no other one is in question
-
-  // The chosen one, or, where nothing is decided, the one that fits best.
-  const BeamReading* best() const {
-    if (const BeamReading* chosen = chosen_of(readings)) return chosen;
-    const BeamReading* best = nullptr;
-    for (const BeamReading& reading : readings)
-      if (reading.offset_s && (best == nullptr || *reading.residual_m < *best->residual_m)) best = &reading;
-    return best;
-  }
 };
 
 // Those that fit and that nothing contradicts: their own second unknown, or another one that fits clearly
@@ -388,7 +388,7 @@ bool fits_alone(const RankedBeams& one, const RankedBeams& other) {
 // Whether the second axis explains the recording better than the first: about the wrong one walls are bent,
 // so that distances between the directions grow, and surfaces become thick.
 bool second_fits_better(const Trials& trials, const RankedBeams& one, const RankedBeams& other) {
-  const BeamReading *const of_one = one.best(), *const of_other = other.best();
+  const BeamReading *const of_one = best_of(one.readings), *const of_other = best_of(other.readings);
   if (of_other == nullptr) return false;
   if (of_one == nullptr) return fits_alone(other, one);
   const BeamReading& best = *of_one->residual_m < *of_other->residual_m ? *of_one : *of_other;
@@ -405,16 +405,16 @@ bool second_fits_better(const Trials& trials, const RankedBeams& one, const Rank
 // to 1.
 bool moves(const Trials& trials, const RankedReadings& ranked) {
   constexpr double kMaxNoises = 0.4;
-  const BeamReading* chosen = chosen_of(ranked.beams);
-  if (chosen == nullptr || !chosen->offset_s) return false;
-  const double offset_s = *chosen->offset_s;
-  const PreparedRecording& searched = trials.search_of(chosen->kind).prepared;
+  const BeamReading* best = best_of(ranked.beams);
+  if (best == nullptr || !best->offset_s) return false;
+  const double offset_s = *best->offset_s;
+  const PreparedRecording& searched = trials.search_of(best->kind).prepared;
   const auto moves_about = [&](const Eigen::Vector3d& axis) {
     const PreparedRecording prepared = turned_about(axis, searched);
     return test_motion(stationary_grid(problem_for(prepared, offset_s, offset_s)), offset_s).moving();
   };
   if (moves_about(ranked.axis)) return true;
-  const bool short_distances = *chosen->residual_m < kMaxNoises * estimate_range_noise_m(*searched.recording);
+  const bool short_distances = *best->residual_m < kMaxNoises * estimate_range_noise_m(*searched.recording);
   return !short_distances && std::ranges::any_of(trials.axes(), moves_about);
 }
 
