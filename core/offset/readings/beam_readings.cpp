@@ -401,8 +401,8 @@ bool second_fits_better(const Trials& trials, const RankedBeams& one, const Rank
 // Of a rig that moves no reading fits, and the one that fits least badly says nothing. Sweeps of the same
 // direction of a stationary rig are alike about any axis; but sparse ones are registered badly about a wrong
 // one, so that only longer distances than theirs are doubted. Of tests/benchmark/random_readings 13400:14022
-// theirs are at most 0.46 of the noise, and usually 0.3; on three walks of a scanner with 15 Hz they are 0.5
-// to 1.
+// those in radians are at most 0.46 of the noise, and usually 0.3; on three walks of a scanner with 15 Hz
+// they are 0.5 to 1.
 bool moves(const Trials& trials, const RankedReadings& ranked) {
   constexpr double kMaxNoises = 0.4;
   const BeamReading* best = best_of(ranked.beams);
@@ -413,9 +413,10 @@ bool moves(const Trials& trials, const RankedReadings& ranked) {
     const PreparedRecording prepared = turned_about(axis, searched);
     return test_motion(stationary_grid(problem_for(prepared, offset_s, offset_s)), offset_s).moving();
   };
-  if (moves_about(ranked.axis)) return true;
   const bool short_distances = *best->residual_m < kMaxNoises * estimate_range_noise_m(*searched.recording);
-  return !short_distances && std::ranges::any_of(trials.axes(), moves_about);
+  return std::ranges::any_of(trials.axes(), [&](const Eigen::Vector3d& axis) {
+    return (axis == ranked.axis || !short_distances) && moves_about(axis);
+  });
 }
 
 // What the readings that were tried so far show, and whether the others are in question.
@@ -444,10 +445,9 @@ RankedReadings rank_readings(const Recording& recording, const Job& job) {
   Trials trials(first, std::move(axes));
   if (!trials.try_next(job)) return as_read;
   auto [ranked, in_question] = ranked_of(trials);
-  if (in_question) {
-    bool more = false;
-    while (trials.try_next(job)) more = true;
-    if (more) ranked = ranked_of(trials).first;
+  if (in_question && trials.try_next(job)) {
+    while (trials.try_next(job)) continue;
+    ranked = ranked_of(trials).first;
   }
   return job.cancelled() || moves(trials, ranked) ? as_read : ranked;
 }
