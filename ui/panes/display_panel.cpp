@@ -93,10 +93,10 @@ void map_thickness(const PaneContext& context) {
   for (const auto& [map, name] : {std::pair{"A", "thickness-a"}, std::pair{"B", "thickness-b"}}) {
     const std::string words = observe(context.explorer, name).value_or("");
     if (words.empty() && context.explorer.at_rest()) continue;
-    const float below =
-        ImGui::GetCursorPosY() + 2 * ImGui::GetTextLineHeight() + ImGui::GetStyle().ItemSpacing.y;
-    wrapped_text(context.style.faint_text, map + (": " + (words.empty() ? "measuring …" : words)));
-    if (words.empty()) ImGui::SetCursorPosY(below);
+    if (words.empty())
+      waiting_text(map + std::string(": measuring …"));
+    else
+      wrapped_text(context.style.faint_text, map + (": " + words));
   }
 }
 

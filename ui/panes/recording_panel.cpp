@@ -242,11 +242,8 @@ void rig_rows(const PaneContext& context, const SolvedRig& solved) {
 void walls(const PaneContext& context) {
   const std::string words = context.explorer.walls_in_words();
   if (words.empty() && !context.explorer.is_answering()) return;
-  const float below =
-      ImGui::GetCursorPosY() + 2 * ImGui::GetTextLineHeight() + ImGui::GetStyle().ItemSpacing.y;
   if (words.empty()) {
-    ImGui::TextDisabled("Measuring the walls …");
-    ImGui::SetCursorPosY(below);
+    waiting_text("Measuring the walls …");
   } else {
     wrapped_text(words);
     context.anchor_last("walls");

@@ -172,6 +172,13 @@ void wrapped_text(const Colour& colour, const std::string& text) {
   ImGui::PopStyleColor();
 }
 
+void waiting_text(const std::string& text) {
+  const float below =
+      ImGui::GetCursorPosY() + 2 * ImGui::GetTextLineHeight() + ImGui::GetStyle().ItemSpacing.y;
+  ImGui::TextDisabled("%s", text.c_str());
+  ImGui::SetCursorPosY(below);
+}
+
 void small_print(const PaneContext& context, const std::string& text) {
   ImGui::PushFont(context.fonts.small);
   wrapped_text(context.style.faint_text, text);

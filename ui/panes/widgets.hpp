@@ -59,6 +59,8 @@ void wrapped_text(const std::string& text);
 void wrapped_text(const Colour& colour, const std::string& text);
 /// The same, small and faint.
 void small_print(const PaneContext& context, const std::string& text);
+/// Stands for two lines that are still to come, and takes as much room.
+void waiting_text(const std::string& text);
 
 /// A panel's heading with a rule above it (not above the first).
 void heading(const PaneContext& context, const char* text, bool first = false);

@@ -99,23 +99,6 @@ TEST(SparseSweeps, ThatDoNotMatchMayBeTooFewToCompare) {
   EXPECT_NE(found.refusals[0].text.find("too few to compare"), std::string::npos) << found.refusals[0].text;
 }
 
-// One window shows no jump: the whole is judged by its parts.
-TEST(OffsetOverTime, OfAShortRecordingThatJumpsIsRefused) {
-  SimulationOptions jumps;
-  jumps.scene = "room-1";
-  jumps.offset_s = 0.024;
-  jumps.duration_s = 2;
-  jumps.jump_s = 3 * kMs;
-  jumps.jump_at_s = 1;
-  EstimateOptions over_time;
-  over_time.over_time_s = 0;
-  const auto found = estimate(stated(jumps), over_time, Job());
-  ASSERT_TRUE(found);
-  EXPECT_FALSE(found->identifiable);
-  ASSERT_FALSE(found->refusals.empty());
-  EXPECT_EQ(found->refusals[0].kind, RefusalKind::kOffsetChanges) << found->refusals[0].text;
-}
-
 // Each at an instant of its own: no increment joins them.
 TEST(PartsOfTurns, ThatCannotBePutTogetherAreTheReason) {
   TypedSimulation parts;

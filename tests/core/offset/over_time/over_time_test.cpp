@@ -279,6 +279,14 @@ TEST(OverTime, AJumpThatIsRefusedWithoutItIsFoundOrNotPointedTo) {
   EXPECT_EQ(over_time(longer).over_time->course->jumps.size(), 1U);
 }
 
+// One window shows no jump: the whole is judged by its parts.
+TEST(OverTime, OfAShortRecordingThatJumpsIsRefused) {
+  const Estimate found = over_time(changing_room(2, 3, 1));
+  EXPECT_FALSE(found.identifiable);
+  ASSERT_FALSE(found.refusals.empty());
+  EXPECT_EQ(found.refusals[0].kind, RefusalKind::kOffsetChanges) << found.refusals[0].text;
+}
+
 TEST(OverTime, GivesTheSameBytesForOneThreadAndForMany) {
   const Recording part = window(drifting_room(), 0, 30);
   const auto json = [&](int threads) {
