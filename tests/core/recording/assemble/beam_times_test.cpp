@@ -62,6 +62,9 @@ TEST(BeamTimes, AScanThatTakesItsWholePeriodIsInDoubtExceptOfAWholeTurn) {
   const BeamTimes guessed = judge_beam_times(whole, kPeriod_s, std::nullopt);
   EXPECT_NEAR(guessed.time_increment_s.value(), kOfMirror_s, 1e-9);
   EXPECT_EQ(guessed.doubt_s(1440), 0);
+  whole.scan_time_s = static_cast<float>(1.2 * kPeriod_s);
+  EXPECT_NEAR(judge_beam_times(whole, kPeriod_s, std::nullopt).doubt_s(1440), 0.2 * kPeriod_s, 1e-5)
+      << "the stamps say otherwise";
 }
 
 TEST(BeamTimes, WhatCannotBeRightIsTheRigsElseFromAScanTimeThatCanBe) {
