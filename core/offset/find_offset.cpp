@@ -125,10 +125,9 @@ std::string moved_before(const OffsetSearch& search) {
   const Recording& recording = *search.problem.recording;
   if (has_sparse_sweeps(recording, search.problem.motor))
     return fmt::format(
-        "In {} of {} pairs sweeps of the same direction do not match: the rig moved, or the scan lines of a "
-        "sweep, {:.0f} deg of the motor's angle apart, are too few to compare. If it was stationary, turn the "
-        "motor more slowly or less far, or state it (estimate --assume stationary). ",
-        search.motion.moved, search.motion.pairs, search.problem.line_spacing_rad * kDegPerRad);
+        "{} Or the scan lines of a sweep, {:.0f} deg of the motor's angle apart, are too few to compare: if the rig was "
+        "stationary, turn the motor more slowly or less far, or state it (estimate --assume stationary). ",
+        moved_text(search.motion), search.problem.line_spacing_rad * kDegPerRad);
   const bool stated = recording.rig.states_mount();
   return moved_text(search.motion) +
          (stated
