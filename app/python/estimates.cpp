@@ -11,6 +11,7 @@
 #include "core/offset/estimator.hpp"
 #include "core/results/estimate_json.hpp"
 #include "core/results/fields.hpp"
+#include "core/together/estimate_together.hpp"
 
 namespace sweepscope::python {
 
@@ -62,6 +63,19 @@ FoundPtr find(const OpenedPtr& opened, const Texts& given, const std::optional<s
   }));
 }
 
+FoundPtr find_together(const std::vector<OpenedPtr>& opened, bool own_offsets, const Texts& given,
+                       const std::optional<std::string>& assume, const Call& call) {
+  EstimateOptions options = search_of(given);
+  options.assume = rig_kind(assume);
+  std::vector<RecordingSource> recordings;
+  for (const OpenedPtr& one : opened) recordings.emplace_back(one->recording);
+  return std::make_shared<Found>(result_of(call, [&](const Job& job) -> Result<Estimate> {
+    auto found = estimate_together(recordings, options, own_offsets, job);
+    if (found && found->interrupted) return failure(ExitCode::kInterrupted, "interrupted");
+    return found;
+  }));
+}
+
 py::dict curve(const FoundPtr& found) {
   py::dict columns;
   columns["offset_ms"] = whole(found->offset_ms, found);
@@ -99,6 +113,7 @@ void add_estimates(py::module_& module) {
     return std::make_shared<Found>(value_of(parse_estimate_json(json, name)));
   });
   module.def("estimate", &find);
+  module.def("together", &find_together);
   module.def("estimate_options", &declared_options);
 }
 

@@ -15,8 +15,8 @@ namespace sweepscope {
 Result<void> check_offset_count(std::size_t offsets);
 
 /// The criteria that stand beside maps of one recording: the paper's for that kind of rig, whatever method an
-/// estimate takes, along the trajectory of the maps, in steps of 1 ms from 5 ms below their offsets to 5 ms
-/// above them. An interruption is ExitCode::kInterrupted.
+/// estimate takes, along the trajectory of the maps, in steps of 1 ms from 2 to 5 ms below their offsets to
+/// as much above them. An interruption is ExitCode::kInterrupted.
 Result<Estimate> criteria_about(const PreparedRecording& prepared, std::span<const OffsetMap> maps,
                                 const KeptCandidates& kept, const Job& job);
 

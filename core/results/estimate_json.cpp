@@ -168,6 +168,34 @@ void write_together(const Together& together, Json& document) {
   document["degrees_of_freedom"] = together.degrees_of_freedom;
 }
 
+RecordingOfRig recording_of_rig(const Json& object) {
+  if (!object.is_object()) throw json::BadValue("an entry of recordings is not an object");
+  RecordingOfRig recording;
+  recording.recording = json::required<std::string>(object, "recording", "recordings.");
+  recording.offset_s = json::optional_seconds(object, "offset_ms");
+  recording.sigma_s = json::optional_seconds(object, "sigma_ms");
+  recording.share = json::required<double>(object, "share", "recordings.");
+  if (const auto deg = json::optional_number(object, "turn_sigma_deg"))
+    recording.turn_sigma_rad = *deg / kDegPerRad;
+  recording.shift_sigma_m = json::optional_number(object, "shift_sigma_m");
+  recording.residual_before_m = json::optional_number(object, "residual_before_m");
+  recording.residual_after_m = json::optional_number(object, "residual_after_m");
+  recording.reasons = json::required<std::vector<std::string>>(object, "reasons", "recordings.");
+  return recording;
+}
+
+std::optional<Together> together_from_json(const Json& document) {
+  const auto recordings = document.find("recordings");
+  if (recordings == document.end()) return std::nullopt;
+  if (!recordings->is_array()) throw json::BadValue("recordings is not an array");
+  Together together;
+  for (const Json& object : *recordings) together.recordings.push_back(recording_of_rig(object));
+  together.own_offsets = json::required<std::string>(document, "offsets") == "each";
+  together.chi_square = json::required<double>(document, "chi_square");
+  together.degrees_of_freedom = static_cast<int>(json::required_count(document, "degrees_of_freedom"));
+  return together;
+}
+
 std::vector<CriterionOptimum> criteria_from_json(const Json& criteria) {
   if (!criteria.is_object()) throw json::BadValue("criteria is not an object");
   std::vector<CriterionOptimum> optima;
@@ -234,6 +262,7 @@ Estimate estimate_from_json(const Json& document) {
   estimate.warnings = json::required<std::vector<std::string>>(document, "warnings");
   if (document.contains("readings")) estimate.readings = readings_of(document["readings"]);
   estimate.refusals = refusals_from_json(document);
+  estimate.together = together_from_json(document);
   estimate.criteria = criteria_from_json(json::member(document, "criteria", ""));
   estimate.curve = curve_from_json(json::member(document, "curve", ""));
   estimate.sweeps = json::required_count(document, "sweeps");

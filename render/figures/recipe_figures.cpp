@@ -124,10 +124,7 @@ Shown read_kind(const Node& node, const std::string& name) {
       {"trend", TrendFigure{}}, {"interactive", InteractiveFigure{}}};
   if (!node.IsMap()) refuse(node, name + " must be a map of keys to values");
   const Node kind = node["kind"];
-  if (!kind.IsDefined())
-    refuse(node,
-           name + " needs a kind: maps, curves, profile, scan, over-time, residuals, trend or interactive");
-  return read_choice<Shown>(kind, name + ": kind", kinds);
+  return read_choice<Shown>(kind.IsDefined() ? kind : node, name + ": kind", kinds);
 }
 
 void check_complete(const MapsFigure& figure, const Node& node, const std::string& name) {

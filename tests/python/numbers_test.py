@@ -34,6 +34,17 @@ class Numbers(unittest.TestCase):
         given = {"solve": ["mount", "play"], "prior": {"mount_deg": 2, "play_deg": 0.3}}
         self.assert_equals_the_program(room(), words, given)
 
+    def test_of_recordings_of_one_rig(self):
+        other = FOLDER / "other.bag"
+        sweepscope.simulate("room-2", other, offset_ms=24, seed=6)
+        expected = program_json("estimate", room(), other, "--together", "--solve", "mount")
+        found = sweepscope.together([sweepscope.open(room()), other], solve="mount")
+        self.assertEqual(untimed(found), untimed(expected))
+        found.save(FOLDER / "together.json")
+        self.assertEqual(sweepscope.read_estimate(FOLDER / "together.json").recordings, found.recordings)
+        each = sweepscope.together([room(), other], offsets="each")
+        self.assertEqual([each.offset_ms, each.offsets], [None, "each"])
+
     def test_of_an_offset_over_time(self):
         self.assert_equals_the_program(room(), ["--over-time"], {"over_time": True})
         self.assert_equals_the_program(room(), ["--over-time", "2"], {"over_time": 2})

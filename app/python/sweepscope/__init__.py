@@ -38,6 +38,7 @@ from ._recording import (
     read_estimate,
     scenes,
     simulate,
+    together,
 )
 from ._results import Curve, Estimate, Map, Picture
 
@@ -60,4 +61,5 @@ __all__ = [
     "read_estimate",
     "scenes",
     "simulate",
+    "together",
 ]

@@ -56,11 +56,34 @@ def estimate(recording, *, assume=None, poses=None, trust_poses=False, threads=0
     given = _options.texts("estimate", _SEARCH, options)
     engine = _opened(recording, progress)
     call = _call(threads, progress)
-    found = Estimate(_engine.estimate(engine, given, assume, poses, trust_poses, call))
+    return _answer(Estimate(_engine.estimate(engine, given, assume, poses, trust_poses, call)), "this recording")
+
+
+def _answer(found, of_what):
+    """The estimate, if it has an answer."""
     if not found.identifiable:
-        why = "the offset cannot be determined from this recording: " + " ".join(found.reasons)
+        why = f"the offset cannot be determined from {of_what}: " + " ".join(found.reasons)
         raise CannotAnswer(why, found.reasons, found)
     return found
+
+
+@_options.takes(_SEARCH)
+def together(recordings, *, offsets="one", assume=None, threads=0, progress=None, **options):
+    """Finds one answer from several recordings of one rig, by the direct method: an Estimate, whose "recordings" say what
+    each of them contributes. Recordings that do not agree on one rig raise CannotAnswer, which names the one that differs.
+
+    recordings: at least two recordings or paths.
+    offsets: "one" for all recordings, or "each": every recording has its own, and the rig is common (offset_ms is None).
+    assume: "stationary" or "moving", instead of the motion test.
+    threads, progress: see help(sweepscope).
+
+    The other options are those of estimate():"""
+    if offsets not in ("one", "each"):
+        raise ValueError(f'offsets needs "one" or "each", not {offsets!r}')
+    given = _options.texts("together", _SEARCH, options)
+    opened = [_opened(recording, progress) for recording in recordings]
+    call = _call(threads, progress)
+    return _answer(Estimate(_engine.together(opened, offsets == "each", given, assume, call)), "these recordings")
 
 
 def curve(recording, **options):
@@ -124,7 +147,7 @@ def compare(
     recording: a recording, to be mapped at offsets_ms (milliseconds); or a list of maps, each a Map or a .pcd or .ply
         file.
     curve: an Estimate or its JSON file, whose criteria are drawn. True: computed, for a recording, in steps of 1 ms
-        from 5 ms below the offsets to 5 ms above. False: none.
+        from 2 to 5 ms below the offsets to as much above. False: none.
     assume, poses: as for map().
     output: a .png, .svg or .pdf file to write as well.
     threads, progress: see help(sweepscope).

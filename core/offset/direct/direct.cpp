@@ -329,20 +329,10 @@ std::string why_none_are_shared(const Recording& recording) {
          "together. Set laser.time_increment_s in a rig file, or record whole turns";
 }
 
-// Of a 2D scanner's sweeps of few lines, what lies between the lines is to blame, not the scene.
+// A search that was limited may have missed the minimum.
 MaybeRefusal flat_of(const OffsetSearch& search) {
-  constexpr double kFewLines = 15;  // a sweep; with more, simulated rooms have a clear valley
-  const Recording& recording = *search.problem.recording;
-  MaybeRefusal flat = flat_refusal(search.coarse.curve, *search.coarse.best);
-  if (!flat) return flat;
-  if (flat->kind == kFlatCost && recording.directions.empty() && !has_rings(recording) &&
-      scans_a_sweep(recording, search.problem.motor) < kFewLines)
-    flat->text = fmt::format(
-        "The scan lines of a sweep are too far apart, {:.0f} deg of the motor's angle, to compare what sweeps of "
-        "opposite directions measured: they fit each other about equally well at every offset. Turn the motor more "
-        "slowly or less far, or use a scanner that makes more scans a second.",
-        search.problem.line_spacing_rad * kDegPerRad);
-  if (search.options.search)
+  MaybeRefusal flat = flat_refusal(search.coarse.curve, *search.coarse.best, search.problem);
+  if (flat && search.options.search)
     flat->text += fmt::format(" The search was limited to {:.0f} to {:.0f} ms (--search).",
                               search.window.from_s() * 1e3, search.window.to_s() * 1e3);
   return flat;

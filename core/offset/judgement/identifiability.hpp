@@ -41,10 +41,12 @@ MaybeRefusal gaps_refusal(const Recording& recording, const std::vector<char>& c
 /// directions.
 MaybeRefusal lines_refusal(double distinct_lines);
 
-/// The minimum of a coarse curve lies at its end, a second minimum is nearly as deep, or there is none.
+/// The minimum of a coarse curve lies at its end, a second minimum is nearly as deep, or there is none: of a
+/// 2D scanner with few scans a sweep because of what lies between its scan lines.
 MaybeRefusal edge_refusal(const std::vector<CurvePoint>& coarse, std::size_t best);
 MaybeRefusal rival_refusal(const std::vector<CurvePoint>& coarse, std::size_t best, const SearchScale& scale);
-MaybeRefusal flat_refusal(const std::vector<CurvePoint>& coarse, std::size_t best);
+MaybeRefusal flat_refusal(const std::vector<CurvePoint>& coarse, std::size_t best,
+                          const OffsetProblem& problem);
 /// The lines of a 3D scanner do not repeat, as with Livox's patterns: beams of one number point elsewhere in
 /// each. For a stationary rig the direct method compares them.
 MaybeRefusal unrepeated_lines_refusal(const Recording& recording);

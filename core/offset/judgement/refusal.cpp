@@ -66,6 +66,11 @@ constexpr std::array kEntries{
         kFlatCost, "flat_cost", kLimits.min_cost_depth, "of the median",
         "The scene does not constrain the offset: sweeps of opposite directions fit each other about "
         "equally well at every offset ({:.1f} mm apart at best, {:.1f} mm at the median)."},
+    RefusalEntry{
+        kLinesTooFarApart, "lines_too_far_apart", kLimits.min_scans_a_sweep, "scans per sweep",
+        "The scan lines of a sweep are too far apart, {:.0f} deg of the motor's angle, to compare what sweeps of "
+        "opposite directions measured: they fit each other about equally well at every offset. Turn the motor more "
+        "slowly or less far, or use a scanner that makes more scans a second."},
     RefusalEntry{kSweepsFitNowhere, "sweeps_fit_nowhere", kLimits.max_distance_m, "m",
                  "Sweeps of opposite directions do not fit each other at any offset ({:.0f} mm apart "
                  "at best): the rig or the scene moved, or its surfaces are too rough."},

@@ -33,6 +33,7 @@ enum class RefusalKind {
   kScanLinesDoNotRepeat,
   kEdgeOfSearch,
   kFlatCost,
+  kLinesTooFarApart,
   kSweepsFitNowhere,
   kTwoOffsetsFit,
   // The kind of rig.

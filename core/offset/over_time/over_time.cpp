@@ -44,7 +44,7 @@ CoarseAnswer coarse_offset(const OffsetProblem& problem, const SearchScale& scal
       continue;
     }
     answer.refused = edge_refusal(coarse.curve, *coarse.best);
-    if (!answer.refused) answer.refused = flat_refusal(coarse.curve, *coarse.best);
+    if (!answer.refused) answer.refused = flat_refusal(coarse.curve, *coarse.best, problem);
     if (!answer.refused) answer.refused = rival_refusal(coarse.curve, *coarse.best, scale);
     if (answer.refused) continue;
     answer.offset_s = coarse.offset_s();

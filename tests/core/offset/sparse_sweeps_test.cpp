@@ -104,7 +104,7 @@ TEST(SparseSweeps, LinesFarApartAreTheReason) {
                                                   7.4, 80.2, 11.9, 120, "instant"}))
                                  .value()));
   ASSERT_EQ(found.refusals.size(), 1U);
-  EXPECT_EQ(found.refusals[0].kind, RefusalKind::kFlatCost);
+  EXPECT_EQ(found.refusals[0].kind, RefusalKind::kLinesTooFarApart);
   EXPECT_NE(found.refusals[0].text.find("14 deg of the motor's angle"), std::string::npos)
       << found.refusals[0].text;
 }

@@ -151,6 +151,30 @@ TEST(EstimateJson, TheTrajectoryUsedAndTheFitReadBack) {
   }
 }
 
+TEST(EstimateJson, WhatSeveralRecordingsContributeReadsBack) {
+  Estimate estimate = stationary_estimate();
+  Together& together = estimate.together.emplace();
+  RecordingOfRig first;
+  first.recording = "a.bag";
+  first.offset_s = 24.02e-3, first.sigma_s = 0.04e-3;
+  first.share = 0.75;
+  first.turn_sigma_rad = 2e-3, first.shift_sigma_m = 8e-3;
+  first.residual_before_m = 0.031, first.residual_after_m = 0.011;
+  RecordingOfRig second;
+  second.recording = "b.bag";
+  second.reasons = {"The motor does not move."};
+  together.recordings = {first, second};
+  together.chi_square = 3.5, together.degrees_of_freedom = 2;
+  const std::string json = estimate_to_json(estimate);
+  const auto read = parse_estimate_json(json, "a.json");
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(estimate_to_json(*read), json);
+  std::string without = json;
+  without.replace(without.find("\"share\""), 7, "\"part\"");
+  EXPECT_NE(parse_estimate_json(without, "a.json").error().message.find("recordings.share"),
+            std::string::npos);
+}
+
 TEST(EstimateJson, CountsAreWrittenWithoutADecimalPoint) {
   Estimate estimate = stationary_estimate();
   estimate.curve[0].n = 2'345'678;

@@ -106,9 +106,9 @@ TEST_F(RecipeTest, RefusalsSayLineColumnAndWhatIsWrong) {
   EXPECT_EQ(
       refusal(kData + "figure: {}\n"),
       "3:1: unknown key \"figure\" in the recipe; known are: estimates, figures, look, recordings, tables");
-  EXPECT_EQ(refusal(kData + "figures: {a: {kind: pie}}\n"),
-            "3:21: figure a: kind must be one of: curves, interactive, maps, over-time, profile, residuals, "
-            "scan, trend");
+  const std::string kOneOf = "figure a: kind must be one of: curves, interactive, maps, ";
+  EXPECT_TRUE(refusal(kData + "figures: {a: {kind: pie}}\n").starts_with("3:21: " + kOneOf));
+  EXPECT_TRUE(refusal(kData + "figures: {a: {estimate: room}}\n").starts_with("3:14: " + kOneOf));
   EXPECT_EQ(refusal(kData + "figures: {a: {kind: curves, estimates: hall}}\n"),
             "3:40: there is no estimate \"hall\"; there are: room");
   EXPECT_EQ(refusal("recordings: {r: {simulate: moon}}\n").substr(0, 36),
