@@ -142,12 +142,12 @@ Result<RawRecording> read_bag_folder(const fs::path& folder, const Rig& rig, con
   const bool ros1 = stored && stored->storage == BagStorage::kRos1;
   auto raw = read_messages(folder, *files, rig, job, detail, !ros1);
   if (!raw || is_described(folder)) return raw;
-  constexpr std::size_t kMaxListed = 10;
+  constexpr std::size_t kMaxNames = 10;
   std::vector<std::string> names;
   for (const fs::path& file : *files) names.push_back(file.filename().string());
-  if (names.size() > kMaxListed) {
-    names[kMaxListed - 2] = "...";
-    names.erase(names.begin() + kMaxListed - 1, names.end() - 1);
+  if (names.size() > kMaxNames) {
+    names[kMaxNames - 2] = "...";
+    names.erase(names.begin() + kMaxNames - 1, names.end() - 1);
   }
   raw->warnings.push_back(
       ros1 ? fmt::format("the bags of the folder are read as one recording: {}", fmt::join(names, ", "))
