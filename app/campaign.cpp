@@ -15,7 +15,7 @@
 #include "core/campaign/run_campaign.hpp"
 #include "core/io/atomic_file.hpp"
 #include "core/io/content_hash.hpp"
-#include "core/io/memory.hpp"
+#include "core/memory.hpp"
 #include "core/recording/formats/read_raw_recording.hpp"
 #include "render/figures/trend_picture.hpp"
 #include "render/vector/vector_file.hpp"

@@ -11,9 +11,9 @@
 #include "app/say.hpp"
 #include "app/threads.hpp"
 #include "core/io/atomic_file.hpp"
-#include "core/io/memory.hpp"
 #include "core/io/output_check.hpp"
 #include "core/map/offset_map.hpp"
+#include "core/memory.hpp"
 #include "core/recording/formats/read_raw_recording.hpp"
 #include "core/recording/time_window.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "core/offset/find_offset.hpp"
 #include "core/offset/rig_estimate.hpp"
-#include "core/offset/stationary_part.hpp"
+#include "core/offset/search/stationary_part.hpp"
 
 namespace sweepscope {
 namespace {

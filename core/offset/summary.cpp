@@ -11,7 +11,7 @@
 #include "core/offset/judgement/warnings.hpp"
 #include "core/offset/kind/rig_motion.hpp"
 #include "core/offset/prepared/prepared.hpp"
-#include "core/offset/stationary_part.hpp"
+#include "core/offset/search/stationary_part.hpp"
 
 namespace sweepscope {
 namespace {

@@ -11,7 +11,7 @@
 #include "core/io/printable_text.hpp"
 #include "core/numbers.hpp"
 #include "core/offset/readings/fitting_recording.hpp"
-#include "core/offset/stationary_part.hpp"
+#include "core/offset/search/stationary_part.hpp"
 #include "core/recording/assemble/assemble.hpp"
 #include "core/recording/formats/read_raw_recording.hpp"
 

@@ -1,4 +1,4 @@
-#include "core/io/memory.hpp"
+#include "core/memory.hpp"
 
 #include <fmt/format.h>
 #include <sys/resource.h>

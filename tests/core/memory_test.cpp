@@ -1,4 +1,4 @@
-#include "core/io/memory.hpp"
+#include "core/memory.hpp"
 
 #include "tests/core/recording/test_bag.hpp"
 

@@ -1,4 +1,4 @@
-#include "core/offset/stationary_part.hpp"
+#include "core/offset/search/stationary_part.hpp"
 
 #include <gtest/gtest.h>
 
