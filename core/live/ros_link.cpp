@@ -4,7 +4,7 @@
 #include <ros/ros.h>
 
 #include <cstring>
-#include <list>
+#include <optional>
 
 namespace sweepscope {
 
@@ -63,32 +63,67 @@ struct Serializer<sweepscope::AnyRosMessage> {
 namespace sweepscope {
 namespace {
 
+// Asks the master, which may be gone; what roscpp asks by itself waits until it is back.
+std::optional<XmlRpc::XmlRpcValue> ask_master(const std::string& method, const std::string& about) {
+  XmlRpc::XmlRpcValue request, response, answer;
+  request[0] = ros::this_node::getName();
+  request[1] = about;
+  if (!ros::master::execute(method, request, response, answer, false)) return std::nullopt;
+  return answer;
+}
+
 class RoscppLink : public RosLink {
  public:
   RoscppLink() { node_.setCallbackQueue(&queue_); }
 
   std::vector<RosTopic> topics() override {
-    ros::master::V_TopicInfo found;
-    ros::master::getTopics(found);
     std::vector<RosTopic> topics;
-    for (const ros::master::TopicInfo& topic : found) topics.push_back({topic.name, topic.datatype});
+    auto found = ask_master("getPublishedTopics", "");
+    if (!found) return topics;
+    if (!ask_master("lookupNode", ros::this_node::getName())) register_again();
+    for (int i = 0; i < found->size(); ++i)
+      topics.push_back({std::string((*found)[i][0]), std::string((*found)[i][1])});
     return topics;
   }
 
   std::size_t advertise(const RosPublishedTopic& topic) override {
-    ros::AdvertiseOptions options(topic.name, topic.max_queued, topic.md5sum, topic.type, topic.definition);
-    options.latch = topic.latched;
-    publishers_.push_back(node_.advertise(options));
-    return publishers_.size() - 1;
+    published_.push_back({topic, advertised(topic), {}});
+    return published_.size() - 1;
   }
 
   void publish(std::size_t topic, const std::string& bytes) override {
+    Published& published = published_[topic];
     AnyRosMessage message;
     message.bytes.assign(bytes.begin(), bytes.end());
-    publishers_[topic].publish(message);
+    published.publisher.publish(message);
+    if (published.topic.latched) published.latest = std::move(message);
   }
 
   void subscribe(const std::string& topic, std::uint32_t max_queued) override {
+    subscribed_.push_back({topic, max_queued, subscriber_of(topic, max_queued)});
+  }
+
+  void receive(std::chrono::milliseconds max_wait,
+               const std::function<void(const RosMessage&)>& take) override {
+    take_ = &take;
+    queue_.callAvailable(ros::WallDuration(static_cast<double>(max_wait.count()) * 1e-3));
+    take_ = nullptr;
+  }
+
+ private:
+  using Event = ros::MessageEvent<AnyRosMessage const>;
+  struct Subscribed {
+    std::string topic;
+    std::uint32_t max_queued;
+    ros::Subscriber subscriber;
+  };
+  struct Published {
+    RosPublishedTopic topic;
+    ros::Publisher publisher;
+    AnyRosMessage latest;  // of a latched topic
+  };
+
+  ros::Subscriber subscriber_of(const std::string& topic, std::uint32_t max_queued) {
     const boost::function<void(const Event&)> take = [this, topic](const Event& event) {
       if (event.getPublisherName() == ros::this_node::getName()) return;
       const ros::M_string& said = event.getConnectionHeader();
@@ -101,24 +136,33 @@ class RoscppLink : public RosLink {
       const auto received_ns = static_cast<std::int64_t>(event.getReceiptTime().toNSec());
       if (take_ != nullptr) (*take_)({topic, type, md5sum, received_ns, bytes.data(), bytes.size()});
     };
-    subscribers_.push_back(node_.subscribe<AnyRosMessage>(topic, max_queued, take, ros::VoidConstPtr(),
-                                                          ros::TransportHints().tcpNoDelay()));
+    return node_.subscribe<AnyRosMessage>(topic, max_queued, take, ros::VoidConstPtr(),
+                                          ros::TransportHints().tcpNoDelay());
   }
 
-  void receive(std::chrono::milliseconds max_wait,
-               const std::function<void(const RosMessage&)>& take) override {
-    take_ = &take;
-    queue_.callAvailable(ros::WallDuration(static_cast<double>(max_wait.count()) * 1e-3));
-    take_ = nullptr;
+  ros::Publisher advertised(const RosPublishedTopic& topic) {
+    ros::AdvertiseOptions options(topic.name, topic.max_queued, topic.md5sum, topic.type, topic.definition);
+    options.latch = topic.latched;
+    return node_.advertise(options);
   }
 
- private:
-  using Event = ros::MessageEvent<AnyRosMessage const>;
+  // A master that was started again knows no node. Connections that lasted without it are made anew.
+  void register_again() {
+    for (Subscribed& one : subscribed_) {
+      one.subscriber.shutdown();
+      one.subscriber = subscriber_of(one.topic, one.max_queued);
+    }
+    for (Published& one : published_) {
+      one.publisher.shutdown();
+      one.publisher = advertised(one.topic);
+      if (!one.latest.bytes.empty()) one.publisher.publish(one.latest);
+    }
+  }
 
   ros::CallbackQueue queue_;
   ros::NodeHandle node_;
-  std::list<ros::Subscriber> subscribers_;
-  std::vector<ros::Publisher> publishers_;
+  std::vector<Subscribed> subscribed_;
+  std::vector<Published> published_;
   const std::function<void(const RosMessage&)>* take_ = nullptr;
 };
 

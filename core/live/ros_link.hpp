@@ -37,7 +37,8 @@ class RosLink {
   /// Null if no master answers at http://HOST:PORT.
   static std::unique_ptr<RosLink> open(const std::string& master);
   virtual ~RosLink() = default;
-  /// The topics that are published now.
+  /// The topics that are published now; none while no master answers. After a restart of the master this
+  /// program's own topics are made known to it again.
   virtual std::vector<RosTopic> topics() = 0;
   /// The number of a topic, for publish().
   virtual std::size_t advertise(const RosPublishedTopic& topic) = 0;
