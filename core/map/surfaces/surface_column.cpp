@@ -184,17 +184,20 @@ void SurfaceColumn::take(std::uint64_t key, std::uint32_t max_points, const Keep
   const std::uint32_t begin = level_.begin(cell), count = level_.begin(cell + 1) - begin;
   const std::uint32_t taken = std::min(count, max_points);
   sampled_ = sampled_ || taken < count;
+  const float *const x_m = grid_.x_m.data(), *const y_m = grid_.y_m.data(), *const z_m = grid_.z_m.data();
+  const Eigen::Vector3f middle_m = middle_m_;
   for (std::uint32_t k = 0; k < taken; ++k) {
     const std::uint32_t i = begin + (count == taken ? k : k * count / taken);
-    keep(Eigen::Vector3f(grid_.x_m[i], grid_.y_m[i], grid_.z_m[i]) - middle_m_, i);
+    keep(Eigen::Vector3f(x_m[i], y_m[i], z_m[i]) - middle_m, i);
   }
 }
 
 bool SurfaceColumn::gather_ball() {
   forget_points();
   const VoxelLevel::Place place = level_.place_of(middle_m_.x(), middle_m_.y(), middle_m_.z());
-  const auto keep = [&](const Eigen::Vector3f& p_m, std::uint32_t i) {
-    if (p_m.squaredNorm() <= radius_m_ * radius_m_) keep_point(p_m, i);
+  const float radius_m2 = radius_m_ * radius_m_;
+  const auto keep = [this, radius_m2](const Eigen::Vector3f& p_m, std::uint32_t i) {
+    if (p_m.squaredNorm() <= radius_m2) keep_point(p_m, i);
   };
   const auto x = level_.beside(0, place), y = level_.beside(1, place), z = level_.beside(2, place);
   for (const std::uint64_t of_z : z)
@@ -209,12 +212,14 @@ bool SurfaceColumn::find_normal() {
   constexpr double kBetween = 0.1, kMinAcross = 0.004;  // of the variance along: less is a line
   std::array<Eigen::Vector4d, kMaxSweeps> sums;
   std::fill_n(sums.begin(), sweeps_.size(), Eigen::Vector4d::Zero());
-  Eigen::Matrix3d within = Eigen::Matrix3d::Zero(), between = Eigen::Matrix3d::Zero();
+  double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
   for (std::size_t i = 0; i < x_m_.size(); ++i) {
-    const Eigen::Vector3d p_m(x_m_[i], y_m_[i], z_m_[i]);
-    within += p_m * p_m.transpose();
-    sums[group_[i]] += p_m.homogeneous();
+    const double x_m = x_m_[i], y_m = y_m_[i], z_m = z_m_[i];
+    xx += x_m * x_m, xy += x_m * y_m, xz += x_m * z_m, yy += y_m * y_m, yz += y_m * z_m, zz += z_m * z_m;
+    sums[group_[i]] += Eigen::Vector4d(x_m, y_m, z_m, 1);
   }
+  Eigen::Matrix3d within, between = Eigen::Matrix3d::Zero();
+  within << xx, xy, xz, xy, yy, yz, xz, yz, zz;
   Eigen::Vector4d sum = Eigen::Vector4d::Zero();
   for (std::size_t g = 0; g < sweeps_.size(); ++g) {
     sum += sums[g];
@@ -233,11 +238,12 @@ void SurfaceColumn::gather_column() {
   forget_points();
   const Eigen::Vector3f up = normal_.cross(along_);
   const auto reach_m = static_cast<float>(options_.reach_m);
-  const auto keep = [&](const Eigen::Vector3f& p_m, std::uint32_t i) {
-    const float height_m = normal_.dot(p_m);
-    const bool inside =
-        std::abs(height_m) <= reach_m && p_m.squaredNorm() - height_m * height_m <= radius_m_ * radius_m_;
-    if (inside) keep_point({along_.dot(p_m), up.dot(p_m), height_m}, i);
+  const float radius_m2 = radius_m_ * radius_m_;
+  const auto keep = [this, reach_m, radius_m2, up, normal = normal_, along = along_](
+                        const Eigen::Vector3f& p_m, std::uint32_t i) {
+    const float height_m = normal.dot(p_m);
+    const bool inside = std::abs(height_m) <= reach_m && p_m.squaredNorm() - height_m * height_m <= radius_m2;
+    if (inside) keep_point({along.dot(p_m), up.dot(p_m), height_m}, i);
   };
   // Slice by slice of cubes along the axis that the column is nearest to.
   int axis = 0;
