@@ -163,11 +163,11 @@ MapPair::PlacedAll MapPair::place_fully(const CloudRequest& request, const SlowV
   if (!other && !known.values && is_slow(look.colouring)) {
     const FeatureSet* features = placement.loaded->prepared.features.get();
     placed.slow = slow_values(placement, look.colouring, features, job);
-    placed.coarse =
-        std::make_shared<PlacedCloud>(place_cloud(placement, look, true, nullptr, placed.slow.values.get()));
+    placed.coarse = std::make_shared<PlacedCloud>(
+        place_cloud(placement, look, true, nullptr, placed.slow.values.get(), job));
   }
   placed.full = std::make_shared<PlacedCloud>(
-      place_cloud(placement, look, false, request.other_or_null(), placed.slow.values.get()));
+      place_cloud(placement, look, false, request.other_or_null(), placed.slow.values.get(), job));
   return placed;
 }
 

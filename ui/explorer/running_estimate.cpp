@@ -38,7 +38,9 @@ void RunningEstimate::start(LoadedPtr loaded, const EstimateOptions& options) {
         EstimateOptions along = options;
         along.walk = loaded->walk->get();
         const KeptCandidates candidates{
-            nullptr, {}, [growing](const CurvePoint& point) { growing->add(point); }};
+            nullptr,
+            {},
+            {[growing] { growing->begin(); }, [growing](const CurvePoint& p) { growing->add(p); }}};
         auto found = std::make_shared<Result<Estimate>>(
             sweepscope::estimate(loaded->prepared, along, candidates, job));
         if (*found && (*found)->walk) loaded->walk->keep((*found)->walk);
