@@ -295,7 +295,11 @@ std::string thickness_table(const ReportContent& content) {
          "each. In a sharp map this is the range noise.</p>\n";
 }
 
-Result<std::string> maps(const ReportContent& content) {
+tl::unexpected<Error> interrupted() {
+  return failure(ExitCode::kInterrupted, "interrupted while drawing the report");
+}
+
+Result<std::string> maps(const ReportContent& content, const Job& job) {
   if (content.maps.empty()) return std::string();
   ComparisonOptions look;
   look.background = Background::kLight;
@@ -303,7 +307,10 @@ Result<std::string> maps(const ReportContent& content) {
   look.width_px = 1800;
   look.height_px = 1100;
   const bool of_rigs = content.estimate.offset_is_gauge();
-  return comparison_picture(content.maps, nullptr, look).and_then(draw).map([&](const Image& image) {
+  const auto drawn = comparison_picture(content.maps, nullptr, look).and_then([&](const Picture& picture) {
+    return job.cancelled() ? Result<Image>(interrupted()) : draw(picture);
+  });
+  return drawn.map([&](const Image& image) {
     return fmt::format("<h2 class=\"{}\">{}</h2>\n", stationary_class(content),
                        of_rigs ? "The map with the rig as given, and as found"
                                : "The map 5 ms off, and at the answer") +
@@ -331,7 +338,7 @@ Result<std::string> profile(const ReportContent& content) {
       ". Points in the views from above: violet where the motor turned one way, green where it turned back.";
   const auto svg_of = [&](int width_px, int height_px) {
     ComparisonOptions look;
-    look.background = Background::kLight;
+    look.background = Background::kWhite;
     look.width_px = width_px;
     look.height_px = height_px;
     return encode_svg(profile_picture(content.maps, *content.section, profiles, look));
@@ -366,11 +373,12 @@ std::vector<Chart> evidence_charts(const ReportContent& content) {
 
 Result<std::string> report_html(const ReportContent& content, const Job& job) {
   const auto drawn = [&](const auto& part) -> Result<std::string> {
-    if (job.cancelled()) return failure(ExitCode::kInterrupted, "interrupted while drawing the report");
+    if (job.cancelled()) return interrupted();
     return part(content);
   };
   const auto rig = drawn(rig_part), strip = drawn(over_time_strip), curve_part = drawn(curves),
-             map_part = drawn(maps), profile_part = drawn(profile),
+             map_part = drawn([&](const ReportContent&of) { return maps(of, job); }),
+             profile_part = drawn(profile),
              data = drawn([](const ReportContent&of) {
                return of.live ? live_map_data(*of.live) : Result<std::string>();
              });

@@ -86,6 +86,19 @@ TEST(GrowingCurve, ShowsOneCoarseSearchAtATimeTheNewOneOnceItHasHalfOfTheCandida
   EXPECT_EQ(curve.size(), 8u);
 }
 
+TEST(GrowingCurve, LeavesOutWhatIsTriedSecondsAwayAndWouldSqueezeTheOthers) {
+  GrowingCurve curve(0.24);
+  CurvePoint point;
+  point.capped_cost_m = 0.1;
+  for (const double offset_s : {-0.02, 0.2, -9.9}) {
+    if (offset_s < -1) curve.begin();
+    point.offset_s = offset_s;
+    curve.add(point);
+  }
+  ASSERT_EQ(curve.so_far().curve.size(), 2u);
+  EXPECT_EQ(curve.so_far().curve.front().offset_s, -0.02);
+}
+
 TEST(GrowingCurve, HasTheCoarseSearchFirstAndThenTheMethodsCandidatesAscending) {
   GrowingCurve curve;
   CurvePoint point;

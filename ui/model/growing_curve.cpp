@@ -1,6 +1,7 @@
 #include "ui/model/growing_curve.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace sweepscope::ui {
 namespace {
@@ -18,6 +19,7 @@ void GrowingCurve::begin() {
 }
 
 void GrowingCurve::add(const CurvePoint& point) {
+  if (std::abs(point.offset_s) > reach_s_ && !has_criteria(point)) return;
   const std::lock_guard lock(mutex_);
   searches_.back().push_back(point);
 }

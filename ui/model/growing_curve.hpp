@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <mutex>
 #include <vector>
 
@@ -10,6 +11,10 @@ namespace sweepscope::ui {
 /// The candidates of an estimate while it is computed. Used by several threads.
 class GrowingCurve {
  public:
+  /// Without what coarse searches try beyond `reach_s`, for clocks that differ by seconds: it would squeeze
+  /// the others.
+  explicit GrowingCurve(double reach_s = std::numeric_limits<double>::infinity()) : reach_s_(reach_s) {}
+
   /// A coarse search begins: its costs do not compare with those of the search before.
   void begin();
   void add(const CurvePoint& point);
@@ -22,6 +27,7 @@ class GrowingCurve {
  private:
   std::vector<CurvePoint> candidates(bool of_method) const;
 
+  double reach_s_;
   mutable std::mutex mutex_;
   std::vector<std::vector<CurvePoint>> searches_ = {{}};
 };

@@ -272,6 +272,10 @@ void answer(const PaneContext& context, const Estimate& estimate) {
   } else {
     text_in(context.fonts.heading, "Not determined");
     for (const std::string& reason : estimate.reasons()) wrapped_text(sentence(reason));
+    if (estimate.rig) {  // of a motor that turns one way it is found without the offset
+      heading(context, "Rig found");
+      rig_rows(context, *estimate.rig);
+    }
   }
   remarks(context, "Warnings", estimate.warnings, colour_of_a(context.style));
   ImGui::Dummy({0, context.pxf(2)});
