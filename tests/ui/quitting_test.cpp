@@ -79,12 +79,13 @@ class QuittingWhileAFileIsWritten : public testing::Test {
     ui_.frame({}, 0.01);
     ui_.explorer().exports.start(
         {.title = "Writing", .done = "Written.", .file = "x", .write = [this](const Job& job) {
+           begun_ = true;
            while (!job.cancelled() && !written_) std::this_thread::sleep_for(std::chrono::milliseconds(1));
            stopped_ = job.cancelled();
            return Result<void>();
          }});
   }
-  std::atomic<bool> written_ = false, stopped_ = false;
+  std::atomic<bool> begun_ = false, written_ = false, stopped_ = false;
   std::unique_ptr<gl::Context> context_ = *gl::make_offscreen_context(600, 400);
   std::optional<Ui> owned_{std::in_place, *context_, Ui::Options()};
   Ui& ui_ = *owned_;
@@ -102,6 +103,7 @@ TEST_F(QuittingWhileAFileIsWritten, WaitsForItAndSaysSo) {
 }
 
 TEST_F(QuittingWhileAFileIsWritten, StopsItTheSecondTime) {
+  while (!begun_) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   ui_.quit();
   ui_.quit();
   EXPECT_TRUE(ui_.wants_quit());

@@ -91,7 +91,11 @@ void MapPair::update(const Settings& settings, double seconds_since_last, bool e
   show_both(settings);
   rest_s_ += seconds_since_last;
   if (rest_s_ >= kRest_s && !held_) start_full();
-  solved.solve(offsets_s(settings), held_ || (estimating && solved.is_first_to_come()));
+  auto wanted_s = offsets_s(settings);
+  // Along a trajectory that is known B, the answer, comes first: A is previewed along the same, B would not
+  // be.
+  if (solved.loaded()->walk->get()) std::swap(wanted_s[0], wanted_s[1]);
+  solved.solve(wanted_s, held_ || (estimating && solved.is_first_to_come()));
 }
 
 void MapPair::show_both(const Settings& settings) {

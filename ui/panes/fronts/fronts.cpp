@@ -215,7 +215,7 @@ void draw_palette(const PaneContext& context, const PixelRect& whole) {
 
 void draw_help(const PaneContext& context, const PixelRect& whole) {
   if (!context.transient.help) return;
-  begin_front(context, "keys", whole, 940, 510, 0.1);
+  begin_front(context, "keys", whole, 940, 540, 0.1);
   text_in(context.fonts.heading, "Keys");
   wrapped_text(
       context.style.faint_text,
