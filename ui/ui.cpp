@@ -348,6 +348,7 @@ void Ui::Parts::frame(std::span<const InputEvent> all_events, double seconds_sin
   transient.camera_moved_s += seconds_since_last;
   explorer.set_picture_shape(picture_shape());
   explorer.update(seconds_since_last);
+  explorer.set_picture_shape(picture_shape());  // close-ups that come take what the view spares at once
   remember_opened();
   let_go();
   // The keyboard is ImGui's in its menus and on the page of choices: elsewhere arrows move the view.
