@@ -56,7 +56,7 @@ TEST_F(PlacesToLook, TheMapIsFittedBesideTheCloseUp) {
 }
 
 TEST(CloseUps, ComeInTheFrameInWhichTheMapIsFittedBesideThem) {
-  const auto context = *gl::make_offscreen_context(1200, 800);
+  const auto context = *gl::make_offscreen_context(1200, 1100);
   Ui ui(*context, Ui::Options());
   ASSERT_TRUE(run_script(ui, *parse_script("sample room-1\noffset-a 14\noffset-b 24\n", "test"), 300));
   while (!ui.explorer().place()) ui.frame({}, 1.0 / 60);
