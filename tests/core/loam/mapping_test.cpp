@@ -248,6 +248,7 @@ TEST(LostIntervals, AreRunsOfLostSweeps) {
 
 // A minute through the metro station at a true offset of 24 ms.
 class Walk : public testing::Test {
+ protected:
   struct Tracked {
     OffsetProblem problem = test::problem_of(test::simulated("metro-station", 0.024, 60).recording);
     TrackedWalk walk = track(problem, 0.024, MappingOptions(), Job()).value();
@@ -256,8 +257,6 @@ class Walk : public testing::Test {
     static const Tracked once;
     return once;
   }
-
- protected:
   CurvePoint candidate(double off_s) const {
     return moving_candidate(problem_, 0.024 + off_s, tracked().walk.sweeps, MappingOptions(), Job());
   }
