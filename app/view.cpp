@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <chrono>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -159,6 +160,16 @@ Result<void> serve(const ViewOptions& options, ui::Ui::Options with, const ui::W
   return ui::run_served(std::move(with), std::move(served), first, scripts);
 }
 
+/// That of the last window, or the default one on a display of this scale (0: the display's own).
+Size usual_size(const Size& at_100_percent, double scale) {
+  const ui::Preferences before = ui::read_preferences(ui::preferences_path());
+  if (before.width_px >= kMinSide_px && before.height_px >= kMinSide_px)
+    return {before.width_px, before.height_px};
+  const double times = scale > 0 ? scale : gl::display_scale();
+  const auto scaled = [&](int side_px) { return static_cast<int>(std::lround(side_px * times)); };
+  return {scaled(at_100_percent.width_px), scaled(at_100_percent.height_px)};
+}
+
 Result<void> view(const ViewOptions& options) {
   return_memory();  // clouds come and go by the hundred megabytes
   auto size = parse_size(options.size);
@@ -172,10 +183,7 @@ Result<void> view(const ViewOptions& options) {
     return serve(options, std::move(*with), {size->width_px, size->height_px, absolute(options.record)},
                  *scripts);
   const std::string first = first_line_of(options.recording, options.poses);
-  const ui::Preferences before = ui::read_preferences(ui::preferences_path());
-  if (!options.headless && !options.size_given && before.width_px >= kMinSide_px &&
-      before.height_px >= kMinSide_px)
-    size = Size{before.width_px, before.height_px};
+  if (!options.headless && !options.size_given) size = usual_size(*size, options.scale);
   if (!options.headless)
     return ui::run_in_window(std::move(*with), {size->width_px, size->height_px, options.record}, first,
                              *scripts);

@@ -78,7 +78,7 @@ struct Ui::Parts final : Window {
     return ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
   }
 
-  void quit() override { transient.quit = true; }
+  void quit() override;
   void toggle_palette() override { show_alone(&Transient::palette); }
   void toggle_keys() override { show_alone(&Transient::help); }
   void ask(const std::string& command, const std::string& what) override;
@@ -114,6 +114,7 @@ struct Ui::Parts final : Window {
   PictureShape picture_shape() const;
   void remember_opened();
   bool shows_all_points() const;
+  bool is_exporting() const { return pictures.waits() || explorer.exports.is_running(); }
   bool maps_are_shown() const { return explorer.loaded() != nullptr && explorer.page.choosing() == nullptr; }
   double kept_ui_scale = 0;  // of the preferences
   tbb::task_arena alone{1};
@@ -347,6 +348,7 @@ void Ui::Parts::frame(std::span<const InputEvent> all_events, double seconds_sin
   transient.camera_moved_s += seconds_since_last;
   explorer.set_picture_shape(picture_shape());
   explorer.update(seconds_since_last);
+  explorer.set_picture_shape(picture_shape());  // close-ups that come take what the view spares at once
   remember_opened();
   let_go();
   // The keyboard is ImGui's in its menus and on the page of choices: elsewhere arrows move the view.
@@ -395,8 +397,19 @@ Image Ui::screenshot() {
   return parts_->screenshot();
 }
 
+void Ui::Parts::quit() {
+  transient.quits_at_once = transient.quit || !is_exporting();
+  if (!transient.quits_at_once)
+    explorer.messages.note("The window closes when the file is written. Quit again to stop writing it.");
+  transient.quit = true;
+}
+
+void Ui::quit() {
+  parts_->quit();
+}
+
 bool Ui::wants_quit() const {
-  return parts_->transient.quit && !is_exporting();
+  return parts_->transient.quit && (parts_->transient.quits_at_once || !is_exporting());
 }
 
 bool Ui::pictures_done() const {
@@ -425,7 +438,7 @@ bool Ui::has_input() const {
 }
 
 bool Ui::is_exporting() const {
-  return parts_->pictures.waits() || parts_->explorer.exports.is_running();
+  return parts_->is_exporting();
 }
 
 bool Ui::animates() const {

@@ -43,6 +43,9 @@ class Ui {
   /// The picture of the last frame.
   Image screenshot();
 
+  /// As the command does. While a file is written, the first time announces that the window closes after
+  /// it, and the second time stops the writing.
+  void quit();
   bool wants_quit() const;
   /// Whether events wait for a frame.
   bool has_input() const;

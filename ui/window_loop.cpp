@@ -131,7 +131,7 @@ void loop(gl::Window& window, Ui& ui, ScriptRecorder* recorder, bool scale_given
   std::string title;
   auto last = Clock::now(), last_event = last;
   int frames_due = kFramesAfterEvent;
-  while ((!window.should_close() || ui.is_exporting()) && !ui.wants_quit()) {
+  while (!ui.wants_quit()) {
     const Background& background = ui.explorer().background;
     const bool moves =
         frames_due > 0 || ui.animates() || seconds_between(last_event, Clock::now()) < kTooltip_s;
@@ -140,6 +140,7 @@ void loop(gl::Window& window, Ui& ui, ScriptRecorder* recorder, bool scale_given
     const double interval_s = moves ? kFrame_s : goes_on ? kWorking_s : kIdle_s;
     const double waited_s = interval_s == kIdle_s ? 0 : seconds_between(last, Clock::now());
     window.wait(std::max(1e-3, interval_s - waited_s));
+    if (window.take_close()) ui.quit();
     const auto now = Clock::now();
     const double seconds = seconds_between(last, now);
     if (queue.any()) {

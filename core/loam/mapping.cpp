@@ -404,7 +404,7 @@ std::vector<Interval> lost_intervals(const std::vector<SweepPose>& sweeps) {
 }
 
 MatchCount count_matches(const OffsetProblem& problem, double offset_s, const std::vector<SweepPose>& poses,
-                         const MappingOptions& options) {
+                         const MappingOptions& options, const Job& job) {
   const Eigen::Vector3d motor_axis = problem.recording->rig.mount.axis.normalized();
   SweepPlacer placer(problem, offset_s);
   SweepMaps maps;
@@ -412,7 +412,7 @@ MatchCount count_matches(const OffsetProblem& problem, double offset_s, const st
   int in_map = 0;
   std::size_t stretch = 0;
   auto pose = poses.begin();
-  for (PlacedSweep sweep; placer.next(sweep);) {
+  for (PlacedSweep sweep; !job.cancelled() && placer.next(sweep);) {
     while (pose != poses.end() && pose->sweep < sweep.sweep) ++pose;
     // Those at either end may come or go with the offset.
     if (pose == poses.end() || pose->sweep != sweep.sweep || pose->lost) continue;

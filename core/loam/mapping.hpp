@@ -42,8 +42,9 @@ struct Interval {
 std::vector<Interval> lost_intervals(const std::vector<SweepPose>& sweeps);
 
 /// Rebuilds the map along given poses, ascending in time, and counts each sweep's matches with the map of the
-/// sweeps before it that turned the other way (equations 4 to 7). Lost sweeps are left out.
+/// sweeps before it that turned the other way (equations 4 to 7). Lost sweeps are left out. Unfinished if the
+/// job is cancelled.
 MatchCount count_matches(const OffsetProblem& problem, double offset_s, const std::vector<SweepPose>& poses,
-                         const MappingOptions& options);
+                         const MappingOptions& options, const Job& job);
 
 }  // namespace sweepscope

@@ -14,12 +14,13 @@ using Positions = std::vector<std::array<float, 3>>;
 // `beam_of(k)`: the number of the beam whose position is the k-th.
 template <typename BeamOf>
 Positions positions_of(std::size_t count, const Beams& beams, const MapPath& path, double offset_s,
-                       const BeamOf& beam_of) {
+                       const BeamOf& beam_of, const Job& job) {
   constexpr std::size_t kGrain = 4096;
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
   const ScanPoses poses(*beams.recording, path, offset_s);
   Positions positions_m(count, {kNan, kNan, kNan});
   for_each_block(count, kGrain, [&](const auto& block) {
+    if (job.cancelled()) return;
     BeamPlacer placer(*beams.recording, poses);
     for (std::size_t k = block.begin(); k < block.end(); ++k) {
       const std::size_t i = beam_of(k);
@@ -33,14 +34,15 @@ Positions positions_of(std::size_t count, const Beams& beams, const MapPath& pat
 
 }  // namespace
 
-Positions place_beams(const Beams& beams, const MapPath& path, double offset_s) {
-  return positions_of(beams.size(), beams, path, offset_s, [](std::size_t k) { return k; });
+Positions place_beams(const Beams& beams, const MapPath& path, double offset_s, const Job& job) {
+  return positions_of(
+      beams.size(), beams, path, offset_s, [](std::size_t k) { return k; }, job);
 }
 
 Positions place_beams(const Beams& beams, const MapPath& path, double offset_s,
-                      std::span<const std::uint32_t> chosen) {
-  return positions_of(chosen.size(), beams, path, offset_s,
-                      [&](std::size_t k) { return std::size_t{chosen[k]}; });
+                      std::span<const std::uint32_t> chosen, const Job& job) {
+  return positions_of(
+      chosen.size(), beams, path, offset_s, [&](std::size_t k) { return std::size_t{chosen[k]}; }, job);
 }
 
 MapCloud place_scans(const Recording& recording, const ScanPoses& poses, ScanRange scans,

@@ -71,9 +71,9 @@ CoarseSearch searched(const PreparedRecording& prepared, const EstimateOptions& 
                       const Job& job) {
   if (!window.by_default || options.search) {
     const double from_s = window.from_s(), to_s = window.to_s();
-    return search_coarsely(problem_for(prepared, from_s, to_s), from_s, to_s, scale, job, kept.finished);
+    return search_coarsely(problem_for(prepared, from_s, to_s), from_s, to_s, scale, job, kept.watch);
   }
-  SearchedWindow found = search_by_default(prepared, scale, job, kept.finished);
+  SearchedWindow found = search_by_default(prepared, scale, job, kept.watch);
   window.offsets_s = offsets_of({{found.from_s, found.to_s, scale.unit_s}});
   return std::move(found.coarse);
 }

@@ -49,7 +49,11 @@ class GlfwWindow final : public Window {
     else
       glfwPollEvents();
   }
-  bool should_close() const override { return glfwWindowShouldClose(window_) != 0; }
+  bool take_close() override {
+    const bool asked = glfwWindowShouldClose(window_) != 0;
+    glfwSetWindowShouldClose(window_, GLFW_FALSE);
+    return asked;
+  }
   double scale() const override {
     float x = 1, y = 1;
     glfwGetWindowContentScale(window_, &x, &y);
@@ -125,7 +129,7 @@ void fit_screen(int& width_px, int& height_px) {
   GLFWmonitor* monitor = glfwGetPrimaryMonitor();
   if (monitor != nullptr) glfwGetMonitorWorkarea(monitor, &x, &y, &width, &height);
   if (width > 0 && width_px > width) width_px = width;
-  if (height > kTitle_px && height_px > height) height_px = height - kTitle_px;
+  if (height > kTitle_px) height_px = std::min(height_px, height - kTitle_px);
 }
 
 }  // namespace
@@ -149,6 +153,13 @@ Result<std::unique_ptr<Window>> make_window(int width_px, int height_px, const s
                                why));
   }
   return std::make_unique<GlfwWindow>(window);
+}
+
+double display_scale() {
+  float x = 1, y = 1;
+  GLFWmonitor* monitor = glfwInit() != 0 ? glfwGetPrimaryMonitor() : nullptr;
+  if (monitor != nullptr) glfwGetMonitorContentScale(monitor, &x, &y);
+  return static_cast<double>(x);
 }
 
 void wake_window() {

@@ -29,7 +29,8 @@ class Window : public Context {
 
   /// Processes events: waits for one, at most this long (0: not at all).
   virtual void wait(double max_s) = 0;
-  virtual bool should_close() const = 0;
+  /// Whether it was asked to close since this was asked for.
+  virtual bool take_close() = 0;
   /// Of the display: 1 at 100 %.
   virtual double scale() const = 0;
   virtual void set_title(const std::string& title) = 0;
@@ -41,6 +42,9 @@ class Window : public Context {
 /// Fails with ExitCode::kWrongUsage and a sentence if there is no display, or it has no OpenGL 3.3. Only on
 /// the main thread.
 Result<std::unique_ptr<Window>> make_window(int width_px, int height_px, const std::string& title);
+
+/// Of the primary display: 1 at 100 %, and without a display. Only on the main thread.
+double display_scale();
 
 /// Ends a wait() early; from any thread.
 void wake_window();

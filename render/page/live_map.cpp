@@ -265,10 +265,10 @@ BeamColours beam_colours(const FeatureSet& features, const DrawnBeams& drawn, co
 
 /// `usable`: the number of beams to choose from.
 DrawnBeams choose_beams(const Recording& recording, MapPath path, double offset_s, std::size_t points,
-                        std::size_t usable) {
+                        std::size_t usable, const Job& job) {
   constexpr std::size_t kMaxChoice = 4'000'000;
   DrawnBeams drawn{collect_beams(recording, path.used, 1 + usable / kMaxChoice), std::move(path), {}};
-  drawn.chosen = evenly_in_space(place_beams(drawn.beams, drawn.path, offset_s), points);
+  drawn.chosen = evenly_in_space(place_beams(drawn.beams, drawn.path, offset_s, job), points);
   return drawn;
 }
 
@@ -294,7 +294,8 @@ LiveMap live_map(const PreparedRecording& prepared, std::shared_ptr<const Solved
   for (std::size_t i = 0; i < recording.scans.size(); ++i)
     if (path.used[i] != 0) live.usable_beams += usable_beams(recording, recording.scans[i]);
   const DrawnBeams drawn =
-      choose_beams(recording, std::move(path), live.offset_s[0], points, live.usable_beams);
+      choose_beams(recording, std::move(path), live.offset_s[0], points, live.usable_beams, job);
+  if (job.cancelled()) return live;
   live.map = turnable_map(drawn.beams, drawn.path, drawn.chosen);
   for (ComparedMap& map : still) {
     measure_thickness(map, job);

@@ -187,9 +187,9 @@ std::vector<std::filesystem::path> report_files(const std::filesystem::path& fol
   return {folder / "report.html", folder / "estimate.json"};
 }
 
-Result<void> write_report(const ReportContent& content, const std::filesystem::path& folder) {
+Result<void> write_report(const ReportContent& content, const std::filesystem::path& folder, const Job& job) {
   return make_report_folder(folder)
-      .and_then([&] { return report_html(content); })
+      .and_then([&] { return report_html(content, job); })
       .and_then([&](const std::string& page) { return write_file(folder / "report.html", page); })
       .and_then([&] { return write_file(folder / "estimate.json", report_json(content)); });
 }

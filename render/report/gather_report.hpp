@@ -31,7 +31,9 @@ Result<void> make_report_folder(const std::filesystem::path& folder);
 /// The files that `write_report` writes.
 std::vector<std::filesystem::path> report_files(const std::filesystem::path& folder);
 
-/// Writes report.html and estimate.json into a folder, which is created if it does not exist.
-Result<void> write_report(const ReportContent& content, const std::filesystem::path& folder);
+/// Writes report.html and estimate.json into a folder, which is created if it does not exist. An
+/// interruption is ExitCode::kInterrupted, and leaves no file.
+Result<void> write_report(const ReportContent& content, const std::filesystem::path& folder,
+                          const Job& job = {});
 
 }  // namespace sweepscope

@@ -41,7 +41,7 @@ std::string method_text(const Estimate& estimate) {
   return "";
 }
 
-std::string answer(const Estimate& estimate) {
+std::string answer(const Estimate& estimate, std::size_t warnings) {
   if (!estimate.identifiable || !estimate.offset_s) {
     std::string reasons;
     for (const std::string& reason : estimate.reasons())
@@ -50,11 +50,14 @@ std::string answer(const Estimate& estimate) {
            "recording.</b></div>" +
            html::element("ul", reasons) + "</div>\n";
   }
+  const std::string warned = warnings == 0 ? ""
+                                           : fmt::format(" <a href=\"#warnings\">{} warning{}.</a>", warnings,
+                                                         warnings == 1 ? "" : "s");
   return fmt::format(
-      "<div class=\"answer\"><div class=\"number\">{}</div>\n<div class=\"equation\">t_motor = t_laser + "
-      "offset</div>\n<p>Add it to a laser stamp to read the motor's clock. Found as {}.{}</p></div>\n",
-      offset_text(*estimate.offset_s, estimate.sigma_s), method_text(estimate),
-      estimate.sigma_s ? " The uncertainty is one standard deviation." : "");
+      "<div class=\"answer\"><div>Offset between the laser scanner's clock and its motor's</div>\n"
+      "<div class=\"number\">{}</div>\n<div class=\"equation\">t_motor = t_laser + offset</div>\n"
+      "<p>Add it to a laser stamp to read the motor's clock.{}</p></div>\n",
+      offset_text(*estimate.offset_s, estimate.sigma_s), warned);
 }
 
 /// Wide tables scroll by themselves, and not the page.
@@ -82,6 +85,10 @@ std::string criteria_table(const ReportContent& content) {
   if (content.criteria)
     criteria.insert(criteria.end(), content.criteria->criteria.begin(), content.criteria->criteria.end());
   if (criteria.empty()) return "";
+  std::string found = html::element("h2", "How it was found");
+  if (content.estimate.offset_s)
+    found += fmt::format("<p>As {}.{}</p>\n", method_text(content.estimate),
+                         content.estimate.sigma_s ? " The uncertainty is one standard deviation." : "");
   std::string rows =
       "<tr><th>criterion</th><th></th><th class=\"number-cell\">best offset</th><th "
       "class=\"number-cell\">value</th></tr>\n";
@@ -94,7 +101,7 @@ std::string criteria_table(const ReportContent& content) {
         html::escape(shown_name(one.name)), meaning_of(one.name),
         offset_text(one.offset_s, one.name == "direct" ? content.estimate.sigma_s : std::nullopt), value);
   }
-  return in_table(rows, "table criteria");
+  return found + in_table(rows, "table criteria");
 }
 
 std::string row(std::string_view name, const std::string& value) {
@@ -135,7 +142,7 @@ std::string recorded(const RecordingSummary& summary) {
   return in_table(rows);
 }
 
-std::string warnings_list(const ReportContent& content) {
+std::vector<std::string> all_warnings(const ReportContent& content) {
   std::vector<std::string> all = content.recording.warnings;
   const auto add = [&](const std::vector<std::string>& warnings) {
     for (const std::string& warning : warnings)
@@ -144,8 +151,12 @@ std::string warnings_list(const ReportContent& content) {
   add(content.estimate.warnings);
   if (!content.maps.empty() && content.maps.back().consistency)
     add(content.maps.back().consistency->warnings);
+  return all;
+}
+
+std::string warnings_list(std::span<const std::string> warnings) {
   std::string items;
-  for (const std::string& warning : all)
+  for (const std::string& warning : warnings)
     items += html::element("li", html::escape(with_plus_minus_sign(warning)));
   if (items.empty()) return "<p>None.</p>\n";
   return "<ul class=\"warnings\">" + items + "</ul>\n";
@@ -284,7 +295,11 @@ std::string thickness_table(const ReportContent& content) {
          "each. In a sharp map this is the range noise.</p>\n";
 }
 
-Result<std::string> maps(const ReportContent& content) {
+tl::unexpected<Error> interrupted() {
+  return failure(ExitCode::kInterrupted, "interrupted while drawing the report");
+}
+
+Result<std::string> maps(const ReportContent& content, const Job& job) {
   if (content.maps.empty()) return std::string();
   ComparisonOptions look;
   look.background = Background::kLight;
@@ -292,7 +307,10 @@ Result<std::string> maps(const ReportContent& content) {
   look.width_px = 1800;
   look.height_px = 1100;
   const bool of_rigs = content.estimate.offset_is_gauge();
-  return comparison_picture(content.maps, nullptr, look).and_then(draw).map([&](const Image& image) {
+  const auto drawn = comparison_picture(content.maps, nullptr, look).and_then([&](const Picture& picture) {
+    return job.cancelled() ? Result<Image>(interrupted()) : draw(picture);
+  });
+  return drawn.map([&](const Image& image) {
     return fmt::format("<h2 class=\"{}\">{}</h2>\n", stationary_class(content),
                        of_rigs ? "The map with the rig as given, and as found"
                                : "The map 5 ms off, and at the answer") +
@@ -320,7 +338,7 @@ Result<std::string> profile(const ReportContent& content) {
       ". Points in the views from above: violet where the motor turned one way, green where it turned back.";
   const auto svg_of = [&](int width_px, int height_px) {
     ComparisonOptions look;
-    look.background = Background::kLight;
+    look.background = Background::kWhite;
     look.width_px = width_px;
     look.height_px = height_px;
     return encode_svg(profile_picture(content.maps, *content.section, profiles, look));
@@ -353,21 +371,28 @@ std::vector<Chart> evidence_charts(const ReportContent& content) {
   return charts;
 }
 
-Result<std::string> report_html(const ReportContent& content) {
-  const auto rig = rig_part(content);
-  const auto strip = over_time_strip(content);
-  const auto curve_part = curves(content), map_part = maps(content), profile_part = profile(content);
-  const auto data = content.live ? live_map_data(*content.live) : Result<std::string>();
+Result<std::string> report_html(const ReportContent& content, const Job& job) {
+  const auto drawn = [&](const auto& part) -> Result<std::string> {
+    if (job.cancelled()) return interrupted();
+    return part(content);
+  };
+  const auto rig = drawn(rig_part), strip = drawn(over_time_strip), curve_part = drawn(curves),
+             map_part = drawn([&](const ReportContent&of) { return maps(of, job); }),
+             profile_part = drawn(profile),
+             data = drawn([](const ReportContent&of) {
+               return of.live ? live_map_data(*of.live) : Result<std::string>();
+             });
   for (const auto* part : {&rig, &strip, &curve_part, &map_part, &profile_part, &data}) {
     if (!*part) return tl::unexpected(part->error());
   }
   const std::string name = html::escape(content.recording.name);
+  const std::vector<std::string> warnings = all_warnings(content);
+  // The first screen has the answer and what it does to the map.
   const std::string body = fmt::format(
-      "<h1>{0}</h1>\n<p>Offset between the laser scanner's clock and its motor's.</p>\n{1}{2}"
-      "<h2>Warnings</h2>\n{3}{4}{5}{6}{7}{8}{9}<h2>What was recorded</h2>\n{10}"
-      "<h2>How this was made</h2>\n<p>{11} sweeps, {12} scans; sweepscope {13}.</p>\n<pre>{14}</pre>\n",
-      name, answer(content.estimate), criteria_table(content), warnings_list(content), *rig, *strip,
-      content.live ? live_map_part(*content.live) : "", *curve_part, *map_part, *profile_part,
+      "<h1>{}</h1>\n{}{}{}<h2 id=\"warnings\">Warnings</h2>\n{}{}{}{}{}{}<h2>What was recorded</h2>\n{}"
+      "<h2>How this was made</h2>\n<p>{} sweeps, {} scans; sweepscope {}.</p>\n<pre>{}</pre>\n",
+      name, answer(content.estimate, warnings.size()), content.live ? live_map_part(*content.live) : "",
+      *map_part, warnings_list(warnings), criteria_table(content), *curve_part, *rig, *strip, *profile_part,
       recorded(content.recording), content.estimate.sweeps, content.estimate.scans, SWEEPSCOPE_VERSION,
       html::escape(content.command));
   return html_page(content.recording.name + ": offset between laser and motor", body, *data);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/job.hpp"
 #include "core/map/sections/cross_section.hpp"
 #include "core/offset/estimate.hpp"
 #include "core/recording/inspect.hpp"
@@ -38,6 +39,7 @@ std::string report_command(const std::string& recording_name, const std::string&
 /// reasons why there is none, the criteria, the maps, a profile, warnings, and how it was made. Pictures are
 /// embedded; it contains no time and no host name, needs no network, and can be printed. With a live map its
 /// reader can turn the offset; on paper, and where scripts or WebGL 2 are missing, the pictures stand in.
-Result<std::string> report_html(const ReportContent& content);
+/// An interruption is ExitCode::kInterrupted.
+Result<std::string> report_html(const ReportContent& content, const Job& job = {});
 
 }  // namespace sweepscope

@@ -168,7 +168,8 @@ void track_a_walk(State& state) {
 void count_along_a_walk(State& state) {
   const TrackedWalk tracked = track(walk().sweeps, MappingOptions(), Job()).value();
   for (auto _ : state)
-    benchmark::DoNotOptimize(count_matches(walk().problem, kTruth_s, tracked.sweeps, MappingOptions()));
+    benchmark::DoNotOptimize(
+        count_matches(walk().problem, kTruth_s, tracked.sweeps, MappingOptions(), Job()));
   count_cost(state, walk());
 }
 

@@ -64,6 +64,41 @@ TEST(GrowingCurve, ACandidateThatIsComputedAgainReplacesWhatItWas) {
   EXPECT_EQ(so_far.curve[0].capped_cost_m, 0.1);
 }
 
+// Their costs have other levels: together they would be a sawtooth.
+TEST(GrowingCurve, ShowsOneCoarseSearchAtATimeTheNewOneOnceItHasHalfOfTheCandidates) {
+  GrowingCurve curve;
+  const auto add = [&](double offset_s, double cost_m) {
+    CurvePoint point;
+    point.offset_s = offset_s;
+    point.capped_cost_m = cost_m;
+    curve.add(point);
+  };
+  curve.begin();
+  for (int i = 0; i < 5; ++i) add(0.002 * i, 0.2);
+  curve.begin();
+  add(0.001, 0.1);
+  add(0.003, 0.1);
+  ASSERT_EQ(curve.so_far().curve.size(), 5u);
+  for (const CurvePoint& point : curve.so_far().curve) EXPECT_EQ(point.capped_cost_m, 0.2);
+  add(0.005, 0.1);
+  ASSERT_EQ(curve.so_far().curve.size(), 3u);
+  for (const CurvePoint& point : curve.so_far().curve) EXPECT_EQ(point.capped_cost_m, 0.1);
+  EXPECT_EQ(curve.size(), 8u);
+}
+
+TEST(GrowingCurve, LeavesOutWhatIsTriedSecondsAwayAndWouldSqueezeTheOthers) {
+  GrowingCurve curve(0.24);
+  CurvePoint point;
+  point.capped_cost_m = 0.1;
+  for (const double offset_s : {-0.02, 0.2, -9.9}) {
+    if (offset_s < -1) curve.begin();
+    point.offset_s = offset_s;
+    curve.add(point);
+  }
+  ASSERT_EQ(curve.so_far().curve.size(), 2u);
+  EXPECT_EQ(curve.so_far().curve.front().offset_s, -0.02);
+}
+
 TEST(GrowingCurve, HasTheCoarseSearchFirstAndThenTheMethodsCandidatesAscending) {
   GrowingCurve curve;
   CurvePoint point;

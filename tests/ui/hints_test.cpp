@@ -37,6 +37,13 @@ TEST_F(InARoom, ARefusalOffersWhatHelps) {
   EXPECT_EQ(lines_for(explorer_, refused(RefusalKind::kMotorGaps)), Lines{}) << "a sample has no other motor";
 }
 
+TEST_F(InARoom, TheMountThatWasFoundIsNotOfferedToBeSolvedForAgain) {
+  perform(explorer_, "estimate mount");
+  rest(explorer_);
+  ASSERT_TRUE(explorer_.estimating.found()->rig);
+  EXPECT_EQ(lines_for(explorer_, refused(RefusalKind::kOneWayAtOneSpeed)), Lines{});
+}
+
 TEST_F(InARoom, AWarningOffersWhatItNames) {
   Estimate estimate;
   estimate.warnings = {"Surfaces are flatter with another mount. Solve for the mount (--solve offset,mount).",

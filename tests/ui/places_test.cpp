@@ -55,6 +55,18 @@ TEST_F(PlacesToLook, TheMapIsFittedBesideTheCloseUp) {
   EXPECT_LT(outside, points.size() / 20);
 }
 
+TEST(CloseUps, ComeInTheFrameInWhichTheMapIsFittedBesideThem) {
+  const auto context = *gl::make_offscreen_context(1200, 1100);
+  Ui ui(*context, Ui::Options());
+  ASSERT_TRUE(run_script(ui, *parse_script("sample room-1\noffset-a 14\noffset-b 24\n", "test"), 300));
+  while (!ui.explorer().place()) ui.frame({}, 1.0 / 60);
+  const ViewPoint first = ui.explorer().settings().camera_a;
+  const PixelRect close_up = *ui.anchor("close-up a");
+  ASSERT_TRUE(run_script(ui, *parse_script("wait solved\n", "test"), 300));
+  EXPECT_EQ(ui.explorer().settings().camera_a, first);
+  EXPECT_EQ(ui.anchor("close-up a")->top, close_up.top);
+}
+
 TEST_F(PlacesToLook, KeysButtonsAndTheListStepThroughThemAndRoundAtTheEnds) {
   const std::string first = now("place-at"), count = now("places");
   run("key N\nexpect place is 2");

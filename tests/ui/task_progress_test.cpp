@@ -2,8 +2,18 @@
 
 #include <gtest/gtest.h>
 
+#include "ui/jobs/task_plans.hpp"
+
 namespace sweepscope::ui {
 namespace {
+
+TEST(TaskProgress, OpeningIsNotNearlyDoneWhenTheFirstReadingsOfTheBeamsAreTried) {
+  TaskProgress progress(steps_of_loading());
+  progress.report("reading", 1);
+  for (int reading = 0; reading < 2; ++reading)
+    for (const char* phase : {"features", "searching"}) progress.report(phase, 1);
+  EXPECT_LT(progress.fraction(), 0.6);
+}
 
 TEST(TaskProgress, AddsItsStepsUpByTheirShares) {
   TaskProgress progress({{"reading", 1}, {"features", 3}});

@@ -131,7 +131,7 @@ Result<void> export_report(Explorer& explorer, const Call& call) {
                             if (!content) return tl::unexpected(content.error());
                             content->command = command;
                             job.report("drawing", 0);
-                            return write_report(*content, folder);
+                            return write_report(*content, folder, job);
                           },
                           .steps = steps_of_reporting()});
   return {};

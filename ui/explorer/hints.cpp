@@ -26,6 +26,11 @@ bool has_stationary_part(const Explorer& explorer) {
   return is_file(explorer) && stationary_part(explorer).has_value();
 }
 
+bool was_not_solved_for_rig(const Explorer& explorer) {
+  const Estimate* found = explorer.estimating.found();
+  return found == nullptr || !found->rig;
+}
+
 bool can_use_receive_stamps(const Explorer& explorer) {
   return is_file(explorer) && explorer.loaded()->choices.stamps != StampSource::kReceive;
 }
@@ -54,9 +59,9 @@ const std::vector<HintEntry> kHints{
      "reopen stationary-part", has_stationary_part},
     {"in which the rig was stationary, is used", "Show the whole recording", "reopen whole", is_part},
     {"rig_moved", "Use the method for moving rigs", "estimate moving"},
-    {"one_way_at_one_speed", "Solve for the mount", "estimate mount"},
-    {"(--solve offset,mount)", "Solve for the mount", "estimate mount"},
-    {"--solve mount", "Solve for the mount", "estimate mount"},
+    {"one_way_at_one_speed", "Solve for the mount", "estimate mount", was_not_solved_for_rig},
+    {"(--solve offset,mount)", "Solve for the mount", "estimate mount", was_not_solved_for_rig},
+    {"--solve mount", "Solve for the mount", "estimate mount", was_not_solved_for_rig},
     {"(--solve offset,encoder)", "Solve for the encoder", "estimate encoder"},
     {"one_way_motor_and_criteria", "Use the direct method", "estimate direct"},
     {"scan_lines_do_not_repeat", "Use the stationary method", "estimate stationary"},

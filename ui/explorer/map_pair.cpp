@@ -91,7 +91,11 @@ void MapPair::update(const Settings& settings, double seconds_since_last, bool e
   show_both(settings);
   rest_s_ += seconds_since_last;
   if (rest_s_ >= kRest_s && !held_) start_full();
-  solved.solve(offsets_s(settings), held_ || (estimating && solved.is_first_to_come()));
+  auto wanted_s = offsets_s(settings);
+  // Along a trajectory that is known B, the answer, comes first: A is previewed along the same, B would not
+  // be.
+  if (solved.loaded()->walk->get()) std::swap(wanted_s[0], wanted_s[1]);
+  solved.solve(wanted_s, held_ || (estimating && solved.is_first_to_come()));
 }
 
 void MapPair::show_both(const Settings& settings) {
@@ -163,11 +167,11 @@ MapPair::PlacedAll MapPair::place_fully(const CloudRequest& request, const SlowV
   if (!other && !known.values && is_slow(look.colouring)) {
     const FeatureSet* features = placement.loaded->prepared.features.get();
     placed.slow = slow_values(placement, look.colouring, features, job);
-    placed.coarse =
-        std::make_shared<PlacedCloud>(place_cloud(placement, look, true, nullptr, placed.slow.values.get()));
+    placed.coarse = std::make_shared<PlacedCloud>(
+        place_cloud(placement, look, true, nullptr, placed.slow.values.get(), job));
   }
   placed.full = std::make_shared<PlacedCloud>(
-      place_cloud(placement, look, false, request.other_or_null(), placed.slow.values.get()));
+      place_cloud(placement, look, false, request.other_or_null(), placed.slow.values.get(), job));
   return placed;
 }
 

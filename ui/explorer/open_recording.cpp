@@ -50,7 +50,7 @@ void OpenRecording::start(const std::string& title, std::vector<TaskStep> steps,
           job.report("the first map", 0);
           const Loaded& loaded = **opened.loaded;
           // At 0 ms whatever the settings are, so that the same lines always give the same picture.
-          opened.first_map = map_without_solving(loaded, was_stationary(loaded, assume_), 0);
+          opened.first_map = map_without_solving(loaded, was_stationary(loaded, assume_), 0, job);
         } else {
           opened.survey = choosable(opened.choices, job);
         }

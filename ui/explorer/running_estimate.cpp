@@ -1,6 +1,7 @@
 #include "ui/explorer/running_estimate.hpp"
 
 #include "core/offset/estimator.hpp"
+#include "core/offset/prepared/search_window.hpp"
 #include "ui/jobs/task_plans.hpp"
 #include "ui/state/value.hpp"
 
@@ -31,14 +32,19 @@ EstimateOptions estimate_asked_for(const Settings& settings, std::optional<RigKi
 
 void RunningEstimate::start(LoadedPtr loaded, const EstimateOptions& options) {
   background_.cancel(kEstimate);
-  growing_ = std::make_shared<GrowingCurve>();
+  constexpr double kNear = 4;  // times the half-width of the default search
+  growing_ = options.ranges.empty()
+                 ? std::make_shared<GrowingCurve>(kNear * search_scale(loaded->prepared.motor).half_width_s)
+                 : std::make_shared<GrowingCurve>();
   background_.start(
       kEstimate, kEstimate, "Estimating the offset",
       [this, options, loaded = std::move(loaded), growing = growing_](const Job& job) -> Background::Finish {
         EstimateOptions along = options;
         along.walk = loaded->walk->get();
         const KeptCandidates candidates{
-            nullptr, {}, [growing](const CurvePoint& point) { growing->add(point); }};
+            nullptr,
+            {},
+            {[growing] { growing->begin(); }, [growing](const CurvePoint& p) { growing->add(p); }}};
         auto found = std::make_shared<Result<Estimate>>(
             sweepscope::estimate(loaded->prepared, along, candidates, job));
         if (*found && (*found)->walk) loaded->walk->keep((*found)->walk);

@@ -18,7 +18,8 @@ std::vector<TaskStep> followed_by(std::vector<TaskStep> steps, std::vector<TaskS
 
 std::vector<TaskStep> steps_of_loading() {
   std::vector<TaskStep> steps{{"unpacking", 0.2}, {"reading", 1}};
-  for (int i = 0; i < 6; ++i) steps.push_back({"searching", 0.3});  // each reading of the beams that is tried
+  for (int i = 0; i < 6; ++i)  // each reading of the beams that is tried
+    steps = followed_by(std::move(steps), {{"features", 0.1}, {"searching", 0.3}});
   return followed_by(steps, {{"reading its streams", 0.2}, {"features", 1}, {"the first map", 0.5}});
 }
 

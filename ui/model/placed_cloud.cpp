@@ -14,10 +14,10 @@ namespace {
 using Places = std::vector<std::array<float, 3>>;
 
 /// Where the beams are whose numbers are `chosen`, or all.
-Places places_of(const Placement& placement, const std::vector<std::uint32_t>* chosen) {
+Places places_of(const Placement& placement, const std::vector<std::uint32_t>* chosen, const Job& job = {}) {
   const Beams& beams = placement.loaded->beams;
-  return chosen != nullptr ? place_beams(beams, placement.map->path, placement.offset_s, *chosen)
-                           : place_beams(beams, placement.map->path, placement.offset_s);
+  return chosen != nullptr ? place_beams(beams, placement.map->path, placement.offset_s, *chosen, job)
+                           : place_beams(beams, placement.map->path, placement.offset_s, job);
 }
 
 /// Which beams the look shows.
@@ -118,8 +118,8 @@ struct WholeMap {
   std::vector<std::uint32_t> beams;
 };
 
-WholeMap whole_map(const Placement& placement) {
-  const Places places = places_of(placement, nullptr);
+WholeMap whole_map(const Placement& placement, const Job& job) {
+  const Places places = places_of(placement, nullptr, job);
   const Beams& beams = placement.loaded->beams;
   const auto sweep_of =
       assign_sweeps(beams.recording->scans, placement.loaded->prepared.motor.sweeps, placement.offset_s);
@@ -182,7 +182,7 @@ SlowValues slow_values(const Placement& placement, ColourBy by, const FeatureSet
     mark(beams, features->edges, FeatureKind::kEdge, *values);
   }
   if (by == ColourBy::kBlur) {
-    const WholeMap map = whole_map(placement);
+    const WholeMap map = whole_map(placement, job);
     const SurfaceThickness thickness = surface_thickness(map.cloud, {}, job);
     for (std::size_t i = 0; i < map.beams.size(); ++i)
       (*values)[map.beams[i]] = thickness.surfaces[i].thickness_m * 1000;
@@ -256,9 +256,9 @@ namespace {
 PlacedCloud place_in_order(const Placement& placement, const CloudLook& look,
                            const std::vector<std::uint32_t>* chosen, const std::vector<std::uint32_t>& slots,
                            const Placement* other, const BeamValues* slow,
-                           const std::vector<float>* spacing_m) {
-  const Places places = places_of(placement, chosen);
-  const Places other_places = other != nullptr ? places_of(*other, chosen) : Places();
+                           const std::vector<float>* spacing_m, const Job& job = {}) {
+  const Places places = places_of(placement, chosen, job);
+  const Places other_places = other != nullptr ? places_of(*other, chosen, job) : Places();
   const std::vector<int> direction =
       look.colouring == ColourBy::kDirection ? directions(placement) : std::vector<int>();
   const double begin_s = placement.loaded->recording.scans.front().first_beam_s;
@@ -303,12 +303,12 @@ PlacedCloud place_in_order(const Placement& placement, const CloudLook& look,
 }  // namespace
 
 PlacedCloud place_cloud(const Placement& placement, const CloudLook& look, bool coarse,
-                        const Placement* other, const BeamValues* slow) {
+                        const Placement* other, const BeamValues* slow, const Job& job) {
   const DrawOrder& order = placement.map->order;
   if (coarse)
     return place_in_order(placement, look, &order.chosen, order.chosen_order, other, slow,
-                          &order.chosen_spacing_m);
-  return place_in_order(placement, look, nullptr, order.all, other, slow, &order.spacing_m);
+                          &order.chosen_spacing_m, job);
+  return place_in_order(placement, look, nullptr, order.all, other, slow, &order.spacing_m, job);
 }
 
 PlacedCloud place_chosen(const Placement& placement, const CloudLook& look,

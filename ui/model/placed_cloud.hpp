@@ -69,9 +69,10 @@ SlowValues slow_values(const Placement& placement, ColourBy by, const FeatureSet
 
 /// `coarse`: only the chosen points. With `other`, points are coloured by their distance from that placement,
 /// in millimetres, instead of by the look's colouring. `slow`: the values of the look's colouring if it is
-/// slow; without them points are grey.
+/// slow; without them points are grey. If `job` is cancelled, points are missing.
 PlacedCloud place_cloud(const Placement& placement, const CloudLook& look, bool coarse,
-                        const Placement* other = nullptr, const BeamValues* slow = nullptr);
+                        const Placement* other = nullptr, const BeamValues* slow = nullptr,
+                        const Job& job = {});
 
 /// The same for the given beams alone, in ascending order.
 PlacedCloud place_chosen(const Placement& placement, const CloudLook& look,

@@ -19,9 +19,9 @@ struct Heights3d {
   std::vector<float> above_path_m;
 };
 
-Heights3d heights_of(const Placement& placement) {
+Heights3d heights_of(const Placement& placement, const Job& job) {
   const Beams& beams = placement.loaded->beams;
-  Heights3d all{place_beams(beams, placement.map->path, placement.offset_s),
+  Heights3d all{place_beams(beams, placement.map->path, placement.offset_s, job),
                 std::vector<float>(beams.size())};
   for (std::size_t i = 0; i < beams.size(); ++i)
     all.above_path_m[i] = all.xyz_m[i][2] - placement.map->path_height_m[beams.scan[i]];
@@ -69,7 +69,7 @@ PlaceToLook with_beams(PlaceToLook place, const Heights3d& a, const Heights3d& b
 }  // namespace
 
 std::vector<PlacePtr> find_places(const Placement& a, const Placement& b, const Job& job) {
-  const Heights3d at_a = heights_of(a), at_b = heights_of(b);
+  const Heights3d at_a = heights_of(a, job), at_b = heights_of(b, job);
   if (job.cancelled()) return {};
   const double ceiling_m = ceiling_above_path_m(*b.map), height_m = close_up_height_m(extent_m(*b.map));
   const std::array maps{above_the_path(at_a, ceiling_m), above_the_path(at_b, ceiling_m)};

@@ -34,11 +34,13 @@ Box box_of(std::span<const SlabPoints> points, double stray_part) {
   return box;
 }
 
-/// Fills what follows from the path.
-void describe_points(const Loaded& loaded, SolvedMap& map) {
+/// Fills what follows from the path; unfinished if the job is cancelled.
+void describe_points(const Loaded& loaded, SolvedMap& map, const Job& job) {
   map.path_height_m = path_heights(loaded.recording, {loaded.recording, map.path, map.offset_s});
-  const auto places = place_beams(loaded.beams, map.path, map.offset_s);
+  const auto places = place_beams(loaded.beams, map.path, map.offset_s, job);
+  if (job.cancelled()) return;
   map.order = order_for_drawing(places, kMaxChosen);
+  if (job.cancelled()) return;
   ComparedMap compared;
   compared.path = map.trajectory;
   auto cloud = MapCloud::Ptr(new MapCloud);
@@ -95,7 +97,7 @@ bool was_stationary(const Loaded& loaded, std::optional<RigKind> assume) {
 Result<SolvedMapPtr> solve_map(const Loaded& loaded, double offset_s, std::optional<RigKind> assume,
                                const Job& job) {
   const bool standing = was_stationary(loaded, assume);
-  if (standing || !loaded.poses.empty()) return map_without_solving(loaded, standing, offset_s);
+  if (standing || !loaded.poses.empty()) return map_without_solving(loaded, standing, offset_s, job);
   MapOptions options;
   options.assume = assume;
   options.walk = loaded.walk->get();
@@ -107,24 +109,24 @@ Result<SolvedMapPtr> solve_map(const Loaded& loaded, double offset_s, std::optio
   map->lost = path->lost();
   map->path = std::move(*path);
   map->trajectory = ScanPoses(loaded.recording, map->path, offset_s).trajectory();
-  describe_points(loaded, *map);
+  describe_points(loaded, *map, job);
   return SolvedMapPtr(std::move(map));
 }
 
-SolvedMapPtr map_without_solving(const Loaded& loaded, bool standing, double offset_s) {
+SolvedMapPtr map_without_solving(const Loaded& loaded, bool standing, double offset_s, const Job& job) {
   auto map = std::make_shared<SolvedMap>();
   map->offset_s = offset_s;
   std::vector<char> used = scans_covered(loaded.recording, offset_s, offset_s);
   if (!loaded.poses.empty()) {
     map->trajectory = loaded.poses;
     map->path = path_without_solving(loaded.prepared, std::move(used), loaded.poses);
-    describe_points(loaded, *map);
+    describe_points(loaded, *map, job);
     return map;
   }
   map->provisional = !standing;
   if (map->provisional) use_beginning(loaded, offset_s, used);
   map->path = path_without_solving(loaded.prepared, std::move(used));
-  describe_points(loaded, *map);
+  describe_points(loaded, *map, job);
   return map;
 }
 

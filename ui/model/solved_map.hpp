@@ -39,6 +39,6 @@ Result<SolvedMapPtr> solve_map(const Loaded& loaded, double offset_s, std::optio
 
 /// The map of a stationary rig, or of one with known poses; for any other rig, what can be shown before
 /// anything is solved.
-SolvedMapPtr map_without_solving(const Loaded& loaded, bool standing, double offset_s);
+SolvedMapPtr map_without_solving(const Loaded& loaded, bool standing, double offset_s, const Job& job);
 
 }  // namespace sweepscope::ui

@@ -52,25 +52,6 @@ std::optional<AxisRange> range_shown(const PaneContext& context) {
   return AxisRange{settings.chart_from_ms, settings.chart_to_ms};
 }
 
-/// While candidates come in: those about the default search. A few far away, tried for clocks that differ by
-/// seconds, would squeeze the others.
-std::optional<AxisRange> range_while_growing(const PaneContext& context, const Chart& chart) {
-  const bool grows = context.explorer.estimating.is_running() && !chart.series.empty();
-  if (!grows || context.settings().search == Search::kRange) return std::nullopt;
-  constexpr double kNear = 4;  // times the half-width of the default search
-  const double reach_ms = 1e3 * kNear * search_scale(context.explorer.loaded()->prepared.motor).half_width_s;
-  Chart near;
-  bool any_far = false;
-  for (const double x : chart.series.front().x) {
-    const bool is_far = std::abs(x) > reach_ms;
-    any_far |= is_far;
-    if (!is_far) near.verticals.push_back({x, "", kUnseen});
-  }
-  if (!any_far || near.verticals.empty()) return std::nullopt;
-  near.verticals.insert(near.verticals.end(), chart.verticals.begin(), chart.verticals.end());
-  return lay_out_chart(near, {0, 0, 1, 1}, 1).x;
-}
-
 std::vector<Chart> charts_of(const PaneContext& context) {
   const Estimate* estimate = context.explorer.estimating.charted();
   std::vector<Chart> charts;
@@ -165,7 +146,6 @@ void draw_one(const PaneContext& context, Chart chart, const PixelRect& place, s
   const double scale = context.scale * 0.86;
   const AxisRange all = lay_out_chart(chart, place, scale).x;
   chart.x_range = range_shown(context);
-  if (!chart.x_range) chart.x_range = range_while_growing(context, chart);
   Drawing drawing;
   add_chart(drawing, place, chart, context.style, scale);
   paint(*ImGui::GetWindowDrawList(), drawing, context.fonts);

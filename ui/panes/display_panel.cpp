@@ -98,6 +98,7 @@ void map_thickness(const PaneContext& context) {
     else
       wrapped_text(context.style.faint_text, map + (": " + words));
   }
+  wrapped_text(context.style.faint_text, "Grey: no flat surface found.");
 }
 
 /// A bar for the whole recording with a handle at either end of the part that is shown.

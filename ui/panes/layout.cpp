@@ -27,7 +27,7 @@ Places lay_out(double width_px, double height_px, double scale, const Settings& 
                double message_px) {
   const double menu = 30 * scale, status = 28 * scale;
   // As in serve.css, for the page's buttons.
-  const bool wide = width_px > 760 * scale && height_px > 420 * scale;
+  const bool wide = width_px > 940 * scale && height_px > 420 * scale;
   const bool panels = settings.panels && has_recording && wide;
   const double tabs = has_recording && !wide ? 44 * scale : 0;
   const double widest = 0.36 * width_px;

@@ -21,7 +21,8 @@ namespace sweepscope::ui {
 
 /// The state of the interface besides the settings; it is not saved.
 struct Transient {
-  bool palette = false, help = false, quit = false;
+  bool palette = false, help = false;
+  bool quit = false, quits_at_once = false;  // asked for; though a file is still written
   std::string palette_query;
   int palette_choice = 0;
   struct Asked {

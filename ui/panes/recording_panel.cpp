@@ -252,6 +252,10 @@ void walls(const PaneContext& context) {
 }
 
 void answer(const PaneContext& context, const Estimate& estimate) {
+  if (estimate.rig && !estimate.offset_s) {  // of a motor that turns one way, and what was asked for
+    heading(context, "Rig found");
+    rig_rows(context, *estimate.rig);
+  }
   heading(context, "Offset found");
   if (estimate.identifiable && estimate.offset_s) {
     std::string text = fmt::format("{:.2f}", *estimate.offset_s * 1e3);

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <utility>
 
 #include "render/gl/offscreen_context.hpp"
 #include "render/gl/window.hpp"
@@ -28,7 +29,7 @@ class ServedWindow final : public gl::Window {
   void present() override;
 
   void wait(double max_s) override;
-  bool should_close() const override { return server_.is_over(); }
+  bool take_close() override { return server_.is_over() && !std::exchange(told_over_, true); }
   double scale() const override { return scale_; }
   void set_title(const std::string& title) override;
   void set_cursor(gl::Cursor cursor) override;
@@ -44,6 +45,7 @@ class ServedWindow final : public gl::Window {
   Mailbox& mailbox_;
   Server& server_;
   double scale_ = 1;
+  bool told_over_ = false;
   std::string clipboard_;
   PageState state_;
   std::uint32_t input_number_ = 0, wait_us_ = 0;

@@ -130,10 +130,11 @@ bool any_open(const Work& work, const VoxelLevel& level, std::uint32_t cell) {
   return false;
 }
 
-void assign(Work& work, const std::vector<SurfacePatch>& patches, const VoxelLevel& level) {
+void assign(Work& work, const std::vector<SurfacePatch>& patches, const VoxelLevel& level, const Job& job) {
   constexpr double kMarginInNoise = 2.5;  // patches know a sample of their points
   const auto margin_m = static_cast<float>(kMarginInNoise * work.options.range_noise_m);
   for_each_block(level.cells(), kBlock, [&](const auto& block) {
+    if (job.cancelled()) return;
     for (std::uint32_t cell = block.begin(); cell < block.end(); ++cell) {
       if (!any_open(work, level, cell)) continue;
       const Around around = patches_around(patches, level, cell);
@@ -214,8 +215,10 @@ std::string in_words(const MapThickness& map) {
 SurfaceThickness surface_thickness(const MapCloud& cloud, const ThicknessOptions& options, const Job& job) {
   SurfaceThickness found;
   if (cloud.empty()) return found;
+  found.surfaces.resize(cloud.size());
+  if (job.cancelled()) return found;
   const VoxelGrid grid(cloud, options.min_radius_m);
-  Work work{grid, column_options(cloud, options), std::vector<LocalSurface>(cloud.size()),
+  Work work{grid, column_options(cloud, options), std::move(found.surfaces),
             std::vector<char>(cloud.size(), 1)};
   for (int doublings = kLevels - 1; doublings >= 0 && !job.cancelled(); --doublings) {
     const VoxelLevel level = grid.level(doublings);
@@ -225,7 +228,7 @@ SurfaceThickness surface_thickness(const MapCloud& cloud, const ThicknessOptions
       const double part = double(cells += count) / level.cells();
       job.report("thickness", (kLevels - 1 - doublings + part) / kLevels);
     });
-    assign(work, patches, level);
+    assign(work, patches, level, job);
   }
   found.map = thickness_of_map(work, grid.level(0));
   found.surfaces = std::move(work.surfaces);

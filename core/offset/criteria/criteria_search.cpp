@@ -47,7 +47,7 @@ CurvePoint computed(const OffsetSearch& search, const SharedByCandidates& shared
                                 shared.odometry);
   if (options.scoring == Scoring::kLoam)
     return loam_candidate(search.problem, offset_s, mapping_of(options), job);
-  return moving_candidate(search.problem, offset_s, shared.walk->sweeps, mapping_of(options));
+  return moving_candidate(search.problem, offset_s, shared.walk->sweeps, mapping_of(options), job);
 }
 
 // From the store where it is there.
@@ -96,7 +96,7 @@ Result<Answer> answer_by_criteria(const OffsetSearch& search, const KeptCandidat
     const CurvePoint point = kept.store == nullptr
                                  ? computed(search, *shared, offset_s, part)
                                  : kept_or_computed(search, *shared, *kept.store, offset_s, part);
-    if (kept.finished && !part.cancelled()) kept.finished(point);
+    if (kept.watch.finished && !part.cancelled()) kept.watch.finished(point);
     return point;
   });
   const bool finished =

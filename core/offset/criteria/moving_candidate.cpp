@@ -18,8 +18,9 @@ CurvePoint point_of(double offset_s, const MatchCount& count) {
 }  // namespace
 
 CurvePoint moving_candidate(const OffsetProblem& problem, double offset_s,
-                            const std::vector<SweepPose>& trajectory, const MappingOptions& options) {
-  const MatchCount count = count_matches(problem, offset_s, trajectory, options);
+                            const std::vector<SweepPose>& trajectory, const MappingOptions& options,
+                            const Job& job) {
+  const MatchCount count = count_matches(problem, offset_s, trajectory, options, job);
   CurvePoint point = point_of(offset_s, count);
   if (count.matches > 0) point.signed_rotation_rad = count.roll_rad();
   return point;

@@ -35,14 +35,22 @@ struct Shard {
   }
 };
 
-/// The store and the shard of a search.
+/// Called from any thread while a search runs.
+struct SearchWatch {
+  /// A coarse search begins. Its costs do not compare with those of the search before: it may take other
+  /// sweeps, or compare them with others.
+  std::function<void()> began = {};
+  /// A candidate is finished: first those of coarse searches, then those of the method. The candidates of a
+  /// long recording are first those of a sample of its sweeps; if the rig moved they are computed again, of
+  /// all of it.
+  std::function<void(const CurvePoint&)> finished = {};
+};
+
+/// What is kept of a search, and who watches it.
 struct KeptCandidates {
   CandidateStore* store = nullptr;  // null: every candidate is computed
   std::optional<Shard> shard;       // of the candidates, with a store; nothing is concluded
-  /// Called from any thread for each candidate that is finished: first those of the coarse search, then those
-  /// of the method. The candidates of a long recording are first those of a sample of its sweeps; if the rig
-  /// moved they are computed again, of all of it.
-  std::function<void(const CurvePoint&)> finished = {};
+  SearchWatch watch = {};           // told of what is finished
 };
 
 }  // namespace sweepscope

@@ -74,18 +74,16 @@ std::optional<double> coarse_cost_m(const StationaryGrid& grid, const Stationary
 }
 
 // Mean difference of range between the directions at each candidate offset, each at most a cap: needs no
-// registration, so it is valid far from the minimum too. Absent if the directions hardly overlap. `finished`
-// is called from any thread for each that is not.
+// registration, so it is valid far from the minimum too. Absent if the directions hardly overlap.
 std::vector<CurvePoint> coarse_curve(const StationaryGrid& grid, const std::vector<double>& offsets_s,
-                                     Partners partners, const Job& job,
-                                     const std::function<void(const CurvePoint&)>& finished) {
+                                     Partners partners, const Job& job, const SearchWatch& watch) {
   const StationaryPatchOptions patches = stationary_patch_options(*grid.problem);
   std::vector<CurvePoint> curve(offsets_s.size());
   std::atomic<std::size_t> done{0};
   for_each_index(offsets_s.size(), [&](std::size_t i) {
     curve[i].offset_s = offsets_s[i];
     if (!job.cancelled()) curve[i].capped_cost_m = coarse_cost_m(grid, patches, offsets_s[i], partners);
-    if (finished && curve[i].capped_cost_m) finished(curve[i]);
+    if (watch.finished && curve[i].capped_cost_m) watch.finished(curve[i]);
     job.report("searching", double(++done) / double(offsets_s.size()));
   });
   return curve;
@@ -146,15 +144,15 @@ bool has_clear_valley(const CoarseSearch& search) {
 }
 
 CoarseSearch search_coarsely(const OffsetProblem& problem, double from_s, double to_s,
-                             const SearchScale& scale, const Job& job,
-                             const std::function<void(const CurvePoint&)>& finished) {
+                             const SearchScale& scale, const Job& job, const SearchWatch& watch) {
   const OffsetProblem part = first_sweeps_of(problem, (from_s + to_s) / 2, kMaxSweeps);
   const StationaryGrid grid = stationary_grid(part);
   const std::vector<double> all_s = offsets_of({{from_s, to_s, scale.unit_s}});
   return by_neighbours_or_all(part, [&](Partners partners) {
+    if (watch.began) watch.began();
     CoarseSearch search;
     const auto compute = [&](const std::vector<double>& offsets_s) {
-      search.curve = united(std::move(search.curve), coarse_curve(grid, offsets_s, partners, job, finished));
+      search.curve = united(std::move(search.curve), coarse_curve(grid, offsets_s, partners, job, watch));
       set_best(search);
     };
     compute(every_second(all_s));
@@ -186,15 +184,14 @@ CoarseSearch search_roughly(const OffsetProblem& problem, double from_s, double 
 }
 
 SearchedWindow search_by_default(const PreparedRecording& prepared, const SearchScale& scale, const Job& job,
-                                 const std::function<void(const CurvePoint&)>& finished) {
+                                 const SearchWatch& watch) {
   constexpr double kClearlyLower = 0.7;  // than the best of the default window
   const MotorMotion& motor = prepared.motor;
   const auto about = [&](double middle_s) {
     const double from_s = std::max(middle_s - scale.half_width_s, -scale.max_half_width_s),
                  to_s = std::min(middle_s + scale.half_width_s, scale.max_half_width_s);
     return SearchedWindow{
-        from_s, to_s,
-        search_coarsely(problem_for(prepared, from_s, to_s), from_s, to_s, scale, job, finished)};
+        from_s, to_s, search_coarsely(problem_for(prepared, from_s, to_s), from_s, to_s, scale, job, watch)};
   };
   const auto about_unit = [&](double middle_s) {
     return about(scale.unit_s * std::round(middle_s / scale.unit_s));

@@ -2,12 +2,12 @@
 
 // The mathematics: docs/algorithms.md, section 7.
 
-#include <functional>
 #include <optional>
 #include <vector>
 
 #include "core/job.hpp"
 #include "core/offset/prepared/curve_point.hpp"
+#include "core/offset/prepared/kept_candidates.hpp"
 #include "core/offset/prepared/prepared.hpp"
 #include "core/offset/prepared/search_window.hpp"
 
@@ -15,8 +15,7 @@ namespace sweepscope {
 
 /// The capped cost over a window of candidates, in steps of a unit: the ranges of neighbouring sweeps
 /// compared at equal motor angle and beam, as if nothing had moved. On a walk motion blurs the valley, but
-/// leaves it where it is. From the first 40 sweeps of the recording, each candidate computed once. `finished`
-/// is called from any thread for each.
+/// leaves it where it is. From the first 40 sweeps of the recording, each candidate computed once.
 struct CoarseSearch {
   std::vector<CurvePoint> curve;  // ascending; capped_cost_m
   std::optional<std::size_t> best;
@@ -25,8 +24,7 @@ struct CoarseSearch {
   double offset_or(double other_s) const { return best ? offset_s() : other_s; }
 };
 CoarseSearch search_coarsely(const OffsetProblem& problem, double from_s, double to_s,
-                             const SearchScale& scale, const Job& job,
-                             const std::function<void(const CurvePoint&)>& finished = {});
+                             const SearchScale& scale, const Job& job, const SearchWatch& watch = {});
 
 /// The same in steps of four units, on the first twelve sweeps: a third of the cost of as wide a search.
 CoarseSearch search_roughly(const OffsetProblem& problem, double from_s, double to_s,
@@ -43,6 +41,6 @@ struct SearchedWindow {
 /// The default window about 0. Where the cost has no clear valley there, and a lower one elsewhere, a window
 /// as wide about the best of all offsets that can be distinguished (SearchScale::max_half_width_s).
 SearchedWindow search_by_default(const PreparedRecording& prepared, const SearchScale& scale, const Job& job,
-                                 const std::function<void(const CurvePoint&)>& finished = {});
+                                 const SearchWatch& watch = {});
 
 }  // namespace sweepscope

@@ -248,6 +248,7 @@ TEST(LostIntervals, AreRunsOfLostSweeps) {
 
 // A minute through the metro station at a true offset of 24 ms.
 class Walk : public testing::Test {
+ protected:
   struct Tracked {
     OffsetProblem problem = test::problem_of(test::simulated("metro-station", 0.024, 60).recording);
     TrackedWalk walk = track(problem, 0.024, MappingOptions(), Job()).value();
@@ -256,10 +257,8 @@ class Walk : public testing::Test {
     static const Tracked once;
     return once;
   }
-
- protected:
   CurvePoint candidate(double off_s) const {
-    return moving_candidate(problem_, 0.024 + off_s, tracked().walk.sweeps, MappingOptions());
+    return moving_candidate(problem_, 0.024 + off_s, tracked().walk.sweeps, MappingOptions(), Job());
   }
   const OffsetProblem& problem_ = tracked().problem;
 };
@@ -275,6 +274,16 @@ TEST_F(Walk, FiveMillisecondsOffTheMeanDistanceIsClearlyLarger) {
   const CurvePoint truth = candidate(0), off = candidate(5 * kMs);
   EXPECT_GT(*off.e_m, 1.3 * *truth.e_m);
   EXPECT_LT(*off.n, *truth.n);
+}
+
+TEST_F(Walk, CountingStopsAtTheSweepAtWhichItIsCancelled) {
+  const MatchCount all = count_matches(problem_, 0.024, tracked().walk.sweeps, MappingOptions(), Job());
+  LookCount half(tracked().walk.sweeps.size() / 2);
+  Job job;
+  job.obey(half);
+  const MatchCount some = count_matches(problem_, 0.024, tracked().walk.sweeps, MappingOptions(), job);
+  EXPECT_GT(some.matches, 0u);
+  EXPECT_LT(some.matches, all.matches * 2 / 3);
 }
 
 TEST(Track, ACancelledJobIsInterrupted) {

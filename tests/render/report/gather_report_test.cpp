@@ -38,9 +38,11 @@ PreparedRecording short_recording() {
 
 // None where it says that it was interrupted.
 std::optional<std::string> html(const PreparedRecording& prepared, CandidateStore* kept, const Job& job) {
-  const auto content = gather_report(prepared, {}, kept, job);
-  if (content) return report_html(*content).value();
-  EXPECT_EQ(content.error().code, ExitCode::kInterrupted);
+  auto page = gather_report(prepared, {}, kept, job).and_then([&](const ReportContent& content) {
+    return report_html(content, job);
+  });
+  if (page) return std::move(*page);
+  EXPECT_EQ(page.error().code, ExitCode::kInterrupted);
   return std::nullopt;
 }
 

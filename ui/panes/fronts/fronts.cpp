@@ -215,22 +215,28 @@ void draw_palette(const PaneContext& context, const PixelRect& whole) {
 
 void draw_help(const PaneContext& context, const PixelRect& whole) {
   if (!context.transient.help) return;
-  begin_front(context, "keys", whole, 940, 510, 0.1);
+  begin_front(context, "keys", whole, 940, 540, 0.1);
   text_in(context.fonts.heading, "Keys");
-  ImGui::TextDisabled(
+  wrapped_text(
+      context.style.faint_text,
       "Drag to turn, drag with the right button or Shift to move, wheel to zoom. Every command: Ctrl+P.");
   ImGui::Dummy({0, context.pxf(4)});
+  constexpr float kChord = 88, kTitle = 200;
   const auto all = shortcuts();
-  constexpr std::size_t kColumns = 3;
-  const std::size_t rows = (all.size() + kColumns - 1) / kColumns;
+  // At 200 % or in a small window fewer fit beside each other, and the list scrolls.
+  const float fitting = ImGui::GetContentRegionAvail().x / context.pxf(kChord + kTitle);
+  const std::size_t columns = std::clamp<std::size_t>(static_cast<std::size_t>(fitting), 1, 3);
+  const std::size_t rows = (all.size() + columns - 1) / columns;
   ImGui::PushFont(context.fonts.small);
-  if (ImGui::BeginTable("keys", 2 * kColumns, ImGuiTableFlags_SizingFixedFit)) {
-    for (std::size_t i = 0; i < kColumns; ++i)
-      for (const float width : {88.0f, 200.0f})
+  const ImVec2 rest(0, ImGui::GetContentRegionAvail().y);
+  if (ImGui::BeginTable("keys", static_cast<int>(2 * columns),
+                        ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_ScrollY, rest)) {
+    for (std::size_t i = 0; i < columns; ++i)
+      for (const float width : {kChord, kTitle})
         ImGui::TableSetupColumn("", 0, width * static_cast<float>(context.scale));
     for (std::size_t r = 0; r < rows; ++r) {
       ImGui::TableNextRow(0, context.pxf(17));
-      for (std::size_t i = r; i < kColumns * rows; i += rows) {
+      for (std::size_t i = r; i < columns * rows; i += rows) {
         ImGui::TableNextColumn();
         if (i < all.size()) ImGui::TextUnformatted(all[i].chord.c_str());
         ImGui::TableNextColumn();

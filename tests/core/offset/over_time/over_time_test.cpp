@@ -375,10 +375,11 @@ TEST(SampledSweeps, TellTheirCandidatesWhileTheyAreComputed) {
   ASSERT_TRUE(sampled_sweeps(recording));
   std::mutex mutex;
   std::set<double> told_s;
-  const KeptCandidates kept{nullptr, {}, [&](const CurvePoint& point) {
-                              const std::lock_guard lock(mutex);
-                              told_s.insert(point.offset_s);
-                            }};
+  KeptCandidates kept;
+  kept.watch.finished = [&](const CurvePoint& point) {
+    const std::lock_guard lock(mutex);
+    told_s.insert(point.offset_s);
+  };
   const Estimate found = estimate(recording, {}, kept, Job()).value();
   ASSERT_TRUE(found.sample);
   ASSERT_GT(found.curve.size(), 20U);

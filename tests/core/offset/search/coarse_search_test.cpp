@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
+#include <set>
 
 #include "tests/core/engine_fixtures.hpp"
 
@@ -101,15 +102,41 @@ TEST(CoarseSearch, SaysEachCandidateOnceWhenItIsFinished) {
   const OffsetProblem problem = test::problem_of(test::room(0.024));
   std::mutex mutex;
   std::vector<double> said_s;
-  const CoarseSearch found =
-      search_coarsely(problem, 0, 60 * kMs, search_scale(problem.motor), Job(), [&](const CurvePoint& point) {
-        const std::lock_guard lock(mutex);
-        EXPECT_TRUE(point.capped_cost_m);
-        said_s.push_back(point.offset_s);
-      });
+  SearchWatch watch;
+  watch.finished = [&](const CurvePoint& point) {
+    const std::lock_guard lock(mutex);
+    EXPECT_TRUE(point.capped_cost_m);
+    said_s.push_back(point.offset_s);
+  };
+  const CoarseSearch found = search_coarsely(problem, 0, 60 * kMs, search_scale(problem.motor), Job(), watch);
   std::sort(said_s.begin(), said_s.end());
   ASSERT_EQ(said_s.size(), found.curve.size());
   for (std::size_t i = 0; i < said_s.size(); ++i) EXPECT_EQ(said_s[i], found.curve[i].offset_s);
+}
+
+// Candidates of two searches in one chart would be a sawtooth: their costs have other levels.
+TEST(CoarseSearch, SaysWhereASearchBeginsOfWhichTheCostsDoNotCompareWithThoseBefore) {
+  for (const auto& [truth_s, min_searches] : {std::pair{0.024, 1}, std::pair{0.12, 2}}) {
+    const auto prepared = prepare(test::room(truth_s), FeatureOptions(), Job());
+    std::mutex mutex;
+    std::vector<std::set<double>> searches;
+    SearchWatch watch;
+    watch.began = [&] {
+      const std::lock_guard lock(mutex);
+      searches.emplace_back();
+    };
+    watch.finished = [&](const CurvePoint& point) {
+      const std::lock_guard lock(mutex);
+      ASSERT_FALSE(searches.empty());
+      EXPECT_TRUE(searches.back().insert(point.offset_s).second) << "twice in one search";
+    };
+    const SearchedWindow found = search_by_default(*prepared, search_scale(prepared->motor), Job(), watch);
+    EXPECT_GE(searches.size(), std::size_t(min_searches));
+    std::set<double> answered_s;
+    for (const CurvePoint& point : found.coarse.curve)
+      if (point.capped_cost_m) answered_s.insert(point.offset_s);
+    EXPECT_EQ(searches.back(), answered_s);
+  }
 }
 
 TEST(CoarseSearch, ACancelledOneHasNoBest) {
