@@ -14,6 +14,7 @@ namespace sweepscope {
 struct MotionTest {
   std::size_t pairs = 0;  // compared, k and k + 2; 0: the recording has no two whole sweeps of one direction
   std::size_t moved = 0;  // of these
+  double evidence = 0;    // that these moved, each from 0 to 1, summed: small shifts of many pairs count too
   std::size_t far_pairs = 0;        // compared, from the recording's beginning and its end
   std::size_t far_moved = 0;        // of these: a slow rig hardly moves from one sweep to the next
   double median_translation_m = 0;  // of the pairs k and k + 2
@@ -26,7 +27,7 @@ struct MotionTest {
 
   bool answered() const { return pairs > 0 || neighbours > 0; }
   bool moving() const { return pairs_differ() || moved_slowly() || neighbours_differ() || within_sweeps; }
-  bool pairs_differ() const { return 4 * moved > pairs; }
+  bool pairs_differ() const { return 4 * evidence > double(pairs); }
   bool neighbours_differ() const { return 4 * neighbours_moved > neighbours; }
   /// A single pair is not enough: people may stand near where others stood before.
   bool moved_slowly() const { return far_pairs >= 2 && 5 * far_moved > 3 * far_pairs; }
