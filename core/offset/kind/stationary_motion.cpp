@@ -148,15 +148,19 @@ std::vector<SweepPair> far_pairs_of_sides(const MotorMotion& motor, const std::v
   return chosen;
 }
 
-// From 0 to 1. Found by simulation of stationary rigs among trees and people, and of walks: those of
+// Found by simulation of stationary rigs among trees and people, and of walks: those of
 // stationary_motion_test.
-double evidence_of(const SweepShift& shift) {
-  constexpr double kEnoughMatches = 12, kMinApart_m = 0.006;
-  return shift.apart_m > kMinApart_m ? std::clamp(shift.gained_matches / kEnoughMatches, 0.0, 1.0) : 0;
-}
+constexpr double kEnoughMatches = 12, kMinApart_m = 0.006;
 
 bool moved(const SweepShift& shift) {
-  return evidence_of(shift) == 1;
+  return shift.gained_matches > kEnoughMatches && shift.apart_m > kMinApart_m;
+}
+
+// That a pair moved, from 0 to 1. A few matches count where the shift is long: sparse sweeps of a stationary
+// rig gain as many, with shifts as short as their noise.
+double evidence_of(const SweepShift& shift) {
+  if (moved(shift)) return 1;
+  return shift.apart_m > 2 * kMinApart_m ? std::clamp(shift.gained_matches / kEnoughMatches, 0.0, 1.0) : 0;
 }
 
 // Whether two pairs, one after the other, show the same long shift, and fit about as well there as at rest.
@@ -256,9 +260,8 @@ MotionTest test_motion(const StationaryGrid& grid, double offset_s) {
   for (std::size_t i = 0; i < of_near.size(); ++i) {
     const bool long_shift = is_long_shift(of_near, i);
     const SweepShift& shift = of_near[i];
-    const double evidence = long_shift ? 1 : evidence_of(shift);
-    if (evidence == 1) ++test.moved;
-    test.evidence += evidence;
+    if (long_shift || moved(shift)) ++test.moved;
+    test.evidence += long_shift ? 1 : evidence_of(shift);
     translations_m.push_back((long_shift ? shift.far_translation_m : shift.translation_m).norm());
     rotations_rad.push_back(long_shift ? shift.far_rotation_rad : shift.rotation_rad);
     apart_m.push_back(of_near[i].apart_in_all_m);
