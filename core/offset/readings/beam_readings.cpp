@@ -365,8 +365,19 @@ class Trials {
     const StationaryFit& fit = fits_[axis].front();
     return fits_[axis].size() == 1 && fit.fits && fit.direct.residual_m <= kSmallResidual_m &&
            is_nearest(fit.direct, readings_, 0, beams_) &&
-           scan_time_sigmas(fit.direct) < kMaxScanTimeSigmas &&
+           scan_time_sigmas(fit.direct) < kMaxScanTimeSigmas && excludes_others(fit.direct) &&
            has_clear_valley(searches_.front()->window.coarse);
+  }
+
+  // Of times that are guessed, one nearby may be the right one.
+  bool excludes_others(const StationaryDirect& found) const {
+    if (first_.report.beam_time_doubt_s == 0) return true;
+    const double own_s = scan_time_s(readings_.front(), beams_),
+                 in_array = first_.report.fired_backwards ? -1 : 1,
+                 shown_s = own_s + in_array * found.scan_time_error_s;
+    return std::all_of(readings_.begin() + 1, readings_.end(), [&](const BeamReading& other) {
+      return std::abs(scan_time_s(other, beams_) - shown_s) > kMaxScanTimeSigmas * found.scan_time_sigma_s;
+    });
   }
 
   const Recording& first_;

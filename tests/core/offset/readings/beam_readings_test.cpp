@@ -63,6 +63,19 @@ TEST(BeamReadings, AGuessThatIsNearlyRightIsTriedBesideTheRightOne) {
   EXPECT_NEAR(chosen(ranked)->offset_s.value(), kTruth_s, 0.1 * kMs);
 }
 
+// The guess is 1 ms a scan off, and what the surfaces say of a scan's time is uncertain by 0.4 ms: the guess
+// fits, and the right time would, too.
+TEST(BeamReadings, AGuessIsNotTakenAloneWhereTheSurfacesDoNotExcludeAnother) {
+  TypedSimulation typed =
+      test::typed({18397, "room-6", "lms111", "sine", 0.646, -90.67, 4, 45.9, -5.1, 148, "spread"});
+  typed.options.no_time_increment = true;
+  typed.options.scan_time_factor = 0.8;
+  const RankedReadings ranked = rank_readings(read(simulation_of(typed).value()), Job());
+  EXPECT_GT(ranked.beams.size(), 1U);
+  EXPECT_EQ(chosen(ranked), nullptr);
+  EXPECT_GT(ranked.offset_doubt_s, 0.4 * kMs);
+}
+
 // Of 8 to 13 scans a sweep about a vertical axis, of which floor and ceiling say nothing, the distances of
 // all readings are short; the sectors of the motor's angle agree about the shortest ones.
 TEST(BeamReadings, OfSparseSweepsAreFound) {
