@@ -65,10 +65,10 @@ TEST_F(View, ACommandForARecordingThatCannotBeReadGivesItsReason) {
 }
 
 TEST_F(View, TheMapsAreExportedAtASizeOfTheirOwn) {
-  const Outcome exported =
-      run("view room.bag --headless --no-estimate --size 1000x600 --run 'wait solved; export-picture all.png; "
-          "export-picture maps.png maps; export-picture sized.png maps 1600x900; theme light; "
-          "export-picture light.png maps 1600x900'");
+  const Outcome exported = run(
+      "view room.bag --headless --no-estimate --size 1000x600 --run 'wait solved; export-picture all.png; "
+      "export-picture maps.png maps; export-picture sized.png maps 1600x900; theme light; "
+      "export-picture light.png maps 1600x900'");
   ASSERT_EQ(exported.exit_code, 0) << exported.err;
   const auto all = size_of_png("all.png"), maps = size_of_png("maps.png");
   EXPECT_EQ(all, std::pair(1000, 600));
