@@ -48,6 +48,11 @@ Result<std::optional<GivenPoses>> read_poses(const std::optional<Path>& poses, b
   return GivenPoses{poses->string(), std::move(*trajectory), trusted};
 }
 
+Result<Estimate> if_finished(Result<Estimate> found) {
+  if (found && found->interrupted) return failure(ExitCode::kInterrupted, "interrupted");
+  return found;
+}
+
 FoundPtr find(const OpenedPtr& opened, const Texts& given, const std::optional<std::string>& assume,
               const std::optional<Path>& poses, bool trust_poses, const Call& call) {
   EstimateOptions options = search_of(given);
@@ -57,9 +62,7 @@ FoundPtr find(const OpenedPtr& opened, const Texts& given, const std::optional<s
     auto trajectory = read_poses(poses, trust_poses, opened->recording);
     if (!trajectory) return tl::unexpected(trajectory.error());
     options.poses = std::move(*trajectory);
-    auto found = estimate(opened->recording, options, job);
-    if (found && found->interrupted) return failure(ExitCode::kInterrupted, "interrupted");
-    return found;
+    return if_finished(estimate(opened->recording, options, job));
   }));
 }
 
@@ -69,10 +72,8 @@ FoundPtr find_together(const std::vector<OpenedPtr>& opened, bool own_offsets, c
   options.assume = rig_kind(assume);
   std::vector<RecordingSource> recordings;
   for (const OpenedPtr& one : opened) recordings.emplace_back(one->recording);
-  return std::make_shared<Found>(result_of(call, [&](const Job& job) -> Result<Estimate> {
-    auto found = estimate_together(recordings, options, own_offsets, job);
-    if (found && found->interrupted) return failure(ExitCode::kInterrupted, "interrupted");
-    return found;
+  return std::make_shared<Found>(result_of(call, [&](const Job& job) {
+    return if_finished(estimate_together(recordings, options, own_offsets, job));
   }));
 }
 

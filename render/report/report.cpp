@@ -377,11 +377,9 @@ Result<std::string> report_html(const ReportContent& content, const Job& job) {
     return part(content);
   };
   const auto rig = drawn(rig_part), strip = drawn(over_time_strip), curve_part = drawn(curves),
-             map_part = drawn([&](const ReportContent&of) { return maps(of, job); }),
-             profile_part = drawn(profile),
-             data = drawn([](const ReportContent&of) {
-               return of.live ? live_map_data(*of.live) : Result<std::string>();
-             });
+             map_part = drawn([&](const auto&of) { return maps(of, job); }), profile_part = drawn(profile),
+             data = drawn(
+                 [](const auto&of) { return of.live ? live_map_data(*of.live) : Result<std::string>(); });
   for (const auto* part : {&rig, &strip, &curve_part, &map_part, &profile_part, &data}) {
     if (!*part) return tl::unexpected(part->error());
   }

@@ -230,10 +230,11 @@ void rig_rows(const PaneContext& context, const SolvedRig& solved) {
     part = shown;
   }
   row(context, solved.along_walk ? "matches" : "surfaces",
-      fmt::format("{:.1f} mm {}, {:.1f} mm with the rig file", solved.residual_after_m * 1e3,
+      fmt::format("{:.1f} mm {}, {:.1f} mm with the rig as given", solved.residual_after_m * 1e3,
                   solved.along_walk ? "apart" : "thick", solved.residual_before_m * 1e3));
   const bool drawn = is_drawn_with(solved, context.explorer.loaded()->recording.rig);
-  small_print(context, drawn ? "The maps are drawn with this rig." : "The maps are drawn with the rig file.");
+  small_print(context,
+              drawn ? "The maps are drawn with this rig." : "The maps are drawn with the rig as given.");
   if (!drawn) button(context, "Use the rig found …", "ask use-rig");
   button(context, "Export the rig found …", "ask export-rig");
 }

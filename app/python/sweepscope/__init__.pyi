@@ -213,18 +213,7 @@ def together(
     assume: Optional[_Kind] = None,
     threads: int = 0,
     progress: Optional[_Progress] = None,
-    method: Optional[Literal["stationary", "moving", "direct"]] = None,
-    fit: Optional[Literal["none", "parabola"]] = None,
-    scoring: Optional[Literal["two-stage", "loam"]] = None,
-    weight_c: Optional[float] = None,
-    edge_gate_m: Optional[float] = None,
-    plane_gate_m: Optional[float] = None,
-    search: Union[str, _Numbers, None] = None,
-    range: Union[str, _Numbers, Sequence[Union[str, _Numbers]], None] = None,
-    around: Union[str, _Numbers, None] = None,
-    solve: Union[str, Sequence[str], None] = None,
-    prior: Union[str, Mapping[str, float], None] = None,
-    over_time: Union[str, float, bool, None] = None,
+    **options: Any,
 ) -> Estimate: ...
 def curve(recording: Union[Recording, Estimate, _Path], **options: Any) -> Curve: ...
 def map(

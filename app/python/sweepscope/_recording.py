@@ -67,7 +67,6 @@ def _answer(found, of_what):
     return found
 
 
-@_options.takes(_SEARCH)
 def together(recordings, *, offsets="one", assume=None, threads=0, progress=None, **options):
     """Finds one answer from several recordings of one rig, by the direct method: an Estimate, whose "recordings" say what
     each of them contributes. Recordings that do not agree on one rig raise CannotAnswer, which names the one that differs.
@@ -76,8 +75,8 @@ def together(recordings, *, offsets="one", assume=None, threads=0, progress=None
     offsets: "one" for all recordings, or "each": every recording has its own, and the rig is common (offset_ms is None).
     assume: "stationary" or "moving", instead of the motion test.
     threads, progress: see help(sweepscope).
-
-    The other options are those of estimate():"""
+    options: solve, search and the others of estimate().
+    """
     if offsets not in ("one", "each"):
         raise ValueError(f'offsets needs "one" or "each", not {offsets!r}')
     given = _options.texts("together", _SEARCH, options)

@@ -239,6 +239,7 @@ void SurfaceColumn::gather_column() {
   const Eigen::Vector3f up = normal_.cross(along_);
   const auto reach_m = static_cast<float>(options_.reach_m);
   const float radius_m2 = radius_m_ * radius_m_;
+  // Copies: members would be read again after each point that is kept.
   const auto keep = [this, reach_m, radius_m2, up, normal = normal_, along = along_](
                         const Eigen::Vector3f& p_m, std::uint32_t i) {
     const float height_m = normal.dot(p_m);

@@ -108,6 +108,13 @@ bool is_nearest(const StationaryDirect& found, const std::vector<BeamReading>& r
   });
 }
 
+// The time from the first to the last beam that the surfaces show, which were placed by the recorded reading.
+double shown_scan_time_s(const Recording& recording, const BeamReading& recorded, double beams,
+                         const StationaryDirect& found) {
+  const double in_array = recording.report.fired_backwards ? -1 : 1;
+  return scan_time_s(recorded, beams) + in_array * found.scan_time_error_s;
+}
+
 // Enough sweeps to see surfaces from both directions several times.
 Recording first_sweeps(const Recording& recording) {
   constexpr std::size_t kSweeps = 8;
@@ -372,9 +379,7 @@ class Trials {
   // Of times that are guessed, one nearby may be the right one.
   bool excludes_others(const StationaryDirect& found) const {
     if (first_.report.beam_time_doubt_s == 0) return true;
-    const double own_s = scan_time_s(readings_.front(), beams_),
-                 in_array = first_.report.fired_backwards ? -1 : 1,
-                 shown_s = own_s + in_array * found.scan_time_error_s;
+    const double shown_s = shown_scan_time_s(first_, readings_.front(), beams_, found);
     return std::all_of(readings_.begin() + 1, readings_.end(), [&](const BeamReading& other) {
       return std::abs(scan_time_s(other, beams_) - shown_s) > kMaxScanTimeSigmas * found.scan_time_sigma_s;
     });
@@ -465,8 +470,7 @@ std::optional<BeamReading> better_reading(const Recording& recording, const Stat
   if (scan_time_sigmas(found) < kMaxScanTimeSigmas) return std::nullopt;
   const double beams = median_beams(recording);
   const std::vector<BeamReading> readings = possible_readings(recording);
-  const double in_array = recording.report.fired_backwards ? -1 : 1;
-  const double shown_s = scan_time_s(readings.front(), beams) + in_array * found.scan_time_error_s;
+  const double shown_s = shown_scan_time_s(recording, readings.front(), beams, found);
   const auto nearest = std::ranges::min_element(readings, {}, [&](const BeamReading& reading) {
     return std::abs(scan_time_s(reading, beams) - shown_s);
   });
