@@ -50,7 +50,7 @@ struct SearchWatch {
 struct KeptCandidates {
   CandidateStore* store = nullptr;  // null: every candidate is computed
   std::optional<Shard> shard;       // of the candidates, with a store; nothing is concluded
-  SearchWatch watch = {};
+  SearchWatch watch = {};           // called while the search runs
 };
 
 }  // namespace sweepscope
