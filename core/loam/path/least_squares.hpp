@@ -21,9 +21,9 @@ inline Pose stepped(const Pose& pose, const Vector6d& step, const Eigen::Vector3
 /// The row of the Jacobian of a distance along `normal` at `p_m` for a step about `pivot_m`.
 inline Vector6d distance_jacobian(const Eigen::Vector3d& p_m, const Eigen::Vector3d& normal,
                                   const Eigen::Vector3d& pivot_m) {
-  Vector6d row;
-  row << (p_m - pivot_m).cross(normal), normal;
-  return row;
+  const Eigen::Vector3d turned = (p_m - pivot_m).cross(normal);
+  // Not by <<, which sets three at once through a loop that is not unrolled.
+  return {turned.x(), turned.y(), turned.z(), normal.x(), normal.y(), normal.z()};
 }
 
 /// Weight of a residual that a Cauchy loss of width `scale` gives.
