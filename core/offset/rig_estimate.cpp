@@ -7,6 +7,8 @@
 #include <memory>
 
 #include "core/numbers.hpp"
+#include "core/offset/judgement/limits.hpp"
+#include "core/offset/judgement/unseen_sigma.hpp"
 #include "core/offset/kind/rig_kind.hpp"
 #include "core/offset/kind/rig_motion.hpp"
 #include "core/offset/kind/stationary_motion.hpp"
@@ -157,15 +159,26 @@ Result<Estimate> with_turn_of_walk(const PreparedRecording& prepared, const Esti
   return with(std::move(found), std::make_shared<const SolvedRig>(std::move(solved)));
 }
 
+// Why there is no stationary part in which a rig could be solved for.
+std::string why_no_part(const PreparedRecording& prepared) {
+  const OffsetProblem problem = problem_for(prepared, 0, 0);
+  if (problem.recording->directions.empty() &&
+      scans_a_sweep(*problem.recording, problem.motor) < kLimits.min_scans_a_sweep)
+    return fmt::format(
+        "The rig was not solved for: the scan lines are {:.0f} deg of the motor's angle apart, too far to see "
+        "whether it was stationary. Turn the motor more slowly.",
+        problem.line_spacing_rad * kDegPerRad);
+  return "The rig was not solved for: it moved, and its motor turns one way at one speed. Keep it stationary "
+         "for 8 s.";
+}
+
 // A motor that turns one way at one speed: the rig at an offset of 0, which is as good as any other.
 Estimate with_rig_at_any_offset(const PreparedRecording& prepared, const EstimateOptions& options,
                                 Estimate found, const Job& job) {
   found = with_kind_of_gauge(prepared, options, std::move(found));
   const auto part = part_for_rig(prepared, found, options, job);
   if (!part) {
-    found.warnings.push_back(
-        "The rig was not solved for: it moved, and its motor turns one way at one speed. Keep it stationary for "
-        "8 s.");
+    found.warnings.push_back(why_no_part(prepared));
     return found;
   }
   found.kind_reason += part->note;

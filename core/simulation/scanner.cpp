@@ -77,6 +77,19 @@ constexpr std::array kScanners{
             .range_max_m = 12,
             .noise_m = 0.010,
             .beam_times = BeamTimes::kReversed},
+    Scanner{.name = "vlp16",
+            .beams = 1808,
+            .angle_min_deg = 180,
+            .angle_increment_deg = -360 * 55.296e-6 / 0.1,
+            .scan_period_s = 0.1,
+            .time_increment_s = 55.296e-6,
+            .range_min_m = 0.4,
+            .range_max_m = 100,
+            .noise_m = 0.010,
+            .rings = 16,
+            .lowest_ring_deg = -15,
+            .ring_step_deg = 2,
+            .ring_interval_s = 2.304e-6},
 };
 
 }  // namespace

@@ -73,10 +73,16 @@ Sensor::Sensor(const SimulationOptions& options, const Scene& scene)
       encoder_phase_s_(phase_s(options, 1, 1 / options.encoder_hz)),
       glass_(options.glass, options.seed) {
   const Eigen::Matrix3d motor_from_laser = rotation_of(laser_in_motor_rpy_deg(options));
-  for (std::uint32_t beam = 0; beam < options.scanner.beams; ++beam) {
-    const SinCos angle = sin_cos(angle_rad(array_index(beam)));
-    beam_directions_.emplace_back(motor_from_laser * Vector3d(angle.cos, angle.sin, 0));
-  }
+  for (std::uint32_t ray = 0; ray < options.scanner.rays(); ++ray)
+    ray_directions_.emplace_back(motor_from_laser * direction(ray));
+}
+
+Vector3d Sensor::direction(std::uint32_t ray) const {
+  const Scanner& scanner = options_.scanner;
+  const std::uint32_t ring = ray % scanner.rings;
+  const SinCos angle = sin_cos(angle_rad(array_index(ray / scanner.rings)));
+  const SinCos up = sin_cos(radians(scanner.lowest_ring_deg + scanner.ring_step_deg * ring));
+  return {up.cos * angle.cos, up.cos * angle.sin, up.sin};
 }
 
 double Sensor::angle_rad(std::uint32_t array_index) const {
@@ -98,9 +104,13 @@ std::uint32_t Sensor::part_of(std::uint32_t beam) const {
   return part;
 }
 
-double Sensor::fired_s(std::uint32_t beam) const {
+double Sensor::fired_s(std::uint32_t ray) const {
+  const Scanner& scanner = options_.scanner;
+  const std::uint32_t beam = ray / scanner.rings, ring = ray % scanner.rings, half = scanner.rings / 2;
+  const std::uint32_t before = ring < half ? 2 * ring : 2 * (ring - half) + 1;  // rings of the same beam
   const bool instant = fired_times(options_) == BeamTimes::kInstant;
-  return (instant ? first_beam(part_of(beam)) : beam) * options_.scanner.increment_s();
+  const double beam_s = (instant ? first_beam(part_of(beam)) : beam) * scanner.increment_s();
+  return scanner.is_3d() ? beam_s + before * scanner.ring_interval_s : beam_s;
 }
 
 LaserScan Sensor::scan(std::size_t turn, std::uint32_t part) const {
@@ -147,14 +157,14 @@ Vector3d Sensor::laser_position_at(double t_s) const {
   return pose.position_m + from_motor(pose, t_s, options_.mount_error_m);
 }
 
-Sensor::Return Sensor::fire(std::size_t turn, std::uint32_t beam, float& intensity) const {
+Sensor::Return Sensor::fire(std::size_t turn, std::uint32_t ray, float& intensity) const {
   const Scanner& scanner = options_.scanner;
-  const double t_s = static_cast<double>(turn) * scanner.scan_period_s + fired_s(beam);
+  const double t_s = static_cast<double>(turn) * scanner.scan_period_s + fired_s(ray);
   const Pose pose = pose_at(t_s);
   const Vector3d origin = pose.position_m + from_motor(pose, t_s, options_.mount_error_m);
-  const Vector3d direction = from_motor(pose, t_s, beam_directions_[beam]).normalized();
+  const Vector3d direction = from_motor(pose, t_s, ray_directions_[ray]).normalized();
   auto [hit, end_m] =
-      glass_.cast(caster_, origin, direction, scanner.range_max_m, turn * scanner.beams + beam);
+      glass_.cast(caster_, origin, direction, scanner.range_max_m, turn * scanner.rays() + ray);
   for (const Person& person : people_) {
     const auto body = person.cast(origin, direction, t_s);
     if (!body || body->range_m >= end_m) continue;
@@ -172,15 +182,15 @@ void Sensor::cast_turn(std::size_t turn, std::span<float> ranges_m, std::span<fl
   const double constant_noise_m = options_.noise_m.value_or(scanner.noise_m);
   const double noise_per_m = options_.noise_per_m + (options_.noise_m ? 0 : scanner.noise_per_m);
   Random random(options_.seed, kBeamNoise, turn), weak(options_.seed, kWeakReturn, turn);
-  std::vector<Return> met(scanner.beams);
-  for (std::uint32_t beam = 0; beam < scanner.beams; ++beam) met[beam] = fire(turn, beam, intensities[beam]);
-  for (std::uint32_t beam = 0; beam < scanner.beams; ++beam) {
+  std::vector<Return> met(scanner.rays());
+  for (std::uint32_t ray = 0; ray < scanner.rays(); ++ray) met[ray] = fire(turn, ray, intensities[ray]);
+  for (std::uint32_t ray = 0; ray < scanner.rays(); ++ray) {
     // Drawn whatever the beam met, so that one option does not change the luck of another.
     const double luck = random.normal();
-    const bool dropped = random.uniform() < options_.dropout, lost = weak.uniform() < met[beam].lost;
+    const bool dropped = random.uniform() < options_.dropout, lost = weak.uniform() < met[ray].lost;
     const double mixed = random.uniform(), between = random.uniform();
-    double range_m = met[beam].range_m;
-    const double beside_m = met[std::min(beam + 1, scanner.beams - 1)].range_m;
+    double range_m = met[ray].range_m;
+    const double beside_m = met[ray + scanner.rings < scanner.rays() ? ray + scanner.rings : ray].range_m;
     if (mixed < options_.mixed_pixels && std::isfinite(beside_m) && std::abs(beside_m - range_m) > 0.2)
       range_m += between * (beside_m - range_m);
     // Nothing is NaN from here on, and not usable.
@@ -188,8 +198,8 @@ void Sensor::cast_turn(std::size_t turn, std::span<float> ranges_m, std::span<fl
     const double whole_mm = std::floor((range_m + noise_m) * 1e3 + 0.5);
     const bool usable =
         !dropped && !lost && whole_mm >= scanner.range_min_m * 1e3 && whole_mm <= scanner.range_max_m * 1e3;
-    ranges_m[beam] = usable ? static_cast<float>(whole_mm / 1e3) : std::numeric_limits<float>::quiet_NaN();
-    if (!usable) intensities[beam] = 0;
+    ranges_m[ray] = usable ? static_cast<float>(whole_mm / 1e3) : std::numeric_limits<float>::quiet_NaN();
+    if (!usable) intensities[ray] = 0;
   }
 }
 

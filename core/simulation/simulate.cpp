@@ -10,6 +10,8 @@
 #include <utility>
 
 #include "core/parallel.hpp"
+#include "core/recording/assemble/assemble.hpp"
+#include "core/simulation/clouds.hpp"
 #include "core/simulation/math/portable_math.hpp"
 #include "core/simulation/meshes/ray_caster.hpp"
 #include "core/simulation/motion/trajectory.hpp"
@@ -20,6 +22,7 @@
 #include "core/simulation/sensor.hpp"
 #include "core/simulation/worlds/walk.hpp"
 #include "core/simulation/worlds/world.hpp"
+#include "core/simulation/write_simulation.hpp"
 
 namespace sweepscope {
 namespace {
@@ -101,6 +104,10 @@ Result<void> check(const SimulationOptions& o) {
   if (!o.speeds_dps.empty() && o.motor != MotorKind::kOneWay)
     return wrong("speeds are those of a motor that turns one way: use it with --motor one-way");
   if (o.stamp_at == StampAt::kArrival) return wrong("a simulated scan is stamped at its first or last beam");
+  if (o.scanner.is_3d() && (o.parts > 1 || o.beam_times || o.no_time_increment || o.scan_time_factor != 1 ||
+                            o.stamp_at != StampAt::kFirstBeam))
+    return wrong(
+        fmt::format("{} writes clouds: how a LaserScan is written can't be chosen for it", o.scanner.name));
   if (o.speed_ramp && o.speeds_dps.size() < 2) return wrong("a ramp needs at least two speeds");
   for (const Bound& b : bounds_of(o))
     if (!(b.value >= b.least && b.value <= b.most))
@@ -189,8 +196,8 @@ Result<void> furnish(Sensor& sensor, const SimulationOptions& options) {
 }
 
 /// Casts all beams into the recording; false where the job was cancelled.
-bool cast_turns(const Sensor& sensor, std::size_t beams, Recording& recording, const Job& job) {
-  const std::size_t turns = recording.ranges_m.size() / beams;
+bool cast_turns(const Sensor& sensor, std::size_t rays, Recording& recording, const Job& job) {
+  const std::size_t turns = recording.ranges_m.size() / rays;
   std::atomic<std::size_t> done{0};
   std::atomic<bool> stopped{false};
   for_each_index(turns, [&](std::size_t i) {
@@ -198,9 +205,9 @@ bool cast_turns(const Sensor& sensor, std::size_t beams, Recording& recording, c
       stopped = true;
       return;
     }
-    const std::size_t first = i * beams;
-    sensor.cast_turn(i, {recording.ranges_m.data() + first, beams},
-                     {recording.intensities.data() + first, beams});
+    const std::size_t first = i * rays;
+    sensor.cast_turn(i, {recording.ranges_m.data() + first, rays},
+                     {recording.intensities.data() + first, rays});
     const std::size_t finished = ++done;
     if (finished % 64 == 0) job.report("casting", static_cast<double>(finished) / static_cast<double>(turns));
   });
@@ -212,19 +219,30 @@ Recording blank_recording(const SimulationOptions& options, const Sensor& sensor
   recording.name = options.scene;
   recording.epoch_ns = kEpoch_ns;
   recording.rig = rig_of(options);
-  const std::size_t beams = options.scanner.beams;
+  const std::size_t rays = options.scanner.rays();
   const auto turns = static_cast<std::size_t>(std::floor(duration_s / options.scanner.scan_period_s + 1e-9));
   for (std::size_t turn = 0; turn < turns; ++turn) {
     for (std::uint32_t part = 0; part < options.parts; ++part) {
       LaserScan scan = sensor.scan(turn, part);
-      scan.first_range += turn * beams;
+      scan.first_range += turn * rays;
       recording.scans.push_back(scan);
     }
   }
-  recording.ranges_m.resize(turns * beams);
-  recording.intensities.resize(turns * beams);
+  recording.ranges_m.resize(turns * rays);
+  recording.intensities.resize(turns * rays);
   recording.motor = sensor.motor_track(duration_s);
   return recording;
+}
+
+/// The scans of a 3D scanner are what its clouds are read as.
+Result<void> read_own_clouds(Simulation& simulation, const Sensor& sensor) {
+  RawRecording messages = messages_of(simulation);
+  messages.lasers = {clouds_of(simulation, sensor)};
+  auto recording = assemble(messages, simulation.recording.rig, std::nullopt);
+  if (!recording) return tl::unexpected(recording.error());
+  simulation.recording = std::move(*recording);
+  simulation.messages = std::move(messages);
+  return {};
 }
 
 void fill_truth(Simulation& simulation, const Sensor& sensor) {
@@ -327,8 +345,10 @@ Result<Simulation> simulate(const SimulationOptions& options, const Job& job) {
   if (auto furnished = furnish(sensor, simulation.options); !furnished)
     return tl::unexpected(furnished.error());
   simulation.recording = blank_recording(simulation.options, sensor, *duration_s);
-  if (!cast_turns(sensor, simulation.options.scanner.beams, simulation.recording, job))
+  if (!cast_turns(sensor, simulation.options.scanner.rays(), simulation.recording, job))
     return failure(ExitCode::kInterrupted, "interrupted");
+  if (options.scanner.is_3d())
+    if (auto read = read_own_clouds(simulation, sensor); !read) return tl::unexpected(read.error());
   fill_truth(simulation, sensor);
   if (simulation.options.imu) fill_imu(simulation, sensor);
   return simulation;

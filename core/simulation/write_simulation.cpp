@@ -18,15 +18,6 @@ namespace {
 
 using simulation::Random;
 
-enum ArrivalPurpose : std::uint64_t { kScanArrival = 101, kMotorArrival = 102 };
-
-/// Most messages arrive promptly, few late: an exponential distribution, cut off.
-double delay_s(const Simulation& simulation, ArrivalPurpose purpose, std::size_t number) {
-  constexpr double kMean_s = 0.0003, kMax_s = 0.003;
-  const double u = Random(simulation.options.seed, purpose, number).uniform();
-  return std::min(-kMean_s * simulation::natural_log(1 - u), kMax_s);
-}
-
 std::int64_t in_ns(const Recording& recording, double time_s) {
   return recording.epoch_ns + static_cast<std::int64_t>(std::floor(time_s * 1e9 + 0.5));
 }
@@ -47,7 +38,7 @@ RawScan raw_scan(const Simulation& simulation, std::size_t number) {
   const bool reversed = fired_times(options) == simulation::BeamTimes::kReversed;
   RawScan raw;
   raw.stamps = {in_ns(recording, first ? scan.first_beam_s : scan.last_beam_s()),
-                in_ns(recording, known_s + delay_s(simulation, kScanArrival, number))};
+                in_ns(recording, known_s + delay_s(simulation, Arrival::kScan, number))};
   raw.first_range = scan.first_range;
   raw.beams = scan.beams;
   raw.angle_min_rad =
@@ -122,7 +113,7 @@ RawJoint raw_joint(const Simulation& simulation) {
       joint.positions.push_back(options.motor_in_degrees ? simulation::degrees(angle_rad) : angle_rad);
       joint.stamps.push_back(
           {in_ns(simulation.recording, stamp_s),
-           in_ns(simulation.recording, known_s + delay_s(simulation, kMotorArrival, number))});
+           in_ns(simulation.recording, known_s + delay_s(simulation, Arrival::kMotor, number))});
     }
   }
   return joint;
@@ -152,8 +143,11 @@ Json triple(const Eigen::Vector3d& v) {
 
 /// The offset between the two streams' receive times: what an estimate on receive stamps finds.
 double receive_offset_s(const Simulation& simulation) {
+  const simulation::Scanner& scanner = simulation.options.scanner;
   const LaserScan& scan = simulation.recording.scans.front();
-  const double scan_s = scan.last_beam_s() - scan.first_beam_s + kScanLatency_s;
+  const double turn_s =
+      scanner.is_3d() ? scanner.beams * scanner.increment_s() : scan.last_beam_s() - scan.first_beam_s;
+  const double scan_s = turn_s + kScanLatency_s;
   return std::max(0.0, simulation.options.offset_s) + kMotorLatency_s - scan_s;
 }
 
@@ -253,11 +247,19 @@ std::filesystem::path stem_of(std::filesystem::path bag_path) {
 }  // namespace
 
 Result<void> write_bag(const Simulation& simulation, const std::filesystem::path& path, const Job& job) {
-  return write_recording(raw_laser(simulation), raw_joint(simulation), RecordingFormat::kRos1, "none", path,
-                         job, raw_imu(simulation));
+  const RawRecording messages = messages_of(simulation);
+  return write_recording(messages.lasers.front(), messages.joints.front(), RecordingFormat::kRos1, "none",
+                         path, job, raw_imu(simulation));
+}
+
+double delay_s(const Simulation& simulation, Arrival what, std::size_t number) {
+  constexpr double kMean_s = 0.0003, kMax_s = 0.003;
+  const double u = Random(simulation.options.seed, std::uint64_t(what), number).uniform();
+  return std::min(-kMean_s * simulation::natural_log(1 - u), kMax_s);
 }
 
 RawRecording messages_of(const Simulation& simulation) {
+  if (simulation.messages) return *simulation.messages;
   RawRecording raw;
   raw.file = raw.name = simulation.recording.name;
   raw.lasers.push_back(raw_laser(simulation));

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -14,12 +16,17 @@ namespace sweepscope {
 /// stamp.
 inline constexpr double kScanLatency_s = 0.0040, kMotorLatency_s = 0.0015;
 
+/// How much later it does. Most messages arrive promptly, few late: an exponential distribution, cut off.
+enum class Arrival : std::uint64_t { kScan = 101, kMotor = 102 };
+double delay_s(const Simulation& simulation, Arrival what, std::size_t number);
+
 /// The messages of a simulation, as its drivers write them: the content of the bag of write_bag, for
 /// assemble(). Beams without a usable return are +inf.
 RawRecording messages_of(const Simulation& simulation);
 
 /// Writes a simulation as a ROS 1 bag: sensor_msgs/LaserScan on /scan, beams without a usable return as +inf,
-/// and sensor_msgs/JointState on /joint_states with the joint roll_motor. Messages are in the order in which
+/// or of a 3D scanner sensor_msgs/PointCloud2 on /points, and sensor_msgs/JointState on /joint_states with
+/// the joint roll_motor. Messages are in the order in which
 /// they were received: a few milliseconds late, by a random but repeatable amount. Equal simulations give
 /// equal bytes. Written beside the path and then renamed; if that fails, ExitCode::kUnreadableInput.
 Result<void> write_bag(const Simulation& simulation, const std::filesystem::path& path, const Job& job);

@@ -133,6 +133,38 @@ TEST(OneWay, AtOneSpeedTheMountIsFoundWithoutAnOffset) {
   }
 }
 
+TEST(OneWay, AtOneSpeedTheMountOfA3dScannerIsFound) {
+  SimulationOptions made = one_way("room-3", 4, {350});
+  made.scanner = *simulation::scanner("vlp16");
+  made.duration_s = 4;
+  made.mount_error_deg = {0, -4, 3};
+  made.mount_error_m = {0, 0.05, -0.03};
+  EstimateOptions options;
+  options.solve.mount = true;
+  const Estimate found = found_in(made, options);
+  ASSERT_TRUE(found.rig && found.rig->mount.identifiable);
+  const MountError error = error_of(found.rig->rig.mount, made);
+  EXPECT_LT(error.axis_deg, 0.01);
+  EXPECT_LT(error.shift_m, 0.0005);
+}
+
+// 10 scans a second, 35 deg apart: whether the rig moved cannot be seen.
+TEST(OneWay, AtOneSpeedSparseLinesAreTheReasonAndNotAMotion) {
+  SimulationOptions made = one_way("room-1", 1, {350});
+  made.scanner = *simulation::scanner("rplidar-s2");
+  made.beam_times = simulation::BeamTimes::kSpread;
+  made.duration_s = 8;
+  made.mount_error_deg = {0, -2, 0.7};
+  made.mount_error_m = {0, -0.03, 0.015};
+  EstimateOptions options;
+  options.solve.mount = true;
+  const Estimate refused = found_in(made, options);
+  ASSERT_FALSE(has_answer(refused));
+  const std::string warnings = testing::PrintToString(refused.warnings);
+  EXPECT_NE(warnings.find("Turn the motor more slowly."), std::string::npos) << warnings;
+  EXPECT_EQ(warnings.find("it moved"), std::string::npos) << warnings;
+}
+
 TEST(OneWay, AtOneSpeedAMountThatIsNotAskedForIsNoAnswer) {
   const Estimate refused = found_in(one_way("room-2", 5, {360}));
   EXPECT_TRUE(refused.offset_is_gauge());

@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <fstream>
 #include <functional>
 #include <numbers>
@@ -220,8 +221,50 @@ TEST_F(DriverMessages, EveryScannerIsWrittenAsItsDriverDoes) {
     EXPECT_FLOAT_EQ(scan.range_min_m, float(e.min_m)) << e.name;
     EXPECT_FLOAT_EQ(scan.range_max_m, float(e.max_m)) << e.name;
   }
-  EXPECT_EQ(simulation::scanner_names().size(), 9U);
+  EXPECT_EQ(simulation::scanner_names().size(), 10U) << "and a 3D scanner";
   EXPECT_FALSE(simulation::scanner("lms200"));
+}
+
+/// A number of a point.
+template <typename Number>
+Number number_at(const RawCloud& cloud, std::size_t point, std::size_t field) {
+  Number number;
+  std::memcpy(&number, cloud.data.data() + point * cloud.point_bytes + cloud.fields[field].offset,
+              sizeof number);
+  return number;
+}
+
+TEST_F(DriverMessages, PointsOfA3dScannerLieOnTheWallsAtTheirOwnTimes) {
+  exact_.scanner = *simulation::scanner("vlp16");
+  const Simulation simulation = made(exact_);
+  const RawRecording raw = messages_of(simulation);
+  const RawLaser& laser = raw.lasers[0];
+  ASSERT_EQ(laser.clouds.size(), 8U);
+  ASSERT_EQ(simulation.recording.scans.size(), 8U * 16U);
+  MotorTrack motor;
+  for (std::size_t i = 0; i < raw.joints[0].stamps.size(); ++i) {
+    motor.time_s.push_back(seconds(simulation, raw.joints[0].stamps[i]));
+    motor.angle_rad.push_back(raw.joints[0].positions[i]);
+  }
+  double most_m = 0, most_deg = 0, last_s = 0;
+  for (const RawCloud& cloud : laser.clouds) {
+    EXPECT_EQ(cloud.width, 16U * 1808U) << "every ray meets a wall";
+    for (std::size_t i = 0; i < cloud.width; i += 7) {
+      const Vector3d p_m(number_at<float>(cloud, i, 0), number_at<float>(cloud, i, 1),
+                         number_at<float>(cloud, i, 2));
+      const double after_s = number_at<float>(cloud, i, 5);
+      const double angle_rad = motor.angle_at(seconds(simulation, cloud.stamps) + after_s + exact_.offset_s);
+      const Vector3d direction = Eigen::AngleAxisd(angle_rad, Vector3d::UnitX()) * p_m.normalized();
+      most_m = std::max(most_m, std::abs(p_m.norm() - distance_m(direction)));
+      const double ring_deg = -15 + 2.0 * number_at<std::uint16_t>(cloud, i, 4);
+      most_deg =
+          std::max(most_deg, std::abs(std::asin(p_m.normalized().z()) * 180 / std::numbers::pi - ring_deg));
+      last_s = std::max(last_s, after_s);
+    }
+  }
+  EXPECT_LT(most_m, kExact_m);
+  EXPECT_LT(most_deg, 1e-3);
+  EXPECT_NEAR(last_s, 0.1, 2e-4);
 }
 
 TEST_F(DriverMessages, TheNoiseIsTheScannersUnlessOneIsGiven) {

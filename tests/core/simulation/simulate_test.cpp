@@ -316,6 +316,11 @@ TEST(Simulate, WrongOptionsAreRefusedInOneSentence) {
             std::string::npos);
   EXPECT_NE(refused([](auto& o) { o.encoder_jitter_s = 0.005; }).find("the encoder's jitter"),
             std::string::npos);
+  EXPECT_NE(refused([](auto& o) {
+              o.scanner = *simulation::scanner("vlp16");
+              o.parts = 2;
+            }).find("vlp16 writes clouds"),
+            std::string::npos);
 }
 
 TEST(Simulate, ACancelledJobIsInterrupted) {

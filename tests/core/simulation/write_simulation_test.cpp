@@ -55,6 +55,29 @@ TEST_F(WriteBag, IsReadBackAsItWasInMemory) {
   EXPECT_TRUE(read->report.warnings.empty());
 }
 
+TEST_F(WriteBag, OfA3dScannerIsReadBackAsItWasInMemory) {
+  SimulationOptions options;
+  options.scanner = *simulation::scanner("vlp16");
+  options.duration_s = 0.5;
+  const Simulation simulation = simulate(options, job_).value();
+  ASSERT_TRUE(write_bag(simulation, folder_ / "r.bag", job_));
+  const auto read = read_recording(folder_ / "r.bag", {}, job_);
+  ASSERT_TRUE(read) << read.error().message;
+  const Recording& made = simulation.recording;
+  EXPECT_EQ(read->epoch_ns, made.epoch_ns);
+  EXPECT_EQ(read->motor.time_s, made.motor.time_s);
+  EXPECT_EQ(read->intensities, made.intensities);
+  EXPECT_EQ(read->directions, made.directions);
+  ASSERT_EQ(read->scans.size(), 5U * 16U);
+  ASSERT_EQ(made.scans.size(), read->scans.size());
+  for (std::size_t i = 0; i < made.scans.size(); ++i) {
+    EXPECT_EQ(read->scans[i].first_beam_s, made.scans[i].first_beam_s);
+    EXPECT_EQ(read->scans[i].beams, made.scans[i].beams);
+    EXPECT_EQ(read->scans[i].ring, made.scans[i].ring);
+  }
+  EXPECT_TRUE(read->report.warnings.empty());
+}
+
 TEST_F(WriteBag, OnReceiveStampsTheOffsetIsTheTruthsReceiveOffset) {
   ASSERT_TRUE(write_bag(simulation_, folder_ / "r.bag", job_));
   const auto read = read_recording(folder_ / "r.bag", {.rig = {}, .stamps = StampSource::kReceive}, job_);
