@@ -33,13 +33,16 @@ struct Scanner {
   double noise_m = 0.010, noise_per_m = 0;    // standard deviation: noise_m + noise_per_m * range
   BeamTimes beam_times = BeamTimes::kSpread;  // when they are fired
   /// Of a 3D scanner, `beams` and what is said of them are of one ring. A ring's beams lie on a cone about
-  /// the scanner's z axis; rings are numbered from the lowest one. Those of a beam are fired one after the
-  /// other, every second one first: 0, 8, 1, 9 and so on of 16.
+  /// the scanner's z axis; rings are numbered from the lowest one.
   std::uint32_t rings = 1;
-  double lowest_ring_deg = 0, ring_step_deg = 0, ring_interval_s = 0;
+  double lowest_ring_deg = 0, ring_step_deg = 0;  // elevation of ring 0, and from ring to ring
+  /// The rings of a beam are fired one after the other, after this time, every second one first: 0, 8, 1, 9
+  /// and so on of 16.
+  double ring_interval_s = 0;
 
+  /// Has more than one ring.
   bool is_3d() const { return rings > 1; }
-  /// Of one turn of the mirror.
+  /// All beams of one turn of the mirror.
   std::uint32_t rays() const { return beams * rings; }
   /// As a message keeps it.
   double increment_s() const { return static_cast<float>(time_increment_s); }

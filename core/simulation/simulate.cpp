@@ -11,6 +11,7 @@
 
 #include "core/parallel.hpp"
 #include "core/recording/assemble/assemble.hpp"
+#include "core/recording/raw_recording.hpp"
 #include "core/simulation/clouds.hpp"
 #include "core/simulation/math/portable_math.hpp"
 #include "core/simulation/meshes/ray_caster.hpp"
@@ -241,7 +242,7 @@ Result<void> read_own_clouds(Simulation& simulation, const Sensor& sensor) {
   auto recording = assemble(messages, simulation.recording.rig, std::nullopt);
   if (!recording) return tl::unexpected(recording.error());
   simulation.recording = std::move(*recording);
-  simulation.messages = std::move(messages);
+  simulation.messages = std::make_shared<const RawRecording>(std::move(messages));
   return {};
 }
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,12 +12,14 @@
 
 #include "core/error.hpp"
 #include "core/job.hpp"
-#include "core/recording/raw_recording.hpp"
+#include "core/recording/recording.hpp"
 #include "core/simulation/motion/motor.hpp"
 #include "core/simulation/motion/recorded_path.hpp"
 #include "core/simulation/scanner.hpp"
 
 namespace sweepscope {
+
+struct RawRecording;
 
 /// A scene and a walk provided by the user.
 struct OwnScene {
@@ -129,7 +132,8 @@ Rig rig_of(const SimulationOptions& options);
 /// A recording and its ground truth.
 struct Simulation {
   Recording recording;  // equal to the recording read from the bag of write_bag with the rig of rig_of
-  std::optional<RawRecording> messages;  // of a 3D scanner, from which the recording was read
+  std::shared_ptr<const RawRecording>
+      messages;                  // of a 3D scanner, from which the recording was read; else null
   std::vector<TruthPose> truth;  // every 10 ms from the first beam to the last; every 5 ms in an own scene
   TurnRates imu;                 // if requested: 200 Hz, with a bias and noise, on its own clock
   SimulationOptions options;     // with the duration filled in

@@ -83,6 +83,7 @@ TEST(Hints, AreCommandsAndWordsOfTheEngineNameNoOptions) {
   EXPECT_EQ(sentence("the stamps run 2 times as fast +- 1; consider --stamps receive"),
             "The stamps run 2 times as fast ± 1.");
   EXPECT_EQ(sentence("tilt turns in base about [0, 1, 0]"), "Tilt turns in base about y.");
+  EXPECT_EQ(sentence("kitchen.bag: the rig moved"), "kitchen.bag: the rig moved.");
 }
 
 /// An explorer without a display.

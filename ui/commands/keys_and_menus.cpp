@@ -86,6 +86,7 @@ const std::vector<Shortcut> kShortcuts{
 const std::vector<MenuItem> kMenuItems{
     {"File", "ask open", "Open …"},
     {"File", "choose", "Open with other choices …"},
+    {"File", "ask add-recording", "Add a recording of this rig …"},
     {"File", "sample room-1", "Sample: a room, stationary"},
     {"File", "sample metro-station 20", "Sample: a metro station, 20 s of walking"},
     {"File", "ask save-session", "Save the session …"},

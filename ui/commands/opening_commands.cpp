@@ -154,6 +154,19 @@ Result<void> open_chosen(Explorer& explorer, const Call&) {
   return {};
 }
 
+Result<void> add_recording(Explorer& explorer, const Call& call) {
+  ReadingChoices choices = explorer.options().reading;
+  choices.file = call.text(0);
+  if (auto inside = explorer.files.check_reading(choices); !inside) return inside;
+  return explorer.rig.add(explorer.loaded(), choices.file);
+}
+
+Result<void> estimate_together(Explorer& explorer, const Call& call) {
+  return explorer.rig.estimate(explorer.recording.loaded(),
+                               estimate_asked_for(explorer.settings(), explorer.options().assume),
+                               call.text(0) == "each");
+}
+
 Parameter file_read(std::string name) {
   return {.name = std::move(name), .kind = Kind::kText, .file = FileUse::kRead};
 }
@@ -223,6 +236,22 @@ std::vector<Command> opening_commands() {
        "which the rig was stationary, or all of it."},
       {choice_of("HOW", {"receive-stamps", "header-stamps", "without-rig-file", "stationary-part", "whole"})},
       reopen, Need::kRecording));
+  all.push_back(
+      action({"add-recording", "Add a recording of this rig",
+              "To the one that is open, for one answer from all of them. It is read like that one."},
+             {file_read("FILE")}, add_recording, Need::kRecording));
+  all.push_back(action(
+      {"leave-out", "Leave a recording out", "Of the list of recordings of this rig, by its number."},
+      {number_of("NUMBER", "", 1, 1000, 1)},
+      [](Explorer& explorer, const Call& call) {
+        return explorer.rig.leave_out(static_cast<std::size_t>(call.number(0)));
+      },
+      Need::kRecording));
+  all.push_back(
+      action({"estimate-together", "Estimate from all recordings",
+              "One offset, and what else is solved for, from all recordings of this rig; or with \"each\" "
+              "an offset for each."},
+             {optional_of(choice_of("OFFSETS", {"one", "each"}))}, estimate_together, Need::kRecording));
   all.push_back(action({"close", "Close the recording", "Back to the start page."}, {},
                        [](Explorer& explorer, const Call&) { explorer.close(); }));
   return all;

@@ -45,6 +45,7 @@ Explorer::Explorer(Options options)
                    if (!set_since_opening_.contains("offset-b")) use_found_offset();
                    if (computed) use_answered_part();
                  }),
+      rig(background, messages, [this](Estimate found) { estimating.set(std::move(found)); }),
       maps(background),
       places(background, [this](std::vector<PlacePtr> found) { take(std::move(found)); }),
       exports(background, messages) {}
@@ -148,6 +149,7 @@ void Explorer::take(const Opened& opened) {
   if (!opened.loaded) return messages.error(opened.loaded.error());
   end_recording();
   recording.keep(*opened.loaded);
+  rig.opened(loaded());
   maps.open(*opened.loaded, opened.first_map, options_.assume);
   const auto& restored = opened.restored;
   if (restored && restored->of_part) answers.keep(*loaded(), *restored->estimate);
@@ -196,6 +198,7 @@ void Explorer::answer() {
 
 void Explorer::close() {
   end_recording();
+  rig.opened(nullptr);
   set_since_opening_.clear();
   begin_anew();
 }

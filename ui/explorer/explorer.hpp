@@ -17,6 +17,7 @@
 #include "ui/explorer/messages.hpp"
 #include "ui/explorer/open_recording.hpp"
 #include "ui/explorer/place_list.hpp"
+#include "ui/explorer/rig_recordings.hpp"
 #include "ui/explorer/running_estimate.hpp"
 #include "ui/state/history.hpp"
 
@@ -140,6 +141,7 @@ class Explorer {
   OpenRecording recording;
   ChoicesPage page;
   RunningEstimate estimating;
+  RigRecordings rig;
   MapPair maps;
   PlaceList places;
   KeptAnswers answers;

@@ -122,7 +122,8 @@ std::string without_options(std::string text) {
 std::string sentence(const std::string& text) {
   std::string words = with_named_axes(without_options(printable_line(text)));
   if (words.empty()) return words;
-  words[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(words[0])));
+  const bool begins_with_file = words.substr(0, words.find(' ')).ends_with(':');
+  if (!begins_with_file) words[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(words[0])));
   if (words.back() != '.' && words.back() != '!' && words.back() != ':') words += '.';
   return words;
 }

@@ -27,6 +27,8 @@ bool makes_sense(const Explorer& explorer, const std::string& line) {
   static const std::vector<std::string> kAlways{"ask open", "sample", "quit", "palette", "help", "theme"};
   const Estimate* found = explorer.estimating.found();
   if (line == "ask export-report") return explorer.loaded() != nullptr && !explorer.exports.is_running();
+  if (line == "ask add-recording")
+    return explorer.loaded() != nullptr && !explorer.loaded()->choices.file.empty();
   if (line == "undo") return explorer.history().can_undo();
   if (line == "redo") return explorer.history().can_redo();
   if (line == "take-found") return found != nullptr && found->offset_s;

@@ -108,7 +108,11 @@ void draw_grips(const PaneContext& context, const ChartLayout& layout) {
 /// Why the chart has no curve.
 std::array<const char*, 2> words_without_curve(const RunningEstimate& estimating) {
   if (estimating.is_running()) return {"Estimating the offset.", "The criteria appear here."};
-  if (estimating.found() != nullptr)
+  const Estimate* found = estimating.found();
+  if (found != nullptr && found->together)
+    return {"The answer from several recordings has no chart.",
+            "Estimate this recording alone to see its criteria."};
+  if (found != nullptr)
     return {"There are no criteria: the offset is not determined.", "Drag A and B to compare two offsets."};
   return {"Estimate the offset to see the criteria here.", "Or drag A and B now."};
 }

@@ -7,6 +7,7 @@
 #include "core/io/printable_text.hpp"
 #include "core/results/rig_parameters.hpp"
 #include "render/charts/curve_charts.hpp"
+#include "ui/panes/rig_recordings.hpp"
 #include "ui/panes/widgets.hpp"
 
 namespace sweepscope::ui {
@@ -300,6 +301,7 @@ void draw_recording_panel(const PaneContext& context, const PixelRect& place, bo
   if (above) notes(context, loaded);
   if (above) search(context);
   recording_rows(context, loaded, !above);
+  draw_rig_recordings(context);
   if (!above) search(context);
   if (!above && estimate != nullptr) answer(context, *estimate);
   if (!above) notes(context, loaded);
