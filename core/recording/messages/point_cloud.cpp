@@ -41,14 +41,32 @@ double median_step(const Points& points) {
   return median(std::move(steps));
 }
 
-/// How far one beam lies beside the next: of a ring about the z axis, of a slice along its own path.
-double angle_step_rad(const std::vector<Eigen::Vector3f>& directions, const std::vector<std::uint32_t>& beams,
-                      bool ringed) {
+/// How far one beam of a ring lies beside the next, about the z axis. Where returns are missing over more
+/// than half a turn, as in the sky, the whole turns in between are those that the other beams tell.
+double azimuth_step_rad(const std::vector<Eigen::Vector3f>& directions,
+                        const std::vector<std::uint32_t>& beams) {
+  const auto azimuth_rad = [&](std::size_t i) {
+    return double{std::atan2(directions[beams[i]].y(), directions[beams[i]].x())};
+  };
+  std::vector<double> steps_rad;
+  for (std::size_t i = 1; i < beams.size(); ++i)
+    steps_rad.push_back(wrapped(azimuth_rad(i) - azimuth_rad(i - 1)) / (beams[i] - beams[i - 1]));
+  const double step_rad = median(std::move(steps_rad));
+  double turned_rad = 0;
+  for (std::size_t i = 1; i < beams.size(); ++i) {
+    const double expected_rad = step_rad * (beams[i] - beams[i - 1]);
+    turned_rad += expected_rad + wrapped(azimuth_rad(i) - azimuth_rad(i - 1) - expected_rad);
+  }
+  return turned_rad / (beams.back() - beams.front());
+}
+
+/// The same of a slice of time, along its own path.
+double path_step_rad(const std::vector<Eigen::Vector3f>& directions,
+                     const std::vector<std::uint32_t>& beams) {
   double turned_rad = 0;
   for (std::size_t i = 1; i < beams.size(); ++i) {
     const Eigen::Vector3f &a = directions[beams[i - 1]], &b = directions[beams[i]];
-    turned_rad += ringed ? wrapped(double{std::atan2(b.y(), b.x())} - double{std::atan2(a.y(), a.x())})
-                         : double{std::atan2(a.cross(b).norm(), a.dot(b))};
+    turned_rad += double{std::atan2(a.cross(b).norm(), a.dot(b))};
   }
   return turned_rad / (beams.back() - beams.front());
 }
@@ -147,7 +165,7 @@ std::size_t CloudReader::beams_before(double azimuth_rad, double step_rad) {
   constexpr double kMargin_rad = 0.1;  // turns are cut a packet early or late
   constexpr double kTurn = 2 * std::numbers::pi;
   if (std::abs(step_rad) < 1e-5) return 0;
-  if (!cut_rad_) cut_rad_ = azimuth_rad - std::copysign(kMargin_rad, step_rad);
+  if (!cut_rad_) cut_rad_ = first_azimuth_rad_ - std::copysign(kMargin_rad, step_rad);
   const double since_cut_rad = step_rad > 0 ? azimuth_rad - *cut_rad_ : *cut_rad_ - azimuth_rad;
   const double turned_rad = std::fmod(since_cut_rad + 2 * kTurn, kTurn);
   return static_cast<std::size_t>(std::min(turned_rad / std::abs(step_rad), double{kMaxBeams_a_line} / 2));
@@ -185,7 +203,7 @@ void CloudReader::add_line(std::span<const Point> points, const RawScan& common,
   }
   if (beams.size() < 3) return;
   step = (last_time - points.front().time) / beams.back();
-  const double angle_step = angle_step_rad(directions, beams, ringed);
+  const double angle_step = ringed ? azimuth_step_rad(directions, beams) : path_step_rad(directions, beams);
   const double azimuth_rad = std::atan2(directions.front().y(), directions.front().x());
   const std::size_t missing = ringed ? beams_before(azimuth_rad, angle_step) : 0;
   ranges_m.insert(ranges_m.begin(), missing, std::nanf(""));
@@ -243,6 +261,7 @@ bool CloudReader::add(const std::optional<CloudMessage>& cloud, std::int64_t rec
     common.stamps.header_ns = static_cast<std::int64_t>(std::llround(first.time * (unit_s_ * 1e9)));
   }
   common.cloud_end_after_stamp_s = (last.time - origin) * unit_s_;
+  first_azimuth_rad_ = double{std::atan2(first.p_m.y(), first.p_m.x())};
   if (!*goes_round_) number_slices(first.time);
   for (auto begin = points_.begin(); begin != points_.end();) {
     const auto end =

@@ -60,7 +60,8 @@ class CloudReader {
   std::optional<bool> goes_round_;  // the points of each ring, about the z axis; judged by the first cloud
   double unit_s_ = 0;               // of the times; 0: not known yet
   bool absolute_ = false;           // they are since 1970
-  std::optional<double> cut_rad_;   // a little before the azimuth at which turns begin
+  double first_azimuth_rad_ = 0;    // of the cloud's first point, of any ring
+  std::optional<double> cut_rad_;   // a little before the azimuth at which turns begin: of the first cloud
 };
 
 }  // namespace sweepscope

@@ -66,6 +66,28 @@ TEST(PointCloud, ARingBecomesALineWithItsMissingBeamsInPlace) {
   }
 }
 
+TEST(PointCloud, ARingThatSeesTheSkyOverMostOfATurnKeepsItsAngles) {
+  CloudBytes cloud("time", CloudType::kFloat32, true);
+  for (int beam = 0; beam < 480; ++beam)
+    if (beam < 60 || beam >= 420) add(cloud, beam, beam * kStep_s);  // 3.6 rad without a return
+  const RawLaser laser = read(cloud.message(MessageBytes::kCdr, 12, 0));
+  ASSERT_EQ(laser.scans.size(), 1U);
+  EXPECT_NEAR(laser.scans[0].angle_increment_rad, kStep_rad, 1e-5);
+  EXPECT_EQ(laser.scans[0].beams, 480U + 10U);
+}
+
+TEST(PointCloud, TurnsBeginWithTheFirstPointOfAnyRing) {
+  CloudBytes cloud("time", CloudType::kFloat32, true);
+  for (int beam = 250; beam < 480; ++beam) add(cloud, beam, beam * kStep_s, 0.1, 0);
+  for (int beam = 0; beam < 480; ++beam) add(cloud, beam, beam * kStep_s, -0.1, 1);
+  const RawLaser laser = read(cloud.message(MessageBytes::kCdr, 12, 0));
+  ASSERT_EQ(laser.scans.size(), 2U);
+  for (const RawScan& line : laser.scans) {
+    EXPECT_EQ(line.beams, 480U + 10U);
+    EXPECT_NEAR(line.first_beam_after_stamp_s, -10 * kStep_s, 1e-7);
+  }
+}
+
 TEST(PointCloud, LinesOfARingBeginAtOneAzimuthWhateverReturned) {
   CloudReader reader;
   RawLaser laser;
