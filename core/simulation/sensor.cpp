@@ -69,7 +69,8 @@ Sensor::Sensor(const SimulationOptions& options, const Scene& scene)
       trajectory_(trajectory_of(scene, options.seed)),
       motor_(options.motor, options.sweep_s, phase_s(options, 0, 2 * options.sweep_s),
              {options.uneven_motor, options.seed}, course_of(options), radians(options.swing_deg),
-             {options.motor_rest_at_s, options.motor_rest_at_s + options.motor_rest_s}),
+             {options.motor_rest_at_s, options.motor_rest_at_s + options.motor_rest_s},
+             {step_s(options), options.dwell_s}),
       encoder_phase_s_(phase_s(options, 1, 1 / options.encoder_hz)),
       glass_(options.glass, options.seed) {
   const Eigen::Matrix3d motor_from_laser = rotation_of(laser_in_motor_rpy_deg(options));

@@ -66,6 +66,8 @@ std::vector<Bound> bounds_of(const SimulationOptions& o) {
       {"the stamp jitter", o.stamp_jitter_s * 1e3, 0, 10, " ms"},
       {"the backlash", o.backlash_deg, 0, 10, " deg"},
       {"the clock drift", o.clock_drift_ppm, -1000, 1000, " ppm"},
+      {"the number of steps per turn", o.steps_per_turn, 0, 1e4, ""},
+      {"the rest before a step", o.dwell_s, 0, 60, " s"},
       {"the motor's rest", o.motor_rest_s, 0, 1e6, " s"},
       {"the time of the motor's rest", o.motor_rest_at_s, 0, 1e6, " s"},
       {"the jump", o.jump_s * 1e3, -10e3, 10e3, " ms"},
@@ -104,6 +106,11 @@ Result<void> check(const SimulationOptions& o) {
     return wrong("an index marks the turns of a motor that turns one way: use it with --motor one-way");
   if (!o.speeds_dps.empty() && o.motor != MotorKind::kOneWay)
     return wrong("speeds are those of a motor that turns one way: use it with --motor one-way");
+  if (o.steps_per_turn > 0 && !o.speeds_dps.empty())
+    return wrong("steps are those of a motor with one speed, half a turn or a swing in --sweep-s");
+  if (o.steps_per_turn > 0 && !(o.dwell_s < step_s(o)))
+    return wrong(fmt::format("a rest of {:g} s leaves no time for a step, which takes {:g} s in all",
+                             o.dwell_s, step_s(o)));
   if (o.stamp_at == StampAt::kArrival) return wrong("a simulated scan is stamped at its first or last beam");
   if (o.scanner.is_3d() && (o.parts > 1 || o.beam_times || o.no_time_increment || o.scan_time_factor != 1 ||
                             o.stamp_at != StampAt::kFirstBeam))
@@ -293,9 +300,17 @@ Eigen::Vector3d laser_in_motor_rpy_deg(const SimulationOptions& options) {
   return options.mount_error_deg + roll_deg * Vector3d::UnitX();
 }
 
+double step_s(const SimulationOptions& options) {
+  if (!(options.steps_per_turn > 0)) return 0;
+  const double half_turns = options.motor == MotorKind::kOneWay ? 1 : options.swing_deg / 90;
+  return 2 * options.sweep_s / (half_turns * options.steps_per_turn);
+}
+
 // The motion that the motor is commanded to make; of a sine that of even accelerations.
 MotorProfile profile_of(const SimulationOptions& options) {
   MotorProfile profile;
+  profile.steps_per_turn = options.steps_per_turn;
+  profile.dwell_s = options.dwell_s;
   if (options.motor == MotorKind::kOneWay) {
     const double dps = options.speeds_dps.empty() ? 180 / options.sweep_s : options.speeds_dps.front();
     profile.turns_per_s = dps / 360;

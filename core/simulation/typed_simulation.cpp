@@ -66,6 +66,8 @@ std::vector<SimulationOption> recording_options(TypedSimulation& typed) {
        "Angle about which the motor swings; the scanner is level at 0"},
       {"motor-rest-s", &options.motor_rest_s, "How long the motor stands still, from --motor-rest-at-s on"},
       {"motor-rest-at-s", &options.motor_rest_at_s, "Seconds since the first scan"},
+      {"steps-per-turn", &options.steps_per_turn, "Move the motor in steps; 0: evenly"},
+      {"dwell-s", &options.dwell_s, "How long it rests before each step", "", "steps-per-turn"},
       {"speeds-dps", &options.speeds_dps,
        "Speeds of a motor that turns one way (deg/s), each for an equal part of the recording", "A,B,...", "",
        false},

@@ -195,6 +195,8 @@ Json recorded_as_json(const SimulationOptions& o) {
           {"parts", o.parts},
           {"axis", name_of(o.axis)},
           {"swing_deg", tidy(o.swing_deg)},
+          {"steps_per_turn", tidy(o.steps_per_turn)},
+          {"dwell_s", tidy(o.dwell_s)},
           {"motor_rest_s", tidy(o.motor_rest_s)},
           {"motor_rest_at_s", tidy(o.motor_rest_at_s)},
           {"laser_upside_down", o.laser_upside_down},

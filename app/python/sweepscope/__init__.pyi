@@ -280,6 +280,8 @@ def simulate(
     axis: Optional[Literal["x", "y", "z", "-x", "-y", "-z"]] = None,
     swing_deg: Optional[float] = None,
     motor_middle_deg: Optional[float] = None,
+    steps_per_turn: Optional[float] = None,
+    dwell_s: Optional[float] = None,
     motor_rest_s: Optional[float] = None,
     motor_rest_at_s: Optional[float] = None,
     speeds_dps: Optional[_Numbers] = None,

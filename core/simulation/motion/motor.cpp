@@ -87,8 +87,8 @@ std::string_view name_of(MotorAxis axis) {
 }
 
 Motor::Motor(MotorKind kind, double sweep_s, double phase_s, const Unevenness& uneven,
-             const SpeedCourse& course, double reach_rad, const Rest& rest)
-    : kind_(kind), sweep_s_(sweep_s), phase_s_(phase_s), reach_rad_(reach_rad), rest_(rest) {
+             const SpeedCourse& course, double reach_rad, const Rest& rest, const Steps& steps)
+    : kind_(kind), sweep_s_(sweep_s), phase_s_(phase_s), reach_rad_(reach_rad), rest_(rest), steps_(steps) {
   for (const auto& [t_s, speed_radps] : timed_speeds(course)) {
     const SpeedKnot before = knots_.empty() ? SpeedKnot{t_s, speed_radps, 0} : knots_.back();
     const double turned_rad = (t_s - before.t_s) * (before.speed_radps + speed_radps) / 2;
@@ -111,8 +111,15 @@ double Motor::warped_s(double t_s) const {
   return warped_s;
 }
 
+double Motor::stepped_s(double since_end_s) const {
+  if (!(steps_.step_s > 0)) return since_end_s;
+  const double whole_s = steps_.step_s * std::floor(since_end_s / steps_.step_s);
+  const double moved_s = since_end_s - whole_s - steps_.dwell_s, moves_s = steps_.step_s - steps_.dwell_s;
+  return whole_s + steps_.step_s * std::max(0.0, moved_s / moves_s);
+}
+
 double Motor::one_way_rad(double t_s) const {
-  if (knots_.empty()) return kHalfTurn_rad * (warped_s(t_s) + phase_s_) / sweep_s_;
+  if (knots_.empty()) return kHalfTurn_rad * stepped_s(warped_s(t_s) + phase_s_) / sweep_s_;
   const double even_s = warped_s(t_s), first_rad = kHalfTurn_rad * phase_s_ / sweep_s_;
   const auto next =
       std::find_if(knots_.begin(), knots_.end(), [&](const SpeedKnot& knot) { return knot.t_s > even_s; });
@@ -126,7 +133,8 @@ double Motor::one_way_rad(double t_s) const {
 
 Motor::Swing Motor::swing(double t_s) const {
   if (kind_ == MotorKind::kOneWay) return {one_way_rad(t_s), true};
-  const double sweeps = (warped_s(t_s) + phase_s_) / sweep_s_;
+  const double half_s = sweep_s_ / 2;  // from an end to the middle
+  const double sweeps = (stepped_s(warped_s(t_s) + phase_s_ + half_s) - half_s) / sweep_s_;
   if (kind_ == MotorKind::kStuck) return {2 * reach_rad_ * phase_s_ / sweep_s_, true};
   const double nearest = std::floor(sweeps + 0.5);
   const double u = sweeps - nearest;

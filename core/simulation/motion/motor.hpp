@@ -63,6 +63,13 @@ struct Rest {
   double from_s = 0, to_s = 0;  // true time
 };
 
+/// A motor that moves in steps, each from one end of its swing on: a rest, and then an even motion for the
+/// rest of the step's time.
+struct Steps {
+  double step_s = 0;   // of a whole step; 0: none
+  double dwell_s = 0;  // of the rest
+};
+
 /// The motor's true angle over true time. It swings by reach_rad to either side of 0 deg, from one end to the
 /// other in sweep_s; one that turns one way makes half a turn in sweep_s. phase_s, in [0, 2 sweep_s), is how
 /// long after a passage through 0 deg, upwards, true time 0 falls.
@@ -70,7 +77,8 @@ class Motor {
  public:
   /// See the class.
   Motor(MotorKind kind, double sweep_s, double phase_s, const Unevenness& uneven = {},
-        const SpeedCourse& course = {}, double reach_rad = std::numbers::pi / 2, const Rest& rest = {});
+        const SpeedCourse& course = {}, double reach_rad = std::numbers::pi / 2, const Rest& rest = {},
+        const Steps& steps = {});
 
   /// The reading of an ideal encoder without steps, on the motor's side of the gears.
   double angle_rad(double t_s) const;
@@ -93,11 +101,15 @@ class Motor {
   double one_way_rad(double t_s) const;
   /// The time that a motor of constant speed, which never rests, takes to the angle of this one at t_s.
   double warped_s(double t_s) const;
+  /// The same of a motor that moves in steps, since it left an end of its swing; one that turns one way, 0
+  /// deg.
+  double stepped_s(double since_end_s) const;
 
   MotorKind kind_;
   double sweep_s_, phase_s_, reach_rad_;
   std::vector<Wave> waves_;
   Rest rest_;
+  Steps steps_;
   std::vector<SpeedKnot> knots_;  // of a motor that turns one way
 };
 

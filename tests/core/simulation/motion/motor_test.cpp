@@ -50,6 +50,20 @@ TEST(Motor, PhaseIsTheTimeSinceThePassageUpwards) {
   EXPECT_NEAR(degrees(motor.angle_rad(0)), 36, 1e-9);
 }
 
+TEST(Motor, StepsBeginWithARestAtAnEndOfTheSwing) {
+  // Half a turn in 1 s, in ten steps, each with a rest of 60 ms and a motion of 40 ms.
+  const Motor motor(MotorKind::kTriangle, 1, 0, {}, {}, kPi / 2, {}, {0.1, 0.06});
+  for (int step = 0; step < 10; ++step) {
+    const double begin_s = -0.5 + 0.1 * step, at_deg = -90 + 18.0 * step;
+    EXPECT_NEAR(degrees(motor.angle_rad(begin_s + 0.001)), at_deg, 1e-9);
+    EXPECT_NEAR(degrees(motor.angle_rad(begin_s + 0.059)), at_deg, 1e-9);
+    EXPECT_NEAR(degrees(motor.angle_rad(begin_s + 0.08)), at_deg + 9, 1e-9);
+  }
+  const Motor one_way(MotorKind::kOneWay, 1, 0, {}, {}, kPi / 2, {}, {0.1, 0.06});
+  EXPECT_NEAR(degrees(one_way.angle_rad(0.05)), 0, 1e-9);
+  EXPECT_NEAR(degrees(one_way.angle_rad(0.18)), 27, 1e-9);
+}
+
 TEST(Motor, OneWayTurnsOnAndStuckStays) {
   const Motor one_way(MotorKind::kOneWay, 0.5, 0), stuck(MotorKind::kStuck, 0.5, 0.1);
   EXPECT_NEAR(degrees(one_way.angle_rad(2.0)), 720, 1e-9);
