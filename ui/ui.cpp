@@ -196,7 +196,8 @@ bool Ui::Parts::is_command_now(const Chord& chord) const {
   // On the page of choices, arrows and Space go through its widgets, and letters mean maps that are not seen.
   if (explorer.page.choosing() != nullptr && !ctrl)
     return escape || chord.key == keys::kF1 || chord.key == keys::kF10;
-  return ctrl || escape || chord.key == keys::kF1 || !something_in_front();
+  const bool keys_again = transient.help && (chord.key == 'H' || chord.key == '?');  // they go as they came
+  return ctrl || escape || chord.key == keys::kF1 || keys_again || !something_in_front();
 }
 
 /// The start page by keyboard: arrows and Tab choose, Enter does it. Whether the key was its own.

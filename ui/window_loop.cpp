@@ -153,9 +153,10 @@ void loop(gl::Window& window, Ui& ui, ScriptRecorder* recorder, bool scale_given
     if (!scale_given) ui.set_display_scale(window.scale());
     const std::vector<InputEvent> events = queue.take();
     clipboard.before(window, ui, events);
+    const std::size_t started = background.started();
     ui.frame(events, std::clamp(seconds, 1e-3, 0.25));
     clipboard.after(window, ui);
-    if (recorder != nullptr) recorder->add_frame(events, at_rest(ui));
+    if (recorder != nullptr) recorder->add_frame(events, at_rest(ui), background.started() > started);
     if (ui.wants_quit()) break;  // nobody waits for its picture
     ui.paint();
     window.present();

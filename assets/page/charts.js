@@ -67,7 +67,9 @@ class CriterionChart {
     svg.replaceChildren();
     svg.setAttribute('viewBox', `0 0 ${width} ${height}`);
     svg.setAttribute('height', height);
-    svgElement('text', {x: 4, y: 14, class: 'chart-title'}, svg, chart.title);
+    const title = svgElement('text', {x: 4, y: 14, class: 'chart-title'}, svg, chart.title);
+    const length = title.getComputedTextLength();  // on a phone a long title is written smaller
+    if (length > width - 8) title.style.fontSize = `${13 * (width - 8) / length}px`;
     this.drawAxes(height, edge);
     const clip = svgElement('svg', {x: edge.left, y: edge.top - 4, width: width - edge.left - edge.right,
                                     height: height - edge.top - edge.bottom + 8,

@@ -45,6 +45,7 @@ class Touch {
     if (!this.fingers.delete(event.pointerId)) return;
     clearTimeout(this.timer);
     if (this.state === 'waiting' && !cancelled) this.tap();
+    if (this.state === 'drag' && !cancelled) this.sender.move = ['move', ...this.keys.at(event)];  // where it was lifted
     if (this.state === 'drag') this.sender.flush([['press', 0, false, 0]]);
     if (this.state === 'pinch') this.sender.flush([['press', 1, false, 0]]);
     this.state = this.fingers.size > 0 ? 'over' : 'none';

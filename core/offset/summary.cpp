@@ -74,8 +74,8 @@ Remark few_sweeps(std::size_t sweeps) {
   constexpr std::size_t kStationary = 8, kMoving = 40;
   if (sweeps < kStationary)
     return fmt::format(
-        "Only {} whole sweeps: a good recording has {} for a stationary rig or {} for a moving one.", sweeps,
-        kStationary, kMoving);
+        "Only {} whole sweep{}: a good recording has {} for a stationary rig or {} for a moving one.", sweeps,
+        sweeps == 1 ? "" : "s", kStationary, kMoving);
   if (sweeps < kMoving)
     return fmt::format("{} whole sweeps are enough for a stationary rig; a moving one should have {}.",
                        sweeps, kMoving);

@@ -146,6 +146,8 @@ double place_heading(const Chart& chart, const PixelRect& place, ChartLayout& la
   return y + row;
 }
 
+constexpr double kLabelGap = 10;  // between the labels of verticals, at 100 %
+
 /// The labels of the verticals by x, those beyond the plot's width cut. Where lines coincide, in their order.
 std::vector<VerticalLabel> labels_of(const Chart& chart, const ChartLayout& layout, double room_px) {
   std::vector<VerticalLabel> labels;
@@ -188,7 +190,7 @@ void place_row(const std::vector<VerticalLabel*>& row, const ChartLayout& layout
 }
 
 void place_labels(ChartLayout& layout, std::size_t rows, double top, double row_height) {
-  const double gap = 6 * layout.scale;
+  const double gap = kLabelGap * layout.scale;
   for (std::size_t r = 0; r < rows; ++r) {
     std::vector<VerticalLabel*> row;
     for (std::size_t i = r; i < layout.labels.size(); i += rows) row.push_back(&layout.labels[i]);
@@ -209,7 +211,7 @@ ChartLayout lay_out_chart(const Chart& chart, const PixelRect& place, double sca
   const double labels_top = place_heading(chart, place, layout) + 8 * scale;
   layout.labels = labels_of(chart, layout, 0.8 * place.width);
   // Rows are counted before the plot's width is known: the axis' labels take a fifth at most.
-  const std::size_t rows = rows_for(layout.labels, 0.8 * place.width, 6 * scale);
+  const std::size_t rows = rows_for(layout.labels, 0.8 * place.width, kLabelGap * scale);
   layout.plot.top = labels_top + static_cast<double>(rows) * label_row + (rows > 0 ? 4 * scale : 0);
   layout.plot.height = std::max(1.0, place.bottom() - below - layout.plot.top);
   if (y)

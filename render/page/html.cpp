@@ -37,6 +37,13 @@ std::string png_image(std::string_view png, std::string_view alternative) {
   return fmt::format("<img alt=\"{}\" src=\"data:image/png;base64,{}\">", escape(alternative), base64(png));
 }
 
+std::string png_images(std::string_view light_png, std::string_view dark_png, std::string_view alternative) {
+  return fmt::format(
+      "<picture><source media=\"screen and (prefers-color-scheme: dark)\" "
+      "srcset=\"data:image/png;base64,{}\">{}</picture>",
+      base64(dark_png), png_image(light_png, alternative));
+}
+
 std::string inline_svg(std::string_view svg) {
   const std::size_t begin = svg.find("<svg");
   return std::string(begin == std::string_view::npos ? "" : svg.substr(begin));

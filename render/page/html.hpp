@@ -22,6 +22,9 @@ std::string data_block(std::string_view id, std::string_view bytes);
 /// A PNG file as an image inside the page.
 std::string png_image(std::string_view png, std::string_view alternative);
 
+/// The same for light pages and paper, with another one for dark screens.
+std::string png_images(std::string_view light_png, std::string_view dark_png, std::string_view alternative);
+
 /// An SVG file as an element of the page.
 std::string inline_svg(std::string_view svg);
 

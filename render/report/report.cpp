@@ -302,26 +302,29 @@ tl::unexpected<Error> interrupted() {
 Result<std::string> maps(const ReportContent& content, const Job& job) {
   if (content.maps.empty()) return std::string();
   ComparisonOptions look;
-  look.background = Background::kLight;
   look.title = content.recording.name;
   look.width_px = 1800;
   look.height_px = 1100;
   const bool of_rigs = content.estimate.offset_is_gauge();
-  const auto drawn = comparison_picture(content.maps, nullptr, look).and_then([&](const Picture& picture) {
-    return job.cancelled() ? Result<Image>(interrupted()) : draw(picture);
-  });
-  return drawn.map([&](const Image& image) {
-    return fmt::format("<h2 class=\"{}\">{}</h2>\n", stationary_class(content),
-                       of_rigs ? "The map with the rig as given, and as found"
-                               : "The map 5 ms off, and at the answer") +
-           thickness_table(content) +
-           figure(
-               stationary_class(content),
-               html::png_image(encode_png(image), "Two maps from above, side by side"),
-               of_rigs
-                   ? "Only the rig differs. If the right picture is sharper, the rig that was found is better."
-                   : "Only the offset differs. If the right picture is sharper, the answer is the better offset.");
-  });
+  std::vector<std::string> pngs;  // for light pages and paper, and for dark screens
+  for (const Background background : {Background::kLight, Background::kDark}) {
+    look.background = background;
+    const auto drawn = comparison_picture(content.maps, nullptr, look).and_then([&](const Picture& picture) {
+      return job.cancelled() ? Result<Image>(interrupted()) : draw(picture);
+    });
+    if (!drawn) return tl::unexpected(drawn.error());
+    pngs.push_back(encode_png(*drawn));
+  }
+  return fmt::format("<h2 class=\"{}\">{}</h2>\n", stationary_class(content),
+                     of_rigs ? "The map with the rig as given, and as found"
+                             : "The map 5 ms off, and at the answer") +
+         thickness_table(content) +
+         figure(
+             stationary_class(content),
+             html::png_images(pngs[0], pngs[1], "Two maps from above, side by side"),
+             of_rigs
+                 ? "Only the rig differs. If the right picture is sharper, the rig that was found is better."
+                 : "Only the offset differs. If the right picture is sharper, the answer is the better offset.");
 }
 
 Result<std::string> profile(const ReportContent& content) {

@@ -105,6 +105,11 @@ TEST_F(Pages, ThePageOfChoicesKeepsThemOnEscape) {
       "expect page is start\nchoose " + two_lasers_ + "\nwait loaded\nexpect chosen-laser is /front/scan\n");
 }
 
+TEST_F(Pages, ARecordingThatIsOpenedAgainHasTheChoicesThatEscapeLeft) {
+  run("open " + two_lasers_ + "\nwait loaded\nchoose-laser /front/scan\nwait loaded\nkey Escape\nopen " +
+      two_lasers_ + "/\nwait loaded\nexpect page is choices\nexpect chosen-laser is /front/scan\n");
+}
+
 TEST_F(Pages, NothingOnThePageOfChoicesMovesWhenOneIsMade) {
   run("choose " + two_lasers_ + "\nwait loaded\n");
   const PixelRect before = *ui_.anchor("choose-motor"), below = *ui_.anchor("choose-stamps");

@@ -45,9 +45,10 @@ TEST_F(RecorderTest, WaitsWhereThePersonHadTo) {
   EXPECT_EQ(recorded(file), "key T\ntype t\n") << "each frame's lines are there at once";
   recorder->add_frame({}, true);
   recorder->add_frame(std::vector{InputEvent::move(1, 2)}, true);
+  recorder->add_frame(std::vector{InputEvent::stroke('G', true, 0)}, true, true);  // done at once
   EXPECT_TRUE(recorder->end());
-  EXPECT_EQ(recorded(file), "key T\ntype t\nwait solved\nmouse move 1 2\n");
-  EXPECT_EQ(parse_script(recorded(file), "done.script").value().lines.size(), 4u);
+  EXPECT_EQ(recorded(file), "key T\ntype t\nwait solved\nmouse move 1 2\nkey G\nwait solved\n");
+  EXPECT_EQ(parse_script(recorded(file), "done.script").value().lines.size(), 6u);
 }
 
 TEST_F(RecorderTest, AScriptIsWrittenWithItsPlacesInPixelsAndDoesTheSameOnceMore) {

@@ -175,6 +175,10 @@ TEST_F(Typing, TheKeysAreListedByF1AndByAQuestionMark) {
     expect_runs("key Escape");
     EXPECT_EQ(ui_.screenshot(), before) << line;
   }
+  for (const char* line : {"key F1", "key H", "key ?"}) {
+    expect_runs(std::string(line) + "\n" + line);
+    EXPECT_EQ(ui_.screenshot(), before) << line << " closes what it opened";
+  }
 }
 
 TEST_F(Typing, MenusWorkByKeyboard) {

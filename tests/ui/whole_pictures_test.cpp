@@ -106,5 +106,14 @@ TEST_F(WholePictures, AreFittedAgainWhenThePaneChangesItsShapeUntilThePersonMove
   EXPECT_EQ(ui_.explorer().settings().camera_a, fitted);
 }
 
+TEST_F(WholePictures, AViewThatNobodyMovedFitsFromWhereverItIsLookedAt) {
+  run("look isometric\nframes 3");
+  const ViewPoint turned = ui_.explorer().settings().camera_a;
+  run("fit-view");
+  EXPECT_EQ(ui_.explorer().settings().camera_a, turned);
+  run("zoom 2\nlook top\nframes 3");
+  EXPECT_EQ(ui_.explorer().settings().camera_a.height_m, turned.height_m / 2) << "a person's zoom stays";
+}
+
 }  // namespace
 }  // namespace sweepscope::ui

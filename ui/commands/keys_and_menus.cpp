@@ -66,6 +66,7 @@ const std::vector<Shortcut> kShortcuts{
     {"Y", "close-up"},
     {"Shift+Y", "look-at-place"},
     {"C", "colouring", "Next colouring"},
+    {"O", "colouring blur", "Colour by blur"},
     {"V", "table", "Next colour table"},
     {"Z", "heights", "Next heights"},
     {"T", "theme"},

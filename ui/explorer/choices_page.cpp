@@ -1,5 +1,7 @@
 #include "ui/explorer/choices_page.hpp"
 
+#include <filesystem>
+
 #include "ui/jobs/task_plans.hpp"
 
 namespace sweepscope::ui {
@@ -10,6 +12,12 @@ constexpr const char* kSurvey = "survey";
 /// Whether a file has to be looked at again.
 bool reads_otherwise(const ReadingChoices& a, const ReadingChoices& b) {
   return a.streams != b.streams || a.rig_file != b.rig_file || a.stamps != b.stamps;
+}
+
+/// A folder's path may end with a slash.
+std::filesystem::path plain(const std::string& file) {
+  const auto path = std::filesystem::path(file).lexically_normal();
+  return path.has_filename() ? path : path.parent_path();
 }
 
 }  // namespace
@@ -35,11 +43,13 @@ bool ChoicesPage::is_surveying() const {
 
 void ChoicesPage::show(const ReadingChoices& choices) {
   choosing_ = Choosing{choices, std::nullopt, ""};
+  forget();
   start_survey();
 }
 
 void ChoicesPage::show(const ReadingChoices& choices, ReadingSurvey survey, const std::string& problem) {
   choosing_ = Choosing{choices, std::move(survey), problem};
+  forget();
 }
 
 void ChoicesPage::choose(const ReadingChoices& choices) {
@@ -52,7 +62,10 @@ void ChoicesPage::choose(const ReadingChoices& choices) {
 void ChoicesPage::close() {
   background_.cancel(kSurvey);
   choosing_.reset();
-  left_.reset();
+}
+
+const ReadingChoices* ChoicesPage::left(const std::string& file) const {
+  return left_ && plain(left_->file) == plain(file) ? &*left_ : nullptr;
 }
 
 void ChoicesPage::leave() {

@@ -30,14 +30,14 @@ class ChoicesPage {
   void show(const ReadingChoices& choices, ReadingSurvey survey, const std::string& problem);
   /// Other choices, while it is shown; looks at the file again where that is needed.
   void choose(const ReadingChoices& choices);
-  /// The recording is opened, or another one: its choices end.
+  /// While a recording is read.
   void close();
+  /// A recording is open: what was left of a page ends.
+  void forget() { left_.reset(); }
   /// By a person: its choices are there when it is shown again.
   void leave();
   /// Those that were left, of this file; null if there are none.
-  const ReadingChoices* left(const std::string& file) const {
-    return left_ && left_->file == file ? &*left_ : nullptr;
-  }
+  const ReadingChoices* left(const std::string& file) const;
 
  private:
   void start_survey();

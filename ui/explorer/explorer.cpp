@@ -69,15 +69,15 @@ Result<void> Explorer::set(const Call& call, const std::string& gesture) {
     if (call.command == &field || field.get(next) != field.get(settings_)) set_since_opening_.insert(name);
   }
   if (call.command->name == "colouring") colouring_was_chosen_ = true;
-  if (next.heights != settings_.heights || next.camera_a.turn_deg != settings_.camera_a.turn_deg ||
-      next.camera_a.elevation_deg != settings_.camera_a.elevation_deg)
-    view_was_chosen_ = true;
+  const bool turned = next.camera_a.turn_deg != settings_.camera_a.turn_deg ||
+                      next.camera_a.elevation_deg != settings_.camera_a.elevation_deg;
+  if (turned || next.heights != settings_.heights) view_was_chosen_ = true;
   if (call.command->moves_view) view.moved_by_person = true;
   if (next.offset_a_ms != settings_.offset_a_ms) changed_side_ = Side::kA;
   if (next.offset_b_ms != settings_.offset_b_ms) changed_side_ = Side::kB;
   const bool clipped = next.box_from_m != settings_.box_from_m || next.box_to_m != settings_.box_to_m;
   change(std::move(next), gesture);
-  if (clipped) refit_view();
+  if (clipped || turned) refit_view();
   return {};
 }
 
@@ -145,9 +145,16 @@ void Explorer::load_sample(const std::string& scene, double seconds, std::option
 
 void Explorer::take(const Opened& opened) {
   // Where there is something to choose from, the page says what is missing; else a message does.
-  if (opened.survey) return page.show(opened.choices, *opened.survey, opened.loaded.error().message);
+  if (opened.survey) {
+    ReadingChoices none = options_.reading;
+    none.file = opened.choices.file;
+    const ReadingChoices* left = opened.choices == none ? page.left(none.file) : nullptr;
+    if (left != nullptr) return page.show(ReadingChoices(*left));
+    return page.show(opened.choices, *opened.survey, opened.loaded.error().message);
+  }
   if (!opened.loaded) return messages.error(opened.loaded.error());
   end_recording();
+  page.forget();
   recording.keep(*opened.loaded);
   rig.opened(loaded());
   maps.open(*opened.loaded, opened.first_map, options_.assume);

@@ -62,6 +62,7 @@ struct Background::Shared {
   std::condition_variable changed;
   std::deque<TaskPtr> tasks;  // in the order of their start; taken out once finished and taken
   std::function<void()> wake;
+  std::size_t started = 0;
   bool ending = false, comes_after = false;
   std::map<std::string, std::thread> lanes;
 
@@ -143,10 +144,16 @@ void Background::start(const std::string& lane, const std::string& key, const st
   {
     const std::lock_guard lock(shared_->mutex);
     shared_->tasks.push_back(std::move(task));
+    ++shared_->started;
     if (!shared_->lanes.contains(lane))
       shared_->lanes.emplace(lane, std::thread([shared = shared_.get(), lane] { shared->run_lane(lane); }));
   }
   shared_->changed.notify_all();
+}
+
+std::size_t Background::started() const {
+  const std::lock_guard lock(shared_->mutex);
+  return shared_->started;
 }
 
 bool Background::has(const std::string& key) const {

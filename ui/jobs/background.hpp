@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <string>
@@ -51,6 +52,8 @@ class Background {
 
   bool has_finished() const;  // anything that take_finished would take
   bool busy() const;          // any task that is queued, running, or not taken
+  std::size_t started()
+      const;  // tasks, since the beginning: a short one may be taken in the frame that starts it
   std::vector<JobStatus> status() const;
 
  private:

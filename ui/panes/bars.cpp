@@ -195,8 +195,10 @@ void draw_status_bar(const PaneContext& context, const PixelRect& place) {
       draw_tasks(context, place,
                  place.right() - context.px(14) - (with_equation ? equation_width + context.px(14) : 0)) -
       place.left - context.px(14);
+  const std::string fitting =
+      words_width <= room ? words : fit_text(words, static_cast<double>(ImGui::GetFontSize()), room);
   list.PushClipRect(corner(place), vec(place.left + context.px(14) + room, place.bottom()));
-  list.AddText({context.pxf(14), y}, to_imgui(context.style.text), words.c_str());
+  list.AddText({context.pxf(14), y}, to_imgui(context.style.text), fitting.c_str());
   list.PopClipRect();
   if (with_equation)
     list.AddText({static_cast<float>(place.right() - context.px(14) - equation_width), y},
@@ -255,12 +257,17 @@ void draw_tabs(const PaneContext& context, const PixelRect& place) {
   begin_panel(context, "tabs", place, false);
   ImGui::GetWindowDrawList()->AddLine(corner(place), vec(place.right(), place.top),
                                       to_imgui(context.style.frame));
-  const double gap = context.px(6), parts = static_cast<double>(tabs.size()) + 1;
-  const double part = (place.width - gap * (static_cast<double>(tabs.size()) + 1)) / parts;
+  // Each as wide as its words, and all share what is left of the width.
+  const auto width_of = [](const Tab& tab) {
+    return static_cast<double>(ImGui::CalcTextSize(tab.title.c_str()).x);
+  };
+  const double gap = context.px(6), count = static_cast<double>(tabs.size());
+  double spare = place.width - gap * (count + 1);
+  for (const Tab& tab : tabs) spare -= width_of(tab);
   double left = place.left + gap;
-  for (std::size_t i = 0; i < tabs.size(); ++i) {
-    const double width = (i == 0 ? 2 : 1) * part;
-    draw_tab(context, tabs[i], {left, place.top + gap, width, place.height - 2 * gap});
+  for (const Tab& tab : tabs) {
+    const double width = width_of(tab) + spare / count;
+    draw_tab(context, tab, {left, place.top + gap, width, place.height - 2 * gap});
     left += width + gap;
   }
   end_panel();

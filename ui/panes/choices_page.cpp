@@ -14,14 +14,19 @@
 namespace sweepscope::ui {
 namespace {
 
-constexpr double kWidth = 760, kHeight = 620, kTitles = 120;  // at 100 %
+constexpr double kWidth = 760, kHeight = 620;  // at 100 %
+
+/// Of the titles, in pixels: on a phone no more than they need.
+float titles_width(const PaneContext& context) {
+  return context.pxf(ImGui::GetWindowWidth() < context.pxf(480) ? 84 : 120);
+}
 
 /// The title of what is chosen; its widget comes next.
 void begin_choice(const PaneContext& context, const Command& command) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(command.title.c_str());
   tooltip(context, command.help);
-  ImGui::SameLine(ImGui::GetWindowContentRegionMin().x + context.pxf(kTitles));
+  ImGui::SameLine(ImGui::GetWindowContentRegionMin().x + titles_width(context));
 }
 
 /// Under a widget: where its value comes from, or, marked, why there is none. Its lines are kept free where
@@ -30,7 +35,7 @@ void note(const PaneContext& context, const std::string& words, bool problem = f
   ImGui::PushFont(context.fonts.small);
   const float end = ImGui::GetCursorPosY() + static_cast<float>(lines) * ImGui::GetTextLineHeight();
   ImGui::PopFont();
-  ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMin().x + context.pxf(kTitles));
+  ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMin().x + titles_width(context));
   ImGui::PushFont(context.fonts.small);
   wrapped_text(problem ? colour_of_a(context.style) : context.style.faint_text,
                printable_text(words.empty() ? " " : words));
@@ -178,7 +183,7 @@ void transforms_instead(const PaneContext& context, const ChoicesPage::Choosing&
   if (about == says.npos) return;
   std::string axis = says.substr(about + 1);
   if (axis.ends_with('.')) axis.pop_back();
-  ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMin().x + context.pxf(kTitles));
+  ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMin().x + titles_width(context));
   button(context, fmt::format("Use the recording's transforms ({})", axis).c_str(), "choose-rig",
          context.px(380));
 }
@@ -217,7 +222,7 @@ class PartStrip {
     for (const MotionPart& part : survey_.motion)
       (part.moved ? moved_s : stationary_s) += part.end_s - part.begin_s;
     const double unknown_s = std::max(0.0, survey_.duration_s - moved_s - stationary_s);
-    ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMin().x + context_.pxf(kTitles));
+    ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMin().x + titles_width(context_));
     ImGui::PushFont(context_.fonts.small);
     const ImU32 colours[] = {colour_of(false), colour_of(true), to_imgui(context_.style.frame)};
     const std::string words[] = {fmt::format("stationary {:.1f} s", stationary_s),
@@ -307,8 +312,9 @@ void part_choice(const PaneContext& context, const ChoicesPage::Choosing& choosi
   }
   const auto& window = choosing.choices.window;
   ImGui::AlignTextToFramePadding();
-  ImGui::TextDisabled("%s", window ? fmt::format("{:.1f} to {:.1f} s", window->from_s, window->to_s).c_str()
-                                   : "All of it. The strip appears when laser and motor are known.");
+  wrapped_text(context.style.faint_text,
+               window ? fmt::format("{:.1f} to {:.1f} s", window->from_s, window->to_s)
+                      : "All of it. The strip appears when laser and motor are known.");
 }
 
 void beginning(const PaneContext& context, const ChoicesPage::Choosing& choosing) {

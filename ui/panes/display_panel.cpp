@@ -85,6 +85,29 @@ void legend(const PaneContext& context) {
   ImGui::Dummy({width, height + context.pxf(20)});
 }
 
+/// The values at the ends of the colour table: those found from the maps, until a person sets others. What
+/// has no order has none.
+void colour_range(const PaneContext& context) {
+  const Settings& settings = context.settings();
+  const bool ordered =
+      settings.colouring != ColourBy::kFeatures && settings.colouring != ColourBy::kDirection;
+  if (!ordered && settings.layout != Layout::kDifference) return;
+  const Command& command = *find_command("colour-range");
+  begin_field(context, command);
+  const float gap = ImGui::GetStyle().ItemInnerSpacing.x,
+              width = (ImGui::GetContentRegionAvail().x - gap) / 2;
+  const ColourSpan span = context.explorer.maps.shown_span();
+  for (const std::size_t end : {0, 1}) {
+    if (end > 0) ImGui::SameLine(0, gap);
+    ImGui::SetNextItemWidth(width);
+    NumberBox box = box_of(command, end);
+    if (settings.colour_from == settings.colour_to) box.automatic = {span.from, span.to};
+    number_box(context, box);
+    context.anchor_last(fmt::format("colour-range {}", end));
+    tooltip(context, command.help);
+  }
+}
+
 /// How thick the surfaces of both maps are, while blur colours them. Until it is measured there is room for
 /// it.
 void map_thickness(const PaneContext& context) {
@@ -186,7 +209,7 @@ void draw_display_panel(const PaneContext& context, const PixelRect& place, bool
   field(context, "colouring");
   field(context, "table");
   legend(context);
-  field(context, "colour-range");
+  colour_range(context);
   map_thickness(context);
   field(context, "point-size");
   field(context, "backdrop");

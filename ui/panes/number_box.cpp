@@ -29,11 +29,13 @@ double rounded(double number, const NumberBox& box) {
 
 Call call_with(const PaneContext& context, const NumberBox& box, double number) {
   Call call{box.command, box.command->get(context.settings())};
+  if (!box.automatic.empty()) call.values.assign(box.automatic.begin(), box.automatic.end());
   call.values[box.index] = number;
   return call;
 }
 
 double number_now(const PaneContext& context, const NumberBox& box) {
+  if (!box.automatic.empty()) return box.automatic[box.index];
   return std::get<double>(box.command->get(context.settings())[box.index]);
 }
 
@@ -68,12 +70,15 @@ void typed_box(const PaneContext& context, const NumberBox& box) {
 void dragged_box(const PaneContext& context, const NumberBox& box) {
   double number = number_now(context, box);
   const std::string id = "##" + box.id;
+  ImGui::PushStyleColor(ImGuiCol_Text,
+                        to_imgui(box.automatic.empty() ? context.style.text : context.style.faint_text));
   const bool edited =
       box.slider
           ? ImGui::SliderScalar(id.c_str(), ImGuiDataType_Double, &number, &box.least, &box.greatest,
                                 box.format.c_str(), ImGuiSliderFlags_NoInput)
           : ImGui::DragScalar(id.c_str(), ImGuiDataType_Double, &number, static_cast<float>(box.per_px),
                               &box.least, &box.greatest, box.format.c_str(), ImGuiSliderFlags_NoInput);
+  ImGui::PopStyleColor();
   if (ImGui::IsItemActivated()) context.begin_gesture();
   if (edited) context.perform(call_with(context, box, rounded(number, box)), context.transient.gesture);
   const ImGuiIO& io = ImGui::GetIO();

@@ -2,6 +2,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "ui/panes/pane_context.hpp"
 
@@ -17,6 +18,9 @@ struct NumberBox {
   double per_px = 1;  // of a drag
   bool slider = false;
   std::string format;  // for ImGui: "%.1f ms"
+  /// What the command's values are by themselves while none is set; shown faintly. Who changes one keeps the
+  /// others. Empty: they are set.
+  std::vector<double> automatic = {};
 };
 /// To drag between the parameter's limits, in its unit and with its step.
 NumberBox box_of(const Command& command, std::size_t index);

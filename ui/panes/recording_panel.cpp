@@ -47,7 +47,8 @@ void recording_rows(const PaneContext& context, const Loaded& loaded, bool first
   row(context, "motor",
       fmt::format("{:.0f}° to {:.0f}°, {}{}", motor.min_deg, motor.max_deg,
                   motor.one_way ? fmt::format("{:.1f} turns, all one way", motor.turns_one_way())
-                                : fmt::format("{} whole sweeps", motor.whole_sweeps()),
+                                : fmt::format("{} whole sweep{}", motor.whole_sweeps(),
+                                              motor.whole_sweeps() == 1 ? "" : "s"),
                   motor.median_sweep_s > 0 ? fmt::format(" of {:.2f} s", motor.median_sweep_s) : ""));
   row(context, "speed",
       fmt::format("{:.0f} °/s: 1 ms is {:.2f}°", motor.median_speed_deg_s, motor.deg_per_ms()));
@@ -100,7 +101,7 @@ bool is_of_the_paper(const Settings& settings) {
 
 void search(const PaneContext& context) {
   const Settings& settings = context.settings();
-  heading(context, "Search");
+  heading(context, "Estimate");
   field(context, "method");
   field(context, "search");
   if (settings.search == Search::kRange) field(context, "search-range");
@@ -253,12 +254,14 @@ void walls(const PaneContext& context) {
   ImGui::Dummy({0, context.pxf(2)});
 }
 
-void answer(const PaneContext& context, const Estimate& estimate) {
-  if (estimate.rig && !estimate.offset_s) {  // of a motor that turns one way, and what was asked for
-    heading(context, "Rig found");
+void answer(const PaneContext& context, const Estimate& estimate, bool first) {
+  const bool rig_first =
+      estimate.rig && !estimate.offset_s;  // of a motor that turns one way: what was asked for
+  if (rig_first) {
+    heading(context, "Rig found", first);
     rig_rows(context, *estimate.rig);
   }
-  heading(context, "Offset found");
+  heading(context, "Offset found", first && !rig_first);
   if (estimate.identifiable && estimate.offset_s) {
     std::string text = fmt::format("{:.2f}", *estimate.offset_s * 1e3);
     if (estimate.sigma_s) text += fmt::format(" ± {:.2f}", *estimate.sigma_s * 1e3);
@@ -297,13 +300,13 @@ void draw_recording_panel(const PaneContext& context, const PixelRect& place, bo
   const Loaded& loaded = *context.explorer.loaded();
   const Estimate* estimate = context.explorer.estimating.found();
   // What was opened for the answer begins with it.
-  if (above && estimate != nullptr) answer(context, *estimate);
+  if (above && estimate != nullptr) answer(context, *estimate, true);
   if (above) notes(context, loaded);
   if (above) search(context);
   recording_rows(context, loaded, !above);
   draw_rig_recordings(context);
   if (!above) search(context);
-  if (!above && estimate != nullptr) answer(context, *estimate);
+  if (!above && estimate != nullptr) answer(context, *estimate, false);
   if (!above) notes(context, loaded);
   ImGui::PopClipRect();
   end_panel();

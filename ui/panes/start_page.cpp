@@ -28,14 +28,22 @@ void can_be_chosen(const PaneContext& context, const std::string& line) {
   transient.start_lines.push_back(line);
 }
 
-void sample_button(const PaneContext& context, const char* title, const char* text, const std::string& line) {
+/// Beside the last widget, on a narrow page below it.
+void beside(const PaneContext& context, const char* text) {
+  if (ImGui::GetWindowWidth() >= context.pxf(480)) {
+    ImGui::SameLine(0, context.pxf(14));
+    ImGui::AlignTextToFramePadding();
+  }
+  wrapped_text(context.style.faint_text, text);
+}
+
+void start_button(const PaneContext& context, const char* title, const char* text, const std::string& line,
+                  bool primary = false) {
   ImGui::BeginGroup();
-  button(context, title, line, context.px(200));
+  button(context, title, line, context.px(200), primary);
   can_be_chosen(context, line);
   ImGui::EndGroup();
-  ImGui::SameLine(0, context.pxf(14));
-  ImGui::AlignTextToFramePadding();
-  ImGui::TextDisabled("%s", text);
+  beside(context, text);
 }
 
 void recent_files(const PaneContext& context) {
@@ -64,14 +72,10 @@ void draw_start_page(const PaneContext& context, const PixelRect& place) {
       "Change the time offset between a laser scanner and its motor, and see the map come into focus.");
   ImGui::PopTextWrapPos();
   heading(context, "Open a recording");
-  button(context, "Open …", "ask open", context.px(200), true);
-  can_be_chosen(context, "ask open");
-  ImGui::SameLine(0, context.pxf(14));
-  ImGui::AlignTextToFramePadding();
-  ImGui::TextDisabled("or drop one onto this window");
+  start_button(context, "Open …", "or drop one onto this window", "ask open", true);
   heading(context, "Or try a simulated one; its true offset is 24 ms");
-  sample_button(context, "A room", "stationary, 4.5 s", "sample room-1");
-  sample_button(context, "A metro station", "20 s of a walk around a pillar", "sample metro-station 20");
+  start_button(context, "A room", "stationary, 4.5 s", "sample room-1");
+  start_button(context, "A metro station", "20 s of a walk around a pillar", "sample metro-station 20");
   recent_files(context);
   end_panel();
 }

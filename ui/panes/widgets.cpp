@@ -193,7 +193,9 @@ void heading(const PaneContext& context, const char* text, bool first) {
                                         to_imgui(context.style.frame));
     ImGui::Dummy({0, context.pxf(6)});
   }
-  text_in(context.fonts.bold, text);
+  ImGui::PushFont(context.fonts.bold);
+  wrapped_text(text);
+  ImGui::PopFont();
 }
 
 void row(const PaneContext& context, const char* name, const std::string& value) {

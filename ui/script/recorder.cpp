@@ -65,9 +65,9 @@ void ScriptRecorder::add_events(std::span<const InputEvent> events) {
     if (const std::string line = script_line(event); !line.empty()) add_line(line);
 }
 
-void ScriptRecorder::add_frame(std::span<const InputEvent> events, bool at_rest) {
+void ScriptRecorder::add_frame(std::span<const InputEvent> events, bool at_rest, bool began_work) {
   add_events(events);
-  if (was_busy_ && at_rest) add_line("wait solved");
+  if ((was_busy_ || began_work) && at_rest) add_line("wait solved");
   was_busy_ = !at_rest;
 }
 

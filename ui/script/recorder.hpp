@@ -22,9 +22,9 @@ class ScriptRecorder {
   /// Replaces the file. ExitCode::kWrongUsage with the system's reason if it cannot be written.
   static Result<ScriptRecorder> create(const std::filesystem::path& path);
 
-  /// What a frame took in, and whether the interface was at rest after it: where it was busy first, a script
-  /// has to wait as well.
-  void add_frame(std::span<const InputEvent> events, bool at_rest);
+  /// What a frame took in, whether the interface was at rest after it, and whether it began work: where there
+  /// was work, a script has to wait as well.
+  void add_frame(std::span<const InputEvent> events, bool at_rest, bool began_work = false);
   /// A line of a script that is no event: a command, or something that it waits for or expects.
   void add_line(const std::string& line);
   /// The events of a frame of a script, which says itself where it waits.

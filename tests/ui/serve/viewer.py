@@ -34,7 +34,7 @@ class Viewer(chromium.Page):
 
     def type(self, text):
         for character in text:
-            self.key(character, character)
+            self.key(character, character, code="Space" if character == " " else "")
 
     def mouse(self, kind, x, y, buttons=0):
         self.send("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left" if kind != "mouseMoved" else "none",
@@ -105,11 +105,11 @@ class Viewer(chromium.Page):
           image.src = 'data:image/png;base64,%s'; })""" % (MAX_STEP, data))
 
 
-def begin(program, folder, *more, address="127.0.0.1:0"):
+def begin(program, folder, *more, address="127.0.0.1:0", estimates=False):
     """The server, whose files are those of FOLDER/files, and the address that it prints."""
     environment = {**os.environ, "HOME": folder, "XDG_STATE_HOME": folder + "/state"}
     environment.pop("DISPLAY", None)
-    server = subprocess.Popen([program, "view", "--no-estimate", *more, "--serve", address, "--root", folder + "/files"],
+    server = subprocess.Popen([program, "view", *([] if estimates else ["--no-estimate"]), *more, "--serve", address, "--root", folder + "/files"],
                               stdout=subprocess.PIPE, text=True, env=environment)
     for line in server.stdout:
         if found := re.search(r"http://\S+", line):
