@@ -415,16 +415,18 @@ bool second_fits_better(const Trials& trials, const RankedBeams& one, const Rank
 }
 
 // Of a rig that moves no reading fits, and the one that fits least badly says nothing. Sweeps of the same
-// direction of a stationary rig are alike about any axis; but sparse ones are registered badly, so that
-// distances as short as the range noise allows say more. Of tests/benchmark/random_readings 13400:14022 those
-// of motors in radians are at most 0.46 of the noise, and usually 0.3; on three walks of a scanner with 15 Hz
-// they are 0.5 to 1.
+// direction of a stationary rig are alike about any axis; but sparse ones are registered badly, so that of
+// them distances as short as the range noise allows say more. Of tests/benchmark/random_readings 13400:14022
+// those of motors in radians are at most 0.46 of the noise, and usually 0.3; on three walks of a scanner with
+// 15 Hz they are 0.5 to 1.
 bool moves(const Trials& trials, const RankedReadings& ranked) {
   constexpr double kMaxNoises = 0.4;
   const BeamReading* best = best_of(ranked.beams);
   if (best == nullptr || !best->offset_s) return false;
   const PreparedRecording& searched = trials.search_of(best->kind).prepared;
-  if (*best->residual_m < kMaxNoises * estimate_range_noise_m(*searched.recording)) return false;
+  if (has_sparse_sweeps(*searched.recording, searched.motor) &&
+      *best->residual_m < kMaxNoises * estimate_range_noise_m(*searched.recording))
+    return false;
   const double offset_s = *best->offset_s;
   return std::ranges::any_of(trials.axes(), [&](const Eigen::Vector3d& axis) {
     const PreparedRecording prepared = turned_about(axis, searched);
