@@ -57,6 +57,15 @@ TEST_F(Typing, WhatFollowsTheKeyOfADialogInTheSameFrameArrivesWholeInItsField) {
   expect_runs("expect theme is dark\nkey Enter\nexpect theme is light");
 }
 
+TEST_F(Typing, EnterInTheFrameOfAPalettesWordsRunsWhatTheyFind) {
+  expect_runs("sample room-1\nwait solved\nexpect colouring is elevation\nkey Ctrl+P\nframes 5");
+  std::vector<InputEvent> events{InputEvent::words("blur"), InputEvent::stroke(keys::kEnter, true, 0),
+                                 InputEvent::stroke(keys::kEnter, false, 0)};
+  ui_.frame(events, 1.0 / 60);
+  frames_until_taken();
+  expect_runs("expect colouring is blur");
+}
+
 TEST_F(Typing, EnterAndSpaceChooseInLists) {
   expect_runs("sample room-1\nwait solved\nclick layout\nkey Down\nkey Enter\nexpect layout is swipe");
   expect_runs("click layout\nkey Up\nkey Space\nexpect layout is side-by-side");

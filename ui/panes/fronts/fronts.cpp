@@ -193,7 +193,7 @@ void draw_palette(const PaneContext& context, const PixelRect& whole) {
   if (!transient.palette) return;
   begin_front(context, "palette", whole, 660, 420, 0.1);
   const std::string before = transient.palette_query;
-  const std::vector<Entry> found = matching(all_entries(transient.recent), before);
+  std::vector<Entry> found = matching(all_entries(transient.recent), before);
   const int last = std::max(0, static_cast<int>(found.size()) - 1);
   if (ImGui::IsKeyPressed(keys::kDown)) ++transient.palette_choice;
   if (ImGui::IsKeyPressed(keys::kUp)) --transient.palette_choice;
@@ -202,7 +202,10 @@ void draw_palette(const PaneContext& context, const PixelRect& whole) {
   ImGui::SetNextItemWidth(-1e-3f);
   const bool entered = ImGui::InputTextWithHint(
       "##query", "Search, or type a command", &transient.palette_query, ImGuiInputTextFlags_EnterReturnsTrue);
-  if (transient.palette_query != before) transient.palette_choice = 0;
+  if (transient.palette_query != before) {  // Enter may come in the same frame
+    transient.palette_choice = 0;
+    found = matching(all_entries(transient.recent), transient.palette_query);
+  }
   ImGui::Dummy({0, context.pxf(2)});
   palette_list(context, found);
   ImGui::End();
