@@ -21,6 +21,12 @@ double ramped(double t, double ramp) {
 
 }  // namespace
 
+double evenly_s(double since_start_s, double step_s, double dwell_s) {
+  const double steps = std::floor(since_start_s / step_s);
+  const double moves_s = step_s - dwell_s, moved_s = since_start_s - steps * step_s - dwell_s;
+  return step_s * (steps + (moves_s > 0 ? std::max(0.0, moved_s / moves_s) : 0));
+}
+
 double MotorProfile::sweep_s() const {
   const double turns = between ? std::abs(between->to_deg - between->from_deg) / 360 : 0.5;
   return turns / std::abs(turns_per_s);
@@ -34,12 +40,7 @@ bool MotorProfile::rests(double since_start_s) const {
 
 double MotorProfile::angle_rad(double since_start_s) const {
   double t_s = start_s ? std::max(0.0, since_start_s) : since_start_s;
-  if (steps_per_turn > 0) {
-    // It rests first, and then moves on evenly.
-    const double step_s = 1 / (std::abs(turns_per_s) * steps_per_turn), steps = std::floor(t_s / step_s);
-    const double moves_s = step_s - dwell_s, moved_s = t_s - steps * step_s - dwell_s;
-    t_s = step_s * (steps + (moves_s > 0 ? std::max(0.0, moved_s / moves_s) : 0));
-  }
+  if (steps_per_turn > 0) t_s = evenly_s(t_s, 1 / (std::abs(turns_per_s) * steps_per_turn), dwell_s);
   if (!between) {
     const double ramp_way_s = start_s && ramp_s > 0 ? std::min(t_s, ramp_s) : 0;
     const double way_s = ramp_way_s > 0 ? ramp_way_s * ramp_way_s / (2 * ramp_s) + (t_s - ramp_way_s) : t_s;

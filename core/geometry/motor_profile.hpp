@@ -4,6 +4,10 @@
 
 namespace sweepscope {
 
+/// The time in which an even motion comes as far as one in steps in `since_start_s`: each step takes step_s,
+/// first a rest of dwell_s, which is less, and then an even motion.
+double evenly_s(double since_start_s, double step_s, double dwell_s);
+
 /// The motion of a motor without an encoder, as it was commanded. It turns one way, or back and forth between
 /// two angles; evenly, or in steps with a rest after each.
 struct MotorProfile {

@@ -62,14 +62,12 @@ std::vector<std::byte> points_of(const Recording& cast, std::size_t turn, const 
 RawCloud cloud_of(const Simulation& simulation, const Sensor& sensor, const Rays& rays, std::size_t turn) {
   const double begin_s = sensor.scan(turn).first_beam_s;
   const double known_s = begin_s + double{rays.times_s.back()} + kScanLatency_s;
-  const auto in_ns = [&](double time_s) {
-    return simulation.recording.epoch_ns + static_cast<std::int64_t>(std::floor(time_s * 1e9 + 0.5));
-  };
+  const Recording& cast = simulation.recording;
   RawCloud cloud;
-  cloud.stamps = {in_ns(begin_s), in_ns(known_s + delay_s(simulation, Arrival::kScan, turn))};
+  cloud.stamps = {in_ns(cast, begin_s), in_ns(cast, known_s + delay_s(simulation, Arrival::kScan, turn))};
   cloud.frame = "laser";
   cloud.fields = fields();
-  cloud.data = points_of(simulation.recording, turn, rays, simulation.options.scanner.rings);
+  cloud.data = points_of(cast, turn, rays, simulation.options.scanner.rings);
   cloud.height = 1;
   cloud.width = static_cast<std::uint32_t>(cloud.data.size() / kPointBytes);
   cloud.point_bytes = kPointBytes;

@@ -244,10 +244,14 @@ Recording blank_recording(const SimulationOptions& options, const Sensor& sensor
 
 /// The scans of a 3D scanner are what its clouds are read as.
 Result<void> read_own_clouds(Simulation& simulation, const Sensor& sensor) {
-  RawRecording messages = messages_of(simulation);
-  messages.lasers = {clouds_of(simulation, sensor)};
+  RawRecording messages;
+  messages.file = messages.name = simulation.recording.name;
+  messages.lasers.push_back(clouds_of(simulation, sensor));
+  messages.joints.push_back(raw_joint(simulation));
+  auto clouds = std::exchange(messages.lasers.front().clouds, {});  // not copied with the lines
   auto recording = assemble(messages, simulation.recording.rig, std::nullopt);
   if (!recording) return tl::unexpected(recording.error());
+  messages.lasers.front().clouds = std::move(clouds);
   simulation.recording = std::move(*recording);
   simulation.messages = std::make_shared<const RawRecording>(std::move(messages));
   return {};

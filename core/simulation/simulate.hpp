@@ -60,7 +60,7 @@ struct SimulationOptions {
   double swing_deg = 90;        // by which the motor swings to either side, 1 to 180
   double motor_middle_deg = 0;  // about which the motor swings, within +-180; 0: the scanner is level there
   double motor_rest_s = 0, motor_rest_at_s = 0;  // how long the motor rests, and from when on; 0 to 1e6
-  double steps_per_turn = 0;  // the motor moves in steps, of even speed; 0: it does not; 4 to 10000
+  double steps_per_turn = 0;  // the motor moves in steps, of even speed; 0: it does not; up to 10000
   double dwell_s = 0;         // how long it rests before each step, of the time that the step takes
   /// Of a motor that turns one way, instead of sweep_s: each for an equal part of the recording, or with
   /// speed_ramp evenly from one to the next. 1 to 3600 each; empty: one speed, half a turn in sweep_s.

@@ -18,10 +18,6 @@ namespace {
 
 using simulation::Random;
 
-std::int64_t in_ns(const Recording& recording, double time_s) {
-  return recording.epoch_ns + static_cast<std::int64_t>(std::floor(time_s * 1e9 + 0.5));
-}
-
 /// Turns the order of the beams of a scan round.
 void reverse(const RawScan& scan, std::vector<float>& of_beams) {
   const auto first = of_beams.begin() + static_cast<std::ptrdiff_t>(scan.first_range);
@@ -88,33 +84,6 @@ RawJoint raw_index(const Simulation& simulation) {
                                                      (at_deg - from_deg) / (to_deg - from_deg);
     joint.positions.push_back(1);
     joint.stamps.push_back({0, in_ns(simulation.recording, stamp_s + kMotorLatency_s)});
-  }
-  return joint;
-}
-
-RawJoint raw_joint(const Simulation& simulation) {
-  const SimulationOptions& options = simulation.options;
-  if (options.motor_messages == MotorMessages::kIndex) return raw_index(simulation);
-  const std::vector<double>& times_s = simulation.recording.motor.time_s;
-  RawJoint joint;
-  joint.topic = "/joint_states";
-  joint.joint = "roll_motor";
-  if (options.motor_messages == MotorMessages::kNone) return joint;
-  for (std::size_t i = 0; i < times_s.size(); ++i) {
-    const double angle_rad = simulation.recording.motor.angle_rad[i];
-    for (std::uint32_t repeat = 0; repeat < options.motor_repeats; ++repeat) {
-      // The last one is repeated as quickly as the one before it.
-      const std::size_t from = std::min(i, times_s.size() - 2);
-      const double since_s = repeat * (times_s[from + 1] - times_s[from]) / options.motor_repeats;
-      const double stamp_s = repeat == 0 ? times_s[i] : times_s[i] + since_s;
-      // Where the motor's clock is behind the laser's, its stamp is older than the instant it is about.
-      const double known_s = stamp_s + std::max(0.0, -options.offset_s) + kMotorLatency_s;
-      const std::size_t number = i * options.motor_repeats + repeat;
-      joint.positions.push_back(options.motor_in_degrees ? simulation::degrees(angle_rad) : angle_rad);
-      joint.stamps.push_back(
-          {in_ns(simulation.recording, stamp_s),
-           in_ns(simulation.recording, known_s + delay_s(simulation, Arrival::kMotor, number))});
-    }
   }
   return joint;
 }
@@ -248,9 +217,41 @@ std::filesystem::path stem_of(std::filesystem::path bag_path) {
 
 }  // namespace
 
+std::int64_t in_ns(const Recording& recording, double time_s) {
+  return recording.epoch_ns + static_cast<std::int64_t>(std::floor(time_s * 1e9 + 0.5));
+}
+
+RawJoint raw_joint(const Simulation& simulation) {
+  const SimulationOptions& options = simulation.options;
+  if (options.motor_messages == MotorMessages::kIndex) return raw_index(simulation);
+  const std::vector<double>& times_s = simulation.recording.motor.time_s;
+  RawJoint joint;
+  joint.topic = "/joint_states";
+  joint.joint = "roll_motor";
+  if (options.motor_messages == MotorMessages::kNone) return joint;
+  for (std::size_t i = 0; i < times_s.size(); ++i) {
+    const double angle_rad = simulation.recording.motor.angle_rad[i];
+    for (std::uint32_t repeat = 0; repeat < options.motor_repeats; ++repeat) {
+      // The last one is repeated as quickly as the one before it.
+      const std::size_t from = std::min(i, times_s.size() - 2);
+      const double since_s = repeat * (times_s[from + 1] - times_s[from]) / options.motor_repeats;
+      const double stamp_s = repeat == 0 ? times_s[i] : times_s[i] + since_s;
+      // Where the motor's clock is behind the laser's, its stamp is older than the instant it is about.
+      const double known_s = stamp_s + std::max(0.0, -options.offset_s) + kMotorLatency_s;
+      const std::size_t number = i * options.motor_repeats + repeat;
+      joint.positions.push_back(options.motor_in_degrees ? simulation::degrees(angle_rad) : angle_rad);
+      joint.stamps.push_back(
+          {in_ns(simulation.recording, stamp_s),
+           in_ns(simulation.recording, known_s + delay_s(simulation, Arrival::kMotor, number))});
+    }
+  }
+  return joint;
+}
+
 Result<void> write_bag(const Simulation& simulation, const std::filesystem::path& path, const Job& job) {
-  const RawRecording messages = messages_of(simulation);
-  return write_recording(messages.lasers.front(), messages.joints.front(), RecordingFormat::kRos1, "none",
+  const auto messages = simulation.messages ? simulation.messages
+                                            : std::make_shared<const RawRecording>(messages_of(simulation));
+  return write_recording(messages->lasers.front(), messages->joints.front(), RecordingFormat::kRos1, "none",
                          path, job, raw_imu(simulation));
 }
 

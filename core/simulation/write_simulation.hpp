@@ -16,9 +16,16 @@ namespace sweepscope {
 /// stamp.
 inline constexpr double kScanLatency_s = 0.0040, kMotorLatency_s = 0.0015;
 
-/// How much later it does. Most messages arrive promptly, few late: an exponential distribution, cut off.
+/// Of which stream.
 enum class Arrival : std::uint64_t { kScan = 101, kMotor = 102 };
+/// How much later it does. Most messages arrive promptly, few late: an exponential distribution, cut off.
 double delay_s(const Simulation& simulation, Arrival what, std::size_t number);
+
+/// A time of a recording, in ns since 1970.
+std::int64_t in_ns(const Recording& recording, double time_s);
+
+/// The motor's messages of a simulation.
+RawJoint raw_joint(const Simulation& simulation);
 
 /// The messages of a simulation, as its drivers write them: the content of the bag of write_bag, for
 /// assemble(). Beams without a usable return are +inf.
@@ -26,9 +33,9 @@ RawRecording messages_of(const Simulation& simulation);
 
 /// Writes a simulation as a ROS 1 bag: sensor_msgs/LaserScan on /scan, beams without a usable return as +inf,
 /// or of a 3D scanner sensor_msgs/PointCloud2 on /points, and sensor_msgs/JointState on /joint_states with
-/// the joint roll_motor. Messages are in the order in which
-/// they were received: a few milliseconds late, by a random but repeatable amount. Equal simulations give
-/// equal bytes. Written beside the path and then renamed; if that fails, ExitCode::kUnreadableInput.
+/// the joint roll_motor. Messages are in the order in which they were received: a few milliseconds late, by a
+/// random but repeatable amount. Equal simulations give equal bytes. Written beside the path and then
+/// renamed; if that fails, ExitCode::kUnreadableInput.
 Result<void> write_bag(const Simulation& simulation, const std::filesystem::path& path, const Job& job);
 
 /// The ground truth of a simulation as JSON: the offset, the walk's figures, and every option.

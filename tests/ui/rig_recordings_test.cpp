@@ -87,10 +87,18 @@ TEST_F(SeveralRecordings, TheListStaysWhileOneOfItIsOpen) {
 
 TEST_F(SeveralRecordings, TheListEndsWithTheLastOther) {
   perform(explorer_, "add-recording " + second_);
+  EXPECT_NE(refusal_of("leave-out 1").find("is open cannot be left out"), std::string::npos);
   perform(explorer_, "leave-out 2");
   EXPECT_TRUE(explorer_.rig.files().empty());
   EXPECT_EQ(refusal_of("leave-out 1"), "The list has no recording 1.");
   EXPECT_EQ(refusal_of("estimate-together"), "Add other recordings of this rig first.");
+}
+
+TEST_F(SeveralRecordings, WhatWasAddedIsNotWrittenOver) {
+  perform(explorer_, "add-recording " + second_);
+  const auto bytes = std::filesystem::file_size(second_);
+  EXPECT_NE(refusal_of("save-session " + second_).find("is an input"), std::string::npos);
+  EXPECT_EQ(std::filesystem::file_size(second_), bytes);
 }
 
 TEST_F(SeveralRecordings, WhatCannotBeAddedIsRefusedInOneSentence) {

@@ -158,7 +158,7 @@ Result<void> add_recording(Explorer& explorer, const Call& call) {
   ReadingChoices choices = explorer.options().reading;
   choices.file = call.text(0);
   if (auto inside = explorer.files.check_reading(choices); !inside) return inside;
-  return explorer.rig.add(explorer.loaded(), choices.file);
+  return explorer.rig.add(explorer.loaded(), choices.file).map([&] { explorer.files.add_inputs(choices); });
 }
 
 Result<void> estimate_together(Explorer& explorer, const Call& call) {
@@ -244,7 +244,7 @@ std::vector<Command> opening_commands() {
       {"leave-out", "Leave a recording out", "Of the list of recordings of this rig, by its number."},
       {number_of("NUMBER", "", 1, 1000, 1)},
       [](Explorer& explorer, const Call& call) {
-        return explorer.rig.leave_out(static_cast<std::size_t>(call.number(0)));
+        return explorer.rig.leave_out(explorer.loaded(), static_cast<std::size_t>(call.number(0)));
       },
       Need::kRecording));
   all.push_back(

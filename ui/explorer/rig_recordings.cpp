@@ -37,7 +37,7 @@ Result<Estimate> estimate_of_all(const Loaded& open, const std::vector<std::stri
   others.reserve(files.size());  // sources point to them
   std::vector<RecordingSource> sources;
   for (std::size_t i = 0; i < files.size(); ++i) {
-    if (is_same_file(files[i], open.choices.file)) {
+    if (files[i] == open.choices.file) {
       sources.emplace_back(open.prepared);
       continue;
     }
@@ -66,19 +66,22 @@ Result<void> RigRecordings::add(const Loaded* open, const std::string& file) {
   return {};
 }
 
-Result<void> RigRecordings::leave_out(std::size_t number) {
+Result<void> RigRecordings::leave_out(const Loaded* open, std::size_t number) {
   if (number < 1 || number > files_.size())
     return refused(fmt::format("The list has no recording {}.", number));
+  if (open != nullptr && files_[number - 1] == open->choices.file)
+    return refused("The recording that is open cannot be left out: open another one of the list first.");
   files_.erase(files_.begin() + std::ptrdiff_t(number - 1));
   if (files_.size() == 1) files_.clear();
   return {};
 }
 
 void RigRecordings::opened(const Loaded* loaded) {
-  const bool listed = loaded != nullptr && std::ranges::any_of(files_, [&](const std::string& file) {
-                        return is_same_file(file, loaded->choices.file);
-                      });
-  if (!listed) files_.clear();
+  const auto listed = std::ranges::find_if(files_, [&](const std::string& file) {
+    return loaded != nullptr && is_same_file(file, loaded->choices.file);
+  });
+  if (listed == files_.end()) return files_.clear();
+  *listed = loaded->choices.file;  // as it was opened: the one that is open is known by it
 }
 
 Result<void> RigRecordings::estimate(LoadedPtr open, const EstimateOptions& options, bool own_offsets) {

@@ -24,8 +24,8 @@ class RigRecordings {
   const std::vector<std::string>& files() const { return files_; }
   /// ExitCode::kWrongUsage for one that is in the list, or if a sample or nothing is open.
   Result<void> add(const Loaded* open, const std::string& file);
-  /// Counted from 1. With the last of the others the list ends.
-  Result<void> leave_out(std::size_t number);
+  /// Counted from 1; not the one that is open. With the last of the others the list ends.
+  Result<void> leave_out(const Loaded* open, std::size_t number);
   /// A recording that is not in the list, or null, ends it.
   void opened(const Loaded* loaded);
   /// With an offset for each, or one for all.

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 
 #include "core/io/printable_text.hpp"
@@ -13,12 +12,12 @@
 namespace sweepscope::ui {
 namespace {
 
-// What a recording says in the answer of all; null where it has no part in it.
-const RecordingOfRig* part_of(const Estimate* found, const std::string& name) {
-  if (found == nullptr || !found->together) return nullptr;
-  const auto& all = found->together->recordings;
-  const auto part = std::ranges::find(all, name, &RecordingOfRig::recording);
-  return part == all.end() ? nullptr : &*part;
+// What a recording says in the answer of all; null where the list has changed since. Names alone may be those
+// of several folders.
+const RecordingOfRig* part_of(const Estimate* found, std::size_t number, const std::string& name) {
+  if (found == nullptr || !found->together || number > found->together->recordings.size()) return nullptr;
+  const RecordingOfRig& part = found->together->recordings[number - 1];
+  return part.recording == name ? &part : nullptr;
 }
 
 std::string in_words(const RecordingOfRig& recording, bool with_share) {
@@ -48,7 +47,7 @@ void recording_row(const PaneContext& context, std::size_t number, const std::st
   }
   ImGui::PopStyleVar();
   ImGui::PopID();
-  if (const RecordingOfRig* part = part_of(found, name))
+  if (const RecordingOfRig* part = part_of(found, number, name))
     small_print(context, in_words(*part, found->identifiable && !found->together->own_offsets));
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/geometry/motor_profile.hpp"
 #include "core/simulation/math/portable_math.hpp"
 
 namespace sweepscope::simulation {
@@ -112,10 +113,7 @@ double Motor::warped_s(double t_s) const {
 }
 
 double Motor::stepped_s(double since_end_s) const {
-  if (!(steps_.step_s > 0)) return since_end_s;
-  const double whole_s = steps_.step_s * std::floor(since_end_s / steps_.step_s);
-  const double moved_s = since_end_s - whole_s - steps_.dwell_s, moves_s = steps_.step_s - steps_.dwell_s;
-  return whole_s + steps_.step_s * std::max(0.0, moved_s / moves_s);
+  return steps_.step_s > 0 ? evenly_s(since_end_s, steps_.step_s, steps_.dwell_s) : since_end_s;
 }
 
 double Motor::one_way_rad(double t_s) const {

@@ -17,6 +17,27 @@ namespace fs = std::filesystem;
 
 using test::contents_of;
 
+void expect_equal(const Recording& read, const Recording& made) {
+  EXPECT_EQ(read.epoch_ns, made.epoch_ns);
+  EXPECT_EQ(read.motor.time_s, made.motor.time_s);
+  EXPECT_EQ(read.motor.angle_rad, made.motor.angle_rad);
+  EXPECT_EQ(read.intensities, made.intensities);
+  EXPECT_EQ(read.directions, made.directions);
+  ASSERT_EQ(read.scans.size(), made.scans.size());
+  for (std::size_t i = 0; i < made.scans.size(); ++i) {
+    EXPECT_EQ(read.scans[i].first_beam_s, made.scans[i].first_beam_s);
+    EXPECT_EQ(read.scans[i].time_increment_s, made.scans[i].time_increment_s);
+    EXPECT_EQ(read.scans[i].angle_min_rad, made.scans[i].angle_min_rad);
+    EXPECT_EQ(read.scans[i].angle_increment_rad, made.scans[i].angle_increment_rad);
+    EXPECT_EQ(read.scans[i].beams, made.scans[i].beams);
+    EXPECT_EQ(read.scans[i].ring, made.scans[i].ring);
+  }
+  ASSERT_EQ(read.ranges_m.size(), made.ranges_m.size());
+  for (std::size_t i = 0; i < made.ranges_m.size(); ++i)
+    ASSERT_TRUE(read.ranges_m[i] == made.ranges_m[i] ||
+                (std::isnan(read.ranges_m[i]) && std::isnan(made.ranges_m[i])));
+}
+
 class WriteBag : public test::FolderTest {
  protected:
   WriteBag() {
@@ -33,23 +54,7 @@ TEST_F(WriteBag, IsReadBackAsItWasInMemory) {
   ASSERT_TRUE(write_bag(simulation_, folder_ / "r.bag", job_));
   const auto read = read_recording(folder_ / "r.bag", {}, job_);
   ASSERT_TRUE(read) << read.error().message;
-  const Recording& made = simulation_.recording;
-  EXPECT_EQ(read->epoch_ns, made.epoch_ns);
-  EXPECT_EQ(read->motor.time_s, made.motor.time_s);
-  EXPECT_EQ(read->motor.angle_rad, made.motor.angle_rad);
-  EXPECT_EQ(read->intensities, made.intensities);
-  ASSERT_EQ(read->scans.size(), made.scans.size());
-  for (std::size_t i = 0; i < made.scans.size(); ++i) {
-    EXPECT_EQ(read->scans[i].first_beam_s, made.scans[i].first_beam_s);
-    EXPECT_EQ(read->scans[i].time_increment_s, made.scans[i].time_increment_s);
-    EXPECT_EQ(read->scans[i].angle_min_rad, made.scans[i].angle_min_rad);
-    EXPECT_EQ(read->scans[i].angle_increment_rad, made.scans[i].angle_increment_rad);
-    EXPECT_EQ(read->scans[i].beams, made.scans[i].beams);
-  }
-  ASSERT_EQ(read->ranges_m.size(), made.ranges_m.size());
-  for (std::size_t i = 0; i < made.ranges_m.size(); ++i)
-    ASSERT_TRUE(read->ranges_m[i] == made.ranges_m[i] ||
-                (std::isnan(read->ranges_m[i]) && std::isnan(made.ranges_m[i])));
+  expect_equal(*read, simulation_.recording);
   EXPECT_GT(read->report.infinite_ranges, 0U);
   EXPECT_EQ(read->report.nan_ranges, 0U);
   EXPECT_TRUE(read->report.warnings.empty());
@@ -63,18 +68,8 @@ TEST_F(WriteBag, OfA3dScannerIsReadBackAsItWasInMemory) {
   ASSERT_TRUE(write_bag(simulation, folder_ / "r.bag", job_));
   const auto read = read_recording(folder_ / "r.bag", {}, job_);
   ASSERT_TRUE(read) << read.error().message;
-  const Recording& made = simulation.recording;
-  EXPECT_EQ(read->epoch_ns, made.epoch_ns);
-  EXPECT_EQ(read->motor.time_s, made.motor.time_s);
-  EXPECT_EQ(read->intensities, made.intensities);
-  EXPECT_EQ(read->directions, made.directions);
-  ASSERT_EQ(read->scans.size(), 5U * 16U);
-  ASSERT_EQ(made.scans.size(), read->scans.size());
-  for (std::size_t i = 0; i < made.scans.size(); ++i) {
-    EXPECT_EQ(read->scans[i].first_beam_s, made.scans[i].first_beam_s);
-    EXPECT_EQ(read->scans[i].beams, made.scans[i].beams);
-    EXPECT_EQ(read->scans[i].ring, made.scans[i].ring);
-  }
+  EXPECT_EQ(read->scans.size(), 5U * 16U);
+  expect_equal(*read, simulation.recording);
   EXPECT_TRUE(read->report.warnings.empty());
 }
 
