@@ -32,6 +32,12 @@ double MotorProfile::sweep_s() const {
   return turns / std::abs(turns_per_s);
 }
 
+bool MotorProfile::mirrors_itself() const {
+  constexpr double kWithin = 0.25;  // of a step
+  const double steps = sweep_s() * std::abs(turns_per_s) * steps_per_turn;
+  return std::abs(steps - std::round(steps)) < kWithin;
+}
+
 bool MotorProfile::rests(double since_start_s) const {
   if (!(steps_per_turn > 0)) return false;
   const double step_s = 1 / (std::abs(turns_per_s) * steps_per_turn);

@@ -28,6 +28,8 @@ struct MotorProfile {
   /// The angle at a time after the start. The motion of a known start is preceded by rest; that of an unknown
   /// one goes on for ever in both directions.
   double angle_rad(double since_start_s) const;
+  /// Whether its motion is its own mirror image a sweep later: not where a reversal lies within a step.
+  bool mirrors_itself() const;
   /// Whether it rests after a step at a time after the start.
   bool rests(double since_start_s) const;
 };

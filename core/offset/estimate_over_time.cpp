@@ -88,7 +88,7 @@ Result<FollowedWalk> follow_walk(const Recording& recording, double window_s, co
       followed.common_sigma_s =
           std::max(followed.common_sigma_s, std::hypot(kUnseenOfWalks_s, found->walk->joint->sway_sigma_s));
     for (OffsetWindow& window :
-         windows_of_stretch(*found, stretch, begin_s, search_scale(find_sweeps(part.motor)))) {
+         windows_of_stretch(*found, stretch, begin_s, search_scale(find_sweeps(part)))) {
       if (window.offset_s) {
         *window.offset_s += gone_s;
         if (!first_s) first_s = window.offset_s;

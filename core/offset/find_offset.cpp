@@ -123,10 +123,10 @@ Estimate counted(Estimate result, const OffsetProblem& problem, const SearchWind
 std::string moved_before(const OffsetSearch& search) {
   if (!search.motion.moving() || search.options.assume) return "";
   const Recording& recording = *search.problem.recording;
-  if (has_sparse_sweeps(recording, search.problem.motor))
+  if (has_few_lines(recording, search.problem.motor))
     return fmt::format(
         "{} Or the scan lines of a sweep, {:.0f} deg of the motor's angle apart, are too few to compare: if the rig was "
-        "stationary, turn the motor more slowly or less far, or state it (estimate --assume stationary). ",
+        "stationary, turn the motor more slowly or in smaller steps, or state it (estimate --assume stationary). ",
         moved_text(search.motion), search.problem.line_spacing_rad * kDegPerRad);
   const bool stated = recording.rig.states_mount();
   return moved_text(search.motion) +
@@ -205,7 +205,7 @@ MotionTest test_motion(const PreparedRecording& prepared, const StationaryGrid& 
   Recording corrected = *prepared.recording;
   corrected.motor = without_course(corrected, *course);
   PreparedRecording as_if = prepared;
-  as_if.motor = find_sweeps(corrected.motor);
+  as_if.motor = find_sweeps(corrected);
   as_if.recording = borrowed(corrected);
   return test_motion(as_if);
 }

@@ -162,8 +162,7 @@ Result<Estimate> with_turn_of_walk(const PreparedRecording& prepared, const Esti
 // Why there is no stationary part in which a rig could be solved for.
 std::string why_no_part(const PreparedRecording& prepared) {
   const OffsetProblem problem = problem_for(prepared, 0, 0);
-  if (problem.recording->directions.empty() &&
-      scans_a_sweep(*problem.recording, problem.motor) < kLimits.min_scans_a_sweep)
+  if (has_few_lines(*problem.recording, problem.motor))
     return fmt::format(
         "The rig was not solved for: the scan lines are {:.0f} deg of the motor's angle apart, too far to see "
         "whether it was stationary. Turn the motor more slowly.",

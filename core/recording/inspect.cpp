@@ -113,7 +113,7 @@ RecordingSummary inspect(const Recording& recording) {
   summary.topics = recording.report.topics;
   summary.warnings = recording.report.warnings;
   summary.laser = inspect_laser(recording);
-  const MotorMotion motion = find_sweeps(recording.motor);
+  const MotorMotion motion = find_sweeps(recording);
   summary.motor = inspect_motor(recording, motion);
   return summary;
 }

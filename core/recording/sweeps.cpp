@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 
 #include "core/numbers.hpp"
 #include "core/recording/mirror_shift.hpp"
@@ -125,6 +126,29 @@ bool turned_on(const MotorTrack& track, const MotorMotion& motion) {
          motion.range_rad < std::numbers::pi * double(track.angle_rad.size());
 }
 
+// By how much the motor turns from scan to scan at its median speed.
+double even_spacing_rad(const Recording& recording, const MotorMotion& motor) {
+  return motor.median_speed_rad_s * median(spacings(scan_stamps_s(recording)));
+}
+
+// From scan line to scan line of a motor that goes in steps and rests, as all scans of a rest fall on one
+// line: half of its way lies in longer gaps. 0 of a motor that turns on.
+double spacing_in_steps_rad(const Recording& recording, const MotorMotion& motor) {
+  constexpr double kInSteps = 1.5;  // of the even spacing; a speed that only varies stays below
+  const std::vector<double> stamps_s = scan_stamps_s(recording);
+  const double gap_s = 1.5 * median(spacings(stamps_s));
+  MotorReader reader(recording.motor);
+  std::vector<double> turned_rad;
+  for (std::size_t i = 1; i < stamps_s.size(); ++i) {
+    const double before_rad = reader.angle_at(stamps_s[i - 1]), rad = reader.angle_at(stamps_s[i]);
+    if (stamps_s[i] - stamps_s[i - 1] < gap_s) turned_rad.push_back(std::abs(rad - before_rad));
+  }
+  std::ranges::sort(turned_rad);
+  double left_rad = std::accumulate(turned_rad.begin(), turned_rad.end(), 0.0) / 2;
+  const auto half = std::ranges::find_if(turned_rad, [&](double rad) { return (left_rad -= rad) <= 0; });
+  return half != turned_rad.end() && *half > kInSteps * even_spacing_rad(recording, motor) ? *half : 0;
+}
+
 }  // namespace
 
 bool MotorMotion::one_way() const {
@@ -187,6 +211,14 @@ MotorMotion find_sweeps(const MotorTrack& track) {
   return motion;
 }
 
+MotorMotion find_sweeps(const Recording& recording) {
+  MotorMotion motion = find_sweeps(recording.motor);
+  const auto& profile = recording.rig.motor.profile;
+  if (profile && profile->between && !profile->mirrors_itself())
+    motion.mirror_shift_s = std::max(motion.mirror_shift_s, 2 * motion.median_sweep_s);
+  return motion;
+}
+
 std::vector<std::size_t> assign_sweeps(const std::vector<LaserScan>& scans, const std::vector<Sweep>& sweeps,
                                        double offset_s) {
   std::vector<std::size_t> assigned(scans.size(), kNoSweep);
@@ -197,6 +229,21 @@ std::vector<std::size_t> assign_sweeps(const std::vector<LaserScan>& scans, cons
     if (sweep < sweeps.size() && sweeps[sweep].begin_s <= middle_s) assigned[i] = sweep;
   }
   return assigned;
+}
+
+std::vector<double> scan_stamps_s(const Recording& recording) {
+  std::vector<double> stamps_s;
+  for (const LaserScan& scan : recording.scans)
+    if (scan.ring == recording.scans.front().ring) stamps_s.push_back(scan.first_beam_s);
+  return stamps_s;
+}
+
+bool goes_in_steps(const Recording& recording, const MotorMotion& motor) {
+  return spacing_in_steps_rad(recording, motor) > 0;
+}
+
+double line_spacing_rad(const Recording& recording, const MotorMotion& motor) {
+  return std::max(even_spacing_rad(recording, motor), spacing_in_steps_rad(recording, motor));
 }
 
 double distinct_lines(const Recording& recording, const MotorMotion& motor, double offset_s) {
@@ -223,6 +270,8 @@ double distinct_lines(const Recording& recording, const MotorMotion& motor, doub
     for (double within = gaps[0]; i + 1 < gaps.size() && within < 0.5; within += gaps[i]) ++i;
     min = std::min(min, 1 / gaps[i]);
   }
+  if (const double spacing_rad = spacing_in_steps_rad(recording, motor); spacing_rad > 0)
+    min = std::min(min, motor.median_speed_rad_s * motor.median_sweep_s / spacing_rad);
   return min;
 }
 

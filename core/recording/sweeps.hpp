@@ -46,6 +46,8 @@ struct MotorMotion {
 /// turns are divided into slower and faster ones so that the sides' mean speeds differ the most, by their
 /// spread (Otsu's threshold).
 MotorMotion find_sweeps(const MotorTrack& track);
+/// Of a recording's motor: the profile of one in steps says whether it is its own mirror image.
+MotorMotion find_sweeps(const Recording& recording);
 
 /// The sweep of a scan that belongs to none.
 inline constexpr std::size_t kNoSweep = static_cast<std::size_t>(-1);
@@ -53,9 +55,21 @@ inline constexpr std::size_t kNoSweep = static_cast<std::size_t>(-1);
 std::vector<std::size_t> assign_sweeps(const std::vector<LaserScan>& scans, const std::vector<Sweep>& sweeps,
                                        double offset_s);
 
+/// When the scans were taken: of a 3D scanner the first ring's.
+std::vector<double> scan_stamps_s(const Recording& recording);
+
+/// Whether the motor goes in steps and rests that last a scan and more.
+bool goes_in_steps(const Recording& recording, const MotorMotion& motor);
+
+/// By how much the motor turns from one scan line of a sweep to the next: from scan to scan, or where it goes
+/// in steps and rests, all of whose scans fall on one line, about from rest to rest. 0 if there are fewer
+/// than two scans.
+double line_spacing_rad(const Recording& recording, const MotorMotion& motor);
+
 /// The number of distinct positions in a sweep on which the scan lines of one direction fall: half of the
 /// sweep lies in gaps between neighbours that are longer than the sweep divided by this number. For the
-/// direction that has fewer; infinite for 3D scanners, whose lines cross. Fewer than kMinDistinctLines do
+/// direction that has fewer; infinite for 3D scanners, whose lines cross. Of
+/// a motor in steps at most one for each rest. Fewer than kMinDistinctLines do
 /// not determine an offset: neighbours do not lie on the same surfaces.
 double distinct_lines(const Recording& recording, const MotorMotion& motor, double offset_s);
 /// See distinct_lines.

@@ -134,11 +134,9 @@ MaybeRefusal flat_refusal(const std::vector<CurvePoint>& coarse, std::size_t bes
   const double min_m = *coarse[best].capped_cost_m, median_m = median_cost(coarse);
   if (median_m - min_m > kLimits.min_cost_depth * median_m) return std::nullopt;
   if (min_m > kLimits.max_distance_m) return refusal(kSweepsFitNowhere, min_m, min_m * 1e3);
-  const Recording& recording = *problem.recording;
-  const bool is_3d = !recording.directions.empty() || has_rings(recording);
-  if (const double scans = scans_a_sweep(recording, problem.motor);
-      !is_3d && scans < kLimits.min_scans_a_sweep)
-    return refusal(kLinesTooFarApart, scans, problem.line_spacing_rad * kDegPerRad);
+  if (has_few_lines(*problem.recording, problem.motor))
+    return refusal(kLinesTooFarApart, lines_a_sweep(*problem.recording, problem.motor),
+                   problem.line_spacing_rad * kDegPerRad);
   return refusal(kFlatCost, (median_m - min_m) / median_m, min_m * 1e3, median_m * 1e3);
 }
 

@@ -67,7 +67,7 @@ constexpr std::array kEntries{
         "The scene does not constrain the offset: sweeps of opposite directions fit each other about "
         "equally well at every offset ({:.1f} mm apart at best, {:.1f} mm at the median)."},
     RefusalEntry{
-        kLinesTooFarApart, "lines_too_far_apart", kLimits.min_scans_a_sweep, "scans per sweep",
+        kLinesTooFarApart, "lines_too_far_apart", kLimits.min_lines_a_sweep, "scan lines per sweep",
         "The scan lines of a sweep are too far apart, {:.0f} deg of the motor's angle, to compare what sweeps of "
         "opposite directions measured: they fit each other about equally well at every offset. Turn the motor more "
         "slowly or less far, or use a scanner that makes more scans a second."},

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "core/numbers.hpp"
+#include "core/offset/judgement/limits.hpp"
 #include "core/recording/stream_stamps.hpp"
 
 namespace sweepscope {
@@ -27,14 +28,11 @@ double unseen_rad(double longer, bool same_angles) {
   return same_angles ? std::max(bent_rad, kUnseenOfSameAngles_rad * longer * longer) : bent_rad;
 }
 
-}  // namespace
-
-std::vector<double> scan_stamps_s(const Recording& recording) {
-  std::vector<double> stamps_s;
-  for (const LaserScan& scan : recording.scans)
-    if (scan.ring == recording.scans.front().ring) stamps_s.push_back(scan.first_beam_s);
-  return stamps_s;
+bool is_2d(const Recording& recording) {
+  return recording.directions.empty() && !has_rings(recording);
 }
+
+}  // namespace
 
 double samples_per_sweep(const MotorTrack& track, const MotorMotion& motor) {
   const double spacing_s = spacing(track.time_s, 1).median_s;
@@ -67,6 +65,12 @@ double encoder_sampling_sigma_s(const MotorTrack& track, const MotorMotion& moto
   return samples > 0 ? kOfASweep * motor.median_sweep_s / std::pow(samples, 5) : 0;
 }
 
+double rests_sigma_s(const Recording& recording, const MotorMotion& motor) {
+  if (recording.rig.motor.profile || !goes_in_steps(recording, motor)) return 0;
+  const double steps = double(motor.sweeps.size()) * lines_a_sweep(recording, motor);
+  return spacing(recording.motor.time_s, 1).median_s / std::sqrt(12 * steps);
+}
+
 double lines_sigma_s(const MotorMotion& motor, double distinct_lines) {
   // Found by simulation of sweeps that take 7 to 20 scans, in rooms; shown by tests/benchmark/laws.
   constexpr double kOfASweep = 0.115;
@@ -87,9 +91,10 @@ double beam_times_sigma_s(const Recording& recording) {
 }
 
 double unseen_sigma_s(const Recording& recording, const MotorMotion& motor, double offset_s) {
-  const double of_motor_and_lines_s = std::hypot(
-      encoder_step_sigma_s(recording.motor, motor), encoder_sampling_sigma_s(recording.motor, motor),
-      lines_sigma_s(motor, distinct_lines(recording, motor, offset_s)));
+  const double of_motor_and_lines_s =
+      std::hypot(encoder_step_sigma_s(recording.motor, motor),
+                 std::max(encoder_sampling_sigma_s(recording.motor, motor), rests_sigma_s(recording, motor)),
+                 lines_sigma_s(motor, distinct_lines(recording, motor, offset_s)));
   const double of_beams_s = std::hypot(beam_times_sigma_s(recording), recording.report.profile_speed_sigma_s);
   return of_beams_s > 0 ? std::hypot(of_motor_and_lines_s, of_beams_s) : of_motor_and_lines_s;
 }
@@ -99,10 +104,18 @@ double scans_a_sweep(const Recording& recording, const MotorMotion& motor) {
   return period_s > 0 ? motor.median_sweep_s / period_s : 0;
 }
 
+double lines_a_sweep(const Recording& recording, const MotorMotion& motor) {
+  const double spacing_rad = line_spacing_rad(recording, motor);
+  return spacing_rad > 0 ? motor.median_speed_rad_s * motor.median_sweep_s / spacing_rad : 0;
+}
+
 bool has_sparse_sweeps(const Recording& recording, const MotorMotion& motor) {
   constexpr double kSparse = 12;
-  const bool is_3d = !recording.directions.empty() || has_rings(recording);
-  return !is_3d && scans_a_sweep(recording, motor) < kSparse;
+  return is_2d(recording) && lines_a_sweep(recording, motor) < kSparse;
+}
+
+bool has_few_lines(const Recording& recording, const MotorMotion& motor) {
+  return is_2d(recording) && lines_a_sweep(recording, motor) < kLimits.min_lines_a_sweep;
 }
 
 bool sees_same_angles(const Recording& recording, const MotorMotion& motor, std::size_t sweeps) {

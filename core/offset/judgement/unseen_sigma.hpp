@@ -10,20 +10,25 @@
 
 namespace sweepscope {
 
-/// When the scans were taken: of a 3D scanner the first ring's.
-std::vector<double> scan_stamps_s(const Recording& recording);
-
 /// Encoder samples per sweep; 0 if there are fewer than two samples.
 double samples_per_sweep(const MotorTrack& track, const MotorMotion& motor);
 /// Scans per sweep; 0 if there are fewer than two scans.
 double scans_a_sweep(const Recording& recording, const MotorMotion& motor);
-/// A 2D scanner makes fewer than 12 scans a sweep, as one of 10 Hz does on sweeps of a second.
+/// Scan lines per sweep: of a motor that goes in steps and rests those of a rest are one.
+double lines_a_sweep(const Recording& recording, const MotorMotion& motor);
+/// A 2D scanner makes fewer than 12 scan lines a sweep, as one of 10 Hz does on sweeps of a second.
 bool has_sparse_sweeps(const Recording& recording, const MotorMotion& motor);
+/// A 2D scanner makes fewer scan lines a sweep than kLimits.min_lines_a_sweep: parts of sweeps are too few to
+/// be compared.
+bool has_few_lines(const Recording& recording, const MotorMotion& motor);
 /// The uncertainty from the encoder, which the scatter of the sweeps does not show because every sweep
 /// repeats it: the steps of its angle, and the linear interpolation between its samples, which cuts the
 /// corners of the reversals.
 double encoder_step_sigma_s(const MotorTrack& track, const MotorMotion& motor);
 double encoder_sampling_sigma_s(const MotorTrack& track, const MotorMotion& motor);
+/// Of a motor in steps with an encoder: when it leaves a rest is known to a sample, evenly distributed, at
+/// each step. 0 of other motors.
+double rests_sigma_s(const Recording& recording, const MotorMotion& motor);
 /// The uncertainty from surfaces measured by few lines: sweeps with the same lines have the same error.
 double lines_sigma_s(const MotorMotion& motor, double distinct_lines);
 /// The minimum uncertainty from scattered stamps, also if there are too few sweeps to show it: the spacings

@@ -294,6 +294,9 @@ void add_neighbours(const StationaryGrid& grid, double offset_s, MotionTest& tes
 }
 
 bool moved_within_sweeps(const StationaryGrid& grid, double offset_s) {
+  // A group has a few rests, and scans on the way between them, where an encoder's samples are too few to
+  // tell.
+  if (goes_in_steps(*grid.problem->recording, grid.problem->motor)) return false;
   const std::vector<MotionPart> groups =
       motion_of_lines(grid, offset_s, {0, std::numeric_limits<double>::infinity()});
   for (std::size_t i = 2; i < groups.size(); ++i)

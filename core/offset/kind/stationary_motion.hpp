@@ -25,7 +25,7 @@ void add_neighbours(const StationaryGrid& grid, double offset_s, MotionTest& tes
 
 /// Whether a rig moved that seems stationary from sweep to sweep, since it began to within the first or the
 /// last of them: of three groups of scan lines (motion_of_lines) that follow each other two moved. `offset_s`
-/// as above.
+/// as above. Not of motors that go in steps.
 bool moved_within_sweeps(const StationaryGrid& grid, double offset_s);
 
 /// The same evidence, pair by pair.

@@ -13,11 +13,8 @@ Result<PreparedRecording> prepare(std::shared_ptr<const Recording> recording, co
   PreparedRecording prepared;
   prepared.feature_options = options;
   prepared.features = std::make_shared<const FeatureSet>(std::move(*features));
-  prepared.motor = find_sweeps(recording->motor);
-  std::vector<double> stamps_s;
-  for (const LaserScan& scan : recording->scans)
-    if (scan.ring == recording->scans.front().ring) stamps_s.push_back(scan.first_beam_s);
-  prepared.line_spacing_rad = prepared.motor.median_speed_rad_s * median(spacings(stamps_s));
+  prepared.motor = find_sweeps(*recording);
+  prepared.line_spacing_rad = line_spacing_rad(*recording, prepared.motor);
   prepared.recording = std::move(recording);
   return prepared;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <numeric>
 
 #include "core/numbers.hpp"
 #include "core/recording/assemble/motor_publishers.hpp"
@@ -68,21 +69,28 @@ double encoder_step_rad(const MotorTrack& motor) {
   return repeated ? step_rad : quantile(gaps_rad, kQuantile);
 }
 
-/// Whether all angles lie on a grid of the median step and last a scan at least, as those of a motor do that
-/// goes from stop to stop to be scanned there.
+/// Whether the angles that last a scan at least take most of the time and lie on a grid of one step,
+/// as those of a motor do that goes from stop to stop to be scanned there; on its way it may send others.
 bool stops_on_grid(const MotorTrack& motor, const std::vector<Run>& runs, double scan_period_s) {
-  constexpr double kOnGrid = 0.9;  // of 1, where all angles have one phase
-  std::vector<double> steps_rad, last_s;
-  for (std::size_t i = 1; i < runs.size(); ++i) {
-    steps_rad.push_back(std::abs(motor.angle_rad[runs[i].first] - motor.angle_rad[runs[i - 1].first]));
-    last_s.push_back(motor.time_s[runs[i].first] - motor.time_s[runs[i - 1].first]);
+  constexpr double kMost = 0.4, kOnGrid = 0.9;  // kOnGrid of 1, where all angles have one phase
+  std::vector<double> stops_rad, steps_rad;
+  double stopped_s = 0;
+  for (std::size_t i = 0; i + 1 < runs.size(); ++i) {
+    const double lasts_s = motor.time_s[runs[i + 1].first] - motor.time_s[runs[i].first];
+    if (lasts_s < scan_period_s) continue;
+    stopped_s += lasts_s;
+    if (!stops_rad.empty()) steps_rad.push_back(std::abs(motor.angle_rad[runs[i].first] - stops_rad.back()));
+    stops_rad.push_back(motor.angle_rad[runs[i].first]);
   }
-  if (median(std::move(last_s)) < scan_period_s) return false;
-  const double step_rad = median(std::move(steps_rad));
-  if (!(step_rad > 0)) return true;
+  if (steps_rad.empty() || stopped_s < kMost * (motor.time_s.back() - motor.time_s.front())) return false;
+  const double median_rad = median(steps_rad);
+  if (!(median_rad > 0)) return true;
+  // The encoder rounds each step; many steps of a rounded one would end beside the last stop.
+  std::erase_if(steps_rad, [&](double step_rad) { return std::abs(step_rad - median_rad) > median_rad / 4; });
+  const double step_rad = std::accumulate(steps_rad.begin(), steps_rad.end(), 0.0) / double(steps_rad.size());
   std::complex<double> sum;
-  for (const Run& run : runs) sum += std::polar(1.0, kTurn_rad * motor.angle_rad[run.first] / step_rad);
-  return std::abs(sum) > kOnGrid * double(runs.size());
+  for (const double stop_rad : stops_rad) sum += std::polar(1.0, kTurn_rad * stop_rad / step_rad);
+  return std::abs(sum) > kOnGrid * double(stops_rad.size());
 }
 
 /// Whether the motor turned at about one speed before, during and after a run, by more from one sample to the

@@ -204,6 +204,51 @@ TEST(DistinctLines, CountPlacesThatSweepsShareOnce) {
   EXPECT_GT(lines_of(20.3), 60);
 }
 
+// Steps of 7.2 deg, each 77 ms of rest and 7 ms of motion; a sweep of 2.1 s.
+Recording in_steps() {
+  Recording recording;
+  recording.motor = track_of(
+      [](double t_s) {
+        const double steps = evenly_s(std::abs(std::remainder(t_s, 4.2)), 0.084, 0.077) / 0.084;
+        return 7.2 * kRadPerDeg * (steps - 12.5);
+      },
+      0, 13, 1000);
+  for (int i = 0; i < 520; ++i) recording.scans.emplace_back().first_beam_s = 0.025 * i;
+  return recording;
+}
+
+TEST(LineSpacing, IsFromScanToScan) {
+  for (const MotorKind kind : {MotorKind::kTriangle, MotorKind::kTrapezoid, MotorKind::kSine}) {
+    Recording recording;
+    recording.motor = turning(kind, 0, 9.3);
+    for (int i = 0; i < 370; ++i) recording.scans.emplace_back().first_beam_s = 0.025 * i;
+    const MotorMotion motion = find_sweeps(recording);
+    EXPECT_NEAR(line_spacing_rad(recording, motion), motion.median_speed_rad_s * 0.025, 1e-9) << int(kind);
+  }
+}
+
+TEST(LineSpacing, OfAMotorInStepsIsAboutAStep) {
+  const Recording recording = in_steps();
+  const MotorMotion motion = find_sweeps(recording);
+  EXPECT_NEAR(line_spacing_rad(recording, motion), 7.2 * kRadPerDeg, 0.1 * kRadPerDeg);
+  EXPECT_NEAR(distinct_lines(recording, motion, 0), 25, 2);
+}
+
+// With a rest at one reversal and half a step at the other the mirror image has other rests.
+TEST(MirrorShift, OfAProfileWhoseReversalLiesWithinAStepIsItsPeriod) {
+  for (const double steps_per_turn : {50.0, 48.0}) {  // 12.5 and 12 for 90 deg
+    Recording recording = in_steps();
+    recording.rig.motor.profile = MotorProfile{.turns_per_s = 0.2,
+                                               .between = {{-45, 45}},
+                                               .steps_per_turn = steps_per_turn,
+                                               .dwell_s = 0.05,
+                                               .start_s = {}};
+    const MotorMotion motion = find_sweeps(recording);
+    EXPECT_EQ(motion.mirror_shift_s, (steps_per_turn == 50 ? 2 : 1) * motion.median_sweep_s)
+        << steps_per_turn;
+  }
+}
+
 TEST(DistinctLines, AreWithoutBoundFor3DScanners) {
   Recording recording;
   recording.directions.resize(1);

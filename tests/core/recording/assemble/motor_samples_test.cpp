@@ -7,6 +7,7 @@
 #include <functional>
 #include <numbers>
 
+#include "core/geometry/motor_profile.hpp"
 #include "core/numbers.hpp"
 #include "core/offset/judgement/identifiability.hpp"
 
@@ -157,6 +158,16 @@ TEST(MotorSamples, AMotorThatGoesFromStopToStopKeepsItsRepeats) {
     };
     EXPECT_EQ(assembled(sampled(stepped_rad)).report.motor_repeated, 0U) << moves_s;
   }
+}
+
+// Rests of 52 ms every 1.8 deg, which the encoder rounds to 1.76 or 1.848, and 7 ms of motion, in which it is
+// read sometimes.
+TEST(MotorSamples, AMotorInStepsKeepsTheRepeatsOfItsRests) {
+  const auto stepped_rad = [](double time_s) {
+    const double steps = evenly_s(std::abs(std::remainder(time_s, 8.26)), 0.059, 0.052) / 0.059;
+    return 1.8 * kRadPerDeg * (steps - 35);
+  };
+  EXPECT_EQ(assembled(sampled(stepped_rad), 0.025).report.motor_repeated, 0U);
 }
 
 TEST(MotorSamples, AMotorSlowerThanItsEncodersStepsKeepsItsRepeats) {
