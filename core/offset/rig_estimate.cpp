@@ -167,8 +167,9 @@ std::string why_no_part(const PreparedRecording& prepared) {
         "The rig was not solved for: the scan lines are {:.0f} deg of the motor's angle apart, too far to see "
         "whether it was stationary. Turn the motor more slowly.",
         problem.line_spacing_rad * kDegPerRad);
-  return "The rig was not solved for: it moved, and its motor turns one way at one speed. Keep it stationary "
-         "for 8 s.";
+  return "The rig was not solved for: its sweeps do not match, as those of a rig that moved, and its motor "
+         "turns one way at one speed. Keep it stationary for 8 s; if it was, state it (estimate --assume "
+         "stationary).";
 }
 
 // A motor that turns one way at one speed: the rig at an offset of 0, which is as good as any other.

@@ -141,16 +141,24 @@ Result<double> duration_of(const SimulationOptions& options, const Scene& scene)
   return duration_s;
 }
 
-/// A world drawn at random, with a walk of the duration asked for.
+/// A world's mesh, and what moves through it or stands in it.
+template <typename Motion>
+Result<Scene> scene_in(World& world, std::optional<Motion> motion, const std::string& name) {
+  if (!motion) return wrong(name + ": no free way or place was found; use another seed");
+  return Scene{std::move(world.mesh), std::move(*motion)};
+}
+
+/// A world drawn at random, with a walk of the duration asked for or a rig that stands.
 Result<Scene> random_scene_of(SimulationOptions& options) {
   constexpr double kWalk_s = 60, kShortest_s = 5, kLongest_s = 600;
   const RandomWorld& random = options.random;
+  const bool stands = random.walk == kStanding;
   const double duration_s = options.duration_s.value_or(kWalk_s);
-  if (!(duration_s >= kShortest_s && duration_s <= kLongest_s))
+  if (!stands && !(duration_s >= kShortest_s && duration_s <= kLongest_s))
     return wrong(fmt::format("the duration is {:g} s, but walks through random worlds last {:g} to {:g} s",
                              duration_s, kShortest_s, kLongest_s));
   const auto style = walk_style(random.walk);
-  if (!style)
+  if (!stands && !style)
     return wrong(
         fmt::format("there is no walk '{}'; the walks are {}", random.walk, fmt::join(walk_names(), ", ")));
   auto world = make_world(random.world, random.world_seed);
@@ -158,11 +166,8 @@ Result<Scene> random_scene_of(SimulationOptions& options) {
     return wrong(fmt::format("there is no world '{}'; the worlds are {}", random.world,
                              fmt::join(world_names(), ", ")));
   options.scene = fmt::format("{}:{} {}:{}", random.world, random.world_seed, random.walk, random.walk_seed);
-  auto path = make_walk(*world, *style, random.walk_seed, duration_s);
-  if (!path)
-    return wrong(
-        fmt::format("{}: no free way of {:g} s was found; use another seed", options.scene, duration_s));
-  return Scene{std::move(world->mesh), std::move(*path)};
+  if (stands) return scene_in(*world, make_stand(*world, random.walk_seed), options.scene);
+  return scene_in(*world, make_walk(*world, *style, random.walk_seed, duration_s), options.scene);
 }
 
 /// The scene asked for; fills in what the simulation says about an own one.

@@ -85,7 +85,7 @@ TEST_F(SimulateCommand, RefusesAWorldThatIsUnknownOrNotAlone) {
   for (const auto& [arguments, reason] :
        {std::pair("--world castle",
                   "the worlds are yard, forest, street, corridor, hall, tunnel, stairs, car-park"),
-        std::pair("--world yard --walk slow", "the walks are calm, brisk, wild"),
+        std::pair("--world yard --walk slow", "the walks are calm, brisk, wild, stand"),
         std::pair("--world yard:x", "--world needs NAME or NAME:SEED"),
         std::pair("--world yard --duration-s 601", "last 5 to 600 s"),
         std::pair("--world yard room-1", "excludes"), std::pair("room-1 --walk calm", "--world")}) {

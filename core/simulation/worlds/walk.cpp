@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 
+#include "core/numbers.hpp"
 #include "core/simulation/motion/trajectory.hpp"
 #include "core/simulation/worlds/carrier.hpp"
 #include "core/simulation/worlds/floor.hpp"
@@ -150,7 +151,17 @@ std::optional<WalkStyle> walk_style(std::string_view name) {
 std::vector<std::string_view> walk_names() {
   std::vector<std::string_view> names;
   for (const WalkStyle& style : walk_styles()) names.push_back(style.name);
+  names.push_back(kStanding);
   return names;
+}
+
+std::optional<Stand> make_stand(const World& world, std::uint64_t seed) {
+  constexpr double kShort_s = 5;
+  const auto walk = make_walk(world, walk_styles().front(), seed, kShort_s);
+  if (!walk) return std::nullopt;
+  const Pose begin = walk->path->at(walk->path->first_s());
+  const Vector3d ahead = begin.orientation * Vector3d::UnitX();
+  return Stand{begin.position_m, std::atan2(ahead.y(), ahead.x()) / kRadPerDeg, 0};
 }
 
 std::optional<RecordedPath> make_walk(const World& world, const WalkStyle& style, std::uint64_t seed,

@@ -26,7 +26,9 @@ struct WalkStyle {
 /// calm, brisk, wild.
 const std::vector<WalkStyle>& walk_styles();
 std::optional<WalkStyle> walk_style(std::string_view name);
+/// Those of the walk styles, and kStanding.
 std::vector<std::string_view> walk_names();
+inline constexpr std::string_view kStanding = "stand";
 
 /// A walk of duration_s through a world, drawn at random: half of them end where they begin, half of them
 /// begin at rest. The rig keeps at least kWalkClearance_m from all surfaces. None where the world has no
@@ -34,5 +36,8 @@ std::vector<std::string_view> walk_names();
 inline constexpr double kWalkClearance_m = 0.3;
 std::optional<RecordedPath> make_walk(const World& world, const WalkStyle& style, std::uint64_t seed,
                                       double duration_s);
+
+/// A rig that stands level where a calm walk of that seed begins. None where the world has no room.
+std::optional<Stand> make_stand(const World& world, std::uint64_t seed);
 
 }  // namespace sweepscope::simulation

@@ -171,7 +171,20 @@ TEST_F(SimulatedWorlds, NameTheChoicesForAnUnknownWorldOrWalk) {
   EXPECT_NE(refused(options("castle", 1)).find("the worlds are yard, forest, street"), std::string::npos);
   SimulationOptions asked = options("yard", 1);
   asked.random.walk = "slow";
-  EXPECT_NE(refused(asked).find("the walks are calm, brisk, wild"), std::string::npos);
+  EXPECT_NE(refused(asked).find("the walks are calm, brisk, wild, stand"), std::string::npos);
+}
+
+TEST_F(SimulatedWorlds, HaveAPlaceForARigThatStands) {
+  for (const std::string_view world : world_names()) {
+    SimulationOptions asked = options(std::string(world), 3);
+    asked.random.walk = "stand";
+    asked.duration_s = 1;
+    const auto made = simulate(asked, Job());
+    ASSERT_TRUE(made) << world << ": " << made.error().message;
+    EXPECT_FALSE(made->moving) << world;
+    EXPECT_EQ(made->recording.scans.size(), 40U) << world;
+    EXPECT_GT(made->truth.front().position_m.norm(), 0) << world;
+  }
 }
 
 TEST_F(SimulatedWorlds, LastFiveSecondsToTenMinutes) {
