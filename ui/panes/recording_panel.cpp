@@ -92,11 +92,12 @@ std::vector<std::string> notes_of(const Explorer& explorer) {
 
 /// What helps, of the estimate and of the notes. The buttons come before the remarks, which may be longer
 /// than the window is high.
-void help(const PaneContext& context, const Estimate* estimate, const std::vector<std::string>& notes) {
+void what_helps(const PaneContext& context, const Estimate* estimate, const std::vector<std::string>& notes) {
   std::vector<Hint> hints;
   if (estimate != nullptr) hints = hints_for(context.explorer, *estimate);
   for (Hint& hint : hints_for(context.explorer, notes))
     if (std::ranges::find(hints, hint.line, &Hint::line) == hints.end()) hints.push_back(std::move(hint));
+  if (hints.empty()) return;
   ImGui::Dummy({0, context.pxf(2)});
   hint_buttons(context, hints);
 }
@@ -298,7 +299,7 @@ void answer_and_remarks(const PaneContext& context, bool first) {
   const Estimate* estimate = context.explorer.estimating.found();
   const std::vector<std::string> notes = notes_of(context.explorer);
   if (estimate != nullptr) answer(context, *estimate, first);
-  help(context, estimate, notes);
+  what_helps(context, estimate, notes);
   if (estimate != nullptr) remarks(context, "Warnings", estimate->warnings, colour_of_a(context.style));
   remarks(context, "Notes", notes, context.style.faint_text);
 }
