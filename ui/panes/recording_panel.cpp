@@ -302,6 +302,7 @@ void answer_and_remarks(const PaneContext& context, bool first) {
   what_helps(context, estimate, notes);
   if (estimate != nullptr) remarks(context, "Warnings", estimate->warnings, colour_of_a(context.style));
   remarks(context, "Notes", notes, context.style.faint_text);
+  if (estimate != nullptr) ImGui::Dummy({0, context.pxf(2)});  // below the last line
 }
 
 }  // namespace
