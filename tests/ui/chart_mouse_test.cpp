@@ -195,6 +195,17 @@ TEST_F(Charts, AClickTurnsNoMapAndMovesNoHandleHoweverFastTheMouseCame) {
   }
 }
 
+TEST_F(Charts, AHandleStaysWhereItIsLetGoHoweverFastTheMouseWasThere) {
+  const PixelRect plot = *ui_.anchor("chart 0");
+  run("mouse move \"handle a\" at 0.5 0.8\nmouse down\nmouse move \"chart 0\" at 0.2 0.9");
+  const double on_the_way_ms = settings().offset_a_ms;
+  const std::array last{InputEvent::move(plot.left + 0.4 * plot.width, plot.top + 0.9 * plot.height),
+                        InputEvent::press(0, false)};
+  ui_.frame(last, 1.0 / 60);  // both in one frame
+  run("frames 3");
+  EXPECT_GT(settings().offset_a_ms, on_the_way_ms + 10);
+}
+
 TEST_F(Charts, TheAxisStaysWhileAHandleIsDragged) {
   const PixelRect a = *ui_.anchor("handle a"), b = *ui_.anchor("handle b");
   run("mouse move \"handle a\"\nmouse down\nmouse move \"chart 0\" at 0.05 0.9\nframes 1");

@@ -156,6 +156,31 @@ TEST(Answers, DoNotMoveWhenTheWallsAreMeasured) {
   EXPECT_EQ(before->top, after->top);
 }
 
+TEST(Answers, WhatHelpsIsInSightHoweverMuchThereIsToWarnOf) {
+  const auto context = std::move(*gl::make_offscreen_context(1400, 900));
+  Ui ui(*context, Ui::Options());
+  const auto run = [&](const std::string& lines) {
+    const auto done = run_script(ui, *parse_script(lines, "test", false), 120);
+    EXPECT_TRUE(done) << done.error().message;
+  };
+  run("sample room-1 2\nestimate\nwait solved");
+  Estimate warned = *ui.explorer().estimating.found();
+  const std::string much =
+      ", and what follows from it takes some lines of the panel, since it says what it means for the answer";
+  warned.warnings = {
+      "Surfaces are flatter with another mount" + much + ". Solve for the mount (--solve offset,mount).",
+      "The offset changes" + much + ". Look at it over time (--over-time).",
+      "The encoder has an error" + much + ". Solve for it (--solve offset,encoder).",
+      "Receive times are smoother" + much + "."};
+  ui.explorer().estimating.set(warned);
+  run("frames 3");
+  for (const char* name : {"button estimate mount", "button estimate over-time", "button estimate encoder"}) {
+    const auto button = ui.anchor(name);
+    ASSERT_TRUE(button) << name;
+    EXPECT_LE(button->bottom(), 900 - 28) << name << ": above the status line";
+  }
+}
+
 TEST_F(Pages, APictureOfTheMapsShowsNothingThatOnlyHandsNeed) {
   const std::string a = scratch("a.png").string(), b = scratch("b.png").string();
   run("sample room-1 2\nwait solved\nhover \"link a\"\nexport-picture " + a +

@@ -49,6 +49,13 @@ TEST(Frames, APressAndItsReleaseNeedAFrameEach) {
   EXPECT_EQ(events_of_next_frame(chord), 1u);
 }
 
+TEST(Frames, AMoveAndTheReleaseAfterItNeedAFrameEach) {
+  const std::vector<InputEvent> lifted{InputEvent::move(2, 1), InputEvent::press(0, false)};
+  EXPECT_EQ(events_of_next_frame(lifted), 1u);
+  const std::vector<InputEvent> put{InputEvent::move(2, 1), InputEvent::press(0, true)};
+  EXPECT_EQ(events_of_next_frame(put), 2u);
+}
+
 TEST(InputQueue, ALineTypedFastIsOneFramesText) {
   std::vector<InputEvent> events;
   const std::string line = "export-picture /tmp/pictures/metro.png";

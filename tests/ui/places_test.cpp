@@ -1,7 +1,10 @@
 // Where to look: the places where the maps differ, and their close-ups in a corner of each map.
 #include <gtest/gtest.h>
 
+#include <future>
+
 #include "tests/image_part.hpp"
+#include "tests/ui/explorer_fixtures.hpp"
 #include "ui/explorer/observables.hpp"
 #include "ui/panes/layout.hpp"
 #include "ui/script/script.hpp"
@@ -65,6 +68,30 @@ TEST(CloseUps, ComeInTheFrameInWhichTheMapIsFittedBesideThem) {
   ASSERT_TRUE(run_script(ui, *parse_script("wait solved\n", "test"), 300));
   EXPECT_EQ(ui.explorer().settings().camera_a, first);
   EXPECT_EQ(ui.anchor("close-up a")->top, close_up.top);
+}
+
+/// Beams of a stationary rig are placed at another offset before the map there is solved, if that takes long.
+TEST(CloseUps, AndTheViewBesideThemDoNotDependOnWhetherPlacingOrSolvingEndsFirst) {
+  Explorer explorer;
+  test::perform(explorer, "sample room-1");
+  test::rest(explorer);
+  std::promise<void> may_solve;
+  explorer.background.start("solve", "what takes long", "",
+                            [open = may_solve.get_future().share()](const Job&) -> Background::Finish {
+                              open.wait();
+                              return {};
+                            });
+  test::perform(explorer, "offset-b 24");
+  do explorer.update(0.25);
+  while (!explorer.maps.has_all_points());
+  EXPECT_FALSE(explorer.background.has("places")) << "not of a map that is still to come";
+  EXPECT_FALSE(explorer.place());
+  may_solve.set_value();
+  test::rest(explorer);
+  ASSERT_TRUE(explorer.place());
+  const ViewPoint found = explorer.settings().camera_a;
+  test::perform(explorer, "fit-view");
+  EXPECT_EQ(explorer.settings().camera_a, found);
 }
 
 TEST_F(PlacesToLook, KeysButtonsAndTheListStepThroughThemAndRoundAtTheEnds) {

@@ -253,8 +253,10 @@ bool MapPair::waits_to_place() const {
 }
 
 bool MapPair::is_complete() const {
-  return std::ranges::all_of(panes_,
-                             [](const Pane& pane) { return pane.full && pane.state == PaneState::kSolved; });
+  return std::ranges::all_of(panes_, [&](const Pane& pane) {
+    return pane.full && pane.state == PaneState::kSolved &&
+           !solved.is_to_come(pane.request->placement.offset_s);
+  });
 }
 
 bool MapPair::at_rest() const {

@@ -92,7 +92,8 @@ class MapPair {
   bool waits_to_place() const;
   /// Whether all points of both maps are placed.
   bool has_all_points() const { return panes_[0].full && panes_[1].full; }
-  /// Whether both maps are solved and have all their points.
+  /// Whether both maps are solved at their own offsets, a stationary rig's too, and have all their points:
+  /// what is found from them does not depend on which work ended first.
   bool is_complete() const;
   /// The same, or it is known why a map could not be solved.
   bool at_rest() const;

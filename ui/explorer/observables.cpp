@@ -79,6 +79,11 @@ std::string consistency_words(const Pane& pane) {
   return pane.consistency ? in_words(*pane.consistency) : "";
 }
 
+std::string path_of(const Pane& pane) {
+  if (!pane.request || pane.request->placement.map->provisional) return "";
+  return fmt::format("{:.10g}", pane.request->placement.map->offset_s * 1e3);
+}
+
 std::string points_of(const Pane& pane) {
   return std::to_string(pane.best() ? pane.best()->points->size() : 0);
 }
@@ -146,6 +151,13 @@ const std::vector<Observable> kObservables{
        return *e.loaded()->moving ? "moving" : "stationary";
      }},
     {"state", "empty, provisional, preview or solved", nullptr, state_word},
+    {"path", "the offset in ms that the path of its points was solved for; empty: not solved yet", nullptr,
+     path_of},
+    {"colours", "the values at the ends of the colour range",
+     [](const Explorer& e) {
+       const ColourSpan span = e.maps.shown_span();
+       return fmt::format("{:.4g} {:.4g}", span.from, span.to);
+     }},
     {"points", "how many points the pane shows", nullptr, points_of},
     {"thickness", "how thick the map's surfaces are; empty unless blur colours it", nullptr, thickness_words},
     {"consistency", "how far apart surfaces lie that were seen twice; empty of a stationary rig", nullptr,

@@ -63,12 +63,20 @@ bool SolvedMaps::is_cancelled(double offset_s) const {
   return cancelled_.contains(to_ns(offset_s));
 }
 
+bool SolvedMaps::is_to_come(double offset_s) const {
+  return is_to_come_ns(to_ns(offset_s));
+}
+
+bool SolvedMaps::is_to_come_ns(std::int64_t offset_ns) const {
+  return !solved_.contains(offset_ns) && !unsolvable_.contains(offset_ns) && !cancelled_.contains(offset_ns);
+}
+
 void SolvedMaps::solve(std::span<const double> offsets_s, bool held) {
   std::vector<std::int64_t> wanted;
   for (const double offset_s : offsets_s) {
     const std::int64_t ns = to_ns(offset_s);
-    const bool done = solved_.contains(ns) || unsolvable_.contains(ns) || cancelled_.contains(ns);
-    if (!done && std::find(wanted.begin(), wanted.end(), ns) == wanted.end()) wanted.push_back(ns);
+    if (is_to_come_ns(ns) && std::find(wanted.begin(), wanted.end(), ns) == wanted.end())
+      wanted.push_back(ns);
   }
   for (const std::string& key : background_.keys(kSolve)) {
     const bool still =

@@ -30,6 +30,8 @@ class SolvedMaps {
   /// Why the map at this offset could not be solved; empty if it was, or was not tried.
   std::string problem_at(double offset_s) const;
   bool is_cancelled(double offset_s) const;
+  /// Whether the map at this offset is still to come: it is neither solved, nor cancelled, nor unsolvable.
+  bool is_to_come(double offset_s) const;
 
   /// Whether nothing is solved of a walk yet.
   bool is_first_to_come() const { return first_ && first_->provisional && solved_.empty(); }
@@ -46,6 +48,7 @@ class SolvedMaps {
   void retry();
 
  private:
+  bool is_to_come_ns(std::int64_t offset_ns) const;
   void start(std::int64_t offset_ns);
   void keep(std::int64_t offset_ns, const Result<SolvedMapPtr>& solved);
 

@@ -43,7 +43,8 @@ bool needs_own_frame(const InputEvent& earlier, const InputEvent& later, bool sp
     case What::kButton:
       return later.what == What::kButton || later.what == What::kMove;
     case What::kMove:
-      return later.what == What::kMove;
+      // ImGui ends a drag in the frame of the release, whatever the move before it: it would stop short.
+      return later.what == What::kMove || (later.what == What::kButton && !later.down);
     case What::kKey:
       // ImGui takes a frame's text before its keys, and none while Ctrl is down.
       if (later.what == What::kText) return is_chord(earlier) || (edits(earlier) && earlier.down);

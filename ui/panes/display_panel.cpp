@@ -113,15 +113,18 @@ void colour_range(const PaneContext& context) {
 void map_thickness(const PaneContext& context) {
   if (context.settings().colouring != ColourBy::kBlur || context.settings().layout == Layout::kDifference)
     return;
+  bool measuring = false;
   for (const auto& [map, name] : {std::pair{"A", "thickness-a"}, std::pair{"B", "thickness-b"}}) {
     const std::string words = observe(context.explorer, name).value_or("");
     if (words.empty() && context.explorer.at_rest()) continue;
+    measuring = measuring || words.empty();
     if (words.empty())
       waiting_text(map + std::string(": measuring …"));
     else
       wrapped_text(context.style.faint_text, map + (": " + words));
   }
-  wrapped_text(context.style.faint_text, "Grey: no flat surface found.");
+  wrapped_text(context.style.faint_text,
+               measuring ? "Grey: no thickness known yet." : "Grey: no flat surface found.");
 }
 
 /// A bar for the whole recording with a handle at either end of the part that is shown.

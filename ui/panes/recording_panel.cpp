@@ -76,20 +76,30 @@ void remarks(const PaneContext& context, const char* title, const std::vector<st
   ImGui::GetWindowDrawList()->AddRectFilled(from, {from.x + context.pxf(3), to}, to_imgui(tone));
 }
 
-void notes(const PaneContext& context, const Loaded& loaded) {
-  std::vector<std::string> all = loaded.summary.warnings;
+std::vector<std::string> notes_of(const Explorer& explorer) {
+  std::vector<std::string> all = explorer.loaded()->summary.warnings;
   for (const Side side : kBothSides) {
-    const Pane& pane = context.explorer.pane(side);
+    const Pane& pane = explorer.pane(side);
     const char* name = side == Side::kA ? "A" : "B";
     if (!pane.problem.empty()) all.push_back(fmt::format("Map {}: {}", name, pane.problem));
   }
   for (const Side side : kBothSides) {  // mostly they have one path
-    const std::string& warning = context.explorer.pane(side).warning;
+    const std::string& warning = explorer.pane(side).warning;
     if (!warning.empty() && std::ranges::find(all, warning) == all.end()) all.push_back(warning);
   }
-  if (all.empty()) return;
-  remarks(context, "Notes", all, context.style.faint_text);
-  hint_buttons(context, hints_for(context.explorer, all));
+  return all;
+}
+
+/// What helps, of the estimate and of the notes. The buttons come before the remarks, which may be longer
+/// than the window is high.
+void what_helps(const PaneContext& context, const Estimate* estimate, const std::vector<std::string>& notes) {
+  std::vector<Hint> hints;
+  if (estimate != nullptr) hints = hints_for(context.explorer, *estimate);
+  for (Hint& hint : hints_for(context.explorer, notes))
+    if (std::ranges::find(hints, hint.line, &Hint::line) == hints.end()) hints.push_back(std::move(hint));
+  if (hints.empty()) return;
+  ImGui::Dummy({0, context.pxf(2)});
+  hint_buttons(context, hints);
 }
 
 /// Whether an estimate is one of the paper's: only these are fitted, and only the direct method solves for
@@ -282,9 +292,17 @@ void answer(const PaneContext& context, const Estimate& estimate, bool first) {
     text_in(context.fonts.heading, "Not determined");
     for (const std::string& reason : estimate.reasons()) wrapped_text(sentence(reason));
   }
-  remarks(context, "Warnings", estimate.warnings, colour_of_a(context.style));
-  ImGui::Dummy({0, context.pxf(2)});
-  hint_buttons(context, hints_for(context.explorer, estimate));
+}
+
+/// The answer, what helps where something is wrong, and why.
+void answer_and_remarks(const PaneContext& context, bool first) {
+  const Estimate* estimate = context.explorer.estimating.found();
+  const std::vector<std::string> notes = notes_of(context.explorer);
+  if (estimate != nullptr) answer(context, *estimate, first);
+  what_helps(context, estimate, notes);
+  if (estimate != nullptr) remarks(context, "Warnings", estimate->warnings, colour_of_a(context.style));
+  remarks(context, "Notes", notes, context.style.faint_text);
+  if (estimate != nullptr) ImGui::Dummy({0, context.pxf(2)});  // below the last line
 }
 
 }  // namespace
@@ -297,17 +315,13 @@ void draw_recording_panel(const PaneContext& context, const PixelRect& place, bo
   const ImVec2 from = ImGui::GetWindowDrawList()->GetClipRectMin(),
                to = ImGui::GetWindowDrawList()->GetClipRectMax();
   ImGui::PushClipRect(from, {far_corner(place).x, to.y}, false);
-  const Loaded& loaded = *context.explorer.loaded();
-  const Estimate* estimate = context.explorer.estimating.found();
   // What was opened for the answer begins with it.
-  if (above && estimate != nullptr) answer(context, *estimate, true);
-  if (above) notes(context, loaded);
+  if (above) answer_and_remarks(context, true);
   if (above) search(context);
-  recording_rows(context, loaded, !above);
+  recording_rows(context, *context.explorer.loaded(), !above);
   draw_rig_recordings(context);
   if (!above) search(context);
-  if (!above && estimate != nullptr) answer(context, *estimate, false);
-  if (!above) notes(context, loaded);
+  if (!above) answer_and_remarks(context, false);
   ImGui::PopClipRect();
   end_panel();
 }

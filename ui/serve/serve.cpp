@@ -58,6 +58,7 @@ Result<void> run_served(Ui::Options options, ServeOptions wanted, const std::str
                                 window.at_rest = [&ui] {
                                   return ui.explorer().at_rest() && ui.pictures_done() && !ui.has_input();
                                 };
+                                window.has_input = [&ui] { return ui.has_input(); };
                                 ui.explorer().exports.wrote = [&](const std::filesystem::path& file) {
                                   (*server)->offer(file);
                                 };

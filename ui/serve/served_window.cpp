@@ -86,7 +86,8 @@ void ServedWindow::present() {
   const auto drawn = Clock::now();
   const auto draw = std::chrono::duration_cast<std::chrono::microseconds>(drawn - taken_);
   drawing_ = (3 * drawing_ + (drawn - taken_)) / 4;
-  server_.show({std::move(image), input_number_, wait_us_, static_cast<std::uint32_t>(draw.count()),
+  if (!has_input || !has_input()) drawn_input_ = input_number_;
+  server_.show({std::move(image), drawn_input_, wait_us_, static_cast<std::uint32_t>(draw.count()),
                 at_rest && at_rest(), drawn});
 }
 

@@ -19,6 +19,8 @@ class ServedWindow final : public gl::Window {
 
   /// Whether nothing moves and nothing is computed, for the pages to know.
   std::function<bool()> at_rest;
+  /// Whether events that were taken wait for a later picture.
+  std::function<bool()> has_input;
 
   void make_current() override { context_->make_current(); }
   void release() override { context_->release(); }
@@ -49,6 +51,7 @@ class ServedWindow final : public gl::Window {
   std::string clipboard_;
   PageState state_;
   std::uint32_t input_number_ = 0, wait_us_ = 0;
+  std::uint32_t drawn_input_ = 0;           // the last one of which nothing waits
   Clock::time_point taken_ = Clock::now();  // when the events of the next picture were taken
   Clock::duration drawing_{};               // the time of a picture, from the last ones
 };

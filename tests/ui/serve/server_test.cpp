@@ -15,6 +15,7 @@
 
 #include "core/io/atomic_file.hpp"
 #include "tests/folder_test.hpp"
+#include "ui/serve/served_window.hpp"
 
 namespace sweepscope::ui {
 namespace {
@@ -120,6 +121,23 @@ TEST_F(Serving, AViewerWithTheTokenGetsPicturesAndSendsInput) {
   while (arrived.events.empty()) arrived = mailbox_.wait(10);
   EXPECT_EQ(arrived.events[0].wheel, 1);
   EXPECT_EQ(arrived.input_number, 1U);
+}
+
+TEST_F(Serving, APictureNamesTheLastInputThatItShowsAndNoneThatStillWaits) {
+  ServedWindow window(std::move(*gl::make_resizable_context(320, 240)), mailbox_, *server_);
+  bool came = false, waits = true;
+  window.events.moved = [&](double, double) { came = true; };
+  window.has_input = [&] { return waits; };
+  const auto page = viewer();
+  page->write(asio::buffer(std::string(R"({"type":"input","number":7,"events":[["move",1,2]]})")));
+  while (!came) window.wait(0.1);
+  for (const int number : {0, 7}) {
+    window.present();
+    const std::string frame = next_frame(*page);
+    ASSERT_GT(frame.size(), 8U);
+    EXPECT_EQ(frame[4], number);
+    waits = false;
+  }
 }
 
 TEST_F(Serving, WrongTokensOriginsAndHostsAreRefusedBeforeAnythingIsSent) {
