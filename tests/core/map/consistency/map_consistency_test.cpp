@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <cmath>
 #include <cstdio>
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -157,6 +158,45 @@ TEST(MapConsistency, AWalkWhoseTracksContradictEachOtherIsTrackedInAnotherWayAnd
   EXPECT_TRUE(kept.consistency->warned());
   EXPECT_NE(kept.warning.find("From 4 to 7 s"), std::string::npos) << kept.warning;
   EXPECT_NE(kept.warning.find("it ends 3.0 m apart"), std::string::npos) << kept.warning;
+}
+
+// A walk of 9 s along a tube without end or mark.
+Recording walk_along_a_tube() {
+  test::Bench bench;
+  bench.mesh = simulation::box({-80, -1.2, -1.5}, {80, 1.2, 1.2});
+  bench.duration_s = 9;
+  bench.noise_m = 0.01;
+  bench.world_from_base = [](double t_s) {
+    return Eigen::Isometry3d(Eigen::Translation3d(0.8 * t_s, 0.05 * std::sin(2 * t_s), 0));
+  };
+  return bench.record();
+}
+
+TEST(MapConsistency, AWalkWhoseMotionNothingShowsIsWarnedOf) {
+  const auto prepared = prepare(walk_along_a_tube(), {}, Job()).value();
+  MapOptions options;
+  options.assume = RigKind::kMoving;
+  const MapPath path = find_map_path(prepared, 0, 0, options, Job()).value();
+  ASSERT_TRUE(path.consistency);
+  ASSERT_FALSE(path.consistency->drifting.empty());
+  EXPECT_GT(std::abs(path.consistency->drifting.front().direction.x()), 0.98);
+  EXPECT_TRUE(path.consistency->warned());
+  EXPECT_NE(path.warning.find("nothing in view shows how far the rig moved"), std::string::npos)
+      << path.warning;
+  EXPECT_FALSE(path.walk->tracked_again) << "no other track could show it";
+  const auto drifting = consistency_json(path.consistency.get())["drifting"];
+  ASSERT_FALSE(drifting.empty());
+  EXPECT_GT(drifting[0]["drift_m"], 1);
+
+  // A motion that was measured by wheels or a camera shows it.
+  SolvedWalk followed = *path.walk;
+  followed.joint.emplace().time_shift = TimeShift{};
+  options.walk = std::make_shared<const SolvedWalk>(std::move(followed));
+  EXPECT_EQ(find_map_path(prepared, 0, 0, options, Job()).value().warning, "");
+  options = {};
+  for (int i = 0; i <= 90; ++i)
+    options.poses.push_back({0.1 * i, {0.08 * i, 0, 0}, Eigen::Quaterniond::Identity()});
+  EXPECT_EQ(find_map_path(prepared, 0, 0, options, Job()).value().warning, "");
 }
 
 TEST(MapConsistency, AStationaryRigHasNone) {
