@@ -166,7 +166,8 @@ Result<MapPath> along_best_walk(const OffsetProblem& problem, const MapPath& pat
                                 const std::shared_ptr<const SolvedWalk>& walk, const MappingOptions& mapping,
                                 const Job& job) {
   auto best = along_walk(problem, path, walk, job);
-  if (!best || !best->consistency || best->consistency->agrees_with_itself() || walk->tracked_again) return best;
+  if (!best || !best->consistency || best->consistency->agrees_with_itself() || walk->tracked_again)
+    return best;
   SolvedWalk known = *walk;
   known.tracked_again = true;
   best->walk = std::make_shared<const SolvedWalk>(std::move(known));

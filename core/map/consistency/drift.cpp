@@ -72,11 +72,12 @@ std::optional<std::string> drift_warning(const std::vector<DriftingTime>& drifti
   if (drifting.empty()) return std::nullopt;
   const DriftingTime& worst = *std::ranges::max_element(drifting, {}, &DriftingTime::rmse_m);
   if (kSigmas * worst.rmse_m <= limit_m) return std::nullopt;
+  const Vector3d along = (100 * worst.direction).array().round() / 100 + 0.0;  // never "-0.00"
   return fmt::format(
       "From {:.0f} to {:.0f} s, near ({:.1f}, {:.1f}, {:.1f}) m, nothing in view shows how far the rig moved "
       "along ({:.2f}, {:.2f}, {:.2f}). The map may be wrong there by {:.1f} m in this direction.",
       worst.at_s.begin_s, worst.at_s.end_s, worst.place_m.x(), worst.place_m.y(), worst.place_m.z(),
-      worst.direction.x(), worst.direction.y(), worst.direction.z(), worst.drift_m);
+      along.x(), along.y(), along.z(), worst.drift_m);
 }
 
 }  // namespace sweepscope

@@ -57,6 +57,13 @@ TEST(Drift, IsNoneOfAMoveBetweenTwoMaps) {
   EXPECT_TRUE(drifting_times(ten_views(), moves).empty());
 }
 
+TEST(Drift, IsNoneWhereOnlyAPlaceSeenAgainHasNoMatches) {
+  std::vector<FacedMove> moves = moves_but(0, 0, 0);
+  moves.push_back({1, 7, {Vector3d::UnitX(), 0}});
+  moves.push_back({2, 4, {Vector3d::UnitX(), 0}});
+  EXPECT_TRUE(drifting_times(ten_views(), moves).empty());
+}
+
 TEST(Drift, IsNoneWhereAViewBeyondShowsTheMove) {
   for (const std::size_t from : {2, 3}) {
     std::vector<FacedMove> moves = moves_but(4, 5, 0.3);
