@@ -96,6 +96,11 @@ void add_warning(MapPath& path, const std::string& warning) {
   path.warning += (path.warning.empty() || warning.empty() ? "" : " ") + warning;
 }
 
+// Wheels, a camera or poses then show the motion where the surfaces do not.
+bool followed_given_motion(const SolvedWalk& walk) {
+  return walk.joint && walk.joint->time_shift;
+}
+
 // Adds the consistency of the path with its warnings. A solved path has an offset of its own.
 Result<MapPath> checked(const OffsetProblem& problem, MapPath path, const Job& job, double offset_s = 0) {
   if (path.lost()) return path;
@@ -107,6 +112,8 @@ Result<MapPath> checked(const OffsetProblem& problem, MapPath path, const Job& j
     found->warnings.push_back(path.walk->contradiction);
     found->doubt = std::max(found->doubt, kDoubt);
   }
+  if (found->drift_warning && path.walk && !followed_given_motion(*path.walk))
+    found->warnings.push_back(*found->drift_warning);
   for (const std::string& warning : found->warnings) add_warning(path, warning);
   path.consistency = std::make_shared<const MapConsistency>(std::move(*found));
   return path;
@@ -159,7 +166,8 @@ Result<MapPath> along_best_walk(const OffsetProblem& problem, const MapPath& pat
                                 const std::shared_ptr<const SolvedWalk>& walk, const MappingOptions& mapping,
                                 const Job& job) {
   auto best = along_walk(problem, path, walk, job);
-  if (!best || !best->consistency || !best->consistency->warned() || walk->tracked_again) return best;
+  if (!best || !best->consistency || best->consistency->agrees_with_itself() || walk->tracked_again)
+    return best;
   SolvedWalk known = *walk;
   known.tracked_again = true;
   best->walk = std::make_shared<const SolvedWalk>(std::move(known));

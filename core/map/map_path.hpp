@@ -20,8 +20,8 @@ struct MapPath {
   std::vector<StampedPose> poses;  // from elsewhere; empty: the trajectory is solved for, or there is none
   std::shared_ptr<const SolvedWalk> walk;             // of a moving rig without poses from elsewhere
   std::shared_ptr<const MapConsistency> consistency;  // of a moving rig whose track was not lost; else null
-  // Of poses that do not cover every scan, a map in pieces, or one that does not agree with itself; else
-  // empty.
+  // Of poses that do not cover every scan, a map in pieces, one that does not agree with itself, or a motion
+  // that nothing shows; else empty.
   std::string warning;
 
   bool lost() const { return walk && walk->lost; }

@@ -28,6 +28,16 @@ Json times_json(const Times& times) {
   return json;
 }
 
+Json drifting_json(const std::vector<DriftingTime>& times) {
+  Json json = Json::array();
+  for (const DriftingTime& time : times)
+    json.push_back({{"at_s", at_json(time.at_s.begin_s, time.at_s.end_s)},
+                    {"place_m", place_json(time.place_m)},
+                    {"direction", place_json(time.direction)},
+                    {"drift_m", rounded(time.drift_m)}});
+  return json;
+}
+
 }  // namespace
 
 Json consistency_json(const MapConsistency* consistency) {
@@ -49,7 +59,8 @@ Json consistency_json(const MapConsistency* consistency) {
           {"warnings", consistency->warnings},
           {"apart", std::move(apart)},
           {"unfit_s", times_json(consistency->unfit)},
-          {"undetermined_s", times_json(consistency->undetermined)}};
+          {"undetermined_s", times_json(consistency->undetermined)},
+          {"drifting", drifting_json(consistency->drifting)}};
 }
 
 }  // namespace sweepscope

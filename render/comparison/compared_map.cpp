@@ -21,7 +21,7 @@ ComparedMap compared_map(const Recording& recording, const OffsetMap& map, const
 std::string in_words(const ComparedMap& map) {
   std::string words = map.thickness && map.thickness->map ? in_words(*map.thickness->map)
                                                           : std::string("no surface has a thickness");
-  if (!map.consistency || !map.consistency->warned()) return words;
+  if (!map.consistency || map.consistency->agrees_with_itself()) return words;
   words += "; the map does not agree with itself";
   const auto worst = map.consistency->worst();
   if (worst && worst->apart_m > map.consistency->limit_m)

@@ -71,8 +71,8 @@ std::string rig_found(const Estimate* estimate) {
 std::string thickness_words(const Pane& pane) {
   if (!pane.full || !pane.thickness || !pane.request || pane.request->look.colouring != ColourBy::kBlur)
     return "";
-  const bool warned = pane.consistency && pane.consistency->warned();
-  return in_words(*pane.thickness) + (warned ? "; the map does not agree with itself" : "");
+  const bool agrees = !pane.consistency || pane.consistency->agrees_with_itself();
+  return in_words(*pane.thickness) + (agrees ? "" : "; the map does not agree with itself");
 }
 
 std::string consistency_words(const Pane& pane) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/map/consistency/drift.hpp"
 #include "core/map/consistency/view_pair.hpp"
 #include "core/parallel.hpp"
 
@@ -19,6 +20,7 @@ constexpr std::size_t kPlanes = 160, kEdges = 80;                // of a view th
 constexpr double kAgain_s = 4, kNear_m = 10, kTurned_rad = 1.2;  // two views of one place
 constexpr std::size_t kRevisits = 4;                             // that a view is compared with
 constexpr double kMinApart_m = 0.3, kApartOfWay = 0.005;         // farther apart: a broken map
+constexpr double kDriftOfWay = 0.01;                             // more than this may be missing
 constexpr double kMaxMisfit = 0.45;                        // part of a sweep's features beside their surfaces
 constexpr std::size_t kMinMatched = 25;                    // features of a sweep, to say so
 constexpr double kMinMissing_m = 1, kMissingOfWay = 0.25;  // a trajectory that creeps
@@ -224,6 +226,12 @@ std::vector<UndeterminedTime> undetermined_times(const std::vector<WalkView>& vi
   return times;
 }
 
+std::vector<DriftingTime> drifting_times(const std::vector<WalkView>& views, const Pairs& pairs) {
+  std::vector<FacedMove> moves;
+  for (const auto& [other, view, pair] : pairs) moves.push_back({other, view, pair.weakest});
+  return drifting_times(views, moves);
+}
+
 std::string place_in_words(const Vector3d& p_m) {
   return fmt::format("({:.1f}, {:.1f}, {:.1f}) m", p_m.x(), p_m.y(), p_m.z());
 }
@@ -291,6 +299,7 @@ void count_from(MapConsistency& found, double first_s) {
   };
   std::ranges::for_each(found.unfit, count);
   std::ranges::for_each(found.undetermined, count);
+  std::ranges::for_each(found.drifting, count);
 }
 
 }  // namespace
@@ -306,12 +315,14 @@ std::optional<MapConsistency> map_consistency(const OffsetProblem& problem,
   found.apart = surfaces_apart(walk.views(), pairs);
   found.unfit = unfit_times(poses, walk.views(), pairs);
   found.undetermined = undetermined_times(walk.views(), pairs);
+  found.drifting = drifting_times(walk.views(), pairs);
   count_from(found, problem.recording->scans.front().first_beam_s);
   for (const Finding& finding :
        {surfaces_that_lie_apart(found), sweeps_that_fit_nowhere(found.unfit), creeping(found.undetermined)}) {
     found.doubt = std::max(found.doubt, finding.doubt);
     if (finding.doubt > 1) found.warnings.push_back(finding.warning);
   }
+  found.drift_warning = drift_warning(found.drifting, std::max(kMinApart_m, kDriftOfWay * way_m(poses)));
   return found;
 }
 

@@ -31,19 +31,30 @@ struct UndeterminedTime : DoubtfulTime {
   double missing_m = 0;                        // of the way, if the speed beside holds
 };
 
+/// A part of the walk in which nothing in view shows how far the rig moved along a direction.
+struct DriftingTime : DoubtfulTime {
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  // unit, map frame, as the rig moved
+  // Standard deviations by what is known of how speeds change: of the way along it, and of the root of the
+  // mean square error that this causes in the whole trajectory.
+  double drift_m = 0, rmse_m = 0;
+};
+
 /// Whether the surfaces that a moving rig saw more than once coincide in its map.
 struct MapConsistency {
   double limit_m = 0;                // farther apart, the map is warned of
   std::vector<SurfacesApart> apart;  // those whose distance is determined, the farthest apart first
   std::vector<DoubtfulTime> unfit;   // most of what these sweeps saw lies beside the surfaces about it
   std::vector<UndeterminedTime> undetermined;
-  std::vector<std::string> warnings;  // empty: the map agrees with itself as far as that is determined
+  std::vector<DriftingTime> drifting;
+  std::optional<std::string> drift_warning;  // about a trajectory that was found from the surfaces alone
+  std::vector<std::string> warnings;         // empty: the map is right as far as that is determined
 
   /// Absent if no surface was seen twice: the consistency is then not determined.
   std::optional<SurfacesApart> worst() const;
   bool warned() const { return !warnings.empty(); }
   /// By what was seen, how far the map is from agreeing with itself: beyond 1 it is warned of.
   double doubt = 0;
+  bool agrees_with_itself() const { return doubt <= 1; }
 };
 
 /// Compares what a rig saw in each two seconds with what it saw at other times. Both directions of turning

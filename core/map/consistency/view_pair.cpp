@@ -141,12 +141,15 @@ ViewPair match_views(const SweepMaps& other, const Vector3d& other_at_m, const W
   };
   pair.features = view.seen.size();
   pair.placed_sweeps.resize(view.end - view.first);
+  FacedSurfaces faced;
   registration.match(pair.move,
-                     [&](const SeenFeature& feature, const Vector3d&, const MatchResidual& residual) {
+                     [&](const SeenFeature& feature, const Vector3d& p_m, const MatchResidual& residual) {
+                       faced.add(p_m - view.at.translation_m, residual.normal, residual.distance_m);
                        add(pair.placed, residual);
                        lay(feature) = on_surface(residual);
                        add(pair.placed_sweeps[feature.sweep], residual);
                      });
+  pair.weakest = faced.weakest();
   std::size_t kept = 0;
   const RigidEquations equations =
       register_view(registration, view.at.translation_m, 2 * options.step_tolerance, pair.move);

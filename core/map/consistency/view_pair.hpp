@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/loam/sweep_matcher.hpp"
+#include "core/map/consistency/weakest_direction.hpp"
 
 namespace sweepscope {
 
@@ -47,6 +48,7 @@ struct ViewPair {
   double apart_m = 0;  // by which it moves the features that then lie on their surfaces, mean
   Eigen::Vector3d place_m = Eigen::Vector3d::Zero();       // their mean, as placed
   double translation_sigma_m = 0, rotation_sigma_rad = 0;  // of the move, in its least determined directions
+  WeakestDirection weakest;                                // of the matches as placed, whose rotation is free
 
   /// The surfaces determine all of the move.
   bool determined() const;

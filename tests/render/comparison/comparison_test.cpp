@@ -273,6 +273,7 @@ MapConsistency broken_map() {
   MapConsistency broken;
   broken.limit_m = 0.3;
   broken.apart = {{12, 31.5, 0.84, {1, 2, 0.5}}};
+  broken.doubt = 2.8;
   broken.warnings = {"The map does not agree with itself: surfaces lie 0.8 m apart."};
   return broken;
 }
@@ -293,7 +294,9 @@ TEST(BrokenMaps, AreNamedBesideTheThicknessOfTheirSurfaces) {
   EXPECT_NE(in_words(map).find("; the map does not agree with itself: surfaces seen twice lie 0.8 m apart"),
             std::string::npos)
       << in_words(map);
-  map.consistency = std::make_shared<const MapConsistency>();
+  MapConsistency drifting;
+  drifting.warnings = {"nothing in view shows how far the rig moved"};
+  map.consistency = std::make_shared<const MapConsistency>(drifting);
   EXPECT_EQ(in_words(map).find("does not agree"), std::string::npos) << in_words(map);
 }
 

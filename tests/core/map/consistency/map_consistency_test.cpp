@@ -3,11 +3,13 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <cmath>
 #include <cstdio>
 #include <functional>
 #include <nlohmann/json.hpp>
 
 #include "core/loam/path/agreement.hpp"
+#include "core/loam/path/given_motion.hpp"
 #include "core/map/map_path.hpp"
 #include "core/results/consistency_json.hpp"
 #include "tests/core/engine_fixtures.hpp"
@@ -157,6 +159,75 @@ TEST(MapConsistency, AWalkWhoseTracksContradictEachOtherIsTrackedInAnotherWayAnd
   EXPECT_TRUE(kept.consistency->warned());
   EXPECT_NE(kept.warning.find("From 4 to 7 s"), std::string::npos) << kept.warning;
   EXPECT_NE(kept.warning.find("it ends 3.0 m apart"), std::string::npos) << kept.warning;
+}
+
+// A walk of 9 s along a tube without end or mark, and where the rig was.
+constexpr double kTubeWalk_s = 9, kTubeSpeed_mps = 0.8;
+
+Recording walk_along_a_tube() {
+  test::Bench bench;
+  bench.mesh = simulation::box({-80, -1.2, -1.5}, {80, 1.2, 1.2});
+  bench.duration_s = kTubeWalk_s;
+  bench.noise_m = 0.01;
+  bench.world_from_base = [](double t_s) {
+    return Eigen::Isometry3d(Eigen::Translation3d(kTubeSpeed_mps * t_s, 0, 0));
+  };
+  return bench.record();
+}
+
+std::vector<StampedPose> poses_along_the_tube() {
+  std::vector<StampedPose> poses;
+  for (double t_s = -1; t_s < kTubeWalk_s + 1; t_s += 0.1)
+    poses.push_back({t_s, {kTubeSpeed_mps * t_s, 0, 0}, Eigen::Quaterniond::Identity()});
+  return poses;
+}
+
+SolvedWalk solved_along_the_tube(const PreparedRecording& prepared) {
+  const GivenMotion given(poses_along_the_tube(), GivenMotion::Parts::kRotationAndTranslation,
+                          GivenMotion::Role::kTruth);
+  SolvedWalk walk;
+  for (std::size_t i = 0; i < prepared.motor.sweeps.size(); ++i) {
+    const Sweep& sweep = prepared.motor.sweeps[i];
+    SweepPose pose;
+    pose.sweep = i;
+    pose.direction = sweep.direction;
+    pose.begin_s = sweep.begin_s;
+    pose.end_s = sweep.end_s;
+    walk.sweeps.push_back(along(given, pose, given.at(pose.begin_s), pose.begin_s, MappingOptions().knot_s));
+  }
+  return walk;
+}
+
+MapPath path_along_the_tube(const PreparedRecording& prepared, SolvedWalk walk) {
+  MapOptions options;
+  options.walk = std::make_shared<const SolvedWalk>(std::move(walk));
+  return find_map_path(prepared, 0, 0, options, Job()).value();
+}
+
+TEST(MapConsistency, AWalkWhoseMotionNothingShowsIsWarnedOf) {
+  const Recording recording = walk_along_a_tube();
+  const auto prepared = prepare(recording, {}, Job()).value();
+  const MapPath path = path_along_the_tube(prepared, solved_along_the_tube(prepared));
+  ASSERT_TRUE(path.consistency);
+  ASSERT_EQ(path.consistency->drifting.size(), 1u);
+  EXPECT_GT(path.consistency->drifting.front().direction.x(), 0.99);
+  EXPECT_TRUE(path.consistency->warned());
+  EXPECT_TRUE(path.consistency->agrees_with_itself());
+  EXPECT_FALSE(path.walk->tracked_again) << "no other track could show it";
+  EXPECT_NE(path.warning.find("nothing in view shows how far the rig moved"), std::string::npos)
+      << path.warning;
+  EXPECT_GT(consistency_json(path.consistency.get())["drifting"][0]["drift_m"], 1);
+}
+
+TEST(MapConsistency, AMotionThatAnotherSensorMeasuredIsShown) {
+  const Recording recording = walk_along_a_tube();
+  const auto prepared = prepare(recording, {}, Job()).value();
+  SolvedWalk walk = solved_along_the_tube(prepared);
+  walk.joint.emplace().time_shift = TimeShift{};
+  EXPECT_EQ(path_along_the_tube(prepared, walk).warning, "");
+  MapOptions options;
+  options.poses = poses_along_the_tube();
+  EXPECT_EQ(find_map_path(prepared, 0, 0, options, Job()).value().warning, "");
 }
 
 TEST(MapConsistency, AStationaryRigHasNone) {
