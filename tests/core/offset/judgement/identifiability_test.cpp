@@ -63,6 +63,7 @@ struct Scanned {
     for (std::size_t i = 0; i < 3; ++i) recording->scans[i].first_beam_s = 0.025 * double(i);
     problem.recording = recording.get();
     problem.motor.median_sweep_s = 0.025 * scans_a_sweep;
+    problem.motor.median_speed_rad_s = 1;
   }
   std::shared_ptr<Recording> recording = std::make_shared<Recording>();
   OffsetProblem problem;
