@@ -271,8 +271,9 @@ void answer(const PaneContext& context, const Estimate& estimate, bool first) {
     heading(context, "Rig found", first);
     rig_rows(context, *estimate.rig);
   }
-  heading(context, "Offset found", first && !rig_first);
-  if (estimate.identifiable && estimate.offset_s) {
+  const bool found = estimate.identifiable && estimate.offset_s;
+  heading(context, found ? "Offset found" : "Offset", first && !rig_first);
+  if (found) {
     std::string text = fmt::format("{:.2f}", *estimate.offset_s * 1e3);
     if (estimate.sigma_s) text += fmt::format(" ± {:.2f}", *estimate.sigma_s * 1e3);
     text_in(context.fonts.title, text);
