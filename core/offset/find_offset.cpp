@@ -126,7 +126,8 @@ std::string moved_before(const OffsetSearch& search) {
   if (has_few_lines(recording, search.problem.motor))
     return fmt::format(
         "{} Or the scan lines of a sweep, {:.0f} deg of the motor's angle apart, are too few to compare: if the rig was "
-        "stationary, turn the motor more slowly or in smaller steps, or state it (estimate --assume stationary). ",
+        "stationary, turn the motor more slowly, less far or in smaller steps, or state it (estimate --assume "
+        "stationary). ",
         moved_text(search.motion), search.problem.line_spacing_rad * kDegPerRad);
   const bool stated = recording.rig.states_mount();
   return moved_text(search.motion) +

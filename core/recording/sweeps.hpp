@@ -68,9 +68,9 @@ double line_spacing_rad(const Recording& recording, const MotorMotion& motor);
 
 /// The number of distinct positions in a sweep on which the scan lines of one direction fall: half of the
 /// sweep lies in gaps between neighbours that are longer than the sweep divided by this number. For the
-/// direction that has fewer; infinite for 3D scanners, whose lines cross. Of
-/// a motor in steps at most one for each rest. Fewer than kMinDistinctLines do
-/// not determine an offset: neighbours do not lie on the same surfaces.
+/// direction that has fewer; infinite for 3D scanners, whose lines cross. Of a motor in steps at most one for
+/// each rest. Fewer than kMinDistinctLines do not determine an offset: neighbours do not lie on the same
+/// surfaces.
 double distinct_lines(const Recording& recording, const MotorMotion& motor, double offset_s);
 /// See distinct_lines.
 inline constexpr double kMinDistinctLines = 7.5;

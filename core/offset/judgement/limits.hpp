@@ -24,7 +24,7 @@ struct Limits {
   // The coarse search.
   double max_line_spread_deg = 5;  // rings and slices of turns repeat themselves to a degree
   double min_cost_depth = 0.15;    // of the median; 0.68 to 0.86 of simulated rooms and walks (thresholds)
-  double min_lines_a_sweep = 16;   // of a 2D scanner; with more, simulated rooms have a clear valley
+  double min_lines_a_sweep = 15;   // of a 2D scanner; with more, simulated rooms have a clear valley
   double max_distance_m = 0.1;     // of sweeps at best: a third of the most that a distance counts for
   double max_rival_depth = 0.2;    // of the minimum's; no simulated room or walk has one (thresholds)
   double min_rival_apart_units = 8;
