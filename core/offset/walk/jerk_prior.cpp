@@ -46,12 +46,42 @@ Eigen::Vector2d jerk_sigma(const OffsetProblem& problem, const std::vector<Sweep
   return seen.cwiseMax(options.min_jerk);
 }
 
+// By the median of what is seen over half sweeps: a few of them may have been tracked badly.
+Eigen::Vector2d acceleration_sigma(const std::vector<SweepPose>& sweeps, const MappingOptions& options) {
+  constexpr std::size_t kParts = 2;
+  constexpr double kMedianSquare = 2.366;  // of three normal components
+  std::vector<double> rotation2, translation2;
+  std::optional<Vector6d> last_per_s;
+  for (const SweepPose& sweep : sweeps)
+    for (const Vector6d& twist_per_s : twists_per_s(sweep, kParts)) {
+      if (last_per_s) {
+        const Vector6d change = (twist_per_s - *last_per_s) * double(kParts) / (sweep.end_s - sweep.begin_s);
+        rotation2.push_back(change.head<3>().squaredNorm());
+        translation2.push_back(change.tail<3>().squaredNorm());
+      }
+      last_per_s = twist_per_s;
+    }
+  const Eigen::Vector2d seen(std::sqrt(median(std::move(rotation2)) / kMedianSquare),
+                             std::sqrt(median(std::move(translation2)) / kMedianSquare));
+  return (options.acceleration_factor * seen)
+      .cwiseMax(options.min_acceleration)
+      .cwiseMin(options.max_acceleration);
+}
+
 std::vector<Vector6d> third_differences(const GuidedPath& path) {
   std::vector<Vector6d> differences;
   for (std::size_t k = 0; k + kJerkStencil.size() <= path.knots(); ++k) {
     const auto step = [&](std::size_t i) { return difference(path.knot(k + i + 1), path.knot(k + i)); };
     differences.emplace_back(step(2) - 2 * step(1) + step(0));
   }
+  return differences;
+}
+
+std::vector<Vector6d> second_differences(const GuidedPath& path) {
+  std::vector<Vector6d> differences;
+  for (std::size_t k = 0; k + kAccelerationStencil.size() <= path.knots(); ++k)
+    differences.emplace_back(difference(path.knot(k + 2), path.knot(k + 1)) -
+                             difference(path.knot(k + 1), path.knot(k)));
   return differences;
 }
 

@@ -17,6 +17,9 @@ namespace sweepscope {
 Eigen::Vector2d jerk_sigma(const OffsetProblem& problem, const std::vector<SweepPose>& sweeps,
                            const JointWalkOptions& options);
 
+/// The same of the acceleration (rad/s^2 and m/s^2).
+Eigen::Vector2d acceleration_sigma(const std::vector<SweepPose>& sweeps, const MappingOptions& options);
+
 /// Whether the motor slows down well before it turns back, as a sine does: a wrong offset then shows as a
 /// roll that is as smooth as a body's sway, without a jump.
 bool turns_back_smoothly(const OffsetProblem& problem);
@@ -25,6 +28,9 @@ bool turns_back_smoothly(const OffsetProblem& problem);
 constexpr std::array<double, 4> kJerkStencil{-1, 3, -3, 1};
 /// The jerk for every four knots in a row: rotation vectors and translations.
 std::vector<Vector6d> third_differences(const GuidedPath& path);
+/// The same of the acceleration, times the spacing squared.
+constexpr std::array<double, 3> kAccelerationStencil{1, -2, 1};
+std::vector<Vector6d> second_differences(const GuidedPath& path);
 
 /// Learns that standard deviation from a path that was solved for, by the evidence for it (MacKay 1992): the
 /// sum of the squared jerks over the number of them that the measurements determine. Tracked sweeps scatter

@@ -130,6 +130,29 @@ std::optional<JointWalk> solve_joint_walk(const OffsetProblem& problem, const st
   return joined(problem, cuts, parts, options);
 }
 
+AdjustedWalk adjusted(const OffsetProblem& problem, std::vector<SweepPose> tracked, double offset_s,
+                      const JointWalkOptions& options, const Job& job) {
+  std::vector<Sweeps> pieces = parts_of(tracked, options.longest_s, options.mapping.given.get());
+  std::atomic<std::size_t> done{0};
+  const auto all = double(pieces.size()) * (options.rough_iterations + options.whole_iterations);
+  const auto iterated = [&] { job.report("adjusting", std::min(1.0, double(++done) / all)); };
+  std::vector<char> goes_on(pieces.size(), 0);
+  for (std::size_t i = 0; i + 1 < pieces.size(); ++i)
+    goes_on[i] = pieces[i + 1].front().stretch == pieces[i].back().stretch ? 1 : 0;
+  std::vector<MatchCount> counts(pieces.size());
+  for_each_index(pieces.size(), [&](std::size_t i) {
+    WalkPart part(problem, pieces[i], offset_s, options);
+    counts[i] = part.adjust(goes_on[i] != 0, job, iterated);
+    for (SweepPose& sweep : pieces[i]) sweep = part.path().as_sweep(std::move(sweep));
+  });
+  AdjustedWalk walk{std::move(tracked), {}};
+  for (const MatchCount& count : counts) walk.count += count;
+  for (Sweeps& piece : pieces)
+    for (SweepPose& sweep : piece)
+      *std::ranges::lower_bound(walk.sweeps, sweep.sweep, {}, &SweepPose::sweep) = std::move(sweep);
+  return walk;
+}
+
 std::optional<Trend> drift_of(const JointWalk& walk) {
   constexpr double kUnseen_s = 0.2e-3;  // by which parts of hand-held walks scatter, whatever they say
   std::vector<double> middles_s, offsets_s, sigmas_s;

@@ -40,6 +40,10 @@ struct JointWalkOptions {
   int first_iterations = 3, averaged_iterations = 6;
   // If the first iterations lead further away, the others are not run: the walk must be tracked again.
   double far_s = std::numeric_limits<double>::infinity();
+  // Of `adjusted`: with one feature in so many, then with all. Tuned on tests/benchmark/worlds.
+  int rough_iterations = 10, whole_iterations = 2;
+  std::size_t rough_stride = 5;
+  double longest_s = 300;
   std::size_t min_matches = 200;  // of a part; in a furnished place it has some thousands
 };
 
@@ -73,6 +77,20 @@ struct JointWalk {
 /// same bytes for any number of threads.
 std::optional<JointWalk> solve_joint_walk(const OffsetProblem& problem, const std::vector<SweepPose>& tracked,
                                           double offset_s, const JointWalkOptions& options, const Job& job);
+
+/// A walk that was adjusted as a whole, and how its features then fit each other.
+struct AdjustedWalk {
+  std::vector<SweepPose> sweeps;
+  MatchCount count;
+};
+
+/// The walk again, each stretch in one piece of up to `longest_s`: every point is matched to the surfaces
+/// that sweeps of the other direction measured at any time, seen from the same side. A tracked sweep was
+/// matched to what was seen before it alone, and errors remain where they were made; here they are spread.
+/// Pieces of longer stretches begin and end where they were tracked. Stretches of few sweeps stay as they
+/// are. The same bytes for any number of threads.
+AdjustedWalk adjusted(const OffsetProblem& problem, std::vector<SweepPose> tracked, double offset_s,
+                      const JointWalkOptions& options, const Job& job);
 
 /// How the offset changes over the walk, from its parts. Its sigma allows for how few they are.
 std::optional<Trend> drift_of(const JointWalk& walk);

@@ -110,4 +110,15 @@ ScanEquations::Matrix ScanEquations::matrix() const {
   return matrix;
 }
 
+ScanEquations::Diagonal ScanEquations::diagonal() const {
+  Diagonal diagonal{std::vector<Matrix6d>(scans_, Matrix6d::Zero())};
+  for (std::size_t i = 0; i < matches_.size(); ++i) {
+    const Match& match = matches_[i];
+    for (std::size_t row = match.first_row; row < end_row(i); ++row)
+      diagonal.scans[scan_of_row_[row]].noalias() += match.weight * rows_[row] * rows_[row].transpose();
+    diagonal.offset_square += match.weight * match.offset_slope * match.offset_slope;
+  }
+  return diagonal;
+}
+
 }  // namespace sweepscope

@@ -84,6 +84,12 @@ class ScanEquations {
     double offset_square = 0;
   };
   Matrix matrix() const;
+  /// Its diagonal: each scan's product with itself, and that of the offset.
+  struct Diagonal {
+    std::vector<Matrix6d> scans;
+    double offset_square = 0;
+  };
+  Diagonal diagonal() const;
 
  private:
   std::size_t end_row(std::size_t match) const;

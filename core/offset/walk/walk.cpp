@@ -79,6 +79,12 @@ std::optional<SolvedWalk> solve_walk(const OffsetProblem& problem, double first_
   if (!walk) return walk;
   if (!options.mapping.given && !turns_back_smoothly(problem))
     walk->sweeps = straightened(std::move(walk->sweeps));
+  const bool follows_truth = options.mapping.given && options.mapping.given->is_truth();
+  if (!follows_truth) {
+    AdjustedWalk whole = adjusted(problem, std::move(walk->sweeps), walk->tracked_at_s, options.joint, job);
+    walk->sweeps = std::move(whole.sweeps);
+    walk->misfit_m = whole.count.capped_cost_m();
+  }
   SweepPlacer placer(problem, walk->tracked_at_s);
   const auto place = [&](std::size_t i) {
     PlacedSweep sweep;

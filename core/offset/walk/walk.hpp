@@ -35,6 +35,7 @@ WalkOptions walk_options(const MappingOptions& mapping, const SearchScale& scale
 struct SolvedWalk {
   std::vector<SweepPose> sweeps;
   double tracked_at_s = 0;         // the offset that the sweeps were placed with
+  double misfit_m = 0;             // of its features, each at most MappingOptions::cost_cap_m; see `adjusted`
   bool lost = false;               // too few sweeps could be tracked
   bool near = false;               // tracked at nearly the offset that fits
   bool tracked_again = false;      // in other ways, since its map did not agree with itself

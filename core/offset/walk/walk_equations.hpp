@@ -4,7 +4,10 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/loam/path/guided_path.hpp"
@@ -21,8 +24,12 @@ class WalkEquations {
   /// The acceleration of the walk, or of its deviation from a given motion, changes little: third differences
   /// of the knots are near zero, to within sigma (rotation, translation).
   void add_jerks(const Eigen::Vector2d& sigma);
+  /// Its velocity changes little: the same of the second differences.
+  void add_accelerations(const Eigen::Vector2d& sigma);
   /// A map can be moved as a whole where there are knots, and a knot that sees little stays where it is.
   void hold(double first_sigma, double knot_sigma, double offset_sigma_s);
+  /// The path's end stays, too.
+  void hold_end(double sigma);
 
   /// Of half the sum of the squares, by the unknowns.
   const Eigen::VectorXd& gradient() const { return gradient_; }
@@ -47,16 +54,34 @@ class WalkEquations {
   /// right side is left. With a factor of their own, which is kept in `factor`: where there is none yet,
   /// where the equations have become too different, of few unknowns, or with probes.
   std::optional<Solution> solve(const Wanted& wanted, std::optional<Factor>& factor) const;
+  /// The steps alone, to a hundredth, of a path of any length: time and memory are proportional to it.
+  std::optional<Solution> solve_long() const;
 
  private:
-  bool solve_near(const Factor& earlier, const Eigen::VectorXd& right, Eigen::VectorXd& x) const;
+  // What sums of knots in a row are held near 0 by.
+  struct Prior {
+    std::span<const double> stencil;
+    Vector6d weights;
+  };
+  using Precondition = std::function<Eigen::VectorXd(const Eigen::VectorXd&)>;
+  struct Accuracy {
+    int max_steps;
+    double tolerance;  // part of the right side that may be left
+  };
+  bool solve_near(const Precondition& precondition, const Accuracy& accuracy, const Eigen::VectorXd& right,
+                  Eigen::VectorXd& x) const;
+  Solution steps(const Eigen::VectorXd& solved) const;
+  Eigen::SparseMatrix<double> band(const ScanEquations::Diagonal& matches) const;
+  void add_prior(const Prior& prior, const std::vector<Vector6d>& residuals);
+  template <typename Add>
+  void add_priors(const Add& add) const;
   void add_matches(Eigen::MatrixXd& matrix) const;
 
   const ScanEquations& matches_;
   const std::vector<ScanMotion>& motions_;
   const GuidedPath& path_;
   Eigen::VectorXd gradient_;
-  Vector6d jerk_weights_ = Vector6d::Zero();
+  std::vector<Prior> priors_;
   Eigen::VectorXd held_;  // what is added to the diagonal
 };
 

@@ -31,6 +31,9 @@ std::uint32_t slices_per_scan(const Recording& recording) {
   return static_cast<std::uint32_t>(std::clamp(std::ceil(longest_s / kLongestSlice_s), 1.0, kMax));
 }
 
+// rad and m, of a knot that stays where it is, far below what is asked for; and of one that goes anywhere.
+constexpr double kHeld = 1e-4, kAnyStep = 5;
+
 double mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
 }
@@ -50,7 +53,8 @@ WalkPart::WalkPart(const OffsetProblem& problem, const std::vector<SweepPose>& s
       last_sweep_(sweeps.back().sweep),
       slices_(slices_per_scan(*problem.recording)),
       path_(sweeps, options.knot_s, options.mapping.given.get()),
-      jerk_sigma_(jerk_sigma(problem, path_.deviations(sweeps), options)) {
+      jerk_sigma_(jerk_sigma(problem, path_.deviations(sweeps), options)),
+      acceleration_sigma_(acceleration_sigma(path_.deviations(sweeps), options.mapping)) {
   result_.middle_s = (sweeps.front().begin_s + sweeps.back().end_s) / 2;
   result_.offset_s = offset_s;
   if (path_.shift_block() && path_.knots() > 0)
@@ -67,13 +71,35 @@ OffsetProblem WalkPart::cut() const {
   return part;
 }
 
-void WalkPart::settle(const Job& job, const std::function<void()>& iterated) {
-  const OffsetProblem part = cut();
+OffsetProblem WalkPart::begin() {
+  OffsetProblem part = cut();
   const auto& used = part.scan_used;
   const auto first = std::find(used.begin(), used.end(), 1);
   const auto last = std::find(used.rbegin(), used.rend(), 1);
   first_scan_ = static_cast<std::uint32_t>(first - used.begin());
   if (first != used.end()) scans_.resize(std::size_t(last.base() - first) * slices_);
+  return part;
+}
+
+MatchCount WalkPart::adjust(bool holds_end, const Job& job, const std::function<void()>& iterated) {
+  const OffsetProblem part = begin();
+  const int iterations = options_.rough_iterations + options_.whole_iterations;
+  MatchCount count;
+  for (int i = 0; i < iterations && !job.cancelled(); ++i, iterated()) {
+    count = match(part, {i < options_.rough_iterations ? options_.rough_stride : 1, true});
+    auto equations = this->equations(kAnyStep);
+    if (equations) equations->add_accelerations(std::pow(options_.knot_s, 2) * acceleration_sigma_);
+    if (equations && holds_end) equations->hold_end(kHeld);
+    const auto solution = equations ? equations->solve_long() : std::nullopt;
+    if (!solution) break;
+    step(*solution);
+  }
+  forget_matches();
+  return count;
+}
+
+void WalkPart::settle(const Job& job, const std::function<void()>& iterated) {
+  const OffsetProblem part = begin();
   for (int i = 0; i < options_.first_iterations; ++i, iterated()) {
     if (job.cancelled() || !iterate(part, i + 1 == options_.first_iterations)) return;
     if (evidence_)
@@ -112,21 +138,31 @@ void WalkPart::forget_matches() {
 
 // Matches again and steps; false, and without a result, if that is not possible.
 bool WalkPart::iterate(const OffsetProblem& part, bool is_last) {
+  constexpr double kKnotSigma = 0.5;  // rad and m: far above any step
   result_.sigma_s = 0;
   solution_.reset();
-  match(part);
-  if (result_.matches < options_.min_matches) return false;
+  match(part, {});
+  const auto equations = this->equations(kKnotSigma);
+  if (!equations) return false;
+  solution_ =
+      equations->solve({is_last, path_.shift_block(), evidence_ ? &evidence_->probes() : nullptr}, factor_);
+  if (!solution_) return false;
+  step(*solution_);
+  return true;
+}
+
+// Of the last matches; absent where they are too few.
+std::optional<WalkEquations> WalkPart::equations(double knot_sigma) const {
+  if (result_.matches < options_.min_matches) return std::nullopt;
   WalkEquations equations(*matches_, scans_, path_);
   equations.add_jerks(std::pow(options_.knot_s, 3) * jerk_sigma_);
-  // rad and m. The first is a gauge, far below what is asked for; the second far above any step.
-  constexpr double kFirstSigma = 1e-4, kKnotSigma = 0.5;
-  equations.hold(kFirstSigma, kKnotSigma, options_.offset_sigma_s);
-  solution_ =
-      equations.solve({is_last, path_.shift_block(), evidence_ ? &evidence_->probes() : nullptr}, factor_);
-  if (!solution_) return false;
-  path_.move(solution_->block_steps);
-  result_.offset_s += solution_->offset_step_s;
-  return true;
+  equations.hold(kHeld, knot_sigma, options_.offset_sigma_s);
+  return equations;
+}
+
+void WalkPart::step(const WalkEquations::Solution& solution) {
+  path_.move(solution.block_steps);
+  result_.offset_s += solution.offset_step_s;
 }
 
 // The mean of the iterations, whose scatter adds to what the last one leaves open.
@@ -177,11 +213,12 @@ double WalkPart::clustered_sigma_s(const Eigen::VectorXd& influences, double sig
   return std::sqrt(total_s2 - of_matches_s2 + of_matches_s2 * clustered_s2 / formal_s2);
 }
 
-// All features with the surfaces that the other direction measured, matched again.
-void WalkPart::match(const OffsetProblem& part) {
+// Features with the surfaces that the other direction measured, matched again.
+MatchCount WalkPart::match(const OffsetProblem& part, const Matched& matched) {
+  MatchCount count;
   matches_.emplace(scans_.size());
   matched_m_.clear();
-  const std::vector<PlacedSweep> sweeps = place_sweeps(part, result_.offset_s);
+  std::vector<PlacedSweep> sweeps = place_sweeps(part, result_.offset_s);
   FeatureMap edges, planes;
   last_line_ = kNoLine;
   for (const PlacedSweep& sweep : sweeps) {
@@ -190,7 +227,8 @@ void WalkPart::match(const OffsetProblem& part) {
   }
   result_.features = result_.matches = 0;
   result_.lever_m2 = result_.reach_m2 = 0;
-  for (const PlacedSweep& sweep : sweeps) {
+  for (PlacedSweep& sweep : sweeps) {
+    thin(sweep, matched.stride);
     const MappingOptions& mapping = options_.mapping;
     PatchSearch search{edges,
                        planes,
@@ -198,13 +236,18 @@ void WalkPart::match(const OffsetProblem& part) {
                         sweep.side > 0 ? SweepFilter::kBackward : SweepFilter::kForward}};
     const auto place = [&](const PlacedFeature& feature) { return in_map_m(sweep, feature); };
     match_features(sweep, place, search,
-                   [&](MatchedKind, const PlacedFeature& feature, const Vector3d& p_m,
+                   [&](MatchedKind kind, const PlacedFeature& feature, const Vector3d& p_m,
                        const std::optional<MatchResidual>& residual) {
                      ++result_.features;
-                     if (residual && residual->has_normal)
-                       add(line_of(sweep, feature), p_m, *residual, search.near);
+                     count.add(residual, gate_m(kind, mapping), mapping.cost_cap_m);
+                     if (!residual || !residual->has_normal) return;
+                     const std::uint32_t line = line_of(sweep, feature);
+                     if (!matched.one_side || kind == MatchedKind::kEdge ||
+                         seen_from_one_side(line, p_m, residual->normal, search.near))
+                       add(line, p_m, *residual, search.near);
                    });
   }
+  return count;
 }
 
 void WalkPart::insert(const PlacedSweep& sweep, const PlacedFeature& feature, FeatureMap& map) {
@@ -240,6 +283,16 @@ std::uint32_t WalkPart::line_of(const PlacedSweep& sweep, const PlacedFeature& f
   const double u = (time_s(sweep, feature) - scan.first_beam_s) / (scan.last_beam_s() - scan.first_beam_s);
   const double slice = std::clamp(std::floor(u * slices_), 0.0, slices_ - 1.0);
   return number * slices_ + static_cast<std::uint32_t>(slice);
+}
+
+// Whether the points that a plane was fitted to were measured from the side that its own one was: the two
+// sides of a wall or of a floor are two surfaces.
+bool WalkPart::seen_from_one_side(std::uint32_t line, const Vector3d& p_m, const Vector3d& normal,
+                                  const Neighbours& near) const {
+  const double from_m = normal.dot(scans_[line].base_in_map_m - p_m);
+  return std::all_of(near.line.begin(), near.line.begin() + near.count, [&](std::uint32_t other) {
+    return normal.dot(scans_[other].base_in_map_m - p_m) * from_m >= 0;
+  });
 }
 
 // One match: a point of one direction, its surface from points of the other.

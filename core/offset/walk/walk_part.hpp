@@ -30,6 +30,9 @@ class WalkPart {
   void settle(const Job& job, const std::function<void()>& iterated);
   /// The others, after which it holds their mean. Does nothing if a part did not converge.
   void average(const Job& job, const std::function<void()>& iterated);
+  /// Instead of both, for a part that may be long: iterations of which only the path is wanted. With
+  /// `holds_end` it ends where it was tracked, too. Counts the matches of the last one.
+  MatchCount adjust(bool holds_end, const Job& job, const std::function<void()>& iterated);
   /// Gives back the memory of a factor, 8 MB of a part of 10 s, which `average` would start with.
   void forget_factor() { factor_.reset(); }
 
@@ -39,14 +42,23 @@ class WalkPart {
 
  private:
   OffsetProblem cut() const;
+  OffsetProblem begin();
+  struct Matched {
+    std::size_t stride = 1;  // every how many features
+    bool one_side = false;   // whether the two sides of a wall are told apart
+  };
   bool iterate(const OffsetProblem& part, bool is_last);
+  std::optional<WalkEquations> equations(double knot_sigma) const;
+  void step(const WalkEquations::Solution& solution);
   void conclude(const std::vector<double>& offsets_s, double sigma_s);
   double offset_sigma_s() const;
   double shift_sigma_s(std::size_t block) const;
-  void match(const OffsetProblem& part);
+  MatchCount match(const OffsetProblem& part, const Matched& matched);
   void forget_matches();
   void add(std::uint32_t line, const Eigen::Vector3d& p_m, const MatchResidual& match,
            const Neighbours& near);
+  bool seen_from_one_side(std::uint32_t line, const Eigen::Vector3d& p_m, const Eigen::Vector3d& normal,
+                          const Neighbours& near) const;
   double clustered_sigma_s(const Eigen::VectorXd& influences, double sigma_s) const;
   void insert(const PlacedSweep& sweep, const PlacedFeature& feature, FeatureMap& map);
   double turning_rad_s(const Sweep& sweep, double motor_s) const;
@@ -61,7 +73,8 @@ class WalkPart {
   std::uint32_t slices_;          // of every scan
   std::uint32_t first_scan_ = 0;  // of the recording's, that the part uses
   GuidedPath path_;
-  Eigen::Vector2d jerk_sigma_;  // rad/s^3 and m/s^3
+  Eigen::Vector2d jerk_sigma_;          // rad/s^3 and m/s^3
+  Eigen::Vector2d acceleration_sigma_;  // rad/s^2 and m/s^2
   std::optional<JerkEvidence> evidence_;
   JointWalkPart result_;
   std::optional<WalkEquations::Solution> solution_;  // the last iteration's
