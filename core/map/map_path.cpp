@@ -146,12 +146,11 @@ std::string contradiction_of(const SolvedWalk& a, const SolvedWalk& b, double li
   return contradiction;
 }
 
-Result<SolvedWalk> tracked_with(const OffsetProblem& problem, double offset_s, MappingOptions mapping,
+Result<SolvedWalk> tracked_with(const OffsetProblem& problem, const SolvedWalk& known, MappingOptions mapping,
                                 double velocity_sigma, const Job& job) {
   mapping.velocity_sigma = velocity_sigma;
-  auto walk = solve_walk_at(problem, offset_s, mapping, job);
+  auto walk = track_again(problem, known, mapping, job);
   if (!walk) return failure(ExitCode::kInterrupted, "interrupted while building the map");
-  walk->tracked_again = true;
   return std::move(*walk);
 }
 
@@ -170,10 +169,10 @@ Result<MapPath> along_best_walk(const OffsetProblem& problem, const MapPath& pat
     return best;
   SolvedWalk known = *walk;
   known.tracked_again = true;
-  best->walk = std::make_shared<const SolvedWalk>(std::move(known));
-  auto one = tracked_with(problem, walk->tracked_at_s, mapping, 5, job);
+  best->walk = std::make_shared<const SolvedWalk>(known);
+  auto one = tracked_with(problem, known, mapping, 5, job);
   if (!one) return tl::unexpected(one.error());
-  auto other = tracked_with(problem, walk->tracked_at_s, mapping, 12, job);
+  auto other = tracked_with(problem, known, mapping, 12, job);
   if (!other) return tl::unexpected(other.error());
   const std::string contradiction =
       contradiction_of(*one, *other, best->consistency->limit_m, *problem.recording);
