@@ -144,12 +144,11 @@ std::string contradiction_of(const SolvedWalk& a, const SolvedWalk& b, double li
   return contradiction;
 }
 
-Result<SolvedWalk> tracked_with(const OffsetProblem& problem, double offset_s, MappingOptions mapping,
+Result<SolvedWalk> tracked_with(const OffsetProblem& problem, const SolvedWalk& known, MappingOptions mapping,
                                 double velocity_sigma, const Job& job) {
   mapping.velocity_sigma = velocity_sigma;
-  auto walk = solve_walk_at(problem, offset_s, mapping, job);
+  auto walk = track_again(problem, known, mapping, job);
   if (!walk) return failure(ExitCode::kInterrupted, "interrupted while building the map");
-  walk->tracked_again = true;
   return std::move(*walk);
 }
 
@@ -180,9 +179,9 @@ Result<MapPath> along_best_walk(const OffsetProblem& problem, const MapPath& pat
                                 const Job& job) {
   auto first = along_walk(problem, path, walk, job);
   if (!first || !is_doubtful(*first) || walk->tracked_again) return first;
-  auto one = tracked_with(problem, walk->tracked_at_s, mapping, 5, job);
+  auto one = tracked_with(problem, *walk, mapping, 5, job);
   if (!one) return tl::unexpected(one.error());
-  auto other = tracked_with(problem, walk->tracked_at_s, mapping, 12, job);
+  auto other = tracked_with(problem, *walk, mapping, 12, job);
   if (!other) return tl::unexpected(other.error());
   std::string contradiction = contradiction_of(*one, *other, first->consistency->limit_m, *problem.recording);
   if (contradiction.empty()) contradiction = walk->contradiction;

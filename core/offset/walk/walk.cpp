@@ -32,6 +32,18 @@ std::string worst_of(const std::vector<Contradiction>& contradictions, const Rec
                   recording.scans.front().first_beam_s);
 }
 
+constexpr double kHeld_s = 1e-9;         // of an offset that is not to be improved
+constexpr std::size_t kStartsAgain = 2;  // of those tried at first
+
+SolvedWalk with_track(SolvedWalk walk, const JudgedWalk& tracked, std::size_t min_sweeps,
+                      const Recording& recording) {
+  walk.lost = tracked.tracked() < min_sweeps;
+  walk.sweeps = tracked.sweeps;
+  walk.contradiction = worst_of(tracked.contradictions, recording);
+  if (walk.starts.empty()) walk.starts = tracked.starts;
+  return walk;
+}
+
 std::optional<SolvedWalk> iterate(const OffsetProblem& problem, double first_offset_s,
                                   const WalkOptions& options, const Job& job) {
   SolvedWalk walk;
@@ -39,17 +51,14 @@ std::optional<SolvedWalk> iterate(const OffsetProblem& problem, double first_off
   MappingOptions mapping = options.mapping;
   JointWalkOptions joint = options.joint;
   JudgedWalk earlier;
-  constexpr std::size_t kStartsAgain = 2;  // of those tried at the first offset
-  constexpr double kFarTolerances = 2;     // by judgement: the other iterations move the offset by less
+  constexpr double kFarTolerances = 2;  // by judgement: the other iterations move the offset by less
   for (int pass = 0; pass < options.max_passes && !walk.near; ++pass) {
     auto tracked = track_and_judge(problem, offset_s, mapping, pass == 0 ? nullptr : &earlier, job);
     if (!tracked) return std::nullopt;
     mapping.starts = tracked->starts;
     mapping.starts.resize(std::min(tracked->starts.size(), tracked->well ? 1 : kStartsAgain));
     walk.tracked_at_s = offset_s;
-    walk.lost = tracked->tracked() < options.min_sweeps;
-    walk.sweeps = tracked->sweeps;
-    walk.contradiction = worst_of(tracked->contradictions, *problem.recording);
+    walk = with_track(std::move(walk), *tracked, options.min_sweeps, *problem.recording);
     earlier = std::move(*tracked);
     if (walk.lost) return walk;
     const bool last = pass + 1 == options.max_passes;
@@ -71,37 +80,54 @@ std::optional<SolvedWalk> iterate(const OffsetProblem& problem, double first_off
   return walk;
 }
 
-}  // namespace
-
-std::optional<SolvedWalk> solve_walk(const OffsetProblem& problem, double first_offset_s,
-                                     const WalkOptions& options, const Job& job) {
-  auto walk = iterate(problem, first_offset_s, options, job);
-  if (!walk) return walk;
-  if (!options.mapping.given && !turns_back_smoothly(problem))
-    walk->sweeps = straightened(std::move(walk->sweeps));
-  const bool follows_truth = options.mapping.given && options.mapping.given->is_truth();
-  if (!follows_truth) {
-    AdjustedWalk whole = adjusted(problem, std::move(walk->sweeps), walk->tracked_at_s, options.joint, job);
-    walk->sweeps = std::move(whole.sweeps);
-    walk->misfit_m = whole.count.capped_cost_m();
+// Straightened and adjusted, its stretches on one map.
+std::optional<SolvedWalk> finished(const OffsetProblem& problem, SolvedWalk walk,
+                                   const MappingOptions& mapping, const Job& job) {
+  if (!mapping.given && !turns_back_smoothly(problem)) walk.sweeps = straightened(std::move(walk.sweeps));
+  JointWalkOptions joint;
+  joint.mapping = mapping;
+  if (problem.motor.one_way()) joint.offset_sigma_s = kHeld_s;
+  if (!mapping.given || !mapping.given->is_truth()) {
+    AdjustedWalk whole = adjusted(problem, std::move(walk.sweeps), walk.tracked_at_s, joint, job);
+    walk.sweeps = std::move(whole.sweeps);
+    walk.misfit_m = whole.count.capped_cost_m();
   }
-  SweepPlacer placer(problem, walk->tracked_at_s);
+  SweepPlacer placer(problem, walk.tracked_at_s);
   const auto place = [&](std::size_t i) {
     PlacedSweep sweep;
     placer.place(i, sweep);
     return sweep;
   };
-  walk->sweeps = relocalised(std::move(walk->sweeps), place, options.mapping, job);
-  return job.cancelled() ? std::nullopt : std::move(walk);
+  walk.sweeps = relocalised(std::move(walk.sweeps), place, mapping, job);
+  if (job.cancelled()) return std::nullopt;
+  return walk;
 }
 
+// At an offset that is not to be improved.
 std::optional<SolvedWalk> solve_walk_at(const OffsetProblem& problem, double offset_s,
                                         const MappingOptions& mapping, const Job& job) {
-  constexpr double kHeld_s = 1e-9;
   WalkOptions options;
   options.mapping = options.joint.mapping = mapping;
   options.joint.offset_sigma_s = kHeld_s;
   return solve_walk(problem, offset_s, options, job);
+}
+
+}  // namespace
+
+std::optional<SolvedWalk> solve_walk(const OffsetProblem& problem, double first_offset_s,
+                                     const WalkOptions& options, const Job& job) {
+  auto walk = iterate(problem, first_offset_s, options, job);
+  return walk ? finished(problem, std::move(*walk), options.mapping, job) : walk;
+}
+
+std::optional<SolvedWalk> track_again(const OffsetProblem& problem, SolvedWalk walk, MappingOptions mapping,
+                                      const Job& job) {
+  mapping.starts = walk.starts;
+  mapping.starts.resize(std::min(walk.starts.size(), kStartsAgain));
+  const auto tracked = track_and_judge(problem, walk.tracked_at_s, mapping, nullptr, job);
+  if (!tracked) return std::nullopt;
+  walk = with_track(std::move(walk), *tracked, WalkOptions().min_sweeps, *problem.recording);
+  return finished(problem, std::move(walk), mapping, job);
 }
 
 std::optional<SolvedWalk> find_walk(const OffsetProblem& problem, double middle_s,

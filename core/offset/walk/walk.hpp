@@ -34,13 +34,14 @@ WalkOptions walk_options(const MappingOptions& mapping, const SearchScale& scale
 /// Everything that is computed or drawn of a walk uses this trajectory.
 struct SolvedWalk {
   std::vector<SweepPose> sweeps;
-  double tracked_at_s = 0;         // the offset that the sweeps were placed with
-  double misfit_m = 0;             // of its features, each at most MappingOptions::cost_cap_m; see `adjusted`
-  bool lost = false;               // too few sweeps could be tracked
-  bool near = false;               // tracked at nearly the offset that fits
-  bool tracked_again = false;      // in other ways, since its map did not agree with itself
-  std::string contradiction;       // a sentence, if its tracks or these ways contradict each other
-  std::optional<JointWalk> joint;  // absent where too few points match
+  double tracked_at_s = 0;     // the offset that the sweeps were placed with
+  double misfit_m = 0;         // of its features, each at most MappingOptions::cost_cap_m; see `adjusted`
+  bool lost = false;           // too few sweeps could be tracked
+  bool near = false;           // tracked at nearly the offset that fits
+  bool tracked_again = false;  // in other ways, since its map did not agree with itself
+  std::vector<std::size_t> starts;  // at first, see MappingOptions: the best before the others
+  std::string contradiction;        // a sentence, if its tracks or these ways contradict each other
+  std::optional<JointWalk> joint;   // absent where too few points match
 };
 
 /// Alternates between tracking the walk and solving for walk and offset together, from an offset within some
@@ -56,9 +57,10 @@ std::optional<SolvedWalk> solve_walk(const OffsetProblem& problem, double first_
 std::optional<SolvedWalk> find_walk(const OffsetProblem& problem, double middle_s,
                                     const MappingOptions& mapping, const Job& job);
 
-/// The walk as it is tracked at an offset that is not to be improved.
-std::optional<SolvedWalk> solve_walk_at(const OffsetProblem& problem, double offset_s,
-                                        const MappingOptions& mapping, const Job& job);
+/// The walk with another trajectory: tracked at the same offset from its two best starts, with other options.
+/// What was solved for together with the offset stays. Absent if the job was cancelled.
+std::optional<SolvedWalk> track_again(const OffsetProblem& problem, SolvedWalk walk, MappingOptions mapping,
+                                      const Job& job);
 
 /// The intervals in which sweeps are lost, in seconds since the recording's first scan.
 std::vector<Interval> lost_times(const std::vector<SweepPose>& sweeps, const Recording& recording);
