@@ -172,8 +172,8 @@ std::vector<MapPath> best_fitting(std::vector<MapPath> ways) {
 
 // The path along a walk. Where its map does not agree with itself, or its tracks contradict each other, the
 // walk is tracked in two other ways, which differ in directions that surfaces hardly determine. Of those that
-// fit nearly equally well the one whose map agrees best is taken, with what the others say; a way that fits
-// clearly best contradicts the others.
+// fit nearly equally well the one whose map agrees best is taken, with what the two say of each other. If one
+// fits clearly best, the others are wrong.
 Result<MapPath> along_best_walk(const OffsetProblem& problem, const MapPath& path,
                                 const std::shared_ptr<const SolvedWalk>& walk, const MappingOptions& mapping,
                                 const Job& job) {
@@ -184,7 +184,8 @@ Result<MapPath> along_best_walk(const OffsetProblem& problem, const MapPath& pat
   auto other = tracked_with(problem, *walk, mapping, 12, job);
   if (!other) return tl::unexpected(other.error());
   std::string contradiction = contradiction_of(*one, *other, first->consistency->limit_m, *problem.recording);
-  if (contradiction.empty()) contradiction = walk->contradiction;
+  for (const SolvedWalk* way : {&*one, &*other})
+    if (contradiction.empty()) contradiction = way->contradiction;
   SolvedWalk again = *walk;
   std::vector<MapPath> ways;
   for (SolvedWalk* way : {&again, &*one, &*other}) {

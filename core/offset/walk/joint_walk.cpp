@@ -136,13 +136,13 @@ AdjustedWalk adjusted(const OffsetProblem& problem, std::vector<SweepPose> track
   std::atomic<std::size_t> done{0};
   const auto all = double(pieces.size()) * (options.rough_iterations + options.whole_iterations);
   const auto iterated = [&] { job.report("adjusting", std::min(1.0, double(++done) / all)); };
-  std::vector<char> goes_on(pieces.size(), 0);
-  for (std::size_t i = 0; i + 1 < pieces.size(); ++i)
-    goes_on[i] = pieces[i + 1].front().stretch == pieces[i].back().stretch ? 1 : 0;
+  std::vector<bool> held(pieces.size() + 1, false);  // whether a stretch goes on from the piece before
+  for (std::size_t i = 1; i < pieces.size(); ++i)
+    held[i] = pieces[i].front().stretch == pieces[i - 1].back().stretch;
   std::vector<MatchCount> counts(pieces.size());
   for_each_index(pieces.size(), [&](std::size_t i) {
     WalkPart part(problem, pieces[i], offset_s, options);
-    counts[i] = part.adjust(goes_on[i] != 0, job, iterated);
+    counts[i] = part.adjust({held[i], held[i + 1]}, job, iterated);
     for (SweepPose& sweep : pieces[i]) sweep = part.path().as_sweep(std::move(sweep));
   });
   AdjustedWalk walk{std::move(tracked), {}};

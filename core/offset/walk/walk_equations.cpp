@@ -133,10 +133,9 @@ void WalkEquations::hold(double first_sigma, double knot_sigma, double offset_si
   held_[last] += 1 / (offset_sigma_s * offset_sigma_s);
 }
 
-void WalkEquations::hold_end(double sigma) {
-  constexpr std::size_t kFromEnd = 2;  // the knot next to the path's end
-  if (path_.knots() >= kFromEnd)
-    held_.segment<6>(Eigen::Index(6 * (path_.knots() - kFromEnd))).array() += 1 / (sigma * sigma);
+void WalkEquations::hold_knots(std::size_t first, double sigma) {
+  if (path_.knots() < kEndKnots) return;
+  held_.segment<6 * kEndKnots>(Eigen::Index(6 * first)).array() += 1 / (sigma * sigma);
 }
 
 Eigen::MatrixXd WalkEquations::matrix() const {

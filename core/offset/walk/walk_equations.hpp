@@ -28,8 +28,9 @@ class WalkEquations {
   void add_accelerations(const Eigen::Vector2d& sigma);
   /// A map can be moved as a whole where there are knots, and a knot that sees little stays where it is.
   void hold(double first_sigma, double knot_sigma, double offset_sigma_s);
-  /// The path's end stays, too.
-  void hold_end(double sigma);
+  /// The path begins, or ends, where it does.
+  void hold_begin(double sigma) { hold_knots(0, sigma); }
+  void hold_end(double sigma) { hold_knots(path_.knots() - kEndKnots, sigma); }
 
   /// Of half the sum of the squares, by the unknowns.
   const Eigen::VectorXd& gradient() const { return gradient_; }
@@ -72,6 +73,8 @@ class WalkEquations {
                   Eigen::VectorXd& x) const;
   Solution steps(const Eigen::VectorXd& solved) const;
   Eigen::SparseMatrix<double> band(const ScanEquations::Diagonal& matches) const;
+  static constexpr std::size_t kEndKnots = 3;  // which either end of a path depends on
+  void hold_knots(std::size_t first, double sigma);
   void add_prior(const Prior& prior, const std::vector<Vector6d>& residuals);
   template <typename Add>
   void add_priors(const Add& add) const;

@@ -81,7 +81,7 @@ OffsetProblem WalkPart::begin() {
   return part;
 }
 
-MatchCount WalkPart::adjust(bool holds_end, const Job& job, const std::function<void()>& iterated) {
+MatchCount WalkPart::adjust(const HeldEnds& held, const Job& job, const std::function<void()>& iterated) {
   const OffsetProblem part = begin();
   const int iterations = options_.rough_iterations + options_.whole_iterations;
   MatchCount count;
@@ -89,7 +89,8 @@ MatchCount WalkPart::adjust(bool holds_end, const Job& job, const std::function<
     count = match(part, {i < options_.rough_iterations ? options_.rough_stride : 1, true});
     auto equations = this->equations(kAnyStep);
     if (equations) equations->add_accelerations(std::pow(options_.knot_s, 2) * acceleration_sigma_);
-    if (equations && holds_end) equations->hold_end(kHeld);
+    if (equations && held.begin) equations->hold_begin(kHeld);
+    if (equations && held.end) equations->hold_end(kHeld);
     const auto solution = equations ? equations->solve_long() : std::nullopt;
     if (!solution) break;
     step(*solution);

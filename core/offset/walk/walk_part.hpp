@@ -30,9 +30,13 @@ class WalkPart {
   void settle(const Job& job, const std::function<void()>& iterated);
   /// The others, after which it holds their mean. Does nothing if a part did not converge.
   void average(const Job& job, const std::function<void()>& iterated);
-  /// Instead of both, for a part that may be long: iterations of which only the path is wanted. With
-  /// `holds_end` it ends where it was tracked, too. Counts the matches of the last one.
-  MatchCount adjust(bool holds_end, const Job& job, const std::function<void()>& iterated);
+  /// Which ends of a part stay where they were tracked.
+  struct HeldEnds {
+    bool begin = false, end = false;
+  };
+  /// Instead of both, for a part that may be long: iterations of which only the path is wanted. Counts the
+  /// matches of the last one.
+  MatchCount adjust(const HeldEnds& held, const Job& job, const std::function<void()>& iterated);
   /// Gives back the memory of a factor, 8 MB of a part of 10 s, which `average` would start with.
   void forget_factor() { factor_.reset(); }
 

@@ -147,7 +147,31 @@ TEST(WalkEquations, JerksHaveTheGradientOfTheirSquares) {
   EXPECT_LT((equations.gradient().head(numeric.size()) - numeric).norm(), 0.05 * numeric.norm());
 }
 
-TEST(WalkEquations, TheMatrixOfJerksIsTheChangeOfTheirGradient) {
+TEST(WalkEquations, AccelerationsHaveTheGradientOfTheirSquares) {
+  constexpr double kStep = 1e-5;
+  const Eigen::Vector2d sigma(0.2, 0.5);
+  const GuidedPath path = shaken();
+  const auto cost = [&](const GuidedPath& at) {
+    double sum = 0;
+    for (std::size_t k = 0; k + 2 < at.knots(); ++k) {
+      const Vector6d change =
+          difference(at.knot(k + 2), at.knot(k + 1)) - difference(at.knot(k + 1), at.knot(k));
+      sum +=
+          (change.head<3>() / sigma[0]).squaredNorm() / 2 + (change.tail<3>() / sigma[1]).squaredNorm() / 2;
+    }
+    return sum;
+  };
+  const ScanEquations none(0);
+  const std::vector<ScanMotion> motions;
+  WalkEquations equations(none, motions, path);
+  equations.add_accelerations(sigma);
+  Eigen::VectorXd numeric(Eigen::Index(6 * path.blocks()));
+  for (Eigen::Index i = 0; i < numeric.size(); ++i)
+    numeric[i] = (cost(moved(path, i, kStep)) - cost(moved(path, i, -kStep))) / (2 * kStep);
+  EXPECT_LT((equations.gradient().head(numeric.size()) - numeric).norm(), 0.05 * numeric.norm());
+}
+
+TEST(WalkEquations, TheMatrixOfJerksAndAccelerationsIsTheChangeOfTheirGradient) {
   constexpr double kStep = 1e-3;
   const Eigen::Vector2d sigma(0.2, 0.5);
   const ScanEquations none(0);
@@ -155,6 +179,7 @@ TEST(WalkEquations, TheMatrixOfJerksIsTheChangeOfTheirGradient) {
   const auto equations_of = [&](const GuidedPath& path) {
     WalkEquations equations(none, motions, path);
     equations.add_jerks(sigma);
+    equations.add_accelerations(2 * sigma);
     return equations;
   };
   const GuidedPath path = path_of(std::nullopt);
@@ -266,10 +291,26 @@ TEST_P(WalkEquationsOf, AProductIsThatOfTheMatrix) {
   const GuidedPath path = path_of(GetParam());
   Whole whole(path, usual_weight);
   whole.equations.add_jerks({0.2, 0.5});
+  whole.equations.add_accelerations({0.1, 0.3});
   Eigen::VectorXd steps(whole.step.size());
   for (Eigen::Index i = 0; i < steps.size(); ++i) steps[i] = std::sin(double(i * i));
   const Eigen::VectorXd product = whole.equations.matrix().selfadjointView<Eigen::Lower>() * steps;
   EXPECT_LT((whole.equations.product(steps) - product).norm(), 1e-12 * product.norm());
+}
+
+TEST_P(WalkEquationsOf, ALongPathIsSolvedForToAHundredth) {
+  const GuidedPath path = path_of(GetParam());
+  Whole whole(path, usual_weight);
+  whole.equations.add_jerks({0.2, 0.5});
+  whole.equations.add_accelerations({0.1, 0.3});
+  const auto solution = whole.equations.solve_long();
+  ASSERT_TRUE(solution);
+  Eigen::VectorXd steps(whole.step.size());
+  for (std::size_t k = 0; k < solution->block_steps.size(); ++k)
+    steps.segment<6>(Eigen::Index(6 * k)) = solution->block_steps[k];
+  steps[steps.size() - 1] = solution->offset_step_s;
+  const Eigen::VectorXd& gradient = whole.equations.gradient();
+  EXPECT_LT((whole.equations.product(steps) + gradient).norm(), 0.011 * gradient.norm());
 }
 
 TEST_P(WalkEquationsOf, AMatchChangesByItsRow) {
