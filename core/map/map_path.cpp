@@ -109,7 +109,11 @@ Result<MapPath> checked(const OffsetProblem& problem, MapPath path, const Job& j
   if (path.walk) offset_s = path.walk->tracked_at_s;
   auto found = map_consistency(problem, poses_of_sweeps(problem, path, offset_s), offset_s, job);
   if (!found) return failure(ExitCode::kInterrupted, "interrupted while building the map");
-  if (path.walk && !path.walk->contradiction.empty()) found->warnings.push_back(path.walk->contradiction);
+  if (path.walk && !path.walk->contradiction.empty()) {
+    constexpr double kDoubt = 2;  // as that of surfaces twice as far apart as they may be
+    found->warnings.push_back(path.walk->contradiction);
+    found->doubt = std::max(found->doubt, kDoubt);
+  }
   if (found->drift_warning && path.walk && !followed_given_motion(*path.walk))
     found->warnings.push_back(*found->drift_warning);
   for (const std::string& warning : found->warnings) add_warning(path, warning);
@@ -157,7 +161,7 @@ double doubt_of(const MapPath& path) {
 }
 
 bool is_doubtful(const MapPath& path) {
-  return path.consistency && (!path.consistency->agrees_with_itself() || !path.walk->contradiction.empty());
+  return path.consistency && !path.consistency->agrees_with_itself();
 }
 
 // Of the same walk tracked in different ways: those whose features fit each other nearly as well as those of
