@@ -20,4 +20,14 @@ struct JudgedWalk : TrackedWalk {
 Result<JudgedWalk> track_and_judge(const OffsetProblem& problem, double offset_s,
                                    const MappingOptions& options, const JudgedWalk* earlier, const Job& job);
 
+/// Sweeps in a row whose poses are known, of all sweeps from the `first` one.
+struct KnownSweeps {
+  std::size_t first = 0;
+  std::vector<SweepPose> poses;
+};
+
+/// As `track`, but on the map of the known sweeps, and from there alone.
+Result<JudgedWalk> track_from(const OffsetProblem& problem, double offset_s, KnownSweeps known,
+                              const MappingOptions& options, const Job& job);
+
 }  // namespace sweepscope

@@ -21,6 +21,14 @@ struct SweepSource {
   std::function<PlacedSweep(std::size_t)> place;
 };
 
+SweepSource source_of(SweepPlacer& placer) {
+  return {placer.count(), [&placer](std::size_t i) {
+            PlacedSweep sweep;
+            placer.place(i, sweep);
+            return sweep;
+          }};
+}
+
 // Sweeps [first, end) of the recording.
 struct Range {
   std::size_t first, end;
@@ -87,7 +95,7 @@ class Walk {
     if (range.size() < min_sweeps()) return true;  // they stay lost
     std::vector<Stretch> tried;                    // the best first
     for (const std::size_t start : starts(range)) {
-      tried.push_back(follow(start, range));
+      tried.push_back(follow(start, {first_pose(start, range)}, range));
       if (job_.cancelled()) return false;
       compare_latest(tried);
       std::ranges::stable_sort(tried, better);
@@ -96,15 +104,18 @@ class Walk {
     if (job_.cancelled()) return false;
     if (tried.empty()) return true;
     Stretch& best = tried.front();
-    if (++stretches_ == 1) {
+    if (stretches_ == 0) {
       for (const Stretch& stretch : tried) starts_.push_back(stretch.start);
       well_ = range.size() == source_.count && confirmed(best, range);
       mend(tried);
     }
-    for (SweepPose& pose : best.poses) pose.stretch = stretches_;
-    std::ranges::move(best.poses, poses_.begin() + std::ptrdiff_t(best.range.first));
-    count_ += best.count;
-    return track({range.first, best.range.first}) && track({best.range.end, range.end});
+    return take(best, range);
+  }
+  // The same from sweeps whose poses are known.
+  bool track_from(KnownSweeps known) {
+    const Range all{0, source_.count};
+    Stretch found = follow(known.first, std::move(known.poses), all);
+    return !job_.cancelled() && take(found, all);
   }
 
   JudgedWalk result() {
@@ -128,6 +139,14 @@ class Walk {
 
     std::size_t agreed_sweeps() const { return std::size_t(std::ranges::count(agreed, 1)); }
   };
+  // As the next stretch; then what is before and after it.
+  bool take(Stretch& found, Range range) {
+    ++stretches_;
+    for (SweepPose& pose : found.poses) pose.stretch = stretches_;
+    std::ranges::move(found.poses, poses_.begin() + std::ptrdiff_t(found.range.first));
+    count_ += found.count;
+    return track({range.first, found.range.first}) && track({found.range.end, range.end});
+  }
   static bool better(const Stretch& a, const Stretch& b) {
     if (a.alternates != b.alternates) return b.alternates;
     if (a.agreed_sweeps() != b.agreed_sweeps()) return a.agreed_sweeps() > b.agreed_sweeps();
@@ -182,9 +201,9 @@ class Walk {
     }
     return stretch;
   }
-  // Whether a second track found nearly the same.
+  // Whether a second track found nearly the same, of all but what the first and the last sweep hold.
   bool confirmed(const Stretch& best, Range range) const {
-    if (best.range.size() != range.size() || best.alternates) return false;
+    if (best.alternates || best.range.first > range.first + 1 || best.range.end + 1 < range.end) return false;
     constexpr double kMostSweeps = 0.9;
     return double(best.agreed_sweeps()) >= kMostSweeps * double(range.size());
   }
@@ -268,11 +287,15 @@ class Walk {
     return find_first_pose(sweeps, options_);
   }
 
-  // From the start to the range's end, then back to its first sweep, each until track is lost for good.
-  Stretch follow(std::size_t start, Range range) {
-    Tracker tracker(options_, first_pose(start, range));
+  // From sweeps whose poses are known, the first of them at the start, to the range's end, then back to its
+  // first sweep, each until track is lost for good.
+  Stretch follow(std::size_t start, std::vector<SweepPose> known, Range range) {
+    Tracker tracker(options_);
     Stretch found;
     found.start = start;
+    found.poses = std::move(known);
+    std::size_t end = start, first = start;
+    for (const SweepPose& pose : found.poses) tracker.know(source_.place(end++), pose);
     const auto add = [&](const PlacedSweep& sweep) {
       SweepPose pose = tracker.add(sweep);
       if (tracker.settled()) found.count += tracker.last_count();
@@ -282,11 +305,9 @@ class Walk {
     const auto goes_on = [&] {
       return tracker.lost_in_a_row() < options_.give_up_after && !job_.cancelled();
     };
-    std::size_t end = start, first = start;
     std::vector<SweepPose> before;
     for (; end < range.end && goes_on(); ++end) found.poses.push_back(add(source_.place(end)));
     const auto lost_at_end = std::size_t(tracker.lost_in_a_row());
-    if (found.poses.empty()) return found;  // cancelled
     tracker.turn_back(found.poses.front());
     for (; first > range.first && goes_on(); --first)
       before.push_back(reversed(add(reversed(source_.place(first - 1)))));
@@ -372,12 +393,17 @@ std::size_t TrackedWalk::tracked() const {
 Result<JudgedWalk> track_and_judge(const OffsetProblem& problem, double offset_s,
                                    const MappingOptions& options, const JudgedWalk* earlier, const Job& job) {
   SweepPlacer placer(problem, offset_s);
-  const SweepSource source{placer.count(), [&](std::size_t i) {
-                             PlacedSweep sweep;
-                             placer.place(i, sweep);
-                             return sweep;
-                           }};
-  return track(source, options, earlier, job);
+  return track(source_of(placer), options, earlier, job);
+}
+
+Result<JudgedWalk> track_from(const OffsetProblem& problem, double offset_s, KnownSweeps known,
+                              const MappingOptions& options, const Job& job) {
+  SweepPlacer placer(problem, offset_s);
+  const SweepSource source = source_of(placer);
+  Walk walk(source, options, nullptr, job);
+  if (!walk.track_from(std::move(known)))
+    return failure(ExitCode::kInterrupted, "interrupted while tracking");
+  return walk.result();
 }
 
 Result<TrackedWalk> track(const OffsetProblem& problem, double offset_s, const MappingOptions& options,

@@ -31,10 +31,8 @@ bool is_given(const MappingOptions& options, double from_s, double to_s) {
 
 // At a constant velocity, or deviation from a given motion, from the map's origin on.
 SweepPose steady_pose(const PlacedSweep& sweep, const Vector6d& twist_per_s, const MappingOptions& options) {
+  SweepPose pose = pose_of(sweep);
   if (is_given(options, sweep.begin_s, sweep.end_s)) {
-    SweepPose pose;
-    pose.begin_s = sweep.begin_s;
-    pose.end_s = sweep.end_s;
     pose = along(*options.given, pose, Pose{}, sweep.begin_s, options.knot_s);
     const double step_s = (sweep.end_s - sweep.begin_s) / double(pose.knots.size() - 1);
     for (std::size_t i = 0; i < pose.knots.size(); ++i)
@@ -44,7 +42,6 @@ SweepPose steady_pose(const PlacedSweep& sweep, const Vector6d& twist_per_s, con
   const Vector6d gone = (sweep.end_s - sweep.begin_s) * twist_per_s;
   const Pose end{rotation_from_vector(gone.head<3>()), gone.tail<3>()};
   const std::size_t steps = steps_of(sweep, options);
-  SweepPose pose;
   pose.knots.clear();
   for (std::size_t i = 0; i <= steps; ++i)
     pose.knots.push_back(interpolate(Pose{}, end, double(i) / double(steps)));
@@ -65,30 +62,32 @@ Pose carried_on(const Pose& from, const Pose& to, double steps) {
 
 }  // namespace
 
-Tracker::Tracker(const MappingOptions& options, SweepPose first, double time_sign)
+Tracker::Tracker(const MappingOptions& options, double time_sign)
     : options_(options),
-      first_(std::move(first)),
       time_sign_(time_sign),
       acceleration2_(
           Eigen::Vector2d::Constant(std::pow(options.first_acceleration / options.acceleration_factor, 2))) {}
 
+void Tracker::know(const PlacedSweep& sweep, const SweepPose& pose) {
+  path_ = pose.knots;
+  end_s_ = sweep.end_s;
+  step_s_ = (sweep.end_s - sweep.begin_s) / double(path_.size() - 1);
+  maps_.insert(sweep, pose);
+  learn_acceleration(pose);
+  ++sweeps_;
+}
+
 SweepPose Tracker::add(const PlacedSweep& sweep) {
   SweepPose pose = pose_of(sweep);
-  const double duration_s = sweep.end_s - sweep.begin_s;
   const std::size_t steps = steps_of(sweep, options_);
-  if (sweeps_ == 0) {
-    path_ = first_.knots;
-    step_s_ = duration_s / double(path_.size() - 1);
-  } else {
-    if (sweep.begin_s - end_s_ > kLongGap_s) after_gap_ = true;
-    if (!begin_along_given(sweep, steps)) begin_path(sweep, steps);
-    Solved best = solved(sweep, steps);
-    path_ = std::move(best.path);
-    pose.features = best.count.features;
-    pose.matches = best.count.matches;
-    judge(best.count);
-    last_count_ = best.count;
-  }
+  if (sweep.begin_s - end_s_ > kLongGap_s) after_gap_ = true;
+  if (!begin_along_given(sweep, steps)) begin_path(sweep, steps);
+  Solved best = solved(sweep, steps);
+  path_ = std::move(best.path);
+  pose.features = best.count.features;
+  pose.matches = best.count.matches;
+  judge(best.count);
+  last_count_ = best.count;
   end_s_ = sweep.end_s;
   pose.knots = path_;
   pose.lost = lost_in_a_row_ > 0;
@@ -272,8 +271,8 @@ namespace {
 Vector6d find_first_twist_per_s(const std::vector<PlacedSweep>& sweeps, const MappingOptions& options) {
   Vector6d twist_per_s = Vector6d::Zero();
   for (int round = 0; round < options.velocity_rounds; ++round) {
-    Tracker tracker(options, steady_pose(sweeps[0], twist_per_s, options));
-    tracker.add(sweeps[0]);
+    Tracker tracker(options);
+    tracker.know(sweeps[0], steady_pose(sweeps[0], twist_per_s, options));
     Vector6d found = Vector6d::Zero();
     for (std::size_t i = 1; i < sweeps.size(); ++i) {
       const SweepPose pose = tracker.add(sweeps[i]);
@@ -294,8 +293,9 @@ struct LastPose {
 };
 LastPose track_once(const std::vector<PlacedSweep>& sweeps, const SweepPose& first,
                     const MappingOptions& options, double time_sign) {
-  Tracker tracker(options, first, time_sign);
-  LastPose last{tracker.add(sweeps[0]), 1};
+  Tracker tracker(options, time_sign);
+  tracker.know(sweeps[0], first);
+  LastPose last{first, 1};
   for (std::size_t i = 1; i < sweeps.size(); ++i) {
     last.pose = tracker.add(sweeps[i]);
     last.matched_part = std::min(last.matched_part, tracker.last_count().matched_part());

@@ -16,10 +16,12 @@ namespace sweepscope {
 /// With MappingOptions::given, in sweeps that it covers, motion and velocity mean the deviation from it.
 class Tracker {
  public:
-  /// `first`: the pose of the rig during the first sweep, for which there is no map yet. `time_sign` is -1
-  /// for sweeps whose time runs backwards.
-  Tracker(const MappingOptions& options, SweepPose first, double time_sign = 1);
+  /// `time_sign` is -1 for sweeps whose time runs backwards.
+  Tracker(const MappingOptions& options, double time_sign = 1);
 
+  /// The next sweep, whose pose is known, goes into the map; so must the first one, for which there is none
+  /// yet.
+  void know(const PlacedSweep& sweep, const SweepPose& pose);
   /// The pose of the next sweep; those that are not lost go into the map.
   SweepPose add(const PlacedSweep& sweep);
 
@@ -57,7 +59,6 @@ class Tracker {
   bool grown() const { return sweeps_ >= options_.settling_sweeps; }
 
   const MappingOptions& options_;
-  SweepPose first_;
   double time_sign_;
   std::vector<Pose> path_;   // the present sweep's knots
   Pose before_;              // a step before them

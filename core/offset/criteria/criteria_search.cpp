@@ -33,7 +33,7 @@ std::optional<SharedByCandidates> shared_by_candidates(const OffsetSearch& searc
   }
   shared.walk = search.options.walk;
   if (shared.walk) return shared;
-  auto walk = find_walk(search.problem, offset_s, mapping_of(search.options), job);
+  auto walk = find_walk(search.problem, offset_s, mapping_of(search.options), WalkPurpose::kOffset, job);
   if (!walk) return std::nullopt;
   shared.walk = std::make_shared<const SolvedWalk>(std::move(*walk));
   return shared;

@@ -124,7 +124,8 @@ std::optional<JointWalk> solve_joint_walk(const OffsetProblem& problem, const st
   });
   if (job.cancelled()) return std::nullopt;
   auto walk = joined(problem, cuts, parts, options);
-  if (!walk || std::abs(walk->offset_s - offset_s) > options.far_s) return walk;
+  if (!walk || options.averaged_iterations == 0 || std::abs(walk->offset_s - offset_s) > options.far_s)
+    return walk;
   for_each_index(cuts.size(), [&](std::size_t i) { parts[i]->average(job, iterated); });
   if (job.cancelled()) return std::nullopt;
   return joined(problem, cuts, parts, options);

@@ -36,7 +36,7 @@ struct JointWalkOptions {
   double loss_width_m = 0.03;    // Cauchy
   double offset_sigma_s = 0.01;  // of the offset that it starts from
   // Every iteration matches again, and other matches give another answer: the mean of several is more
-  // accurate.
+  // accurate. Without averaged ones the answer counts as not converged.
   int first_iterations = 3, averaged_iterations = 6;
   // If the first iterations lead further away, the others are not run: the walk must be tracked again.
   double far_s = std::numeric_limits<double>::infinity();

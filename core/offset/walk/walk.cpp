@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/loam/judged_walk.hpp"
 #include "core/loam/path/given_motion.hpp"
 #include "core/loam/path/straighten.hpp"
 #include "core/loam/relocalisation.hpp"
@@ -90,7 +89,7 @@ std::optional<SolvedWalk> finished(const OffsetProblem& problem, SolvedWalk walk
   if (!mapping.given || !mapping.given->is_truth()) {
     AdjustedWalk whole = adjusted(problem, std::move(walk.sweeps), walk.tracked_at_s, joint, job);
     walk.sweeps = std::move(whole.sweeps);
-    walk.misfit_m = whole.count.capped_cost_m();
+    if (whole.count.features > 0) walk.misfit_m = whole.count.capped_cost_m();
   }
   SweepPlacer placer(problem, walk.tracked_at_s);
   const auto place = [&](std::size_t i) {
@@ -130,14 +129,24 @@ std::optional<SolvedWalk> track_again(const OffsetProblem& problem, SolvedWalk w
   return finished(problem, std::move(walk), mapping, job);
 }
 
+std::optional<SolvedWalk> track_from(const OffsetProblem& problem, SolvedWalk walk, KnownSweeps known,
+                                     const MappingOptions& mapping, const Job& job) {
+  const auto tracked = track_from(problem, walk.tracked_at_s, std::move(known), mapping, job);
+  if (!tracked) return std::nullopt;
+  walk = with_track(std::move(walk), *tracked, WalkOptions().min_sweeps, *problem.recording);
+  return finished(problem, std::move(walk), mapping, job);
+}
+
 std::optional<SolvedWalk> find_walk(const OffsetProblem& problem, double middle_s,
-                                    const MappingOptions& mapping, const Job& job) {
+                                    const MappingOptions& mapping, WalkPurpose purpose, const Job& job) {
   const SearchScale scale = search_scale(problem.motor);
   if (problem.motor.one_way()) return solve_walk_at(problem, middle_s, mapping, job);
   const CoarseSearch coarse =
       search_coarsely(problem, middle_s - scale.half_width_s, middle_s + scale.half_width_s, scale, job);
   if (job.cancelled()) return std::nullopt;
-  return solve_walk(problem, coarse.offset_or(middle_s), walk_options(mapping, scale), job);
+  WalkOptions options = walk_options(mapping, scale);
+  if (purpose == WalkPurpose::kTrajectory) options.joint.averaged_iterations = 0;
+  return solve_walk(problem, coarse.offset_or(middle_s), options, job);
 }
 
 namespace {

@@ -2,12 +2,14 @@
 
 // The mathematics: docs/algorithms.md, section 11.
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/error.hpp"
 #include "core/job.hpp"
+#include "core/loam/judged_walk.hpp"
 #include "core/loam/mapping.hpp"
 #include "core/offset/judgement/limits.hpp"
 #include "core/offset/judgement/refusal.hpp"
@@ -34,11 +36,12 @@ WalkOptions walk_options(const MappingOptions& mapping, const SearchScale& scale
 /// Everything that is computed or drawn of a walk uses this trajectory.
 struct SolvedWalk {
   std::vector<SweepPose> sweeps;
-  double tracked_at_s = 0;     // the offset that the sweeps were placed with
-  double misfit_m = 0;         // of its features, each at most MappingOptions::cost_cap_m; see `adjusted`
-  bool lost = false;           // too few sweeps could be tracked
-  bool near = false;           // tracked at nearly the offset that fits
-  bool tracked_again = false;  // in other ways, since its map did not agree with itself
+  double tracked_at_s = 0;  // the offset that the sweeps were placed with
+  // Of its features, each at most MappingOptions::cost_cap_m; see `adjusted`.
+  double misfit_m = std::numeric_limits<double>::infinity();
+  bool lost = false;                // too few sweeps could be tracked
+  bool near = false;                // tracked at nearly the offset that fits
+  bool tracked_again = false;       // in other ways, since its map did not agree with itself
   std::vector<std::size_t> starts;  // at first, see MappingOptions: the best before the others
   std::string contradiction;        // a sentence, if its tracks or these ways contradict each other
   std::optional<JointWalk> joint;   // absent where too few points match
@@ -50,17 +53,24 @@ struct SolvedWalk {
 std::optional<SolvedWalk> solve_walk(const OffsetProblem& problem, double first_offset_s,
                                      const WalkOptions& options, const Job& job);
 
+/// What a walk is solved for. The offset of a trajectory need only be near enough to track at.
+enum class WalkPurpose { kOffset, kTrajectory };
+
 /// The same without an offset to start from: `middle_s` itself for a motor that turns one way, whose offset a
 /// walk does not show (sweeps then are half turns); otherwise of those the motor allows about `middle_s`, the
 /// one that fits best for a stationary rig (see search_coarsely): motion blurs this minimum but hardly shifts
 /// it.
 std::optional<SolvedWalk> find_walk(const OffsetProblem& problem, double middle_s,
-                                    const MappingOptions& mapping, const Job& job);
+                                    const MappingOptions& mapping, WalkPurpose purpose, const Job& job);
 
 /// The walk with another trajectory: tracked at the same offset from its two best starts, with other options.
 /// What was solved for together with the offset stays. Absent if the job was cancelled.
 std::optional<SolvedWalk> track_again(const OffsetProblem& problem, SolvedWalk walk, MappingOptions mapping,
                                       const Job& job);
+
+/// The same, tracked from sweeps whose poses are known.
+std::optional<SolvedWalk> track_from(const OffsetProblem& problem, SolvedWalk walk, KnownSweeps known,
+                                     const MappingOptions& mapping, const Job& job);
 
 /// The intervals in which sweeps are lost, in seconds since the recording's first scan.
 std::vector<Interval> lost_times(const std::vector<SweepPose>& sweeps, const Recording& recording);
