@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -11,14 +10,13 @@
 #include <utility>
 #include <vector>
 
-#include "core/loam/path/agreement.hpp"
 #include "core/loam/path/given_motion.hpp"
 #include "core/map/stamped_poses.hpp"
 #include "core/numbers.hpp"
 #include "core/offset/judgement/identifiability.hpp"
 #include "core/offset/kind/stationary_motion.hpp"
 #include "core/offset/prepared/search_window.hpp"
-#include "core/parallel.hpp"
+#include "core/offset/walk/ways.hpp"
 
 namespace sweepscope {
 namespace {
@@ -131,53 +129,6 @@ Result<MapPath> along_walk(const OffsetProblem& problem, MapPath path, std::shar
   return checked(problem, std::move(path), job);
 }
 
-// Of each sweep whether another way to track the walk found the same motion.
-std::vector<char> confirmed_by(std::span<const SolvedWalk> ways, const SolvedWalk& walk) {
-  std::vector<char> confirmed(walk.sweeps.size(), 0);
-  for (const SolvedWalk& other : ways) {
-    if (&other == &walk) continue;
-    const std::vector<char> agreed = agreeing(walk.sweeps, other.sweeps);
-    for (std::size_t i = 0; i < agreed.size(); ++i) confirmed[i] |= agreed[i];
-  }
-  return confirmed;
-}
-
-// Sweeps [first, end) in a row.
-struct Run {
-  std::size_t first = 0, end = 0;
-  std::size_t size() const { return end - first; }
-};
-
-std::vector<Run> runs_of(const std::vector<char>& marks, char mark) {
-  std::vector<Run> runs;
-  for (std::size_t i = 0; i < marks.size(); ++i) {
-    if (marks[i] != mark) continue;
-    if (runs.empty() || runs.back().end != i) runs.push_back({i, i});
-    runs.back().end = i + 1;
-  }
-  return runs;
-}
-
-// Where a walk that no other way confirms ends farthest from the nearest of them; empty where that is within
-// a limit.
-std::string contradiction_of(const SolvedWalk& walk, std::span<const SolvedWalk> ways, double limit_m,
-                             const Recording& recording) {
-  std::string contradiction;
-  for (const Run& run : runs_of(confirmed_by(ways, walk), 0)) {
-    const auto moved_m = [&](const SolvedWalk& way) {
-      return (way.sweeps[run.first].begin().inverse() * way.sweeps[run.end - 1].end()).translation_m;
-    };
-    double apart_m = std::numeric_limits<double>::infinity();
-    for (const SolvedWalk& other : ways)
-      if (&other != &walk) apart_m = std::min(apart_m, (moved_m(walk) - moved_m(other)).norm());
-    if (apart_m <= limit_m) continue;
-    limit_m = apart_m;
-    contradiction = in_words({walk.sweeps[run.first].begin_s, walk.sweeps[run.end - 1].end_s, apart_m},
-                             recording.scans.front().first_beam_s);
-  }
-  return contradiction;
-}
-
 // The smaller, the better the map agrees with itself, and then the better its features fit each other.
 std::pair<double, double> doubt_of(const MapPath& path) {
   return {path.consistency ? path.consistency->doubt : std::numeric_limits<double>::infinity(),
@@ -188,52 +139,6 @@ bool is_doubtful(const MapPath& path) {
   return path.consistency && !path.consistency->agrees_with_itself();
 }
 
-const SolvedWalk& best_fitting(const std::vector<SolvedWalk>& ways) {
-  return *std::ranges::min_element(ways, {}, &SolvedWalk::misfit_m);
-}
-
-// The most sweeps in a row of the best fitting way that another one confirms.
-KnownSweeps certain_sweeps(const std::vector<SolvedWalk>& ways) {
-  const SolvedWalk& best = best_fitting(ways);
-  const std::vector<Run> runs = runs_of(confirmed_by(ways, best), 1);
-  if (runs.empty()) return {};
-  const Run run = *std::ranges::max_element(runs, {}, &Run::size);
-  const auto begin = best.sweeps.begin();
-  return {run.first, {begin + std::ptrdiff_t(run.first), begin + std::ptrdiff_t(run.end)}};
-}
-
-// The same walk tracked in other ways. Two differ in directions that surfaces hardly determine. Further ones
-// go from the sweeps that two ways agree about, on the map of these, as long as those become more.
-Result<std::vector<SolvedWalk>> ways_to_track(const OffsetProblem& problem, const SolvedWalk& walk,
-                                              const MappingOptions& mapping, const Job& job) {
-  constexpr int kMaxFurther = 3;
-  constexpr std::size_t kEnds = 2;  // the first and the last sweep hold few scans
-  const auto interrupted = failure(ExitCode::kInterrupted, "interrupted while building the map");
-  constexpr std::array kVelocitySigmas = {5.0, 12.0};  // m/s and rad/s
-  std::array<std::optional<SolvedWalk>, kVelocitySigmas.size()> freer;
-  const Job quiet = Job::part_of(job);
-  for_each_index(freer.size(), [&](std::size_t i) {
-    MappingOptions options = mapping;
-    options.velocity_sigma = kVelocitySigmas[i];
-    freer[i] = track_again(problem, walk, options, i == 0 ? job : quiet);
-  });
-  std::vector<SolvedWalk> ways = {walk};
-  for (std::optional<SolvedWalk>& way : freer) {
-    if (!way) return interrupted;
-    ways.push_back(std::move(*way));
-  }
-  std::size_t known_before = 0;
-  for (int i = 0; i < kMaxFurther; ++i) {
-    KnownSweeps known = certain_sweeps(ways);
-    if (known.poses.size() <= known_before || known.poses.size() + kEnds >= walk.sweeps.size()) break;
-    known_before = known.poses.size();
-    auto way = track_from(problem, walk, std::move(known), mapping, job);
-    if (!way) return interrupted;
-    ways.push_back(std::move(*way));
-  }
-  return ways;
-}
-
 // The path along a walk. Where its map does not agree with itself, or its tracks contradict each other, the
 // walk is tracked in other ways. Of those that fit nearly equally well the one whose map agrees best is
 // taken.
@@ -241,19 +146,15 @@ Result<MapPath> along_best_walk(const OffsetProblem& problem, const MapPath& pat
                                 const std::shared_ptr<const SolvedWalk>& walk, const MappingOptions& mapping,
                                 const Job& job) {
   constexpr double kNearlyEqually = 1.05;  // tuned on tests/benchmark/worlds, seeds 80, 81 and 300
-  constexpr std::size_t kIndependent = 3;  // of the ways, whose motion is nowhere that of another
   auto first = along_walk(problem, path, walk, job);
   if (!first || !is_doubtful(*first) || walk->tracked_again) return first;
-  auto ways = ways_to_track(problem, *walk, mapping, job);
-  if (!ways) return tl::unexpected(ways.error());
-  const double max_misfit_m = kNearlyEqually * best_fitting(*ways).misfit_m;
+  const auto ways = ways_to_track(problem, *walk, mapping, job);
+  if (!ways) return failure(ExitCode::kInterrupted, "interrupted while building the map");
   std::optional<MapPath> best;
-  for (SolvedWalk& way : *ways) {
-    if (way.misfit_m > max_misfit_m) continue;
-    const auto independent = std::span(*ways).first(kIndependent);
-    auto contradiction = contradiction_of(way, independent, first->consistency->limit_m, *problem.recording);
+  for (const SolvedWalk& way : *ways) {
+    if (way.misfit_m > kNearlyEqually * best_fitting(*ways).misfit_m) continue;
     SolvedWalk judged = way;
-    judged.contradiction = std::move(contradiction);
+    judged.contradiction = contradiction_of(way, *ways, first->consistency->limit_m, *problem.recording);
     judged.tracked_again = true;
     auto found = along_walk(problem, path, std::make_shared<const SolvedWalk>(std::move(judged)), job);
     if (!found) return found;

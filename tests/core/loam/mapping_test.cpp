@@ -94,7 +94,35 @@ TEST_F(SteadyWalk, MayBeginAnywhere) {
   EXPECT_NEAR(way_m.norm(), 0.5 * (walk.sweeps.back().end_s - walk.sweeps.front().begin_s), 0.05);
 }
 
-// Sweeps of another place in the middle: what comes before them does not fit what comes after.
+TEST_F(SteadyWalk, GoesOnFromSweepsWhosePosesAreKnown) {
+  const Pose there{Eigen::Quaterniond(Eigen::AngleAxisd(1, Vector3d::UnitZ())), Vector3d(3, 4, 0)};
+  KnownSweeps known{6, {walk_.sweeps.begin() + 6, walk_.sweeps.begin() + 10}};
+  for (SweepPose& sweep : known.poses)
+    for (Pose& knot : sweep.knots) knot = there * knot;
+  const JudgedWalk walk = track_from(problem_, 0, known, MappingOptions(), Job()).value();
+  ASSERT_EQ(walk.tracked(), walk_.sweeps.size());
+  const Pose to_here = walk_.sweeps[6].begin() * walk.sweeps[6].begin().inverse();
+  for (std::size_t k = 0; k < walk.sweeps.size(); ++k) {
+    const Vector3d apart_m =
+        to_here * walk.sweeps[k].begin().translation_m - walk_.sweeps[k].begin().translation_m;
+    EXPECT_LT(apart_m.norm(), k >= 6 && k < 10 ? 1e-9 : 0.05) << k;
+    EXPECT_EQ(walk.sweeps[k].matches == walk_.sweeps[k].matches, k >= 6 && k < 10) << k;
+  }
+}
+
+// Of a recording that begins within a sweep.
+TEST(Track, TwoTracksThatAgreeAreEnoughWhereTheFirstSweepIsLost) {
+  const OffsetProblem problem = test::problem_of(test::simulated("metro-station", 0.024, 20).recording);
+  std::vector<PlacedSweep> sweeps = place_sweeps(problem, 0.024);
+  for (std::vector<PlacedFeature>* features : {&sweeps.front().edges, &sweeps.front().planes})
+    for (PlacedFeature& feature : *features) feature.p_in_base_m += Vector3d(100, 0, 0);
+  const TrackedWalk walk = track(sweeps, MappingOptions(), Job()).value();
+  ASSERT_TRUE(walk.sweeps.front().lost);
+  EXPECT_EQ(walk.tracked(), walk.sweeps.size() - 1);
+  EXPECT_EQ(walk.starts.size(), 2u);
+  EXPECT_TRUE(walk.well);
+}
+
 // A track of the same walk at a near offset, which found 2 m more within two seconds.
 JudgedWalk longer(const TrackedWalk& tracked, bool confirmed) {
   JudgedWalk walk{tracked, {}, {}};
@@ -125,6 +153,7 @@ TEST_F(SteadyWalk, ATrackOfANearOffsetThatFoundAnotherMotionIsAContradiction) {
   }
 }
 
+// Sweeps of another place in the middle: what comes before them does not fit what comes after.
 TEST_F(SteadyWalk, WhereTheMapDoesNotFitTheRigIsLostAndBeginsAnew) {
   std::vector<PlacedSweep> sweeps = place_sweeps(problem_, 0), twice;
   for (const double shift_s : {0.0, 100.0})

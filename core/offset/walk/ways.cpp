@@ -1,0 +1,109 @@
+#include "core/offset/walk/ways.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <span>
+
+#include "core/loam/path/agreement.hpp"
+#include "core/parallel.hpp"
+
+namespace sweepscope {
+namespace {
+
+// Of each sweep whether another way found the same motion.
+std::vector<char> confirmed_by(std::span<const SolvedWalk> ways, const SolvedWalk& walk) {
+  std::vector<char> confirmed(walk.sweeps.size(), 0);
+  for (const SolvedWalk& other : ways) {
+    if (&other == &walk) continue;
+    const std::vector<char> agreed = agreeing(walk.sweeps, other.sweeps);
+    for (std::size_t i = 0; i < agreed.size(); ++i) confirmed[i] |= agreed[i];
+  }
+  return confirmed;
+}
+
+// Sweeps [first, end) in a row.
+struct Run {
+  std::size_t first = 0, end = 0;
+  std::size_t size() const { return end - first; }
+};
+
+std::vector<Run> runs_of(const std::vector<char>& marks, char mark) {
+  std::vector<Run> runs;
+  for (std::size_t i = 0; i < marks.size(); ++i) {
+    if (marks[i] != mark) continue;
+    if (runs.empty() || runs.back().end != i) runs.push_back({i, i});
+    runs.back().end = i + 1;
+  }
+  return runs;
+}
+
+// Of the velocity prior, rad/s and m/s, of the two ways beside the walk itself.
+constexpr std::array kFreerSigmas = {5.0, 12.0};
+
+// As many ways are nowhere the motion of another; further ones begin with it.
+constexpr std::size_t kIndependent = 1 + kFreerSigmas.size();
+
+}  // namespace
+
+std::optional<std::vector<SolvedWalk>> ways_to_track(const OffsetProblem& problem, const SolvedWalk& walk,
+                                                     const MappingOptions& mapping, const Job& job) {
+  std::array<std::optional<SolvedWalk>, kFreerSigmas.size()> freer;
+  const Job quiet = Job::part_of(job);
+  for_each_index(freer.size(), [&](std::size_t i) {
+    MappingOptions options = mapping;
+    options.velocity_sigma = kFreerSigmas[i];
+    freer[i] = track_again(problem, walk, options, i == 0 ? job : quiet);
+  });
+  std::vector<SolvedWalk> ways = {walk};
+  for (std::optional<SolvedWalk>& way : freer) {
+    if (!way) return std::nullopt;
+    ways.push_back(std::move(*way));
+  }
+  constexpr int kMaxFurther = 3;
+  constexpr std::size_t kEnds = 2;  // the first and the last sweep hold few scans
+  std::size_t known_before = 0;
+  for (int i = 0; i < kMaxFurther; ++i) {
+    KnownSweeps known = certain_sweeps(ways);
+    if (known.poses.size() <= known_before || known.poses.size() + kEnds >= walk.sweeps.size()) break;
+    known_before = known.poses.size();
+    auto way = track_from(problem, walk, std::move(known), mapping, job);
+    if (!way) return std::nullopt;
+    ways.push_back(std::move(*way));
+  }
+  return ways;
+}
+
+const SolvedWalk& best_fitting(const std::vector<SolvedWalk>& ways) {
+  return *std::ranges::min_element(ways, {}, &SolvedWalk::misfit_m);
+}
+
+KnownSweeps certain_sweeps(const std::vector<SolvedWalk>& ways) {
+  const SolvedWalk& best = best_fitting(ways);
+  const std::vector<Run> runs = runs_of(confirmed_by(ways, best), 1);
+  if (runs.empty()) return {};
+  const Run run = *std::ranges::max_element(runs, {}, &Run::size);
+  const auto begin = best.sweeps.begin();
+  return {run.first, {begin + std::ptrdiff_t(run.first), begin + std::ptrdiff_t(run.end)}};
+}
+
+std::string contradiction_of(const SolvedWalk& walk, const std::vector<SolvedWalk>& ways, double limit_m,
+                             const Recording& recording) {
+  const auto others = std::span(ways).first(std::min(kIndependent, ways.size()));
+  std::string contradiction;
+  for (const Run& run : runs_of(confirmed_by(others, walk), 0)) {
+    const auto moved_m = [&](const SolvedWalk& way) {
+      return (way.sweeps[run.first].begin().inverse() * way.sweeps[run.end - 1].end()).translation_m;
+    };
+    double apart_m = std::numeric_limits<double>::infinity();
+    for (const SolvedWalk& other : others)
+      if (&other != &walk) apart_m = std::min(apart_m, (moved_m(walk) - moved_m(other)).norm());
+    if (apart_m <= limit_m) continue;
+    limit_m = apart_m;
+    contradiction = in_words({walk.sweeps[run.first].begin_s, walk.sweeps[run.end - 1].end_s, apart_m},
+                             recording.scans.front().first_beam_s);
+  }
+  return contradiction;
+}
+
+}  // namespace sweepscope
