@@ -151,7 +151,7 @@ Result<MapPath> along_best_walk(const OffsetProblem& problem, const MapPath& pat
   const auto ways = ways_to_track(problem, *walk, mapping, job);
   if (!ways) return failure(ExitCode::kInterrupted, "interrupted while building the map");
   std::optional<MapPath> best;
-  for (const SolvedWalk& way : *ways) {
+  for (const SolvedWalk& way : ways->walks) {
     if (way.misfit_m > kNearlyEqually * best_fitting(*ways).misfit_m) continue;
     SolvedWalk judged = way;
     judged.contradiction = contradiction_of(way, *ways, first->consistency->limit_m, *problem.recording);

@@ -68,10 +68,9 @@ std::vector<DriftingTime> drifting_times(const std::vector<WalkView>& views,
 }
 
 std::optional<std::string> drift_warning(const std::vector<DriftingTime>& drifting, double limit_m) {
-  constexpr double kSigmas = 2;
   if (drifting.empty()) return std::nullopt;
   const DriftingTime& worst = *std::ranges::max_element(drifting, {}, &DriftingTime::rmse_m);
-  if (kSigmas * worst.rmse_m <= limit_m) return std::nullopt;
+  if (worst.rmse_m <= limit_m) return std::nullopt;
   const Vector3d along = (100 * worst.direction).array().round() / 100 + 0.0;  // never "-0.00"
   return fmt::format(
       "From {:.0f} to {:.0f} s, near ({:.1f}, {:.1f}, {:.1f}) m, nothing in view shows how far the rig moved "

@@ -24,8 +24,8 @@ struct FacedMove {
 std::vector<DriftingTime> drifting_times(const std::vector<WalkView>& views,
                                          const std::vector<FacedMove>& moves);
 
-/// Absent if two standard deviations of the trajectory's error by each of them are at most `limit_m`.
-/// Otherwise a sentence about the worst.
+/// Absent if the standard deviation of the trajectory's error by each of them is at most `limit_m`. Otherwise
+/// a sentence about the worst.
 std::optional<std::string> drift_warning(const std::vector<DriftingTime>& drifting, double limit_m);
 
 }  // namespace sweepscope

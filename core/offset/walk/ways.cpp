@@ -1,9 +1,9 @@
 #include "core/offset/walk/ways.hpp"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <span>
+#include <utility>
 
 #include "core/loam/path/agreement.hpp"
 #include "core/parallel.hpp"
@@ -38,27 +38,36 @@ std::vector<Run> runs_of(const std::vector<char>& marks, char mark) {
   return runs;
 }
 
-// Of the velocity prior, rad/s and m/s, of the two ways beside the walk itself.
-constexpr std::array kFreerSigmas = {5.0, 12.0};
+// A way beside the walk itself.
+struct OtherWay {
+  double velocity_sigma;    // of its prior, rad/s and m/s
+  std::size_t first_start;  // of those that were tried at first
+};
 
-// As many ways are nowhere the motion of another; further ones begin with it.
-constexpr std::size_t kIndependent = 1 + kFreerSigmas.size();
+std::vector<OtherWay> other_ways(const SolvedWalk& walk, const MappingOptions& mapping) {
+  std::vector<OtherWay> others = {{5, 0}, {12, 0}};
+  if (walk.starts.size() >= 4) others.push_back({mapping.velocity_sigma, 2});
+  return others;
+}
 
 }  // namespace
 
-std::optional<std::vector<SolvedWalk>> ways_to_track(const OffsetProblem& problem, const SolvedWalk& walk,
-                                                     const MappingOptions& mapping, const Job& job) {
-  std::array<std::optional<SolvedWalk>, kFreerSigmas.size()> freer;
+std::optional<WalkWays> ways_to_track(const OffsetProblem& problem, const SolvedWalk& walk,
+                                      const MappingOptions& mapping, const Job& job) {
+  const std::vector<OtherWay> others = other_ways(walk, mapping);
+  std::vector<std::optional<SolvedWalk>> tracked(others.size());
   const Job quiet = Job::part_of(job);
-  for_each_index(freer.size(), [&](std::size_t i) {
+  for_each_index(others.size(), [&](std::size_t i) {
     MappingOptions options = mapping;
-    options.velocity_sigma = kFreerSigmas[i];
-    freer[i] = track_again(problem, walk, options, i == 0 ? job : quiet);
+    options.velocity_sigma = others[i].velocity_sigma;
+    SolvedWalk from = walk;
+    from.starts.erase(from.starts.begin(), from.starts.begin() + std::ptrdiff_t(others[i].first_start));
+    tracked[i] = track_again(problem, std::move(from), options, i == 0 ? job : quiet);
   });
-  std::vector<SolvedWalk> ways = {walk};
-  for (std::optional<SolvedWalk>& way : freer) {
+  WalkWays ways{{walk}, 1 + others.size()};
+  for (std::optional<SolvedWalk>& way : tracked) {
     if (!way) return std::nullopt;
-    ways.push_back(std::move(*way));
+    ways.walks.push_back(std::move(*way));
   }
   constexpr int kMaxFurther = 3;
   constexpr std::size_t kEnds = 2;  // the first and the last sweep hold few scans
@@ -69,27 +78,27 @@ std::optional<std::vector<SolvedWalk>> ways_to_track(const OffsetProblem& proble
     known_before = known.poses.size();
     auto way = track_from(problem, walk, std::move(known), mapping, job);
     if (!way) return std::nullopt;
-    ways.push_back(std::move(*way));
+    ways.walks.push_back(std::move(*way));
   }
   return ways;
 }
 
-const SolvedWalk& best_fitting(const std::vector<SolvedWalk>& ways) {
-  return *std::ranges::min_element(ways, {}, &SolvedWalk::misfit_m);
+const SolvedWalk& best_fitting(const WalkWays& ways) {
+  return *std::ranges::min_element(ways.walks, {}, &SolvedWalk::misfit_m);
 }
 
-KnownSweeps certain_sweeps(const std::vector<SolvedWalk>& ways) {
+KnownSweeps certain_sweeps(const WalkWays& ways) {
   const SolvedWalk& best = best_fitting(ways);
-  const std::vector<Run> runs = runs_of(confirmed_by(ways, best), 1);
+  const std::vector<Run> runs = runs_of(confirmed_by(ways.walks, best), 1);
   if (runs.empty()) return {};
   const Run run = *std::ranges::max_element(runs, {}, &Run::size);
   const auto begin = best.sweeps.begin();
   return {run.first, {begin + std::ptrdiff_t(run.first), begin + std::ptrdiff_t(run.end)}};
 }
 
-std::string contradiction_of(const SolvedWalk& walk, const std::vector<SolvedWalk>& ways, double limit_m,
+std::string contradiction_of(const SolvedWalk& walk, const WalkWays& ways, double limit_m,
                              const Recording& recording) {
-  const auto others = std::span(ways).first(std::min(kIndependent, ways.size()));
+  const auto others = std::span(ways.walks).first(ways.independent);
   std::string contradiction;
   for (const Run& run : runs_of(confirmed_by(others, walk), 0)) {
     const auto moved_m = [&](const SolvedWalk& way) {

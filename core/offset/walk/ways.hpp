@@ -10,22 +10,28 @@
 
 namespace sweepscope {
 
-/// A solved walk, then the same walk tracked in other ways. Two differ from it in directions that surfaces
-/// hardly determine: higher speeds are as likely. Further ones go on from the sweeps that two ways agree
-/// about, on the map of these, as long as those become more. Absent if the job was cancelled. The same bytes
-/// for any number of threads.
-std::optional<std::vector<SolvedWalk>> ways_to_track(const OffsetProblem& problem, const SolvedWalk& walk,
-                                                     const MappingOptions& mapping, const Job& job);
+/// The same walk, tracked in several ways.
+struct WalkWays {
+  std::vector<SolvedWalk> walks;
+  std::size_t independent = 0;  // so many of the first ones are nowhere the motion of another
+};
+
+/// A solved walk, and the same walk tracked in other ways. Two differ from it in directions that surfaces
+/// hardly determine: higher speeds are as likely. One begins at other places, if more than three were tried.
+/// Further ones go on from the sweeps that two ways agree about, on the map of these, as long as those become
+/// more. Absent if the job was cancelled. The same bytes for any number of threads.
+std::optional<WalkWays> ways_to_track(const OffsetProblem& problem, const SolvedWalk& walk,
+                                      const MappingOptions& mapping, const Job& job);
 
 /// The way whose features fit each other best.
-const SolvedWalk& best_fitting(const std::vector<SolvedWalk>& ways);
+const SolvedWalk& best_fitting(const WalkWays& ways);
 
 /// The most sweeps in a row of the best fitting way that another one confirms; none if there are none.
-KnownSweeps certain_sweeps(const std::vector<SolvedWalk>& ways);
+KnownSweeps certain_sweeps(const WalkWays& ways);
 
-/// A sentence about the part of a walk, one of the ways, that none of the first three of the others confirms
-/// and that ends farthest from the nearest of them; empty where that is within `limit_m`.
-std::string contradiction_of(const SolvedWalk& walk, const std::vector<SolvedWalk>& ways, double limit_m,
+/// A sentence about the part of a walk, one of the ways, that no independent one confirms and that ends
+/// farthest from the nearest of them; empty where that is within `limit_m`.
+std::string contradiction_of(const SolvedWalk& walk, const WalkWays& ways, double limit_m,
                              const Recording& recording);
 
 }  // namespace sweepscope

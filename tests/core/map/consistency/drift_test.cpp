@@ -76,8 +76,8 @@ TEST(Drift, IsNoneWhereAViewBeyondShowsTheMove) {
 
 TEST(Drift, IsWarnedOfBeyondItsLimitWithItsTimeItsPlaceAndItsDirection) {
   const auto times = drifting_times(ten_views(), moves_but(4, 7, 0.3));
-  EXPECT_FALSE(drift_warning(times, 1.1));
-  EXPECT_EQ(drift_warning(times, 1.0),
+  EXPECT_FALSE(drift_warning(times, 0.55));
+  EXPECT_EQ(drift_warning(times, 0.5),
             "From 7 to 13 s, near (-10.0, 0.0, 0.0) m, nothing in view shows how far the rig moved along "
             "(-1.00, 0.00, 0.00). The map may be wrong there by 1.1 m in this direction.");
   EXPECT_FALSE(drift_warning({}, 0));

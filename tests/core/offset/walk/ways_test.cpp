@@ -30,15 +30,15 @@ SolvedWalk walk_that_creeps(double from_s, double to_s, double misfit_m) {
   return walk;
 }
 
-std::string contradiction(const std::vector<SolvedWalk>& ways, std::size_t of) {
+std::string contradiction(const WalkWays& ways, std::size_t of) {
   Recording recording;
   recording.scans.resize(1);
-  return contradiction_of(ways[of], ways, 0.3, recording);
+  return contradiction_of(ways.walks[of], ways, 0.3, recording);
 }
 
 TEST(Ways, AMotionThatAnotherWayFoundIsNotContradicted) {
-  const std::vector<SolvedWalk> ways = {walk_that_creeps(8, 12, 0.05), walk_that_creeps(0, 0, 0.04),
-                                        walk_that_creeps(0, 0, 0.04)};
+  const WalkWays ways = {
+      {walk_that_creeps(8, 12, 0.05), walk_that_creeps(0, 0, 0.04), walk_that_creeps(0, 0, 0.04)}, 3};
   EXPECT_EQ(contradiction(ways, 1), "");
   EXPECT_NE(contradiction(ways, 0).find("From 8 to 12 s"), std::string::npos) << contradiction(ways, 0);
   EXPECT_NE(contradiction(ways, 0).find("it ends 3.6 m apart"), std::string::npos) << contradiction(ways, 0);
@@ -46,21 +46,20 @@ TEST(Ways, AMotionThatAnotherWayFoundIsNotContradicted) {
 
 // It was tracked from sweeps of another one.
 TEST(Ways, AFurtherWayConfirmsNothing) {
-  const std::vector<SolvedWalk> ways = {walk_that_creeps(8, 12, 0.05), walk_that_creeps(0, 0, 0.04),
-                                        walk_that_creeps(8, 16, 0.05), walk_that_creeps(0, 0, 0.03)};
-  EXPECT_EQ(contradiction(ways, 3), "") << "the second way found the same";
-  const std::vector<SolvedWalk> alone = {ways[0], ways[2], ways[2], ways[3], ways[3]};
-  EXPECT_NE(contradiction(alone, 3), "");
+  const SolvedWalk creeping = walk_that_creeps(8, 12, 0.05), right = walk_that_creeps(0, 0, 0.03);
+  EXPECT_EQ(contradiction({{creeping, right, creeping, right}, 3}, 3), "") << "the second way found the same";
+  EXPECT_NE(contradiction({{creeping, creeping, creeping, right, right}, 3}, 3), "");
 }
 
 TEST(Ways, SweepsThatTwoWaysAgreeAboutAreCertain) {
   const KnownSweeps known = certain_sweeps(
-      {walk_that_creeps(4, 6, 0.06), walk_that_creeps(0, 0, 0.05), walk_that_creeps(4, 8, 0.07)});
+      {{walk_that_creeps(4, 6, 0.06), walk_that_creeps(0, 0, 0.05), walk_that_creeps(4, 8, 0.07)}, 3});
   EXPECT_EQ(known.first, 12u);
   ASSERT_EQ(known.poses.size(), 28u);
   EXPECT_EQ(known.poses.front().sweep, 12u);
   EXPECT_NEAR(known.poses.front().begin().translation_m.x(), 6, 1e-9) << "as the best fitting way placed it";
-  EXPECT_TRUE(certain_sweeps({walk_that_creeps(0, 20, 0.06), walk_that_creeps(0, 0, 0.05)}).poses.empty());
+  EXPECT_TRUE(
+      certain_sweeps({{walk_that_creeps(0, 20, 0.06), walk_that_creeps(0, 0, 0.05)}, 2}).poses.empty());
 }
 
 TEST(FindWalk, ATrajectoryIsTrackedAtTheSameOffsetButLeavesTheOffsetUnaveraged) {
