@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <iterator>
 #include <span>
 
 #include "core/numbers.hpp"
@@ -48,6 +49,16 @@ double lost_part(const Recording& recording) {
   return measured == 0 ? 0 : static_cast<double>(lost) / static_cast<double>(measured);
 }
 
+// How far the scanner sees: of all ranges only one in a thousand is longer.
+double reach_m(const Recording& recording) {
+  std::vector<float> ranges_m;
+  for_some_scans(recording, [&](std::span<const float> ranges) {
+    std::ranges::copy_if(ranges, std::back_inserter(ranges_m),
+                         [](float range_m) { return std::isfinite(range_m); });
+  });
+  return ranges_m.empty() ? 0 : quantile(ranges_m, 0.999);
+}
+
 // So many beams in a row are lost by chance with this probability, where one is with `lost`.
 double lost_in_a_row(double lost, double probability) {
   constexpr double kMax = 0.9;  // the logarithm of 1 is 0
@@ -57,11 +68,12 @@ double lost_in_a_row(double lost, double probability) {
 class LineFeatures {
  public:
   LineFeatures(const Recording& recording, const Kinematics& kinematics, const FeatureOptions& options,
-               double noise_m, double lost)
+               double noise_m, double lost, double reach_m)
       : recording_(recording),
         kinematics_(kinematics),
         options_(options),
         noise_m_(noise_m),
+        surely_ends_within_m_(kSureOfReach * reach_m),
         longest_bridge_(std::min(options.half_window, static_cast<int>(lost_in_a_row(lost, kWindowsLost)))),
         behind_(std::max(kBehind, static_cast<int>(std::ceil(lost_in_a_row(lost, kFalseEnds))))) {}
 
@@ -125,7 +137,8 @@ class LineFeatures {
   }
 
   // True where beam i and two before it are on one surface, and those after it see nothing or far behind it:
-  // as many as chance alone hardly ever loses in a row.
+  // as many as chance alone hardly ever loses in a row. Near the end of what the scanner reaches, a floor or
+  // a wall ends where it does because the scanner is there: such ends move along with the rig.
   bool ends_surface(int i, int step) const {
     const auto& range_m = line_.range_m;
     if (!line_.measured[i]) return false;
@@ -133,9 +146,12 @@ class LineFeatures {
       if (!(std::abs(range_m[i - step * k] - range_m[i]) < k * surface_step_m(range_m[i]))) return false;
     const int last = i + step * behind_;
     if (last < 0 || last >= std::ssize(range_m)) return false;
-    for (int k = 1; k <= behind_; ++k)
+    bool nothing = true;
+    for (int k = 1; k <= behind_; ++k) {
       if (range_m[i + step * k] - range_m[i] < jump_m(range_m[i])) return false;
-    return true;
+      nothing = nothing && !std::isfinite(range_m[i + step * k]);
+    }
+    return !nothing || range_m[i] < surely_ends_within_m_;
   }
 
   double surface_step_m(double range_m) const { return 0.02 * range_m + 4 * noise_m_; }
@@ -282,7 +298,8 @@ class LineFeatures {
   static constexpr int kBehind = 3;             // beams, where none is lost
   static constexpr double kFalseEnds = 0.001;   // of all beams, those that seem to end a surface by chance
   static constexpr double kWindowsLost = 0.05;  // of all beams, those beside a hole that is not bridged
-  double noise_m_;
+  static constexpr double kSureOfReach = 0.8;   // part of the reach: by judgement
+  double noise_m_, surely_ends_within_m_;
   int longest_bridge_, behind_;  // beams
   Line line_;
   std::vector<int> order_;
@@ -323,7 +340,7 @@ Result<FeatureSet> extract_features(const Recording& recording, const FeatureOpt
   FeatureSet set;
   set.range_noise_m = estimate_range_noise_m(recording);
   const Kinematics kinematics(recording.rig.mount);
-  const double lost = lost_part(recording);
+  const double lost = lost_part(recording), reach = reach_m(recording);
   const std::size_t scans = recording.scans.size();
   // A part of the scans at a time: all features twice would be more than the ranges themselves.
   constexpr std::size_t kScansAtOnce = 4096;  // bounds the memory for what is not yet put in order
@@ -333,7 +350,7 @@ Result<FeatureSet> extract_features(const Recording& recording, const FeatureOpt
     const std::size_t count = std::min(kScansAtOnce, scans - first);
     per_scan.assign(count, {});
     for_each_block(count, 64, [&](const auto& block) {
-      LineFeatures line(recording, kinematics, options, set.range_noise_m, lost);
+      LineFeatures line(recording, kinematics, options, set.range_noise_m, lost, reach);
       if (job.cancelled()) return;
       for (std::size_t i = block.begin(); i < block.end(); ++i)
         per_scan[i] = line.extract(static_cast<std::uint32_t>(first + i));
@@ -355,7 +372,7 @@ Result<FeatureSet> extract_features(const Recording& recording, const FeatureOpt
 std::vector<float> line_curvatures_m(const Recording& recording, std::size_t scan,
                                      const FeatureOptions& options) {
   const Kinematics kinematics(recording.rig.mount);
-  return LineFeatures(recording, kinematics, options, 0, lost_part(recording)).curvatures_m(scan);
+  return LineFeatures(recording, kinematics, options, 0, lost_part(recording), 0).curvatures_m(scan);
 }
 
 }  // namespace sweepscope

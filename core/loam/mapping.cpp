@@ -66,7 +66,7 @@ FitAtRest fit_at_rest(const PlacedSweep& from, const PlacedSweep& to, const Mapp
   match_features(to, place, search,
                  [&](MatchedKind kind, const PlacedFeature& feature, const Eigen::Vector3d& p_m,
                      const std::optional<MatchResidual>& residual) {
-                   count.add(residual, gate_m(kind, options), options.cost_cap_m);
+                   count.add(residual, feature.range_m, gate_m(kind, options), options.cost_cap_m);
                    range_sum_m += feature.range_m;
                    if (residual && residual->has_normal) matches.add(p_m, residual->normal, 0, 1);
                  });

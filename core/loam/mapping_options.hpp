@@ -17,7 +17,9 @@ struct MappingOptions {
   double search_radius_m = 0.5;       // for the neighbours of a feature
   double search_radius_slope = 0.12;  // of the range
   double loss_width_m = 0.08;         // Cauchy
-  double match_sigma_m = 0.05;        // of a match, against the priors below: its neighbours err together
+  // Matches weigh by their range, in mean ranges of the sweep, between these bounds.
+  double least_range_weight = 0.3, most_range_weight = 3;
+  double match_sigma_m = 0.05;  // of a match, against the priors below: its neighbours err together
 
   double knot_s = 0.033;    // between two knots of the trajectory, about
   double tie_sigma = 0.01;  // rad and m: how far a sweep may correct the end of the one before
@@ -38,10 +40,10 @@ struct MappingOptions {
   int give_up_after = 4;         // lost sweeps in a row: a new map is begun
   int settling_sweeps = 8;       // not counted: the map is still being begun
 
-  int first_sweeps = 4;        // from which the first pose is found ...
-  int velocity_rounds = 6;     // ... by velocities that are tried in turn ...
-  int first_pose_rounds = 3;   // ... and by matching them to each other, as long as less than this part ...
-  double well_followed = 0.5;  // ... of their features matches
+  int first_sweeps = 4;         // from which the first pose is found ...
+  int velocity_rounds = 6;      // ... by velocities that are tried in turn ...
+  int first_pose_rounds = 3;    // ... and by matching them to each other, as long as less than this part ...
+  double well_followed = 0.35;  // ... of their features matches
   // Sweeps to begin with, by their place among those that have scans. Empty: up to `max_starts` where the
   // matches of consecutive sweeps determine every direction of motion at least so well (of a feature; or
   // better than in half of the sweeps), until two tracks agree.

@@ -199,9 +199,9 @@ MatchCount OldMap::linearise(const Glimpse& glimpse, const Pose& pose, bool wide
   const double width_m = (wide ? 4 : 1) * options_.loss_width_m;
   PatchSearch search{maps_.edges, maps_.planes, search_rule(options_, !wide, SweepFilter::kAny)};
   MatchCount count;
-  const auto use = [&](MatchedKind kind, const PlacedFeature&, const Vector3d& p_m,
+  const auto use = [&](MatchedKind kind, const PlacedFeature& feature, const Vector3d& p_m,
                        const std::optional<MatchResidual>& residual) {
-    count.add(residual, gate_m(kind, options_), options_.cost_cap_m);
+    count.add(residual, feature.range_m, gate_m(kind, options_), options_.cost_cap_m);
     if (residual && residual->has_normal)
       equations.add(p_m, residual->normal, residual->distance_m,
                     cauchy_weight(residual->distance_m, width_m));

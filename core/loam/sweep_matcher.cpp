@@ -18,12 +18,17 @@ SweepPose pose_of(const PlacedSweep& sweep) {
   return pose;
 }
 
-void MatchCount::add(const std::optional<MatchResidual>& residual, double gate_m, double cap_m) {
+void MatchCount::add(const std::optional<MatchResidual>& residual, double range_m, double gate_m,
+                     double cap_m) {
   ++features;
+  range_sum_m += range_m;
   const double distance_m = residual ? std::abs(residual->distance_m) : 0;
-  capped_sum_m += residual ? std::min(distance_m, cap_m) : cap_m;
+  const double capped_m = residual ? std::min(distance_m, cap_m) : cap_m;
+  capped_sum_m += capped_m;
+  capped_by_range_m2 += capped_m * range_m;
   if (!residual || !(distance_m < gate_m)) return;
   ++matches;
+  matched_range_m += range_m;
   distance_sum_m += distance_m;
 }
 
@@ -32,6 +37,9 @@ MatchCount& MatchCount::operator+=(const MatchCount& other) {
   matches += other.matches;
   distance_sum_m += other.distance_sum_m;
   capped_sum_m += other.capped_sum_m;
+  range_sum_m += other.range_sum_m;
+  matched_range_m += other.matched_range_m;
+  capped_by_range_m2 += other.capped_by_range_m2;
   roll_moment_m2 += other.roll_moment_m2;
   roll_inertia_m2 += other.roll_inertia_m2;
   return *this;
@@ -55,6 +63,19 @@ SearchRule search_rule(const MappingOptions& options, bool grown, SweepFilter fi
   return rule;
 }
 
+namespace {
+
+double mean_range_m(const PlacedSweep& sweep) {
+  double sum_m = 0;
+  std::size_t count = 0;
+  for (const std::vector<PlacedFeature>* features : {&sweep.planes, &sweep.edges})
+    for (const PlacedFeature& feature : *features)
+      if (feature.sharp) sum_m += feature.range_m, ++count;
+  return count > 0 ? sum_m / double(count) : 1;
+}
+
+}  // namespace
+
 template <typename Patch>
 std::vector<SweepMatcher::Matched<Patch>> SweepMatcher::to_match(const std::vector<PlacedFeature>& features) {
   std::vector<Matched<Patch>> found;
@@ -69,7 +90,8 @@ SweepMatcher::SweepMatcher(const SweepMaps& maps, const PlacedSweep& sweep, cons
     : search_{maps.edges, maps.planes, rule},
       options_(options),
       planes_(to_match<PlanePatch>(sweep.planes)),
-      edges_(to_match<LinePatch>(sweep.edges)) {}
+      edges_(to_match<LinePatch>(sweep.edges)),
+      mean_range_m_(mean_range_m(sweep)) {}
 
 template <typename Patch, typename Search>
 void SweepMatcher::linearise(std::vector<Matched<Patch>>& features, const SweepMotion& motion, Share share,
@@ -80,10 +102,10 @@ void SweepMatcher::linearise(std::vector<Matched<Patch>>& features, const SweepM
     const Vector3d p_m = motion(feature.p_in_base_m, feature.u);
     refresh(feature, p_m, search);
     const auto residual = residual_of(feature.patch, p_m);
-    count.add(residual, gate_m, options_.cost_cap_m);
+    count.add(residual, feature.range_m, gate_m, options_.cost_cap_m);
     if (residual && residual->has_normal)
       equations.add(feature.u, distance_jacobian(p_m, residual->normal, pivot_m), residual->distance_m,
-                    weight_of(residual->distance_m));
+                    weight_of(residual->distance_m, feature.range_m));
   }
 }
 
@@ -106,8 +128,12 @@ void SweepMatcher::refresh(Matched<Patch>& feature, const Vector3d& p_m, const S
   feature.searched_at_m = p_m;
 }
 
-double SweepMatcher::weight_of(double distance_m) const {
-  return cauchy_weight(distance_m, options_.loss_width_m) / (options_.match_sigma_m * options_.match_sigma_m);
+// What is far is seen by few beams, and shows how far the rig moved where floor and ceiling do not.
+double SweepMatcher::weight_of(double distance_m, double range_m) const {
+  const double by_range =
+      std::clamp(range_m / mean_range_m_, options_.least_range_weight, options_.most_range_weight);
+  return by_range * cauchy_weight(distance_m, options_.loss_width_m) /
+         (options_.match_sigma_m * options_.match_sigma_m);
 }
 
 MatchCount count_sweep(const SweepMaps& maps, const PlacedSweep& sweep, const SweepPose& pose,
@@ -119,7 +145,7 @@ MatchCount count_sweep(const SweepMaps& maps, const PlacedSweep& sweep, const Sw
   match_features(sweep, place, search,
                  [&](MatchedKind kind, const PlacedFeature& feature, const Vector3d& p_m,
                      const std::optional<MatchResidual>& residual) {
-                   count.add(residual, gate_m(kind, options), options.cost_cap_m);
+                   count.add(residual, feature.range_m, gate_m(kind, options), options.cost_cap_m);
                    if (!residual || !residual->has_normal) return;
                    // How the distance changes as the sweep turns on about the motor's axis.
                    const Pose base = pose.at(feature.u);

@@ -20,18 +20,24 @@ struct MatchCount {
   std::size_t features = 0, matches = 0;           // tried; those with a patch near enough
   double distance_sum_m = 0;                       // of the matches
   double capped_sum_m = 0;                         // of all features, each at most at the cap
+  double range_sum_m = 0, matched_range_m = 0;     // of all features, and of the matches
+  double capped_by_range_m2 = 0;                   // the sum of capped distance times range
   double roll_moment_m2 = 0, roll_inertia_m2 = 0;  // sums over all patches found
 
   /// 0 without matches.
   double mean_distance_m() const { return matches == 0 ? 0.0 : distance_sum_m / double(matches); }
   /// The mean over all features, each at most at the cap; 0 without features.
   double capped_cost_m() const { return features == 0 ? 0.0 : capped_sum_m / double(features); }
-  /// From 0 to 1.
-  double matched_part() const { return features == 0 ? 0.0 : double(matches) / double(features); }
+  /// Of the features, each with its range as the weight, what matches, from 0 to 1. Most features lie near,
+  /// on the floor, and match wherever the rig is: unweighted, a walk that was lost looked like one that was
+  /// not.
+  double matched_part() const { return range_sum_m > 0 ? matched_range_m / range_sum_m : 0.0; }
+  /// The capped cost with the same weights.
+  double misfit_m() const { return range_sum_m > 0 ? capped_by_range_m2 / range_sum_m : 0.0; }
   /// Of the sweeps against those of the other direction, in their direction of turning.
   double roll_rad() const { return roll_inertia_m2 > 0 ? roll_moment_m2 / roll_inertia_m2 : 0.0; }
   /// Adds one feature, with a residual where a patch was found.
-  void add(const std::optional<MatchResidual>& residual, double gate_m, double cap_m);
+  void add(const std::optional<MatchResidual>& residual, double range_m, double gate_m, double cap_m);
   /// Adds the counts and sums of another set of features.
   MatchCount& operator+=(const MatchCount& other);
 };
@@ -90,12 +96,13 @@ class SweepMatcher {
                  PathEquations& equations, MatchCount& count) const;
   template <typename Patch, typename Search>
   void refresh(Matched<Patch>& feature, const Eigen::Vector3d& p_m, const Search& search) const;
-  double weight_of(double distance_m) const;
+  double weight_of(double distance_m, double range_m) const;
 
   PatchSearch search_;
   const MappingOptions& options_;
   std::vector<Matched<PlanePatch>> planes_;
   std::vector<Matched<LinePatch>> edges_;
+  double mean_range_m_;
 };
 
 /// A sweep's matches at a pose, nothing solved for; `motor_axis` in the base frame.

@@ -67,7 +67,7 @@ class Tracker {
   Eigen::Vector2d acceleration2_;  // mean square of a component: of the rotation, of the translation
   Vector6d last_twist_per_s_ = Vector6d::Zero();  // of the last sweep's second half
   int learned_ = 0;
-  double usual_part_ = 0.8;  // of the features that find a match; at first that of a walk tracked well
+  double usual_part_ = 0.5;  // of the features that find a match; at first that of a walk tracked well
   int sweeps_ = 0, lost_in_a_row_ = 0;
   bool after_gap_ = false;  // until a sweep matches again
   MatchCount last_count_;

@@ -89,7 +89,7 @@ std::optional<SolvedWalk> finished(const OffsetProblem& problem, SolvedWalk walk
   if (!mapping.given || !mapping.given->is_truth()) {
     AdjustedWalk whole = adjusted(problem, std::move(walk.sweeps), walk.tracked_at_s, joint, job);
     walk.sweeps = std::move(whole.sweeps);
-    if (whole.count.features > 0) walk.misfit_m = whole.count.capped_cost_m();
+    if (whole.count.features > 0) walk.misfit_m = whole.count.misfit_m();
   }
   SweepPlacer placer(problem, walk.tracked_at_s);
   const auto place = [&](std::size_t i) {

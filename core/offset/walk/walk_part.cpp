@@ -240,7 +240,7 @@ MatchCount WalkPart::match(const OffsetProblem& part, const Matched& matched) {
                    [&](MatchedKind kind, const PlacedFeature& feature, const Vector3d& p_m,
                        const std::optional<MatchResidual>& residual) {
                      ++result_.features;
-                     count.add(residual, gate_m(kind, mapping), mapping.cost_cap_m);
+                     count.add(residual, feature.range_m, gate_m(kind, mapping), mapping.cost_cap_m);
                      if (!residual || !residual->has_normal) return;
                      const std::uint32_t line = line_of(sweep, feature);
                      if (!matched.one_side || kind == MatchedKind::kEdge ||

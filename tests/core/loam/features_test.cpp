@@ -105,6 +105,25 @@ TEST(Features, ASurfaceThatEndsBeforeTheSkyEndsInAnEdge) {
   EXPECT_EQ(std::count_if(set.edges.features.begin(), set.edges.features.end(), ends), 1);
 }
 
+// A wall that goes on beyond the 10 m that are seen, and one that ends at 4 m before the sky.
+TEST(Features, AWallThatGoesOnBeyondTheReachOfTheScannerHasNoEdgeThere) {
+  constexpr double kReach_m = 10;
+  const FeatureSet set = features_of(scan_line(
+      [](double angle_rad) {
+        const double range_m = angle_rad < 0 ? 4 / std::cos(angle_rad + 0.5) : 5 / std::cos(angle_rad);
+        return (angle_rad > -0.3 && angle_rad < 0.3) || range_m > kReach_m ? kNothing : range_m;
+      },
+      0.005));
+  const auto edges_at = [&](double at_rad) {
+    return std::ranges::count_if(set.edges.features, [&](const Feature& feature) {
+      return std::abs(angle_rad(feature) - at_rad) < 2 * kStep_rad;
+    });
+  };
+  EXPECT_EQ(edges_at(-0.3), 1);
+  EXPECT_EQ(edges_at(0.3), 1);
+  EXPECT_EQ(edges_at(std::acos(0.5)), 0);
+}
+
 TEST(Features, ASingleBeamThatReturnsNothingIsNotTheSky) {
   const FeatureSet set = features_of(scan_line(
       [](double angle_rad) {

@@ -102,12 +102,17 @@ TEST_F(SteadyWalk, GoesOnFromSweepsWhosePosesAreKnown) {
   const JudgedWalk walk = track_from(problem_, 0, known, MappingOptions(), Job()).value();
   ASSERT_EQ(walk.tracked(), walk_.sweeps.size());
   const Pose to_here = walk_.sweeps[6].begin() * walk.sweeps[6].begin().inverse();
+  std::size_t matched_alike = 0;
   for (std::size_t k = 0; k < walk.sweeps.size(); ++k) {
     const Vector3d apart_m =
         to_here * walk.sweeps[k].begin().translation_m - walk_.sweeps[k].begin().translation_m;
-    EXPECT_LT(apart_m.norm(), k >= 6 && k < 10 ? 1e-9 : 0.05) << k;
-    EXPECT_EQ(walk.sweeps[k].matches == walk_.sweeps[k].matches, k >= 6 && k < 10) << k;
+    const bool is_known = k >= 6 && k < 10, alike = walk.sweeps[k].matches == walk_.sweeps[k].matches;
+    EXPECT_LT(apart_m.norm(), is_known ? 1e-9 : 0.05) << k;
+    EXPECT_TRUE(alike || !is_known) << k;
+    matched_alike += std::size_t(alike && !is_known);
   }
+  // On another map hardly one of the others has as many matches, and if so by chance.
+  EXPECT_LE(matched_alike, 2u);
 }
 
 // Of a recording that begins within a sweep.
