@@ -70,8 +70,7 @@ void mend(MendedTrack& track, Part part, const std::vector<JudgedTrack>& others)
   const JudgedTrack* confirmed = nullptr;
   for (const JudgedTrack& other : others) {
     if (any_lost(part.of(other.poses))) continue;
-    nearest_m =
-        std::min(nearest_m, (motion_over(part.of(other.poses)).translation_m - motion.translation_m).norm());
+    nearest_m = std::min(nearest_m, apart_m(motion_over(part.of(other.poses)), motion));
     if (!confirmed && std::ranges::count(part.of(other.agreed), 0) == 0) confirmed = &other;
   }
   if (!std::isfinite(nearest_m) || nearest_m <= kContradiction_m) return;
@@ -84,6 +83,11 @@ void mend(MendedTrack& track, Part part, const std::vector<JudgedTrack>& others)
 }
 
 }  // namespace
+
+double apart_m(const Pose& a, const Pose& b) {
+  constexpr double kLever_m = 2;  // by judgement: of a sudden turn of half a rad as of a shift of 1 m
+  return (a.translation_m - b.translation_m).norm() + kLever_m * turn_between(a.rotation, b.rotation).norm();
+}
 
 std::string in_words(const Contradiction& tracks, double first_s) {
   return fmt::format(

@@ -20,6 +20,8 @@ struct Contradiction {
   double begin_s = 0, end_s = 0;  // on the clock of the laser
   double apart_m = 0;             // between where the nearest of the other tracks ends and this one
 };
+/// How far two motions of one part lie apart. Turns count as well, since they move all that follows.
+double apart_m(const Pose& a, const Pose& b);
 /// A sentence, with times since `first_s`.
 std::string in_words(const Contradiction& tracks, double first_s);
 

@@ -45,8 +45,9 @@ struct OtherWay {
 };
 
 std::vector<OtherWay> other_ways(const SolvedWalk& walk, const MappingOptions& mapping) {
-  std::vector<OtherWay> others = {{5, 0}, {12, 0}};
-  if (walk.starts.size() >= 4) others.push_back({mapping.velocity_sigma, 2});
+  std::vector<OtherWay> others = {{5, 0}};
+  for (std::size_t first = 2; first + 2 <= walk.starts.size(); first += 2)
+    others.push_back({mapping.velocity_sigma, first});
   return others;
 }
 
@@ -101,15 +102,15 @@ std::string contradiction_of(const SolvedWalk& walk, const WalkWays& ways, doubl
   const auto others = std::span(ways.walks).first(ways.independent);
   std::string contradiction;
   for (const Run& run : runs_of(confirmed_by(others, walk), 0)) {
-    const auto moved_m = [&](const SolvedWalk& way) {
-      return (way.sweeps[run.first].begin().inverse() * way.sweeps[run.end - 1].end()).translation_m;
+    const auto motion = [&](const SolvedWalk& way) {
+      return way.sweeps[run.first].begin().inverse() * way.sweeps[run.end - 1].end();
     };
-    double apart_m = std::numeric_limits<double>::infinity();
+    double nearest_m = std::numeric_limits<double>::infinity();
     for (const SolvedWalk& other : others)
-      if (&other != &walk) apart_m = std::min(apart_m, (moved_m(walk) - moved_m(other)).norm());
-    if (apart_m <= limit_m) continue;
-    limit_m = apart_m;
-    contradiction = in_words({walk.sweeps[run.first].begin_s, walk.sweeps[run.end - 1].end_s, apart_m},
+      if (&other != &walk) nearest_m = std::min(nearest_m, apart_m(motion(walk), motion(other)));
+    if (nearest_m <= limit_m) continue;
+    limit_m = nearest_m;
+    contradiction = in_words({walk.sweeps[run.first].begin_s, walk.sweeps[run.end - 1].end_s, nearest_m},
                              recording.scans.front().first_beam_s);
   }
   return contradiction;

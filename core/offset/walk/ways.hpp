@@ -16,10 +16,10 @@ struct WalkWays {
   std::size_t independent = 0;  // so many of the first ones are nowhere the motion of another
 };
 
-/// A solved walk, and the same walk tracked in other ways. Two differ from it in directions that surfaces
-/// hardly determine: higher speeds are as likely. One begins at other places, if more than three were tried.
-/// Further ones go on from the sweeps that two ways agree about, on the map of these, as long as those become
-/// more. Absent if the job was cancelled. The same bytes for any number of threads.
+/// A solved walk, and the same walk tracked in other ways. One differs from it in directions that surfaces
+/// hardly determine: higher speeds are as likely. Others begin at other places, two of those that were tried
+/// each. Further ones go on from the sweeps that two ways agree about, on the map of these, as long as those
+/// become more. Absent if the job was cancelled. The same bytes for any number of threads.
 std::optional<WalkWays> ways_to_track(const OffsetProblem& problem, const SolvedWalk& walk,
                                       const MappingOptions& mapping, const Job& job);
 

@@ -119,6 +119,27 @@ TEST(Mended, AConfirmedTrackOfAnotherOffsetIsTakenAndRemainsAContradiction) {
   EXPECT_EQ(track.contradictions.size(), 1u);
 }
 
+// It ends where the others do, and all that follows is turned about that place.
+TEST(Mended, ASuddenTurnThatNoOtherTrackHasIsTakenBack) {
+  constexpr std::size_t kFirst = 16, kEnd = 20;
+  const std::vector<SweepPose> other = stroll();
+  const std::vector<char> agreed(other.size(), 1);
+  std::vector<SweepPose> own = other;
+  const Vector3d about_m = own[kEnd].begin().translation_m;
+  for (std::size_t k = kFirst; k < own.size(); ++k)
+    for (std::size_t i = 0; i < own[k].knots.size(); ++i) {
+      const double part = std::min(1.0, (double(k - kFirst) + double(i) / 10) / double(kEnd - kFirst));
+      const Eigen::Quaterniond turn = rotation_from_vector({0, 0, 1.5 * part});
+      Pose& knot = own[k].knots[i];
+      knot = {turn * knot.rotation, about_m + (k < kEnd ? knot.translation_m - about_m
+                                                        : Vector3d(turn * (knot.translation_m - about_m)))};
+    }
+  EXPECT_GT((own.back().end().translation_m - other.back().end().translation_m).norm(), 5);
+  const MendedTrack track = mended_stroll(own, {{other, agreed}});
+  EXPECT_LT((track.poses.back().end().translation_m - other.back().end().translation_m).norm(), 0.05);
+  EXPECT_TRUE(track.contradictions.empty());
+}
+
 TEST(Mended, TracksThatDifferByLessThanAMetreStayAsTheyAre) {
   const std::vector<SweepPose> own = stroll(8, 8.8), other = stroll();
   const std::vector<char> agreed(other.size(), 1);

@@ -76,7 +76,7 @@ TEST(GivenPoses, OfTheRigsImuAreAPriorWithATimeShiftOfItsOwn) {
   recording.rig.imu.topic = "/imu";
   recording.turn_rates = walk().imu;
   const auto found = estimated_with(recording, std::nullopt);
-  expect_found(found, 0.3 * kMs, 3 * kMs);
+  expect_found(found, 0.3 * kMs, 4 * kMs);
   EXPECT_EQ(found->motion->kind, UsedMotion::Kind::kImu);
   EXPECT_EQ(found->motion->name, "/imu");
 }
