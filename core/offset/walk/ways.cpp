@@ -44,8 +44,15 @@ struct OtherWay {
   std::size_t first_start;  // of those that were tried at first
 };
 
+constexpr std::size_t kEnds = 2;  // the first and the last sweep hold few scans
+
+// Whether a run is no more than the first or the last of so many sweeps.
+bool is_end(const Run& run, std::size_t sweeps) {
+  return run.size() == 1 && (run.first == 0 || run.end == sweeps);
+}
+
 std::vector<OtherWay> other_ways(const SolvedWalk& walk, const MappingOptions& mapping) {
-  std::vector<OtherWay> others = {{5, 0}};
+  std::vector<OtherWay> others = {{5, 0}, {12, 0}};
   for (std::size_t first = 2; first + 2 <= walk.starts.size(); first += 2)
     others.push_back({mapping.velocity_sigma, first});
   return others;
@@ -71,7 +78,6 @@ std::optional<WalkWays> ways_to_track(const OffsetProblem& problem, const Solved
     ways.walks.push_back(std::move(*way));
   }
   constexpr int kMaxFurther = 3;
-  constexpr std::size_t kEnds = 2;  // the first and the last sweep hold few scans
   std::size_t known_before = 0;
   for (int i = 0; i < kMaxFurther; ++i) {
     KnownSweeps known = certain_sweeps(ways);
@@ -102,6 +108,7 @@ std::string contradiction_of(const SolvedWalk& walk, const WalkWays& ways, doubl
   const auto others = std::span(ways.walks).first(ways.independent);
   std::string contradiction;
   for (const Run& run : runs_of(confirmed_by(others, walk), 0)) {
+    if (is_end(run, walk.sweeps.size())) continue;
     const auto motion = [&](const SolvedWalk& way) {
       return way.sweeps[run.first].begin().inverse() * way.sweeps[run.end - 1].end();
     };

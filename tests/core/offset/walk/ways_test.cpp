@@ -44,6 +44,19 @@ TEST(Ways, AMotionThatAnotherWayFoundIsNotContradicted) {
   EXPECT_NE(contradiction(ways, 0).find("it ends 3.6 m apart"), std::string::npos) << contradiction(ways, 0);
 }
 
+TEST(Ways, TheFirstAndTheLastSweepAloneAreNoContradiction) {
+  const SolvedWalk right = walk_that_creeps(0, 0, 0.04);
+  SolvedWalk lost_ends = right, lost_more = right;
+  lost_ends.sweeps.front().lost = lost_ends.sweeps.back().lost = true;
+  lost_more.sweeps[0].lost = lost_more.sweeps[1].lost = true;
+  for (SolvedWalk* walk : {&lost_ends, &lost_more}) {
+    walk->sweeps.front().knots.front().translation_m.x() -= 5;
+    walk->sweeps.back().knots.back().translation_m.x() += 5;
+  }
+  EXPECT_EQ(contradiction({{lost_ends, right, right}, 3}, 0), "");
+  EXPECT_NE(contradiction({{lost_more, right, right}, 3}, 0).find("From 0 to 1 s"), std::string::npos);
+}
+
 // It was tracked from sweeps of another one.
 TEST(Ways, AFurtherWayConfirmsNothing) {
   const SolvedWalk creeping = walk_that_creeps(8, 12, 0.05), right = walk_that_creeps(0, 0, 0.03);
