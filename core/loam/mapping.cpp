@@ -42,9 +42,9 @@ struct FitAtRest {
 };
 
 // Turns count by how far they move a feature at the mean range.
-double determined_by(const RigidEquations& matches, const MatchCount& count, double range_sum_m) {
+double determined_by(const RigidEquations& matches, const MatchCount& count) {
   Vector6d scale = Vector6d::Ones();
-  scale.head<3>().setConstant(double(count.features) / range_sum_m);
+  scale.head<3>().setConstant(double(count.features) / count.range_sum_m);
   const Matrix6d scaled = scale.asDiagonal() * matches.matrix * scale.asDiagonal();
   return Eigen::SelfAdjointEigenSolver<Matrix6d>(scaled, Eigen::EigenvaluesOnly).eigenvalues()[0] /
          double(count.features);
@@ -61,17 +61,15 @@ FitAtRest fit_at_rest(const PlacedSweep& from, const PlacedSweep& to, const Mapp
   const SweepMotion motion = pose(to).motion();
   MatchCount count;
   RigidEquations matches;
-  double range_sum_m = 0;
   const auto place = [&](const PlacedFeature& feature) { return motion(feature.p_in_base_m, feature.u); };
   match_features(to, place, search,
                  [&](MatchedKind kind, const PlacedFeature& feature, const Eigen::Vector3d& p_m,
                      const std::optional<MatchResidual>& residual) {
                    count.add(residual, feature.range_m, gate_m(kind, options), options.cost_cap_m);
-                   range_sum_m += feature.range_m;
                    if (residual && residual->has_normal) matches.add(p_m, residual->normal, 0, 1);
                  });
   if (count.features == 0) return {0, 0};
-  return {count.capped_cost_m(), determined_by(matches, count, range_sum_m)};
+  return {count.capped_cost_m(), determined_by(matches, count)};
 }
 
 // A recording mostly begins within a sweep. What is left of that one may see too little to be matched to.

@@ -63,19 +63,6 @@ SearchRule search_rule(const MappingOptions& options, bool grown, SweepFilter fi
   return rule;
 }
 
-namespace {
-
-double mean_range_m(const PlacedSweep& sweep) {
-  double sum_m = 0;
-  std::size_t count = 0;
-  for (const std::vector<PlacedFeature>* features : {&sweep.planes, &sweep.edges})
-    for (const PlacedFeature& feature : *features)
-      if (feature.sharp) sum_m += feature.range_m, ++count;
-  return count > 0 ? sum_m / double(count) : 1;
-}
-
-}  // namespace
-
 template <typename Patch>
 std::vector<SweepMatcher::Matched<Patch>> SweepMatcher::to_match(const std::vector<PlacedFeature>& features) {
   std::vector<Matched<Patch>> found;
@@ -90,8 +77,12 @@ SweepMatcher::SweepMatcher(const SweepMaps& maps, const PlacedSweep& sweep, cons
     : search_{maps.edges, maps.planes, rule},
       options_(options),
       planes_(to_match<PlanePatch>(sweep.planes)),
-      edges_(to_match<LinePatch>(sweep.edges)),
-      mean_range_m_(mean_range_m(sweep)) {}
+      edges_(to_match<LinePatch>(sweep.edges)) {
+  double sum_m = 0;
+  for (const Matched<PlanePatch>& plane : planes_) sum_m += plane.range_m;
+  for (const Matched<LinePatch>& edge : edges_) sum_m += edge.range_m;
+  mean_range_m_ = sum_m / double(planes_.size() + edges_.size());
+}
 
 template <typename Patch, typename Search>
 void SweepMatcher::linearise(std::vector<Matched<Patch>>& features, const SweepMotion& motion, Share share,

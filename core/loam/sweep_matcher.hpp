@@ -102,7 +102,7 @@ class SweepMatcher {
   const MappingOptions& options_;
   std::vector<Matched<PlanePatch>> planes_;
   std::vector<Matched<LinePatch>> edges_;
-  double mean_range_m_;
+  double mean_range_m_;  // of these; NaN without any
 };
 
 /// A sweep's matches at a pose, nothing solved for; `motor_axis` in the base frame.

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/numbers.hpp"
+
 namespace sweepscope {
 namespace {
 
@@ -66,16 +68,16 @@ void mend(MendedTrack& track, Part part, const std::vector<JudgedTrack>& others)
   const std::span<const SweepPose> own(track.poses);
   if (any_lost(part.of(own))) return;
   const Pose motion = motion_over(part.of(own));
-  double nearest_m = std::numeric_limits<double>::infinity();
+  Apart nearest{std::numeric_limits<double>::infinity()};
   const JudgedTrack* confirmed = nullptr;
   for (const JudgedTrack& other : others) {
     if (any_lost(part.of(other.poses))) continue;
-    nearest_m = std::min(nearest_m, apart_m(motion_over(part.of(other.poses)), motion));
+    nearest = std::min(nearest, ends_apart(motion_over(part.of(other.poses)), motion), nearer);
     if (!confirmed && std::ranges::count(part.of(other.agreed), 0) == 0) confirmed = &other;
   }
-  if (!std::isfinite(nearest_m) || nearest_m <= kContradiction_m) return;
+  if (!std::isfinite(nearest.shift_m) || nearest.together_m() <= kContradiction_m) return;
   if (!confirmed || confirmed->earlier)
-    track.contradictions.push_back({own[part.first].begin_s, own[part.end - 1].end_s, nearest_m});
+    track.contradictions.push_back({own[part.first].begin_s, own[part.end - 1].end_s, nearest});
   if (!confirmed) return;
   splice(track.poses, part, confirmed->poses);
   std::fill(track.agreed.begin() + std::ptrdiff_t(part.first),
@@ -84,16 +86,21 @@ void mend(MendedTrack& track, Part part, const std::vector<JudgedTrack>& others)
 
 }  // namespace
 
-double apart_m(const Pose& a, const Pose& b) {
-  constexpr double kLever_m = 2;  // by judgement: of a sudden turn of half a rad as of a shift of 1 m
-  return (a.translation_m - b.translation_m).norm() + kLever_m * turn_between(a.rotation, b.rotation).norm();
+Apart ends_apart(const Pose& a, const Pose& b) {
+  return {(a.translation_m - b.translation_m).norm(), turn_between(a.rotation, b.rotation).norm()};
+}
+
+bool nearer(const Apart& a, const Apart& b) {
+  return a.together_m() < b.together_m();
 }
 
 std::string in_words(const Contradiction& tracks, double first_s) {
+  const double turn_deg = tracks.apart.turn_rad * kDegPerRad;
   return fmt::format(
       "From {:.0f} to {:.0f} s the surfaces hardly determine the motion: tracked in two ways, it ends {:.1f} m "
-      "apart. The trajectory may be wrong there.",
-      std::max(0.0, tracks.begin_s - first_s), tracks.end_s - first_s, tracks.apart_m);
+      "{}apart. The trajectory may be wrong there.",
+      std::max(0.0, tracks.begin_s - first_s), tracks.end_s - first_s, tracks.apart.shift_m,
+      turn_deg < 1 ? "" : fmt::format("and {:.0f} deg ", turn_deg));
 }
 
 MendedTrack mended(std::vector<SweepPose> poses, std::vector<char> agreed,

@@ -15,13 +15,21 @@ namespace sweepscope {
 /// different places err in different places.
 std::vector<char> agreeing(std::span<const SweepPose> a, std::span<const SweepPose> b);
 
+/// How far two motions over the same part lie apart where they end.
+struct Apart {
+  double shift_m = 0, turn_rad = 0;
+  /// A turn moves all that follows: one of half a rad counts as a shift of 1 m.
+  double together_m() const { return shift_m + 2 * turn_rad; }
+};
+Apart ends_apart(const Pose& a, const Pose& b);
+/// For the least of several, and for the most.
+bool nearer(const Apart& a, const Apart& b);
+
 /// A part of a walk that its tracks do not agree about.
 struct Contradiction {
   double begin_s = 0, end_s = 0;  // on the clock of the laser
-  double apart_m = 0;             // between where the nearest of the other tracks ends and this one
+  Apart apart;                    // where the nearest of the other tracks ends, from where this one does
 };
-/// How far two motions of one part lie apart. Turns count as well, since they move all that follows.
-double apart_m(const Pose& a, const Pose& b);
 /// A sentence, with times since `first_s`.
 std::string in_words(const Contradiction& tracks, double first_s);
 

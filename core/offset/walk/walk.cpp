@@ -27,7 +27,7 @@ namespace {
 
 std::string worst_of(const std::vector<Contradiction>& contradictions, const Recording& recording) {
   if (contradictions.empty()) return "";
-  return in_words(*std::ranges::max_element(contradictions, {}, &Contradiction::apart_m),
+  return in_words(*std::ranges::max_element(contradictions, nearer, &Contradiction::apart),
                   recording.scans.front().first_beam_s);
 }
 

@@ -112,12 +112,12 @@ std::string contradiction_of(const SolvedWalk& walk, const WalkWays& ways, doubl
     const auto motion = [&](const SolvedWalk& way) {
       return way.sweeps[run.first].begin().inverse() * way.sweeps[run.end - 1].end();
     };
-    double nearest_m = std::numeric_limits<double>::infinity();
+    Apart nearest{std::numeric_limits<double>::infinity()};
     for (const SolvedWalk& other : others)
-      if (&other != &walk) nearest_m = std::min(nearest_m, apart_m(motion(walk), motion(other)));
-    if (nearest_m <= limit_m) continue;
-    limit_m = nearest_m;
-    contradiction = in_words({walk.sweeps[run.first].begin_s, walk.sweeps[run.end - 1].end_s, nearest_m},
+      if (&other != &walk) nearest = std::min(nearest, ends_apart(motion(walk), motion(other)), nearer);
+    if (nearest.together_m() <= limit_m) continue;
+    limit_m = nearest.together_m();
+    contradiction = in_words({walk.sweeps[run.first].begin_s, walk.sweeps[run.end - 1].end_s, nearest},
                              recording.scans.front().first_beam_s);
   }
   return contradiction;

@@ -108,7 +108,13 @@ TEST(Mended, OfTwoTracksNeitherIsTakenForRight) {
   ASSERT_EQ(track.contradictions.size(), 1u);
   EXPECT_EQ(track.contradictions[0].begin_s, 8);
   EXPECT_EQ(track.contradictions[0].end_s, 12);
-  EXPECT_NEAR(track.contradictions[0].apart_m, 3.6, 0.2);
+  EXPECT_NEAR(track.contradictions[0].apart.shift_m, 3.6, 0.2);
+}
+
+TEST(Contradiction, SaysHowFarTheTracksAreApartAndTurned) {
+  EXPECT_NE(in_words({14, 16, {0.3, 1.5}}, 10).find("From 4 to 6 s"), std::string::npos);
+  EXPECT_NE(in_words({14, 16, {0.3, 1.5}}, 10).find("it ends 0.3 m and 86 deg apart"), std::string::npos);
+  EXPECT_NE(in_words({14, 16, {3, 0.01}}, 10).find("it ends 3.0 m apart"), std::string::npos);
 }
 
 TEST(Mended, AConfirmedTrackOfAnotherOffsetIsTakenAndRemainsAContradiction) {
